@@ -1,0 +1,85 @@
+//! Angles: radians inside, degrees at the border only; compass bearings apart from mathematical azimuths.
+
+use std::f64::consts::PI;
+
+/// A plane angle. Holds radians; built from and read as either unit by name.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Angle(f64);
+
+impl Angle {
+    /// From radians.
+    pub const fn from_radians(radians: f64) -> Self {
+        Self(radians)
+    }
+
+    /// From degrees.
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self(degrees.to_radians())
+    }
+
+    /// In radians.
+    pub const fn radians(self) -> f64 {
+        self.0
+    }
+
+    /// In degrees.
+    pub fn degrees(self) -> f64 {
+        self.0.to_degrees()
+    }
+
+    /// Sine of the angle.
+    pub fn sin(self) -> f64 {
+        self.0.sin()
+    }
+
+    /// Cosine of the angle.
+    pub fn cos(self) -> f64 {
+        self.0.cos()
+    }
+}
+
+/// A compass bearing: clockwise from north, seen from above. A type of its own, because a bearing taken for a
+/// mathematical azimuth still gives a plausible picture.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Bearing(Angle);
+
+impl Bearing {
+    /// From degrees clockwise from north (south = 180).
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self(Angle::from_degrees(degrees))
+    }
+
+    /// From radians clockwise from north.
+    pub const fn from_radians(radians: f64) -> Self {
+        Self(Angle::from_radians(radians))
+    }
+
+    /// In degrees, 0 ≤ bearing < 360.
+    pub fn degrees(self) -> f64 {
+        self.0.degrees().rem_euclid(360.0)
+    }
+
+    /// In radians, as given.
+    pub const fn radians(self) -> f64 {
+        self.0.radians()
+    }
+}
+
+/// Brings an azimuth into 0 ≤ φ < 2π. [rad]
+pub fn wrap_two_pi(phi: f64) -> f64 {
+    let wrapped = phi.rem_euclid(2.0 * PI);
+    // rem_euclid of a tiny negative number rounds up to 2π itself.
+    if wrapped < 2.0 * PI { wrapped } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wraps_into_one_turn() {
+        assert_eq!(wrap_two_pi(-1e-20), 0.0);
+        assert!((wrap_two_pi(-0.5 * PI) - 1.5 * PI).abs() < 1e-15);
+        assert!((Bearing::from_degrees(-90.0).degrees() - 270.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,403 @@
+//! A hemisphere cut into rings about the normal and each ring into equal azimuth sectors.
+//!
+//! The weight of a cell is its projected solid angle ∫cosθ dω, never Ω·cosθ at the centre, so that the cells of
+//! every complete basis sum to π exactly.
+
+use crate::compute::angle::wrap_two_pi;
+use crate::compute::direction::{Dir, Facade};
+use std::f64::consts::PI;
+
+/// How a basis counts its own azimuths: φ_F = sign · φ_own + offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AzimuthMap {
+    /// +1 or −1.
+    pub sign: f64,
+    /// [rad]
+    pub offset: f64,
+}
+
+impl AzimuthMap {
+    /// Own azimuth is the façade frame's: counter-clockwise seen from outside, 0 = right.
+    pub const FACADE: Self = Self { sign: 1.0, offset: 0.0 };
+    /// Klems azimuth of the travelling light seen from the room (0 = right, 90 = up), for light from outside:
+    /// the through-name has φ_F = −φ_Klems.
+    pub const KLEMS_FRONT: Self = Self { sign: -1.0, offset: 0.0 };
+    /// The same for light from inside: φ_F = 180° − φ_Klems.
+    pub const KLEMS_BACK: Self = Self { sign: -1.0, offset: PI };
+
+    /// Façade azimuth of an own azimuth. [rad]
+    pub fn facade_phi(self, own: f64) -> f64 {
+        wrap_two_pi(self.sign * own + self.offset)
+    }
+
+    /// Own azimuth of a façade azimuth. [rad]
+    pub fn own_phi(self, facade: f64) -> f64 {
+        wrap_two_pi(self.sign * (facade - self.offset))
+    }
+}
+
+/// One ring: θ from `theta_min` to `theta_max` in `sectors` equal parts, the first centred on own azimuth
+/// `first_phi`. [rad]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ring {
+    /// Inner polar angle. [rad]
+    pub theta_min: f64,
+    /// Outer polar angle. [rad]
+    pub theta_max: f64,
+    /// Number of equal azimuth sectors, at least 1.
+    pub sectors: usize,
+    /// Own azimuth of the first sector's centre. [rad]
+    pub first_phi: f64,
+}
+
+/// One cell of a basis, in the basis's own azimuth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cell {
+    /// Inner polar angle. [rad]
+    pub theta_min: f64,
+    /// Outer polar angle. [rad]
+    pub theta_max: f64,
+    /// Azimuth of the centre, own counting. [rad]
+    pub phi_own: f64,
+    /// Azimuth of the centre in the façade frame. [rad]
+    pub phi: f64,
+    /// Width in azimuth. [rad]
+    pub width: f64,
+}
+
+impl Cell {
+    /// Projected solid angle ∫cosθ dω. [sr]
+    pub fn projected_solid_angle(&self) -> f64 {
+        // sin²b − sin²a = sin(b−a)·sin(b+a), without cancellation for thin rings.
+        0.5 * self.width * (self.theta_max - self.theta_min).sin() * (self.theta_max + self.theta_min).sin()
+    }
+
+    /// Solid angle. [sr]
+    pub fn solid_angle(&self) -> f64 {
+        // cos a − cos b = 2 sin((a+b)/2) sin((b−a)/2)
+        2.0 * self.width
+            * (0.5 * (self.theta_max + self.theta_min)).sin()
+            * (0.5 * (self.theta_max - self.theta_min)).sin()
+    }
+
+    /// Polar angle that stands for the cell: 0 for a cap around the normal, else the middle of the ring. [rad]
+    pub fn theta(&self) -> f64 {
+        if self.is_cap() { 0.0 } else { 0.5 * (self.theta_min + self.theta_max) }
+    }
+
+    /// The direction that stands for the cell (through-name, façade frame).
+    pub fn centre(&self) -> Dir<Facade> {
+        Dir::from_theta_phi(self.theta(), self.phi)
+    }
+
+    /// A cap reaches the normal and goes all the way round.
+    pub fn is_cap(&self) -> bool {
+        self.theta_min == 0.0 && self.width > 6.28
+    }
+}
+
+/// Why a list of rings is no division of the hemisphere.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BasisError {
+    /// No ring at all.
+    #[error("the basis has no rings")]
+    Empty,
+    /// θ limits out of 0 … 90° or not rising, or rings that overlap.
+    #[error("ring {ring}: polar angles {from}° to {to}° do not rise within 0…90° after the ring before")]
+    Limits {
+        /// Number of the ring, from 0.
+        ring: usize,
+        /// Inner limit in degrees.
+        from: f64,
+        /// Outer limit in degrees.
+        to: f64,
+    },
+    /// No sectors, or more than any instrument resolves.
+    #[error("ring {ring}: {sectors} azimuth sectors (allowed: 1 to 7200)")]
+    Sectors {
+        /// Number of the ring, from 0.
+        ring: usize,
+        /// Sectors asked for.
+        sectors: usize,
+    },
+}
+
+/// A hemisphere divided into rings of equal sectors; cells are numbered ring by ring, own azimuth rising.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RingBasis {
+    name: String,
+    rings: Vec<Ring>,
+    first_cell: Vec<usize>,
+    azimuth: AzimuthMap,
+    /// Rings run from the normal outwards (θ rising); false: from the grazing ring inwards, as Tregenza rows do.
+    outwards: bool,
+}
+
+impl RingBasis {
+    /// From rings in their own order, θ rising or falling throughout. Gaps are allowed (cells not covered are zero).
+    pub fn new(name: impl Into<String>, rings: Vec<Ring>, azimuth: AzimuthMap) -> Result<Self, BasisError> {
+        let (Some(first), Some(last)) = (rings.first(), rings.last()) else {
+            return Err(BasisError::Empty);
+        };
+        let outwards = first.theta_min <= last.theta_min;
+        const SLACK: f64 = 1e-9;
+        let mut reached = 0.0;
+        let order: Box<dyn Iterator<Item = usize>> =
+            if outwards { Box::new(0..rings.len()) } else { Box::new((0..rings.len()).rev()) };
+        for index in order {
+            let ring = &rings[index];
+            let rising = ring.theta_min >= reached - SLACK
+                && ring.theta_max > ring.theta_min
+                && ring.theta_max <= PI / 2.0 + SLACK;
+            if !rising {
+                return Err(BasisError::Limits {
+                    ring: index,
+                    from: ring.theta_min.to_degrees(),
+                    to: ring.theta_max.to_degrees(),
+                });
+            }
+            if ring.sectors == 0 || ring.sectors > 7200 {
+                return Err(BasisError::Sectors { ring: index, sectors: ring.sectors });
+            }
+            reached = ring.theta_max;
+        }
+        let mut first_cell = vec![0];
+        for ring in &rings {
+            first_cell.push(first_cell[first_cell.len() - 1] + ring.sectors);
+        }
+        Ok(Self { name: name.into(), rings, first_cell, azimuth, outwards })
+    }
+
+    fn from_limits(name: &str, limits_deg: &[f64], counts: &[usize], azimuth: AzimuthMap) -> Self {
+        let rings = limits_deg
+            .windows(2)
+            .zip(counts)
+            .map(|(limit, &sectors)| Ring {
+                theta_min: limit[0].to_radians(),
+                theta_max: limit[1].to_radians(),
+                sectors,
+                first_phi: 0.0,
+            })
+            .collect();
+        Self::new(name, rings, azimuth).expect("the tables of this file are divisions of the hemisphere")
+    }
+
+    /// LBNL/Klems Full, 145 cells.
+    pub fn klems_full(azimuth: AzimuthMap) -> Self {
+        Self::from_limits(
+            "LBNL/Klems Full",
+            &[0.0, 5.0, 15.0, 25.0, 35.0, 45.0, 55.0, 65.0, 75.0, 90.0],
+            &[1, 8, 16, 20, 24, 24, 24, 16, 12],
+            azimuth,
+        )
+    }
+
+    /// LBNL/Klems Half, 73 cells.
+    pub fn klems_half(azimuth: AzimuthMap) -> Self {
+        Self::from_limits(
+            "LBNL/Klems Half",
+            &[0.0, 6.5, 19.5, 32.5, 46.5, 61.5, 76.5, 90.0],
+            &[1, 8, 12, 16, 20, 12, 4],
+            azimuth,
+        )
+    }
+
+    /// LBNL/Klems Quarter, 41 cells.
+    pub fn klems_quarter(azimuth: AzimuthMap) -> Self {
+        Self::from_limits("LBNL/Klems Quarter", &[0.0, 9.0, 27.0, 46.0, 66.0, 90.0], &[1, 8, 12, 12, 8], azimuth)
+    }
+
+    /// Tregenza's 145 patches on the façade: rows at θ = 84, 72, …, 12, lowest (most grazing) first, then the normal;
+    /// bands of 12°, the cap 6° in radius.
+    pub fn tregenza() -> Self {
+        Self::from_limits_falling(
+            "Tregenza 145",
+            &[90.0, 78.0, 66.0, 54.0, 42.0, 30.0, 18.0, 6.0, 0.0],
+            &[30, 30, 24, 24, 18, 12, 6, 1],
+        )
+    }
+
+    fn from_limits_falling(name: &str, limits_deg: &[f64], counts: &[usize]) -> Self {
+        let rings = limits_deg
+            .windows(2)
+            .zip(counts)
+            .map(|(limit, &sectors)| Ring {
+                theta_min: limit[1].to_radians(),
+                theta_max: limit[0].to_radians(),
+                sectors,
+                first_phi: 0.0,
+            })
+            .collect();
+        Self::new(name, rings, AzimuthMap::FACADE).expect("the tables of this file are divisions of the hemisphere")
+    }
+
+    /// Rings of cells of equal projected solid angle: sinθ in steps of 1/`rings`, ring i (from 1) in 8i − 4 sectors.
+    /// These are the cells of a (2·rings)² grid on the square that Shirley–Chiu maps to the disk, with the skew of
+    /// its azimuth borders straightened.
+    pub fn equal_area(rings: usize) -> Self {
+        let list = (1..=rings)
+            .map(|i| {
+                let sectors = 8 * i - 4;
+                Ring {
+                    theta_min: ((i - 1) as f64 / rings as f64).asin(),
+                    theta_max: (i as f64 / rings as f64).min(1.0).asin(),
+                    sectors,
+                    first_phi: PI / sectors as f64,
+                }
+            })
+            .collect();
+        Self::new(format!("equal-area {}", 4 * rings * rings), list, AzimuthMap::FACADE)
+            .expect("sines in equal steps rise from 0 to 1")
+    }
+
+    /// A single cell: the whole hemisphere.
+    pub fn hemisphere() -> Self {
+        Self::from_limits("hemisphere", &[0.0, 90.0], &[1], AzimuthMap::FACADE)
+    }
+
+    /// The name given to it, as files write it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The rings, in own order.
+    pub fn rings(&self) -> &[Ring] {
+        &self.rings
+    }
+
+    /// How own azimuths map to the façade frame.
+    pub fn azimuth(&self) -> AzimuthMap {
+        self.azimuth
+    }
+
+    /// The same cells counted in another azimuth.
+    pub fn with_azimuth(mut self, azimuth: AzimuthMap) -> Self {
+        self.azimuth = azimuth;
+        self
+    }
+
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.first_cell[self.rings.len()]
+    }
+
+    /// True without cells; never for a basis that was built.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Index of a ring's first cell.
+    pub fn first_cell(&self, ring: usize) -> usize {
+        self.first_cell[ring]
+    }
+
+    /// The cell of an index. Panics beyond [`Self::len`].
+    pub fn cell(&self, index: usize) -> Cell {
+        let ring_index = self.first_cell.partition_point(|&first| first <= index) - 1;
+        let ring = &self.rings[ring_index];
+        let width = 2.0 * PI / ring.sectors as f64;
+        let phi_own = wrap_two_pi(ring.first_phi + (index - self.first_cell[ring_index]) as f64 * width);
+        Cell {
+            theta_min: ring.theta_min,
+            theta_max: ring.theta_max,
+            phi_own,
+            phi: self.azimuth.facade_phi(phi_own),
+            width,
+        }
+    }
+
+    /// All cells in order.
+    pub fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
+        (0..self.len()).map(|index| self.cell(index))
+    }
+
+    /// Projected solid angles of all cells, in order. [sr]
+    pub fn projected_solid_angles(&self) -> Vec<f64> {
+        self.cells().map(|cell| cell.projected_solid_angle()).collect()
+    }
+
+    /// The cell that holds a direction (through-name, façade frame). Borders belong to the cell with the larger θ and
+    /// the larger own azimuth; `None` for directions with z < 0 and in gaps between rings.
+    pub fn index(&self, d: Dir<Facade>) -> Option<usize> {
+        let theta = d.theta();
+        if theta > PI / 2.0 + 1e-12 {
+            return None;
+        }
+        let theta = theta.min(PI / 2.0);
+        let ring_index = self.rings.iter().position(|ring| {
+            theta >= ring.theta_min && (theta < ring.theta_max || (ring.theta_max >= PI / 2.0 - 1e-9 && theta >= ring.theta_min))
+        })?;
+        let ring = &self.rings[ring_index];
+        let width = 2.0 * PI / ring.sectors as f64;
+        let turned = wrap_two_pi(self.azimuth.own_phi(d.phi()) - ring.first_phi + 0.5 * width);
+        let sector = ((turned / width) as usize).min(ring.sectors - 1);
+        Some(self.first_cell[ring_index] + sector)
+    }
+
+    /// Rings from the normal outwards?
+    pub fn runs_outwards(&self) -> bool {
+        self.outwards
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> Vec<RingBasis> {
+        vec![
+            RingBasis::klems_full(AzimuthMap::KLEMS_FRONT),
+            RingBasis::klems_half(AzimuthMap::KLEMS_BACK),
+            RingBasis::klems_quarter(AzimuthMap::FACADE),
+            RingBasis::tregenza(),
+            RingBasis::equal_area(8),
+            RingBasis::hemisphere(),
+        ]
+    }
+
+    #[test]
+    fn projected_solid_angles_sum_to_pi() {
+        for basis in all() {
+            let sum: f64 = basis.projected_solid_angles().iter().sum();
+            assert!((sum - PI).abs() < 1e-13, "{}: {sum}", basis.name());
+            let solid: f64 = basis.cells().map(|cell| cell.solid_angle()).sum();
+            assert!((solid - 2.0 * PI).abs() < 1e-13, "{}: {solid}", basis.name());
+        }
+    }
+
+    #[test]
+    fn a_cell_holds_its_own_centre() {
+        for basis in all() {
+            for index in 0..basis.len() {
+                assert_eq!(basis.index(basis.cell(index).centre()), Some(index), "{} {index}", basis.name());
+            }
+        }
+    }
+
+    #[test]
+    fn klems_front_counts_the_travelling_light_seen_from_the_room() {
+        // Light from above outside travels downwards: Klems azimuth 270.
+        let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let from_above = Dir::from_theta_phi(40_f64.to_radians(), 90_f64.to_radians());
+        let cell = basis.cell(basis.index(from_above).unwrap());
+        assert!((cell.phi_own.to_degrees() - 270.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn equal_area_cells_are_equal() {
+        let basis = RingBasis::equal_area(5);
+        for weight in basis.projected_solid_angles() {
+            assert!((weight - PI / 100.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn refuses_what_does_not_rise() {
+        let ring = |a: f64, b: f64| Ring { theta_min: a, theta_max: b, sectors: 4, first_phi: 0.0 };
+        assert!(RingBasis::new("x", vec![], AzimuthMap::FACADE).is_err());
+        assert!(RingBasis::new("x", vec![ring(0.0, 0.5), ring(0.4, 1.0)], AzimuthMap::FACADE).is_err());
+        assert!(RingBasis::new("x", vec![ring(0.0, 1.7)], AzimuthMap::FACADE).is_err());
+        let none = Ring { sectors: 0, ..ring(0.0, 1.0) };
+        assert!(RingBasis::new("x", vec![none], AzimuthMap::FACADE).is_err());
+    }
+}

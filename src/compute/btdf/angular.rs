@@ -1,0 +1,91 @@
+//! Transmittance that depends on the polar angle of incidence alone.
+
+use std::f64::consts::PI;
+
+/// τ(θ) for rotationally symmetric systems: a constant, or a table over equal steps of θ from 0 to 90°.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AngularTransmittance {
+    /// The same for every incidence.
+    Constant(f64),
+    /// Values at θ = 0 … 90° in equal steps, at least two; between them piecewise cubic, never beyond the values
+    /// at both sides.
+    Table(Vec<f64>),
+}
+
+impl AngularTransmittance {
+    /// Samples a function of θ [rad] at `steps` + 1 angles. `steps` ≥ 1.
+    pub fn sample(steps: usize, tau: impl Fn(f64) -> f64) -> Self {
+        Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
+    }
+
+    /// τ at a polar angle of incidence. [rad] Zero beyond 90°.
+    pub fn at(&self, theta: f64) -> f64 {
+        match self {
+            Self::Constant(tau) => {
+                if theta <= 0.5 * PI { *tau } else { 0.0 }
+            }
+            Self::Table(values) => table_at(values, theta),
+        }
+    }
+
+    /// 2 ∫ τ(θ) sinθ cosθ dθ: transmittance under uniform luminance.
+    pub fn hemispherical(&self) -> f64 {
+        match self {
+            Self::Constant(tau) => *tau,
+            Self::Table(_) => {
+                // Midpoints in sin²θ: equal weights, second order, 4000 points for 1e-7.
+                let n = 4000;
+                (0..n).map(|i| self.at((((i as f64) + 0.5) / n as f64).sqrt().asin())).sum::<f64>() / n as f64
+            }
+        }
+    }
+}
+
+/// Monotone piecewise cubic (Fritsch–Carlson slopes) through equally spaced values.
+fn table_at(values: &[f64], theta: f64) -> f64 {
+    let last = values.len() - 1;
+    let x = theta / (0.5 * PI) * last as f64;
+    if x > last as f64 {
+        return if x - (last as f64) < 1e-9 { values[last] } else { 0.0 };
+    }
+    let i = (x.max(0.0) as usize).min(last - 1);
+    let t = x.max(0.0) - i as f64;
+    let chord = |k: usize| values[k + 1] - values[k];
+    let slope = |k: usize| -> f64 {
+        // The function is even in θ, so the slope at normal incidence is zero; one-sided at the end.
+        if k == 0 {
+            return 0.0;
+        }
+        if k == last {
+            return chord(last - 1);
+        }
+        let (a, b) = (chord(k - 1), chord(k));
+        if a * b <= 0.0 { 0.0 } else { 2.0 * a * b / (a + b) }
+    };
+    let (y0, y1, m0, m1) = (values[i], values[i + 1], slope(i), slope(i + 1));
+    let (t2, t3) = (t * t, t * t * t);
+    (2.0 * t3 - 3.0 * t2 + 1.0) * y0 + (t3 - 2.0 * t2 + t) * m0 + (3.0 * t2 - 2.0 * t3) * y1 + (t3 - t2) * m1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interpolates_a_smooth_function() {
+        let f = |theta: f64| 0.9 * (1.0 - (1.0 - theta.cos()).powi(5));
+        let table = AngularTransmittance::sample(90, f);
+        for k in 0..900 {
+            let theta = 0.5 * PI * k as f64 / 900.0;
+            assert!((table.at(theta) - f(theta)).abs() < 2e-4, "{theta}");
+        }
+        assert_eq!(table.at(0.5 * PI), f(0.5 * PI));
+        assert_eq!(table.at(1.6), 0.0);
+    }
+
+    #[test]
+    fn hemispherical_of_a_cosine_is_two_thirds() {
+        let table = AngularTransmittance::sample(180, f64::cos);
+        assert!((table.hemispherical() - 2.0 / 3.0).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,134 @@
+//! Scattering between the cells of two bases.
+
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Emergent, Incident};
+use std::f64::consts::PI;
+
+/// q for every pair of an incident and an emergent cell, stored as one indicatrix after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellMatrix {
+    incident: RingBasis,
+    emergent: RingBasis,
+    values: Vec<f64>,
+    /// τ of each incident cell.
+    tau: Vec<f64>,
+}
+
+impl CellMatrix {
+    /// From values in 1/sr, `values[i · emergent.len() + o]`, incident cell i, emergent cell o (by through-name).
+    /// `None` when the count does not fit the bases.
+    pub fn new(incident: RingBasis, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
+        if values.len() != incident.len() * emergent.len() {
+            return None;
+        }
+        let weight = emergent.projected_solid_angles();
+        let tau = values
+            .chunks_exact(emergent.len())
+            .map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum())
+            .collect();
+        Some(Self { incident, emergent, values, tau })
+    }
+
+    /// The incident cells.
+    pub fn incident(&self) -> &RingBasis {
+        &self.incident
+    }
+
+    /// The emergent cells, by through-name.
+    pub fn emergent(&self) -> &RingBasis {
+        &self.emergent
+    }
+
+    /// All values, one indicatrix after the other. [1/sr]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The indicatrix of one incident cell. [1/sr]
+    pub fn row(&self, incident: usize) -> &[f64] {
+        &self.values[incident * self.emergent.len()..(incident + 1) * self.emergent.len()]
+    }
+
+    /// Directional-hemispherical transmittance of every incident cell, in the basis's order.
+    pub fn tau_by_cell(&self) -> &[f64] {
+        &self.tau
+    }
+
+    /// q of the cells that hold the two directions; 0 outside all cells. [1/sr]
+    pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
+        match (self.incident.index(incident.0), self.emergent.index(emergent.through_name())) {
+            (Some(i), Some(o)) => self.row(i)[o],
+            _ => 0.0,
+        }
+    }
+
+    /// Directional-hemispherical transmittance of the cell that holds the direction.
+    pub fn tau(&self, incident: Incident) -> f64 {
+        self.incident.index(incident.0).map_or(0.0, |i| self.tau[i])
+    }
+
+    /// Transmittance for uniform luminance.
+    pub fn tau_hemispherical(&self) -> f64 {
+        self.incident.cells().zip(&self.tau).map(|(cell, tau)| cell.projected_solid_angle() * tau).sum::<f64>() / PI
+    }
+
+    /// Luminance of every emergent cell from the illuminance that arrives through every incident cell (eq 12). [cd/m²]
+    pub fn luminance(&self, illuminance: &[f64]) -> Vec<f64> {
+        assert_eq!(illuminance.len(), self.incident.len(), "one illuminance an incident cell");
+        let mut luminance = vec![0.0; self.emergent.len()];
+        for (row, &e) in self.values.chunks_exact(self.emergent.len()).zip(illuminance) {
+            if e != 0.0 {
+                for (l, q) in luminance.iter_mut().zip(row) {
+                    *l += q * e;
+                }
+            }
+        }
+        luminance
+    }
+
+    /// The same function for light going the other way: q_back(ω′, ω_e) = q_front(ω_e, ω′): in through-names a plain
+    /// transpose. The 180° turn that files need lies in the bases' azimuth maps.
+    pub fn reversed(&self) -> Self {
+        let (n_in, n_out) = (self.incident.len(), self.emergent.len());
+        let mut values = vec![0.0; self.values.len()];
+        for i in 0..n_in {
+            for o in 0..n_out {
+                values[o * n_in + i] = self.values[i * n_out + o];
+            }
+        }
+        Self::new(self.emergent.clone(), self.incident.clone(), values).expect("a transpose has as many values")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::direction::Dir;
+
+    #[test]
+    fn a_diagonal_matrix_sends_light_straight_on() {
+        let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let weight = basis.projected_solid_angles();
+        let n = basis.len();
+        let mut values = vec![0.0; n * n];
+        for k in 0..n {
+            values[k * n + k] = 1.0 / weight[k];
+        }
+        let clear = CellMatrix::new(basis.clone(), basis.clone(), values).unwrap();
+        assert!(clear.tau_by_cell().iter().all(|tau| (tau - 1.0).abs() < 1e-12));
+        assert!((clear.tau_hemispherical() - 1.0).abs() < 1e-12);
+        let sun = Incident(Dir::from_theta_phi(0.7, 1.1));
+        assert!(clear.q(sun, Emergent::from_through_name(sun.0)) > 0.0);
+        // Uniform luminance stays uniform.
+        let e: Vec<f64> = weight.iter().map(|w| 1000.0 * w).collect();
+        assert!(clear.luminance(&e).iter().all(|l| (l - 1000.0).abs() < 1e-9));
+        assert_eq!(clear.reversed().reversed(), clear);
+    }
+
+    #[test]
+    fn a_wrong_count_is_refused() {
+        let b = RingBasis::klems_quarter(AzimuthMap::FACADE);
+        assert!(CellMatrix::new(b.clone(), b, vec![0.0; 1680]).is_none());
+    }
+}

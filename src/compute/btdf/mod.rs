@@ -1,0 +1,133 @@
+//! Bidirectional transmittance (and reflectance) distribution functions in memory.
+//!
+//! A [`Btdf`] has two parts that never mix: light that goes straight on ([`Btdf::regular`], a δ in direction, no
+//! value in 1/sr) and light that is scattered ([`Btdf::scattered`], q in 1/sr). Emergent directions are stored by
+//! through-name (see [`crate::compute::direction`]).
+
+mod angular;
+mod cell_matrix;
+mod checks;
+mod dataset;
+mod finding;
+mod ideal;
+mod tensor_tree;
+
+pub use angular::AngularTransmittance;
+pub use cell_matrix::CellMatrix;
+pub use checks::reciprocity_error;
+pub use dataset::{Band, Component, Dataset};
+pub use finding::{Finding, Severity};
+pub use tensor_tree::{Isotropic, Node, TensorTree, TreeError};
+
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Emergent, Incident};
+
+/// The scattered part of a BTDF or BRDF.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scattered {
+    /// Same luminance in every emergent direction, q = τ(θ_e)/π.
+    Lambert(AngularTransmittance),
+    /// A value for every pair of an incident and an emergent cell.
+    Cells(CellMatrix),
+    /// A tensor tree of rank 3 or 4 on Shirley–Chiu squares.
+    Tree(TensorTree),
+}
+
+/// A bidirectional transmittance (or reflectance) distribution function for light from one side.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Btdf {
+    /// Unscattered part: the share of the light that keeps its direction.
+    pub regular: Option<AngularTransmittance>,
+    /// Scattered part.
+    pub scattered: Option<Scattered>,
+}
+
+/// The emergent distribution of one incident direction ("indicatrix of diffusion"): a value of q for every cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indicatrix {
+    /// Emergent cells, by through-name.
+    pub basis: RingBasis,
+    /// Luminance coefficient of each cell. [1/sr]
+    pub q: Vec<f64>,
+}
+
+impl Indicatrix {
+    /// ∫ q cosθ dω.
+    pub fn tau(&self) -> f64 {
+        self.basis.cells().zip(&self.q).map(|(cell, q)| cell.projected_solid_angle() * q).sum()
+    }
+}
+
+impl Btdf {
+    /// A purely scattering function on cells.
+    pub fn from_cells(matrix: CellMatrix) -> Self {
+        Self { regular: None, scattered: Some(Scattered::Cells(matrix)) }
+    }
+
+    /// Luminance coefficient q = L/E of the scattered part. [1/sr]
+    pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
+        match &self.scattered {
+            None => 0.0,
+            Some(Scattered::Lambert(tau)) => tau.at(incident.0.theta()) / std::f64::consts::PI,
+            Some(Scattered::Cells(matrix)) => matrix.q(incident, emergent),
+            Some(Scattered::Tree(tree)) => tree.q(incident, emergent),
+        }
+    }
+
+    /// Directional-hemispherical transmittance τ(ω_e), eq 1, regular part included.
+    pub fn tau(&self, incident: Incident) -> f64 {
+        let theta = incident.0.theta();
+        let regular = self.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
+        let scattered = match &self.scattered {
+            None => 0.0,
+            Some(Scattered::Lambert(tau)) => tau.at(theta),
+            Some(Scattered::Cells(matrix)) => matrix.tau(incident),
+            Some(Scattered::Tree(tree)) => tree.tau(incident),
+        };
+        regular + scattered
+    }
+
+    /// Transmittance at normal incidence.
+    pub fn tau_normal(&self) -> f64 {
+        self.tau(Incident(crate::compute::direction::Dir::from_unit(glam::DVec3::Z)))
+    }
+
+    /// Transmittance for uniform luminance of the whole hemisphere.
+    pub fn tau_hemispherical(&self) -> f64 {
+        let regular = self.regular.as_ref().map_or(0.0, AngularTransmittance::hemispherical);
+        let scattered = match &self.scattered {
+            None => 0.0,
+            Some(Scattered::Lambert(tau)) => tau.hemispherical(),
+            Some(Scattered::Cells(matrix)) => matrix.tau_hemispherical(),
+            Some(Scattered::Tree(tree)) => tree.tau_hemispherical(),
+        };
+        regular + scattered
+    }
+
+    /// The cells in which the data resolve incidence; for continuous functions a Klems basis to list them by.
+    pub fn incident_basis(&self) -> RingBasis {
+        match &self.scattered {
+            Some(Scattered::Cells(matrix)) => matrix.incident().clone(),
+            Some(Scattered::Tree(tree)) => tree.incident_listing(),
+            _ => RingBasis::klems_full(crate::compute::basis::AzimuthMap::KLEMS_FRONT),
+        }
+    }
+
+    /// The scattered emergent distribution for one incident direction; `None` when nothing is scattered.
+    pub fn indicatrix(&self, incident: Incident) -> Option<Indicatrix> {
+        Some(match self.scattered.as_ref()? {
+            Scattered::Lambert(tau) => Indicatrix {
+                basis: RingBasis::hemisphere(),
+                q: vec![tau.at(incident.0.theta()) / std::f64::consts::PI],
+            },
+            Scattered::Cells(matrix) => Indicatrix {
+                basis: matrix.emergent().clone(),
+                q: matrix
+                    .incident()
+                    .index(incident.0)
+                    .map_or_else(|| vec![0.0; matrix.emergent().len()], |i| matrix.row(i).to_vec()),
+            },
+            Scattered::Tree(tree) => tree.indicatrix(incident),
+        })
+    }
+}

@@ -1,0 +1,238 @@
+//! Directions and the frames they are given in. The one place for angle and axis conventions.
+//!
+//! ```text
+//!  World   x east, y north, z up.                      Sun and sky live here.
+//!  Room    x right seen from outside, y into the room, z up; floor z = 0, façade y = 0, its outward normal −y.
+//!  Facade  x right seen from outside, y up, z outward normal (right-handed).
+//!          façade wall:  x_F = x_room, y_F = z_room, z_F = −y_room
+//!          roof:         x_F = x_room, y_F = y_room, z_F =  z_room      ("up" of a system in a roof is +y)
+//! ```
+//! In the façade frame θ is counted from +z, φ counter-clockwise from +x towards +y (0 = right, 90 = up).
+//!
+//! * [`Incident`]: from the element **towards the source**. Light from outside: z_F > 0.
+//! * [`Emergent`]: where the light **goes**. Light into the room: z_F < 0.
+//! * **Through-name** of an emergent direction ω_a: ω′ = −ω_a, the incident direction from which a clear opening
+//!   would send light along ω_a. All transmitted data are stored by ω′, so a clear pane is a diagonal matrix and
+//!   reciprocity is a plain transpose: q_front(ω_e, ω′) = q_back(ω′, ω_e).
+//!   Light from inside is named by the direction in which it travels (z_F > 0) on both sides.
+//!   Reflected light r is named (−r_x, −r_y, r_z), so that a mirror is a diagonal matrix as well.
+//!
+//! A bearing β maps to the room by x = −sin(β − A) cos h, y = −cos(β − A) cos h with A the façade's bearing.
+
+use super::angle::{Bearing, wrap_two_pi};
+use glam::DVec3;
+use std::marker::PhantomData;
+
+/// Frame tag: x east, y north, z up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct World;
+/// Frame tag: the room's axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Room;
+/// Frame tag: an aperture's own axes (x right seen from outside, y up, z outward).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facade;
+
+/// A unit vector in a stated frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dir<F> {
+    vector: DVec3,
+    frame: PhantomData<F>,
+}
+
+impl<F> Dir<F> {
+    /// The direction of a vector; `None` when it has no length or is not finite.
+    pub fn new(vector: DVec3) -> Option<Self> {
+        vector.try_normalize().map(Self::from_unit)
+    }
+
+    /// Takes a vector that is already of unit length (to rounding).
+    pub const fn from_unit(vector: DVec3) -> Self {
+        Self { vector, frame: PhantomData }
+    }
+
+    /// From the polar angle θ about +z and the azimuth φ from +x towards +y. [rad]
+    pub fn from_theta_phi(theta: f64, phi: f64) -> Self {
+        let (sin_theta, cos_theta) = theta.sin_cos();
+        let (sin_phi, cos_phi) = phi.sin_cos();
+        Self::from_unit(DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
+    }
+
+    /// The unit vector.
+    pub const fn vector(self) -> DVec3 {
+        self.vector
+    }
+
+    /// Polar angle from +z, 0 … π. [rad] Exact near the axis, where `acos` is not.
+    pub fn theta(self) -> f64 {
+        self.vector.truncate().length().atan2(self.vector.z)
+    }
+
+    /// Azimuth from +x towards +y, 0 ≤ φ < 2π; 0 on the axis. [rad]
+    pub fn phi(self) -> f64 {
+        wrap_two_pi(self.vector.y.atan2(self.vector.x))
+    }
+
+    /// The opposite direction.
+    pub fn reversed(self) -> Self {
+        Self::from_unit(-self.vector)
+    }
+
+    /// Cosine of the angle to another direction of the same frame.
+    pub fn dot(self, other: Self) -> f64 {
+        self.vector.dot(other.vector)
+    }
+}
+
+impl Dir<World> {
+    /// From altitude above the horizon [rad] and compass bearing.
+    pub fn from_altitude_bearing(altitude: f64, bearing: Bearing) -> Self {
+        let (sin_bearing, cos_bearing) = bearing.radians().sin_cos();
+        let cos_altitude = altitude.cos();
+        Self::from_unit(DVec3::new(sin_bearing * cos_altitude, cos_bearing * cos_altitude, altitude.sin()))
+    }
+
+    /// Altitude above the horizon. [rad]
+    pub fn altitude(self) -> f64 {
+        self.vector.z.atan2(self.vector.truncate().length())
+    }
+
+    /// Compass bearing.
+    pub fn bearing(self) -> Bearing {
+        Bearing::from_radians(wrap_two_pi(self.vector.x.atan2(self.vector.y)))
+    }
+}
+
+/// The direction towards the source, in the aperture's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Incident(pub Dir<Facade>);
+
+/// The direction in which light leaves, in the aperture's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emergent(pub Dir<Facade>);
+
+impl Emergent {
+    /// The emergent direction whose through-name is `twin`.
+    pub fn from_through_name(twin: Dir<Facade>) -> Self {
+        Self(twin.reversed())
+    }
+
+    /// ω′ = −ω_a: where light that leaves this way would have come from through a clear opening.
+    pub fn through_name(self) -> Dir<Facade> {
+        self.0.reversed()
+    }
+}
+
+/// How the room stands to the compass: turns between world and room.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orientation {
+    sin: f64,
+    cos: f64,
+}
+
+impl Orientation {
+    /// From the bearing of the façade's outward normal.
+    pub fn new(facade_normal: Bearing) -> Self {
+        let (sin, cos) = facade_normal.radians().sin_cos();
+        Self { sin, cos }
+    }
+
+    /// x_room = (−cos A, sin A), y_room = (−sin A, −cos A) in (east, north).
+    pub fn room_from_world(self, d: Dir<World>) -> Dir<Room> {
+        let v = d.vector();
+        Dir::from_unit(DVec3::new(-self.cos * v.x + self.sin * v.y, -self.sin * v.x - self.cos * v.y, v.z))
+    }
+
+    /// The inverse turn.
+    pub fn world_from_room(self, d: Dir<Room>) -> Dir<World> {
+        let v = d.vector();
+        Dir::from_unit(DVec3::new(-self.cos * v.x - self.sin * v.y, self.sin * v.x - self.cos * v.y, v.z))
+    }
+}
+
+/// The surface that an aperture lies in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Surface {
+    /// The wall y = 0.
+    Facade,
+    /// The ceiling z = height.
+    Roof,
+}
+
+impl Surface {
+    /// Components of a room vector along the aperture's own axes (also for offsets, not only directions).
+    pub fn facade_from_room(self, v: DVec3) -> DVec3 {
+        match self {
+            Self::Facade => DVec3::new(v.x, v.z, -v.y),
+            Self::Roof => v,
+        }
+    }
+
+    /// The inverse of [`Self::facade_from_room`].
+    pub fn room_from_facade(self, v: DVec3) -> DVec3 {
+        match self {
+            Self::Facade => DVec3::new(v.x, -v.z, v.y),
+            Self::Roof => v,
+        }
+    }
+
+    /// A direction of the room in the aperture's frame.
+    pub fn facade_dir(self, d: Dir<Room>) -> Dir<Facade> {
+        Dir::from_unit(self.facade_from_room(d.vector()))
+    }
+
+    /// A direction of the aperture's frame in the room.
+    pub fn room_dir(self, d: Dir<Facade>) -> Dir<Room> {
+        Dir::from_unit(self.room_from_facade(d.vector()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn south_facade_has_x_east_and_y_north() {
+        let south = Orientation::new(Bearing::from_degrees(180.0));
+        let x = south.world_from_room(Dir::from_unit(DVec3::X)).vector();
+        let y = south.world_from_room(Dir::from_unit(DVec3::Y)).vector();
+        assert!((x - DVec3::X).length() < 1e-15 && (y - DVec3::Y).length() < 1e-15);
+    }
+
+    #[test]
+    fn bearings_map_as_the_scene_file_says() {
+        let (a, b, h) = (130_f64, 200_f64, 25_f64);
+        let room = Orientation::new(Bearing::from_degrees(a))
+            .room_from_world(Dir::from_altitude_bearing(h.to_radians(), Bearing::from_degrees(b)))
+            .vector();
+        let d = (b - a).to_radians();
+        let expected = DVec3::new(-d.sin() * h.to_radians().cos(), -d.cos() * h.to_radians().cos(), h.to_radians().sin());
+        assert!((room - expected).length() < 1e-15);
+    }
+
+    #[test]
+    fn frames_are_right_handed_and_invertible() {
+        for surface in [Surface::Facade, Surface::Roof] {
+            let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| surface.room_from_facade(v));
+            assert!((x.cross(y) - z).length() < 1e-15);
+            let v = DVec3::new(0.3, -0.5, 0.8);
+            assert_eq!(surface.facade_from_room(surface.room_from_facade(v)), v);
+        }
+        assert_eq!(Surface::Facade.room_from_facade(DVec3::Z), -DVec3::Y);
+        let o = Orientation::new(Bearing::from_degrees(77.0));
+        let d = Dir::from_altitude_bearing(0.4, Bearing::from_degrees(10.0));
+        assert!((o.world_from_room(o.room_from_world(d)).vector() - d.vector()).length() < 1e-15);
+    }
+
+    #[test]
+    fn sun_above_a_facade_is_at_phi_90_and_leaves_downwards() {
+        let south = Orientation::new(Bearing::from_degrees(180.0));
+        let sun = Dir::from_altitude_bearing(40_f64.to_radians(), Bearing::from_degrees(180.0));
+        let incident = Incident(Surface::Facade.facade_dir(south.room_from_world(sun)));
+        assert!((incident.0.phi().to_degrees() - 90.0).abs() < 1e-12);
+        assert!((incident.0.theta().to_degrees() - 40.0).abs() < 1e-12);
+        let through = Emergent::from_through_name(incident.0);
+        assert!((through.0.phi().to_degrees() - 270.0).abs() < 1e-12);
+        assert!((through.0.theta().to_degrees() - 140.0).abs() < 1e-12);
+    }
+}

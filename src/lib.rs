@@ -1,0 +1,5 @@
+//! placeholder
+
+pub mod compute;
+
+pub mod study;

@@ -1,0 +1,2 @@
+//! From a scene to its results.
+pub mod scene_file;

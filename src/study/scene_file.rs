@@ -1,0 +1,365 @@
+//! The scene file as typed: TOML keys, defaults, and ranges that can be judged without knowing the rest.
+//!
+//! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². What the keys mean together is
+//! [`super::scene`]'s business.
+
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// A whole scene file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    /// The box.
+    pub room: RoomKeys,
+    /// Windows and rooflights.
+    pub aperture: Vec<ApertureKeys>,
+    /// Place and ground.
+    #[serde(default)]
+    pub site: SiteKeys,
+    /// Sky and sun.
+    pub sky: SkyKeys,
+    /// Where illuminance is asked for.
+    pub sensors: SensorKeys,
+    /// What chooses the state of moving systems.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlKeys>,
+    /// How to compute.
+    #[serde(default)]
+    pub compute: ComputeKeys,
+}
+
+/// `[room]`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoomKeys {
+    /// Along the façade. [m]
+    pub width: f64,
+    /// Away from the façade. [m]
+    pub depth: f64,
+    /// Floor to ceiling. [m]
+    pub height: f64,
+    /// Diffuse reflectances outside the apertures.
+    pub reflectance: ReflectanceKeys,
+}
+
+/// `room.reflectance`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReflectanceKeys {
+    /// 0 … 1
+    pub floor: f64,
+    /// 0 … 1
+    pub walls: f64,
+    /// 0 … 1
+    pub ceiling: f64,
+}
+
+/// `aperture.surface`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceKey {
+    /// The wall y = 0.
+    Facade,
+    /// The ceiling.
+    Roof,
+}
+
+/// `[[aperture]]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ApertureKeys {
+    /// Façade or roof.
+    pub surface: SurfaceKey,
+    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. [m]
+    pub origin: [f64; 2],
+    /// Along x, and along z (façade) or y (roof). [m]
+    pub size: [f64; 2],
+    /// What fills it.
+    pub system: SystemKeys,
+    /// Room-side diffuse reflectance, or "dataset".
+    #[serde(default)]
+    pub reflectance: ApertureReflectance,
+}
+
+/// `aperture.reflectance`: a number, or "dataset".
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ApertureReflectance {
+    /// Diffuse reflectance of the room side, 0 … 1.
+    Value(f64),
+    /// The dataset's own back reflection where it has one, 0 for ideal systems.
+    Dataset(DatasetWord),
+    /// Not given: as "dataset".
+    #[default]
+    #[serde(skip)]
+    Default,
+}
+
+/// The word "dataset".
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DatasetWord {
+    /// "dataset"
+    #[serde(rename = "dataset")]
+    Dataset,
+}
+
+/// `aperture.system`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum SystemKeys {
+    /// `{ ideal = "transparent", transmittance = 1.0 }`
+    Ideal(IdealKeys),
+    /// `{ file = "system.xml" }`
+    File(FileKeys),
+    /// `{ catalogue = "product-key", state = "45" }`
+    Catalogue(CatalogueKeys),
+}
+
+/// An ideal system.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IdealKeys {
+    /// Transparent or diffuse.
+    pub ideal: IdealKind,
+    /// 0 … 1
+    pub transmittance: f64,
+}
+
+/// `system.ideal`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum IdealKind {
+    /// Light goes straight on.
+    Transparent,
+    /// Lambertian emission, τ independent of incidence.
+    Diffuse,
+}
+
+/// A dataset file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileKeys {
+    /// Relative to the scene file.
+    pub file: PathBuf,
+    /// Key of the state in a file of several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+}
+
+/// A product of the catalogue.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CatalogueKeys {
+    /// Product key.
+    pub catalogue: String,
+    /// Key of the state, or "controlled".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+}
+
+/// `[site]`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SiteKeys {
+    /// Bearing of the façade's outward normal. [°]
+    pub azimuth: f64,
+    /// [°], north positive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub latitude: Option<f64>,
+    /// [°], east positive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub longitude: Option<f64>,
+    /// Hours ahead of UTC.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub utc_offset: Option<f64>,
+    /// Uniform ground, 0 … 1.
+    pub ground_reflectance: f64,
+}
+
+impl Default for SiteKeys {
+    fn default() -> Self {
+        Self { azimuth: 180.0, latitude: None, longitude: None, utc_offset: None, ground_reflectance: 0.0 }
+    }
+}
+
+/// `sky.model`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SkyModelKey {
+    /// ISO 15469 types 1–15, 16 = traditional overcast.
+    Cie,
+    /// The same luminance everywhere.
+    Uniform,
+    /// Perez all-weather.
+    Perez,
+    /// 145 measured luminances.
+    Scan,
+}
+
+/// `[sky]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SkyKeys {
+    /// Which model.
+    pub model: SkyModelKey,
+    /// CIE type 1 … 16.
+    #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
+    pub cie_type: Option<u8>,
+    /// Diffuse horizontal illuminance. [lx]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diffuse_horizontal: Option<f64>,
+    /// The sun by angles, and its beam.
+    #[serde(default)]
+    pub sun: SunKeys,
+    /// Local standard time of `site.utc_offset`, `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<TimeKey>,
+    /// Perez: direct irradiance on the horizontal plane. [W/m²]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direct_horizontal_irradiance: Option<f64>,
+    /// Perez: diffuse irradiance on the horizontal plane. [W/m²]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diffuse_horizontal_irradiance: Option<f64>,
+    /// Scan: 145 Tregenza luminances.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// A horizontal skyline over the whole azimuth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub obstruction: Option<ObstructionKeys>,
+}
+
+/// `sky.time`: a string, or a TOML date-time without offset.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum TimeKey {
+    /// Quoted.
+    Text(String),
+    /// Bare TOML date-time.
+    Toml(toml::value::Datetime),
+}
+
+impl TimeKey {
+    /// The text, whichever way it was written.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Toml(time) => time.to_string(),
+        }
+    }
+}
+
+/// `sky.sun`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub struct SunKeys {
+    /// True altitude, no refraction. [°]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub altitude: Option<f64>,
+    /// Compass bearing. [°]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub azimuth: Option<f64>,
+    /// Illuminance on a plane facing the sun, 0 = no disc. [lx]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direct_normal: Option<f64>,
+}
+
+/// `sky.obstruction`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObstructionKeys {
+    /// Of the skyline. [°]
+    pub altitude: f64,
+    /// Of what stands below it. [cd/m²]
+    #[serde(default)]
+    pub luminance: f64,
+}
+
+/// `[sensors]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub struct SensorKeys {
+    /// A grid over the floor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plane: Option<PlaneKeys>,
+    /// Listed points (x, y, z). [m]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<[f64; 3]>,
+    /// Normal of the listed points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+}
+
+/// `sensors.plane`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneKeys {
+    /// Height above the floor. [m]
+    pub z: f64,
+    /// Cells along x.
+    pub nx: usize,
+    /// Cells along y.
+    pub ny: usize,
+    /// Direction the sensors face.
+    #[serde(default = "up")]
+    pub normal: [f64; 3],
+}
+
+const fn up() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+/// `control.mode`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ControlMode {
+    /// The most open state that lets no direct sun through.
+    #[serde(rename = "cut-off")]
+    CutOff,
+    /// Closed while the façade gets direct sun.
+    #[serde(rename = "din-5034")]
+    Din5034,
+    /// The product's curve over the solar profile angle.
+    #[serde(rename = "curve")]
+    Curve,
+    /// The state that the aperture names, or the product's first.
+    #[serde(rename = "fixed")]
+    Fixed,
+}
+
+/// `[control]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ControlKeys {
+    /// Which rule.
+    pub mode: ControlMode,
+}
+
+/// `compute.interpolation`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Interpolation {
+    /// The program chooses.
+    #[default]
+    Auto,
+    /// The data are constant on their own cells; nothing is filtered, moved or refined.
+    Patch,
+}
+
+/// `[compute]`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ComputeKeys {
+    /// False: the direct component alone.
+    pub interreflection: bool,
+    /// Relative error asked for; the program chooses its effort.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_target: Option<f64>,
+    /// Between and inside the dataset's directions.
+    pub interpolation: Interpolation,
+}
+
+impl Default for ComputeKeys {
+    fn default() -> Self {
+        Self { interreflection: true, error_target: None, interpolation: Interpolation::Auto }
+    }
+}
