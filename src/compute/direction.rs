@@ -206,7 +206,8 @@ mod tests {
             .room_from_world(Dir::from_altitude_bearing(h.to_radians(), Bearing::from_degrees(b)))
             .vector();
         let d = (b - a).to_radians();
-        let expected = DVec3::new(-d.sin() * h.to_radians().cos(), -d.cos() * h.to_radians().cos(), h.to_radians().sin());
+        let expected =
+            DVec3::new(-d.sin() * h.to_radians().cos(), -d.cos() * h.to_radians().cos(), h.to_radians().sin());
         assert!((room - expected).length() < 1e-15);
     }
 

@@ -20,3 +20,4 @@ pub mod basis;
 pub mod btdf;
 pub mod direction;
 pub mod estimate;
+pub mod lid;

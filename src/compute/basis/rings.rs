@@ -92,7 +92,7 @@ impl Cell {
 
     /// A cap reaches the normal and goes all the way round.
     pub fn is_cap(&self) -> bool {
-        self.theta_min == 0.0 && self.width > 6.28
+        self.theta_min == 0.0 && self.width > 1.99 * PI
     }
 }
 
@@ -325,7 +325,7 @@ impl RingBasis {
         }
         let theta = theta.min(PI / 2.0);
         let ring_index = self.rings.iter().position(|ring| {
-            theta >= ring.theta_min && (theta < ring.theta_max || (ring.theta_max >= PI / 2.0 - 1e-9 && theta >= ring.theta_min))
+            theta >= ring.theta_min && (theta < ring.theta_max || ring.theta_max >= PI / 2.0 - 1e-9)
         })?;
         let ring = &self.rings[ring_index];
         let width = 2.0 * PI / ring.sectors as f64;

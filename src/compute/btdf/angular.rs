@@ -22,7 +22,11 @@ impl AngularTransmittance {
     pub fn at(&self, theta: f64) -> f64 {
         match self {
             Self::Constant(tau) => {
-                if theta <= 0.5 * PI { *tau } else { 0.0 }
+                if theta <= 0.5 * PI {
+                    *tau
+                } else {
+                    0.0
+                }
             }
             Self::Table(values) => table_at(values, theta),
         }
@@ -41,7 +45,7 @@ impl AngularTransmittance {
     }
 }
 
-/// Monotone piecewise cubic (Fritsch–Carlson slopes) through equally spaced values.
+/// Monotone piecewise cubic (central slopes, limited after Fritsch and Carlson) through equally spaced values.
 fn table_at(values: &[f64], theta: f64) -> f64 {
     let last = values.len() - 1;
     let x = theta / (0.5 * PI) * last as f64;
@@ -57,10 +61,10 @@ fn table_at(values: &[f64], theta: f64) -> f64 {
             return 0.0;
         }
         if k == last {
-            return chord(last - 1);
+            return if last > 1 { 1.5 * chord(last - 1) - 0.5 * chord(last - 2) } else { chord(0) };
         }
         let (a, b) = (chord(k - 1), chord(k));
-        if a * b <= 0.0 { 0.0 } else { 2.0 * a * b / (a + b) }
+        if a * b <= 0.0 { 0.0 } else { (0.5 * (a + b)).abs().min(3.0 * a.abs().min(b.abs())).copysign(a) }
     };
     let (y0, y1, m0, m1) = (values[i], values[i + 1], slope(i), slope(i + 1));
     let (t2, t3) = (t * t, t * t * t);

@@ -22,10 +22,8 @@ impl CellMatrix {
             return None;
         }
         let weight = emergent.projected_solid_angles();
-        let tau = values
-            .chunks_exact(emergent.len())
-            .map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum())
-            .collect();
+        let tau =
+            values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
         Some(Self { incident, emergent, values, tau })
     }
 

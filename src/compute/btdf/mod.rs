@@ -17,7 +17,7 @@ pub use cell_matrix::CellMatrix;
 pub use checks::reciprocity_error;
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
-pub use tensor_tree::{Isotropic, Node, TensorTree, TreeError};
+pub use tensor_tree::TensorTree;
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};
@@ -28,9 +28,9 @@ pub enum Scattered {
     /// Same luminance in every emergent direction, q = τ(θ_e)/π.
     Lambert(AngularTransmittance),
     /// A value for every pair of an incident and an emergent cell.
-    Cells(CellMatrix),
+    Cells(Box<CellMatrix>),
     /// A tensor tree of rank 3 or 4 on Shirley–Chiu squares.
-    Tree(TensorTree),
+    Tree(Box<TensorTree>),
 }
 
 /// A bidirectional transmittance (or reflectance) distribution function for light from one side.
@@ -61,7 +61,7 @@ impl Indicatrix {
 impl Btdf {
     /// A purely scattering function on cells.
     pub fn from_cells(matrix: CellMatrix) -> Self {
-        Self { regular: None, scattered: Some(Scattered::Cells(matrix)) }
+        Self { regular: None, scattered: Some(Scattered::Cells(Box::new(matrix))) }
     }
 
     /// Luminance coefficient q = L/E of the scattered part. [1/sr]

@@ -1,0 +1,89 @@
+//! The luminous-intensity distribution of an aperture: what the room side emits, as a luminaire would.
+
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Dir, Emergent, Facade, Surface};
+use std::fmt;
+use std::sync::Arc;
+
+/// A luminance as a function of the through-name. [cd/m²]
+pub type LuminanceFunction = Arc<dyn Fn(Dir<Facade>) -> f64 + Send + Sync>;
+
+/// One part of the luminance of an aperture's room side. Parts add up.
+#[derive(Clone)]
+pub enum EmergentLuminance {
+    /// The same in every direction. [cd/m²]
+    Uniform(f64),
+    /// A value for every emergent cell, by through-name. [cd/m²]
+    Cells {
+        /// The cells.
+        basis: Arc<RingBasis>,
+        /// Luminance of each. [cd/m²]
+        luminance: Vec<f64>,
+    },
+    /// A continuous function: the outside seen through a system that keeps directions (eq 20).
+    Function(LuminanceFunction),
+}
+
+impl fmt::Debug for EmergentLuminance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Uniform(l) => write!(f, "Uniform({l} cd/m²)"),
+            Self::Cells { basis, .. } => write!(f, "Cells({}, {} cells)", basis.name(), basis.len()),
+            Self::Function(_) => write!(f, "Function"),
+        }
+    }
+}
+
+impl EmergentLuminance {
+    /// Luminance seen against an emergent direction. [cd/m²]
+    pub fn at(&self, emergent: Emergent) -> f64 {
+        let twin = emergent.through_name();
+        if twin.vector().z <= 0.0 {
+            return 0.0;
+        }
+        match self {
+            Self::Uniform(luminance) => *luminance,
+            Self::Cells { basis, luminance } => basis.index(twin).map_or(0.0, |cell| luminance[cell]),
+            Self::Function(luminance) => luminance(twin),
+        }
+    }
+}
+
+/// The sun's light that went through without being scattered: a parallel beam (but for the disc's 0.53°).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Where it goes.
+    pub direction: Emergent,
+    /// Luminous flux of the whole aperture's beam. [lm]
+    pub flux: f64,
+}
+
+/// The luminous-intensity distribution of one aperture (eq 5): I(ω_a) = L(ω_a) · A · cosθ_a.
+#[derive(Debug, Clone)]
+pub struct Lid {
+    /// Where the aperture lies; fixes how the façade frame stands in the room.
+    pub surface: Surface,
+    /// Size along x_F and along y_F. [m]
+    pub size: [f64; 2],
+    /// The parts of the emergent luminance.
+    pub parts: Vec<EmergentLuminance>,
+    /// Unscattered sun.
+    pub beam: Option<Beam>,
+}
+
+impl Lid {
+    /// Luminance of the room side against an emergent direction, beam left out. [cd/m²]
+    pub fn luminance(&self, emergent: Emergent) -> f64 {
+        self.parts.iter().map(|part| part.at(emergent)).sum()
+    }
+
+    /// Luminous intensity in an emergent direction, beam left out. [cd]
+    pub fn intensity(&self, emergent: Emergent) -> f64 {
+        self.luminance(emergent) * self.area() * (-emergent.0.vector().z).max(0.0)
+    }
+
+    /// Area of the aperture. [m²]
+    pub fn area(&self) -> f64 {
+        self.size[0] * self.size[1]
+    }
+}

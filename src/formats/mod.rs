@@ -1,0 +1,1 @@
+//! Bytes to compute types and back.
