@@ -32,7 +32,6 @@ pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize
 
 /// A convex polygon in the plane z = distance, seen from the origin in polar coordinates about z.
 struct Polygon {
-    vertices: Vec<DVec2>,
     /// Inward half planes n·p ≥ c of the edges from vertex k to k + 1, n of unit length.
     edges: Vec<(DVec2, f64)>,
     distance: f64,
@@ -77,7 +76,7 @@ impl Polygon {
             }
             range
         };
-        Some(Self { vertices, edges, distance, reference, range, azimuths })
+        Some(Self { edges, distance, reference, range, azimuths })
     }
 
     /// The interval of distances from the pole along a relative azimuth, with the edges that bound it.

@@ -3,3 +3,4 @@
 pub mod aperture;
 pub mod cell_weights;
 pub mod polygon;
+pub mod through;
