@@ -6,6 +6,8 @@
 //! | `cie`, `perez`, `scan` | their parameters |
 //! | `horizontal` | the exact illuminance of the horizontal plane, which scales a sky |
 //! | `patches` | Tregenza's 145 patches of the dome |
+//! | `region`, `scan_region` | integrals over regions of the sphere, smooth and measured skies |
+//! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `sun` | the disc |
 //!
 //! The direct beam is never part of an [`Outside`]; it is a [`Sun`].
@@ -13,12 +15,17 @@
 pub mod cie;
 mod distribution;
 mod horizontal;
+mod incident;
 pub mod patches;
 pub mod perez;
+mod region;
 mod scan;
+mod scan_region;
 mod sun;
 
 pub use distribution::Distribution;
+pub use incident::incident_illuminances;
+pub use region::{Frame, irradiance};
 pub use scan::Scan;
 pub use sun::{SUN_HALF_ANGLE, Sun, sun_solid_angle};
 
