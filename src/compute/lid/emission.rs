@@ -101,7 +101,9 @@ impl Emission {
             emission.beam_tau = tau.at(sun.theta().min(0.5 * PI));
         }
         match &btdf.scattered {
-            None => emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum(),
+            None => {
+                emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum()
+            }
             Some(Scattered::Lambert(tau)) => {
                 // A constant needs the total alone; else rings of 2.5°, each with the τ of its own mean angle.
                 let rings = if matches!(tau, AngularTransmittance::Constant(_)) { 1 } else { 36 };
