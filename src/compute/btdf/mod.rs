@@ -10,6 +10,7 @@ mod checks;
 mod dataset;
 mod finding;
 mod ideal;
+mod tensor_emission;
 mod tensor_tree;
 
 pub use angular::AngularTransmittance;
@@ -17,7 +18,7 @@ pub use cell_matrix::CellMatrix;
 pub use checks::reciprocity_error;
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
-pub use tensor_tree::TensorTree;
+pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};
