@@ -15,7 +15,7 @@ mod tensor_tree;
 
 pub use angular::AngularTransmittance;
 pub use cell_matrix::CellMatrix;
-pub use checks::reciprocity_error;
+pub use checks::{reciprocity_error, tau_max};
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
