@@ -32,7 +32,8 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
             "The file holds no visible transmission; it cannot light a room.",
         )),
         Some(0.0) => {
-            findings.push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
+            findings
+                .push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
         }
         Some(_) => {}
     }
@@ -172,7 +173,9 @@ fn derive_front(dataset: &mut Dataset, findings: &mut Vec<Finding>) {
     };
     let (reversed, how) = match scattered {
         Scattered::Cells(matrix) => (Scattered::Cells(Box::new(matrix.reversed())), "exactly"),
-        Scattered::Tree(tree) if tree.rank() == TreeRank::Four => (Scattered::Tree(Box::new(tree.reversed())), "exactly"),
+        Scattered::Tree(tree) if tree.rank() == TreeRank::Four => {
+            (Scattered::Tree(Box::new(tree.reversed())), "exactly")
+        }
         Scattered::Tree(tree) => {
             (Scattered::Tree(Box::new(tree.reversed())), "with its leaves averaged anew, as rank 3 demands")
         }
