@@ -1,1 +1,5 @@
 //! The command line.
+
+pub mod convert;
+pub mod dataset_file;
+pub mod info;
