@@ -5,7 +5,11 @@ use std::path::PathBuf;
 
 /// From a complex fenestration system's BTDF to the light in a room
 #[derive(Debug, Clone, clap::Parser)]
-#[command(name = "cfs", version, about, after_help = "Without a command the window opens.
+#[command(
+    name = "cfs",
+    version,
+    about,
+    after_help = "Without a command the window opens.
 
 Examples:
   cfs                                   the window
@@ -14,7 +18,8 @@ Examples:
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
 
-On bad input every command ends with status 2 and one line that says what would be right.")]
+On bad input every command ends with status 2 and one line that says what would be right."
+)]
 pub struct Arguments {
     /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
     #[arg(long, global = true, value_name = "FILE", env = "CFS_CATALOGUE")]

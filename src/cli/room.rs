@@ -33,7 +33,8 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     for row in &result.sensors {
         let total = row.total();
         let [p, n] = [row.sensor.position, row.sensor.normal];
-        let cells = [p.x, p.y, p.z, n.x, n.y, n.z, total.value, row.direct.value, row.interreflected.value, total.error];
+        let cells =
+            [p.x, p.y, p.z, n.x, n.y, n.z, total.value, row.direct.value, row.interreflected.value, total.error];
         csv.push_str(&cells.map(number).join(","));
         csv.push('\n');
     }
