@@ -4,7 +4,7 @@ use super::{convert::ConvertArgs, info::InfoArgs, room::RoomArgs, sky::SkyArgs};
 use std::path::PathBuf;
 
 /// From a complex fenestration system's BTDF to the light in a room
-#[derive(Debug, Clone, clap::Parser)]
+#[derive(Debug, clap::Parser)]
 #[command(
     name = "cfs",
     version,
@@ -30,7 +30,7 @@ pub struct Arguments {
 }
 
 /// Subcommands.
-#[derive(Debug, Clone, clap::Subcommand)]
+#[derive(Debug, clap::Subcommand)]
 pub enum Command {
     /// Illuminance at every sensor of a scene
     Room(RoomArgs),
