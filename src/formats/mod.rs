@@ -1,1 +1,5 @@
 //! Bytes to compute types and back.
+
+pub mod eulumdat;
+pub mod ies;
+pub mod luminaire;

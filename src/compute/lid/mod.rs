@@ -1,5 +1,7 @@
 //! The luminous-intensity distribution of an aperture: what the room side emits, as a luminaire would.
 
+pub mod c_gamma;
+
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use std::fmt;
