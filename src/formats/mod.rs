@@ -1,5 +1,7 @@
 //! Bytes to compute types and back.
 
+pub mod drawing;
 pub mod eulumdat;
 pub mod ies;
+pub mod lid_tables;
 pub mod luminaire;
