@@ -1,2 +1,3 @@
 //! From a scene to its results.
+pub mod luminaire_file;
 pub mod scene_file;
