@@ -13,7 +13,8 @@ pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
     const SIZE: u32 = 640;
     let centre = 0.5 * f64::from(SIZE);
     let radius = 250.0;
-    let full = round_up(luminaire.peak());
+    let drawn = [0.0, 90.0, 180.0, 270.0].map(|c| luminaire.plane(nearest_plane(luminaire, c)));
+    let full = round_up(drawn.into_iter().flatten().copied().fold(0.0, f64::max));
     let at = |gamma_deg: f64, r: f64, side: f64| {
         let (sin, cos) = gamma_deg.to_radians().sin_cos();
         [centre + side * r * sin, centre + r * cos]
@@ -56,16 +57,16 @@ fn nearest_plane(luminaire: &Luminaire, c_deg: f64) -> usize {
         .unwrap_or(0)
 }
 
-/// The next of 1, 2, 4, 5, 8, 10 times a power of ten.
+/// The next of 1, 1.2, 1.6, 2, 2.4, 3.2, 4, 5, 6, 8, 10 times a power of ten: halves and quarters stay short.
 fn round_up(value: f64) -> f64 {
     if value <= 0.0 {
         return 1.0;
     }
     let decade = 10_f64.powf(value.log10().floor());
-    [1.0, 2.0, 4.0, 5.0, 8.0, 10.0]
+    [1.0, 1.2, 1.6, 2.0, 2.4, 3.2, 4.0, 5.0, 6.0, 8.0, 10.0]
         .map(|step| step * decade)
         .into_iter()
-        .find(|&step| step >= value)
+        .find(|&step| step >= value * (1.0 - 1e-12))
         .unwrap_or(10.0 * decade)
 }
 
@@ -127,7 +128,7 @@ mod tests {
 
     #[test]
     fn scales_end_at_round_numbers() {
-        for (value, expected) in [(0.0, 1.0), (3.1, 4.0), (860.0, 1000.0), (1000.0, 1000.0), (0.013, 0.02)] {
+        for (value, expected) in [(0.0, 1.0), (3.3, 4.0), (860.0, 1000.0), (1000.0, 1000.0), (0.013, 0.016)] {
             assert!((round_up(value) / expected - 1.0).abs() < 1e-12, "{value}");
         }
     }

@@ -161,3 +161,65 @@ fn sky_remark(scene: &SceneFile) -> String {
     }
     format!("{}.", parts.join(", "))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Surface;
+    use crate::compute::lid::EmergentLuminance;
+
+    const SCENE: &str = r#"
+[room]
+width = 4.0
+depth = 6.0
+height = 3.0
+reflectance = { floor = 0.2, walls = 0.5, ceiling = 0.7 }
+[[aperture]]
+surface = "facade"
+origin = [0.0, 1.0]
+size = [4.0, 1.5]
+system = { file = "systems/blind.xml", state = "45" }
+[site]
+azimuth = 170.0
+ground_reflectance = 0.2
+[sky]
+model = "cie"
+type = 12
+diffuse_horizontal = 12000.0
+sun = { altitude = 20.0, azimuth = 180.0, direct_normal = 65000.0 }
+[sensors]
+points = [[2.0, 2.0, 0.85]]
+normal = [0.0, 0.0, 1.0]
+"#;
+
+    #[test]
+    fn header_names_scene_product_sky_and_opening() {
+        let scene: SceneFile = toml::from_str(SCENE).unwrap();
+        let text = describe("office.toml", &scene, 0, "2026-03-21");
+        let parts = vec![EmergentLuminance::Uniform(500.0)];
+        let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beam: None };
+        let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();
+        let file = encode(&lid, text, format, None, None).unwrap();
+        // Continuation lines cut sentences anywhere.
+        let file = String::from_utf8(file.bytes).unwrap().replace("\r\n[MORE]", "");
+        for piece in [
+            "office.toml, aperture 1",
+            "[ISSUEDATE] 2026-03-21",
+            "blind.xml, state 45",
+            "CIE type 12",
+            "E_dh 12000 lx",
+            "E_dn 65000 lx",
+            "4.0000 m x 1.5000 m",
+            "must subdivide",
+            env!("CARGO_PKG_VERSION"),
+        ] {
+            assert!(file.contains(piece), "{piece}\n{}", &file[..2000]);
+        }
+    }
+
+    #[test]
+    fn unknown_extension_lists_the_known_ones() {
+        let error = LidFormat::of(Path::new("a.dwg"), IesEdition::Lm63_2002).unwrap_err().to_string();
+        assert!(error.contains("dwg") && error.contains("ldt"), "{error}");
+    }
+}

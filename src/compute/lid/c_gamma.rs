@@ -122,7 +122,8 @@ pub struct CGammaTable {
     pub intensity: Vec<f64>,
     /// Flux of the aperture: exact for uniform and cell data, integrated for functions. [lm]
     pub flux: Estimate,
-    /// Relative change that made the zonal sum of the table equal to `flux`.
+    /// Factor by which the averages were multiplied to make the zonal sum of the table equal to `flux`: what the
+    /// quadrature missed of a known flux, and the zonal sum's own constant (1/cos(step/2) for smooth light).
     pub scaled_by: f64,
     /// Flux of the unscattered beam, spread over the four nodes round it. [lm]
     pub beam_flux: f64,
@@ -138,6 +139,7 @@ impl CGammaTable {
         let area = lid.area();
         let mut node_flux = vec![0.0; grid.planes() * grid.angles()];
         let mut flux = Estimate::default();
+        let (mut raw, mut closed) = (0.0, 0.0);
         for part in &lid.parts {
             // Shares of the flux in each node's cell, per area.
             let (shares, total) = match part {
@@ -155,6 +157,8 @@ impl CGammaTable {
             // What the quadrature missed of a flux that is known is laid on all cells alike.
             let closing = if sum != 0.0 { total / sum } else { 1.0 };
             flux += Estimate::new(total * area, error * area);
+            raw += sum;
+            closed += sum * closing;
             for (node, share) in node_flux.iter_mut().zip(&shares) {
                 *node += share.value * closing * area;
             }
@@ -168,10 +172,11 @@ impl CGammaTable {
         let mut table = Self { aim, step, intensity: grid.averages(&node_flux), flux, scaled_by: 1.0, beam_flux };
         let read = table.zonal_flux();
         if read != 0.0 && flux.value != 0.0 {
-            table.scaled_by = flux.value / read;
+            let scale = flux.value / read;
             for value in &mut table.intensity {
-                *value *= table.scaled_by;
+                *value *= scale;
             }
+            table.scaled_by = if raw != 0.0 { scale * closed / raw } else { scale };
         }
         table
     }
