@@ -21,3 +21,6 @@ pub mod btdf;
 pub mod direction;
 pub mod estimate;
 pub mod lid;
+pub mod quadrature;
+pub mod room;
+pub mod sky;

@@ -5,3 +5,4 @@ pub mod eulumdat;
 pub mod ies;
 pub mod lid_tables;
 pub mod luminaire;
+pub mod scan;
