@@ -1,5 +1,6 @@
 //! `cfs lid`: the luminous-intensity distribution of an aperture as a luminaire file, table or diagram.
 
+use super::output::write_whole;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::ies::IesEdition;
@@ -95,19 +96,6 @@ pub fn run(args: &LidArgs, distribution: impl FnOnce(&Path, usize) -> Result<(Li
         );
     }
     Ok(())
-}
-
-/// Writes beside the target and renames, so that a full disk or a break leaves no half file.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
-    if written.is_err() {
-        // The first error is the one to tell; a part that cannot be removed does not exist.
-        std::fs::remove_file(&part).ok();
-    }
-    written
 }
 
 #[cfg(test)]

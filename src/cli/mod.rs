@@ -1,4 +1,5 @@
 //! The command line.
 
 pub mod lid;
+mod output;
 pub mod sky;
