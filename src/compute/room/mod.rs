@@ -1,7 +1,10 @@
 //! Light in a box room: apertures, the near field at a sensor, interreflection.
 
 pub mod aperture;
+pub mod beam;
 pub mod cell_weights;
+pub mod direct;
+pub mod first_bounce;
 pub mod form_factor;
 pub mod mesh;
 pub mod polygon;
