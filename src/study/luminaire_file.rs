@@ -97,18 +97,18 @@ pub fn encode(
 pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str) -> Description {
     let keys = &scene.aperture[aperture];
     let system = match &keys.system {
-        SystemKeys::Ideal(ideal) => {
-            let kind = match ideal.ideal {
+        SystemKeys::Ideal { kind, transmittance } => {
+            let kind = match kind {
                 IdealKind::Transparent => "transparent",
                 IdealKind::Diffuse => "diffuse",
             };
-            format!("ideal {kind}, transmittance {}", ideal.transmittance)
+            format!("ideal {kind}, transmittance {transmittance}")
         }
-        SystemKeys::File(file) => {
-            let name = file.file.file_name().unwrap_or_default().to_string_lossy();
-            with_state(format!("file {name}"), file.state.as_deref())
+        SystemKeys::File { path, state } => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            with_state(format!("file {name}"), state.as_deref())
         }
-        SystemKeys::Catalogue(product) => with_state(product.catalogue.clone(), product.state.as_deref()),
+        SystemKeys::Catalogue { key, state } => with_state(key.clone(), state.as_deref()),
     };
     let program = concat!("cfs ", env!("CARGO_PKG_VERSION"));
     Description {
