@@ -4,7 +4,12 @@
 //! [`write_dataset`].
 
 pub mod bsdf_xml;
+pub mod drawing;
+pub mod eulumdat;
+pub mod ies;
+pub mod lid_tables;
 mod location;
+pub mod luminaire;
 pub mod scan;
 
 pub use location::{FormatError, Location};
