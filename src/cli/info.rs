@@ -61,16 +61,18 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("hemispherical_hemispherical".into(), hemispherical(dataset));
     object.insert("tau_dir_hem".into(), transmission.map_or_else(|| json!([]), tau_dir_hem));
     object.insert("reciprocity_error".into(), reciprocity(dataset).into());
-    let findings = dataset.findings.iter().map(|finding| {
-        json!({"severity": finding.severity.word(), "code": finding.code, "message": finding.message})
-    });
+    let findings = dataset
+        .findings
+        .iter()
+        .map(|finding| json!({"severity": finding.severity.word(), "code": finding.code, "message": finding.message}));
     object.insert("findings".into(), findings.collect::<Vec<_>>().into());
     Value::Object(object)
 }
 
 fn hemispherical(dataset: &Dataset) -> Value {
     let components = dataset.visible.components().into_iter();
-    let pairs = components.filter_map(|c| Some((c.key().to_owned(), dataset.visible.get(c)?.tau_hemispherical().into())));
+    let pairs =
+        components.filter_map(|c| Some((c.key().to_owned(), dataset.visible.get(c)?.tau_hemispherical().into())));
     Value::Object(pairs.collect())
 }
 

@@ -33,7 +33,8 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
             "The file holds no visible transmission; it cannot light a room.",
         )),
         Some(0.0) => {
-            findings.push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
+            findings
+                .push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
         }
         Some(_) => {}
     }
@@ -95,7 +96,11 @@ fn energy(band: &Band, name: &str, findings: &mut Vec<Finding>) -> Result<(), Fo
         if !largest.is_finite() || largest > limit {
             return Err(FormatError::new(
                 Location::file().in_element(block),
-                format!("a directional-hemispherical sum of {largest:.4}, which is not plausible"),
+                if largest < 1e4 {
+                    format!("a directional-hemispherical sum of {largest:.4}, which is not plausible")
+                } else {
+                    format!("a directional-hemispherical sum of {largest:.3e}, which is not plausible")
+                },
                 "sums of at most 1, values in 1/sr",
             ));
         }
@@ -179,7 +184,9 @@ fn derive_front(dataset: &mut Dataset, findings: &mut Vec<Finding>) {
             let emergent = reversed.emergent().clone().with_azimuth(AzimuthMap::KLEMS_FRONT);
             (Scattered::Cells(Box::new(resample_matrix(&reversed, &incident, &emergent))), "exactly")
         }
-        Scattered::Tree(tree) if tree.rank() == TreeRank::Four => (Scattered::Tree(Box::new(tree.reversed())), "exactly"),
+        Scattered::Tree(tree) if tree.rank() == TreeRank::Four => {
+            (Scattered::Tree(Box::new(tree.reversed())), "exactly")
+        }
         Scattered::Tree(tree) => {
             (Scattered::Tree(Box::new(tree.reversed())), "with its leaves averaged anew, as rank 3 demands")
         }
