@@ -291,7 +291,7 @@ impl TensorTree {
             sum / weight
         };
         let mut nodes = vec![TreeNode::Leaf(0.0)];
-        build_isotropic(self.grid.level(), [0; 3], 0, resolution / 2, &mean, &mut nodes, 0);
+        build_isotropic(self.grid.level(), [0; 3], 0, resolution / 2, &mean, &mut nodes);
         let mut tree = Self::new(self.rank, self.axes, nodes).expect("means of leaves are finite and not negative");
         let (want, got) = (self.tau_hemispherical(), tree.tau_hemispherical());
         if got > 0.0 {
@@ -455,7 +455,6 @@ fn build_isotropic(
     used: usize,
     mean: &impl Fn([usize; 3]) -> f64,
     nodes: &mut Vec<TreeNode>,
-    level: u32,
 ) {
     if levels_below == 0 {
         nodes[place] = TreeNode::Leaf(if corner[0] < used { mean(corner) } else { 0.0 });
@@ -470,7 +469,7 @@ fn build_isotropic(
     nodes.extend([TreeNode::Leaf(0.0); 8]);
     for child in 0..8 {
         let below = std::array::from_fn(|d| 2 * corner[d] + (child >> d & 1));
-        build_isotropic(levels_below - 1, below, start + child, used, mean, nodes, level + 1);
+        build_isotropic(levels_below - 1, below, start + child, used, mean, nodes);
     }
     let first = nodes[start];
     if nodes.len() == start + 8 && matches!(first, TreeNode::Leaf(_)) && nodes[start..].iter().all(|n| *n == first) {
