@@ -21,3 +21,4 @@ pub mod btdf;
 pub mod direction;
 pub mod estimate;
 pub mod lid;
+pub mod system;

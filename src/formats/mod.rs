@@ -1,1 +1,4 @@
 //! Bytes to compute types and back.
+
+pub mod dataset_blob;
+pub mod package;
