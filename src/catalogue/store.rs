@@ -38,7 +38,8 @@ pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed,
     let Some(first) = datasets.first() else {
         return refuse("there is no dataset".to_owned());
     };
-    let or = |told: String, own: &str| if told.trim().is_empty() { own.trim().to_owned() } else { told.trim().to_owned() };
+    let or =
+        |told: String, own: &str| if told.trim().is_empty() { own.trim().to_owned() } else { told.trim().to_owned() };
     let name = or(meta.name, &first.name);
     if name.is_empty() {
         return refuse("the product has no name, and the dataset does not give one".to_owned());
@@ -48,15 +49,14 @@ pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed,
     }
     let mut keys = HashSet::new();
     let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
-    for (index, dataset) in datasets.iter().enumerate() {
-        if !keys.insert(dataset.state.as_str()) || (datasets.len() > 1 && dataset.state.is_empty()) {
-            return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", dataset.state));
+    for (index, given) in datasets.iter().enumerate() {
+        if !keys.insert(given.state.as_str()) || (datasets.len() > 1 && given.state.is_empty()) {
+            return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", given.state));
         }
-        let blob = encode(dataset);
+        let blob = encode(given);
         let hash = content_hash(&blob);
-        if let Err(source) = decode(&blob) {
-            return Err(CatalogueError::Dataset { hash, source });
-        }
+        // All figures are those of what is stored (values rounded to f32), not of what came.
+        let dataset = &decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.clone(), source })?;
         let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
             return refuse(format!("dataset \"{}\" has no visible transmission", dataset.name));
         };
@@ -367,10 +367,8 @@ impl Catalogue {
             recent.push_back(entry);
             return Ok(dataset);
         }
-        let blob: Vec<u8> = self
-            .db
-            .prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?
-            .query_row([hash], |row| row.get(0))?;
+        let blob: Vec<u8> =
+            self.db.prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?.query_row([hash], |row| row.get(0))?;
         let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.to_owned(), source })?;
         let dataset = Arc::new(dataset);
         if recent.len() >= RECENT {

@@ -1,1 +1,6 @@
 //! The command line.
+
+pub mod catalogue;
+pub mod convert;
+pub mod dataset_file;
+pub mod info;
