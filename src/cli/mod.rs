@@ -1,6 +1,7 @@
 //! The command line: arguments in, files and tables out, no display needed.
 
 mod args;
+pub mod catalogue;
 pub mod convert;
 mod dataset_file;
 pub mod info;

@@ -4,12 +4,14 @@
 //! [`write_dataset`].
 
 pub mod bsdf_xml;
+pub mod dataset_blob;
 pub mod drawing;
 pub mod eulumdat;
 pub mod ies;
 pub mod lid_tables;
 mod location;
 pub mod luminaire;
+pub mod package;
 pub mod scan;
 
 pub use location::{FormatError, Location};
