@@ -1,6 +1,8 @@
 //! What can be typed.
 
-use super::{convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs};
+use super::{
+    catalogue::CatalogueArgs, convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+};
 use std::path::PathBuf;
 
 /// From a complex fenestration system's BTDF to the light in a room
@@ -18,6 +20,7 @@ Examples:
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
+  cfs catalogue list --search blind     products, built in and your own
 
 On bad input every command ends with status 2 and one line that says what would be right."
 )]
@@ -43,4 +46,6 @@ pub enum Command {
     Info(InfoArgs),
     /// A dataset in another format
     Convert(ConvertArgs),
+    /// List, show, import, export, validate products
+    Catalogue(CatalogueArgs),
 }
