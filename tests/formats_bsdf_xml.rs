@@ -49,7 +49,7 @@ impl File {
         )
         .unwrap();
         for (low, high, n) in RINGS {
-            write!(xml, "<AngleBasisBlock><nPhis>{n}</nPhis><ThetaBounds><LowerTheta>{low}</LowerTheta><UpperTheta>{high}</UpperTheta></ThetaBounds></AngleBasisBlock>\n").unwrap();
+            writeln!(xml, "<AngleBasisBlock><nPhis>{n}</nPhis><ThetaBounds><LowerTheta>{low}</LowerTheta><UpperTheta>{high}</UpperTheta></ThetaBounds></AngleBasisBlock>").unwrap();
         }
         xml += "</AngleBasis></DataDefinition>\n";
         let bases = if self.structure.starts_with("Tensor") {
@@ -243,7 +243,9 @@ fn refusals_name_the_place_and_what_would_be_right() {
             ),
             "document type declaration",
         ),
+        (swap("<Material>", &format!("<Material {}>", "a='' ".repeat(10_000))), "attributes"),
         (swap("<Material>", &"<Material>".repeat(100_000)), "nested more than"),
+        (swap("<Material>", &"<Material a='/>'>".repeat(100_000)), "nested more than"),
     ];
     for (xml, gist) in cases {
         let message = read(xml.as_bytes()).expect_err(gist).to_string();

@@ -1,7 +1,8 @@
 //! What a tensor tree sends out: luminances and indicatrices, summed over the tree without ever making it dense.
 
 use super::Indicatrix;
-use super::tensor_tree::{Pyramid, TensorTree, TreeNode, TreeRank};
+use super::pyramid::Pyramid;
+use super::tensor_tree::{TensorTree, TreeNode, TreeRank};
 use crate::compute::basis::{RingBasis, SquareGrid};
 use crate::compute::direction::Incident;
 use std::f64::consts::PI;

@@ -1,6 +1,8 @@
 //! Trees against closed forms: constants, single leaves, energy, reciprocity, rotation.
 
+use super::super::tensor_reversal::build_isotropic;
 use super::*;
+use crate::compute::basis::disk_from_square;
 
 fn random(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
