@@ -23,7 +23,7 @@ const LOBE: &str =
     "Gaussian lobe in direction cosines plus separable haze, balanced to the clear sheet's τ(θ) (symmetric Sinkhorn)";
 const EDMONDS: &str =
     "Closed form after Edmonds, Solar Energy Materials and Solar Cells 29 (1993), with Fresnel's faces";
-const SLATS: &str = "Strip radiosity with Hottel's crossed strings, 40 strips a face, and the exact direct share";
+const SLATS: &str = "Strip radiosity with Hottel's crossed strings, 20 strips a face, and the exact direct share";
 
 /// A product to be built in.
 struct Recipe {
