@@ -21,3 +21,5 @@ pub mod btdf;
 pub mod direction;
 pub mod estimate;
 pub mod lid;
+pub mod quadrature;
+pub mod sky;

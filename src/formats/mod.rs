@@ -1,1 +1,2 @@
 //! Bytes to compute types and back.
+pub mod scan;

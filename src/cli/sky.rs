@@ -1,0 +1,153 @@
+//! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
+
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::Estimate;
+use crate::compute::sky::patches::{mean_luminance, tregenza_patches};
+use crate::compute::sky::{Outside, Sun, irradiance};
+use crate::study::scene_file::SceneFile;
+use crate::study::sky::outside_from_keys;
+use anyhow::{Context, anyhow};
+use rayon::prelude::*;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Luminances of the 145 Tregenza patches of the sky dome
+#[derive(Debug, Clone, clap::Args)]
+pub struct SkyArgs {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Write the table to a CSV file instead of standard output
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Print patches and illuminances as JSON on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// One row of the table; luminances in cd/m².
+struct Row {
+    altitude_deg: f64,
+    azimuth_deg: f64,
+    omega: f64,
+    centre: f64,
+    mean: f64,
+}
+
+/// Runs the command; errors name the file and the key.
+pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
+    let name = args.scene.display();
+    let text = std::fs::read_to_string(&args.scene).with_context(|| format!("{name}"))?;
+    let scene: SceneFile = toml::from_str(&text).map_err(|error| anyhow!("{name}: {error}"))?;
+    let base_dir = args.scene.parent().unwrap_or(Path::new("."));
+    let (outside, sun) =
+        outside_from_keys(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
+
+    let rows = table(&outside);
+    let facade = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(scene.site.azimuth));
+    let vertical = irradiance(&outside, facade);
+    if let Some(path) = &args.out {
+        write_whole(path, csv(&rows).as_bytes()).with_context(|| format!("{}", path.display()))?;
+    }
+    if args.json {
+        println!("{:#}", json(&rows, &outside, sun.as_ref(), vertical, facade));
+    } else if args.out.is_none() {
+        print!("{}", csv(&rows));
+    }
+    let direct = sun.map_or(0.0, |sun| sun.horizontal());
+    let diffuse = outside.diffuse_horizontal();
+    eprintln!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
+    let beam = facade_beam(&outside, sun.as_ref(), facade);
+    eprintln!("facade: diffuse {:.6} lx, direct {beam:.6} lx, global {:.6} lx", vertical.value, vertical.value + beam);
+    Ok(())
+}
+
+fn table(outside: &Outside) -> Vec<Row> {
+    tregenza_patches()
+        .par_iter()
+        .map(|patch| Row {
+            altitude_deg: patch.altitude.to_degrees(),
+            azimuth_deg: patch.bearing.to_degrees(),
+            omega: patch.solid_angle(),
+            centre: outside.luminance(patch.centre()),
+            mean: mean_luminance(outside, patch).value,
+        })
+        .collect()
+}
+
+/// Beam on the façade: the disc's share above horizon and skyline, centre in front of the plane. [lx]
+fn facade_beam(outside: &Outside, sun: Option<&Sun>, facade: Dir<World>) -> f64 {
+    sun.map_or(0.0, |sun| {
+        sun.direct_normal * sun.direction.dot(facade).max(0.0) * sun.share_above(outside.skyline_altitude())
+    })
+}
+
+fn csv(rows: &[Row]) -> String {
+    let mut text = String::from("patch,altitude_deg,azimuth_deg,omega_sr,L_centre_cdm2,L_mean_cdm2\n");
+    for (patch, row) in rows.iter().enumerate() {
+        let (altitude, azimuth) = (tidy(row.altitude_deg), tidy(row.azimuth_deg));
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{patch},{altitude},{azimuth},{:.10},{:.6},{:.6}", row.omega, row.centre, row.mean);
+    }
+    text
+}
+
+/// Degrees without the last bits of their way through radians.
+fn tidy(degrees: f64) -> f64 {
+    (degrees * 1e9).round() / 1e9
+}
+
+fn json(
+    rows: &[Row],
+    outside: &Outside,
+    sun: Option<&Sun>,
+    vertical: Estimate,
+    facade: Dir<World>,
+) -> serde_json::Value {
+    let diffuse = outside.diffuse_horizontal();
+    let direct = sun.map_or(0.0, Sun::horizontal);
+    let beam = facade_beam(outside, sun, facade);
+    let patches: Vec<_> = rows
+        .iter()
+        .enumerate()
+        .map(|(patch, row)| {
+            serde_json::json!({
+                "patch": patch, "altitude_deg": tidy(row.altitude_deg), "azimuth_deg": tidy(row.azimuth_deg),
+                "omega_sr": row.omega, "L_centre_cdm2": row.centre, "L_mean_cdm2": row.mean,
+            })
+        })
+        .collect();
+    let sun = sun.map(|sun| {
+        serde_json::json!({
+            "altitude_deg": sun.direction.altitude().to_degrees(),
+            "azimuth_deg": sun.direction.bearing().degrees(),
+            "direct_normal_lx": sun.direct_normal,
+        })
+    });
+    serde_json::json!({
+        "horizontal": { "diffuse_lx": diffuse, "direct_lx": direct, "global_lx": diffuse + direct },
+        "facade": {
+            "diffuse_lx": vertical.value, "diffuse_error_lx": vertical.error,
+            "direct_lx": beam, "global_lx": vertical.value + beam,
+        },
+        "ground_luminance_cdm2": outside.ground_luminance(),
+        "sun": sun,
+        "patches": patches,
+    })
+}
+
+/// Writes beside the target and renames, so that nothing half-written is left behind.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".part");
+    let partial = PathBuf::from(partial);
+    let result = std::fs::File::create(&partial)
+        .and_then(|mut file| file.write_all(bytes))
+        .and_then(|()| std::fs::rename(&partial, path));
+    if result.is_err() {
+        // The first error is the one to report.
+        let _ = std::fs::remove_file(&partial);
+    }
+    result
+}

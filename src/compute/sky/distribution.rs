@@ -1,0 +1,107 @@
+//! Relative luminance of the sky above the horizon: every model behind one enum.
+
+use super::cie;
+use super::perez::PerezState;
+use super::scan::Scan;
+use crate::compute::direction::{Dir, World};
+use glam::DVec3;
+
+/// (1 + a·e^{b/cosZ}) · (base + c·e^{dχ} + e·cos²χ), the common form of the CIE general skies and of Perez et al.
+/// Each factor is taken as 0 where it is negative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Gradated {
+    pub a: f64,
+    pub b: f64,
+    /// 1 for Perez, 1 − c·e^{dπ/2} for CIE.
+    pub base: f64,
+    pub c: f64,
+    pub d: f64,
+    pub e: f64,
+}
+
+impl Gradated {
+    /// Gradation factor at the sine of the altitude, z > 0; 1 on the horizon as ISO 15469 has it.
+    #[inline]
+    pub fn gradation(&self, z: f64) -> f64 {
+        if self.a == 0.0 || z <= 0.0 { 1.0 } else { (1.0 + self.a * (self.b / z).exp()).max(0.0) }
+    }
+
+    /// Indicatrix factor at the angle χ from the sun. [rad]
+    #[inline]
+    pub fn indicatrix(&self, chi: f64) -> f64 {
+        let cos = chi.cos();
+        self.indicatrix_with_cosine(chi, cos)
+    }
+
+    #[inline]
+    fn indicatrix_with_cosine(&self, chi: f64, cos: f64) -> f64 {
+        (self.base + self.c * (self.d * chi).exp() + self.e * cos * cos).max(0.0)
+    }
+
+    /// No dependence on the sun.
+    pub fn symmetric(&self) -> bool {
+        self.c == 0.0 && self.e == 0.0
+    }
+}
+
+/// Which model a [`Distribution`] follows.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Model {
+    Uniform,
+    /// (1 + 2 sin γ)/3
+    Overcast,
+    Gradated(Gradated, DVec3),
+    Scan(Box<Scan>),
+}
+
+/// Relative luminance of a sky, not yet scaled to an illuminance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    pub(super) model: Model,
+}
+
+impl Distribution {
+    /// The same luminance everywhere.
+    pub const fn uniform() -> Self {
+        Self { model: Model::Uniform }
+    }
+
+    /// CIE type 1 … 15 (ISO 15469) with its sun, or 16, the traditional overcast sky (1 + 2 sin γ)/3, which takes no
+    /// notice of the sun. `None` for another number.
+    pub fn cie(sky_type: u8, sun: Dir<World>) -> Option<Self> {
+        if sky_type == 16 {
+            return Some(Self { model: Model::Overcast });
+        }
+        cie::gradated(sky_type).map(|sky| Self { model: Model::Gradated(sky, sun.vector()) })
+    }
+
+    /// Perez all-weather sky (1993) of a state, with its sun.
+    pub fn perez(state: &PerezState, sun: Dir<World>) -> Self {
+        let [a, b, c, d, e] = state.coefficients;
+        Self { model: Model::Gradated(Gradated { a, b, base: 1.0, c, d, e }, sun.vector()) }
+    }
+
+    /// 145 measured luminances, constant over the band cells of the Tregenza lattice.
+    pub fn scan(scan: Scan) -> Self {
+        Self { model: Model::Scan(Box::new(scan)) }
+    }
+
+    /// Relative luminance of a direction above the horizon (z ≥ 0).
+    #[inline]
+    pub(super) fn relative(&self, v: DVec3) -> f64 {
+        match &self.model {
+            Model::Uniform => 1.0,
+            Model::Overcast => (1.0 + 2.0 * v.z) / 3.0,
+            Model::Gradated(sky, sun) => {
+                let gradation = sky.gradation(v.z);
+                if sky.symmetric() {
+                    return gradation * sky.base.max(0.0);
+                }
+                // From half the chord: exact near the sun, where acos of the cosine has lost half its digits.
+                let chi = 2.0 * (0.5 * (v - *sun).length()).min(1.0).asin();
+                gradation * sky.indicatrix_with_cosine(chi, v.dot(*sun))
+            }
+            Model::Scan(scan) => scan.value(v),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Illuminance of the open horizontal plane under a relative distribution: what a sky is scaled by.
+
+use super::distribution::{Distribution, Gradated, Model};
+use super::patches::tregenza_patches;
+use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::{Tolerance, integrate};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Relative accuracy of the inner and the outer integral: together well below 1e-8.
+const INNER: Tolerance = Tolerance::relative(1e-11);
+const OUTER: Tolerance = Tolerance::relative(1e-10);
+
+/// ∫ L cosZ dω over the upper hemisphere, L relative.
+pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
+    match &distribution.model {
+        Model::Uniform => Estimate::exact(PI),
+        // π/3 + (2/3)·(2π/3)
+        Model::Overcast => Estimate::exact(7.0 * PI / 9.0),
+        Model::Gradated(sky, sun) => gradated(sky, sun.z.atan2(sun.truncate().length())),
+        Model::Scan(scan) => {
+            let flux = tregenza_patches()
+                .iter()
+                .zip(scan.values())
+                .map(|(patch, luminance)| {
+                    let (low, high) = (patch.altitude_min, patch.altitude_max);
+                    luminance * 0.5 * patch.width * (high - low).sin() * (high + low).sin()
+                })
+                .sum();
+            Estimate::exact(flux)
+        }
+    }
+}
+
+/// Of a gradated sky with the sun at an altitude [rad].
+///
+/// Without a circumsolar part: 2π ∫ φ(z) z dz. With one, in polar coordinates about the sun, where its tip is no
+/// longer one: ∫ f(χ) sinχ [∫ φ(z) z dψ] dχ with z = cosχ sin h + sinχ cos h cosψ. Knots are where a circle about the
+/// sun touches the horizon or the circle on which the gradation becomes 0, and where the indicatrix becomes 0.
+fn gradated(sky: &Gradated, altitude: f64) -> Estimate {
+    let zero = gradation_zero(sky);
+    if sky.symmetric() {
+        let mut knots = vec![0.0, 1.0];
+        knots.extend(zero);
+        knots.sort_by(f64::total_cmp);
+        return integrate(|z| sky.gradation(z) * z, &knots, OUTER) * (2.0 * PI * sky.base.max(0.0));
+    }
+    let (sin_h, cos_h) = altitude.sin_cos();
+    let zenith_angle = FRAC_PI_2 - altitude;
+    let mut knots = vec![0.0, PI];
+    for z in [Some(0.0), zero].into_iter().flatten() {
+        let radius: f64 = f64::acos(z);
+        knots.extend([(zenith_angle - radius).abs(), zenith_angle + radius, 2.0 * PI - zenith_angle - radius]);
+    }
+    knots.extend(indicatrix_zeros(sky));
+    knots.retain(|chi| (0.0..=PI).contains(chi));
+    knots.sort_by(f64::total_cmp);
+
+    let mut inner_error: f64 = 0.0;
+    let outer = integrate(
+        |chi| {
+            let (sin_chi, cos_chi) = chi.sin_cos();
+            let (level, swing) = (cos_chi * sin_h, sin_chi * cos_h);
+            let end = circle_angle(level, swing, 0.0);
+            let mut inner_knots = vec![0.0, end];
+            inner_knots.extend(zero.map(|z| circle_angle(level, swing, z)).filter(|psi| *psi < end));
+            inner_knots.sort_by(f64::total_cmp);
+            let inner = integrate(
+                |psi| {
+                    let z = level + swing * psi.cos();
+                    sky.gradation(z) * z.max(0.0)
+                },
+                &inner_knots,
+                INNER,
+            ) * 2.0;
+            let weight = sky.indicatrix(chi) * sin_chi;
+            inner_error = inner_error.max(inner.error * weight);
+            inner.value * weight
+        },
+        &knots,
+        OUTER,
+    );
+    Estimate::new(outer.value, outer.error + PI * inner_error)
+}
+
+/// ψ ∈ 0 … π up to which level + swing·cosψ exceeds z.
+fn circle_angle(level: f64, swing: f64, z: f64) -> f64 {
+    if level - swing >= z {
+        PI
+    } else if level + swing <= z {
+        0.0
+    } else {
+        ((z - level) / swing).clamp(-1.0, 1.0).acos()
+    }
+}
+
+/// Sine of the altitude at which 1 + a·e^{b/z} changes sign, if it does so above the horizon.
+pub(super) fn gradation_zero(sky: &Gradated) -> Option<f64> {
+    // e^{b/z} = −1/a
+    let z = (sky.a < 0.0).then(|| sky.b / (-1.0 / sky.a).ln())?;
+    (z > 0.0 && z < 1.0).then_some(z)
+}
+
+/// Angles from the sun at which the indicatrix changes sign. [rad]
+pub(super) fn indicatrix_zeros(sky: &Gradated) -> Vec<f64> {
+    let raw = |chi: f64| sky.base + sky.c * (sky.d * chi).exp() + sky.e * chi.cos().powi(2);
+    const STEPS: usize = 180;
+    let at = |i: usize| PI * i as f64 / STEPS as f64;
+    let mut zeros = Vec::new();
+    for i in 0..STEPS {
+        let (mut low, mut high) = (at(i), at(i + 1));
+        let sign = raw(low) > 0.0;
+        if sign == (raw(high) > 0.0) {
+            continue;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if (raw(middle) > 0.0) == sign { low = middle } else { high = middle }
+        }
+        zeros.push(0.5 * (low + high));
+    }
+    zeros
+}

@@ -1,0 +1,73 @@
+//! Tregenza's 145 patches of the sky dome.
+
+use super::Outside;
+use super::region::{Frame, Region, Weight, integrate_region};
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::Tolerance;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Patches per row, lowest row first.
+pub const ROWS: [usize; 8] = [30, 30, 24, 24, 18, 12, 6, 1];
+/// Height of a row: 12°. The last is a cap above 84°. [rad]
+pub const ROW_HEIGHT: f64 = 12.0 * PI / 180.0;
+
+/// One patch: a band cell of the dome.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patch {
+    /// Lower edge. [rad]
+    pub altitude_min: f64,
+    /// Upper edge. [rad]
+    pub altitude_max: f64,
+    /// Altitude of the centre; of the cap: 90°. [rad]
+    pub altitude: f64,
+    /// Bearing of the centre. [rad]
+    pub bearing: f64,
+    /// Width in bearing. [rad]
+    pub width: f64,
+}
+
+impl Patch {
+    /// Solid angle of the band cell. [sr]
+    pub fn solid_angle(&self) -> f64 {
+        self.width * (self.altitude_max.sin() - self.altitude_min.sin())
+    }
+
+    /// The centre.
+    pub fn centre(&self) -> Dir<World> {
+        Dir::from_altitude_bearing(self.altitude, Bearing::from_radians(self.bearing))
+    }
+}
+
+/// The 145 patches: lowest row first, each row clockwise from north, its first patch centred on north.
+pub fn tregenza_patches() -> Vec<Patch> {
+    let mut patches = Vec::with_capacity(145);
+    for (row, &count) in ROWS.iter().enumerate() {
+        let altitude_min = row as f64 * ROW_HEIGHT;
+        let altitude_max = if count == 1 { FRAC_PI_2 } else { altitude_min + ROW_HEIGHT };
+        let altitude = if count == 1 { FRAC_PI_2 } else { 0.5 * (altitude_min + altitude_max) };
+        let width = 2.0 * PI / count as f64;
+        for k in 0..count {
+            patches.push(Patch { altitude_min, altitude_max, altitude, bearing: k as f64 * width, width });
+        }
+    }
+    patches
+}
+
+/// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. [cd/m²]
+pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
+    let tolerance = Tolerance::relative(1e-8);
+    // The cap goes all the way round: in quarters, as the rules are made for smooth pieces.
+    let pieces = if patch.width > PI { 4 } else { 1 };
+    let step = patch.width / f64::from(pieces);
+    let flux: Estimate = (0..pieces)
+        .map(|piece| {
+            let from = patch.bearing - 0.5 * patch.width + f64::from(piece) * step;
+            let theta = (FRAC_PI_2 - patch.altitude_max, FRAC_PI_2 - patch.altitude_min);
+            let region = Region { frame: Frame::DOME, theta, phi: (from, from + step) };
+            integrate_region(outside, &region, Weight::Solid, tolerance)
+        })
+        .sum();
+    flux * (1.0 / patch.solid_angle())
+}

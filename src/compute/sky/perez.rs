@@ -1,0 +1,164 @@
+//! Perez all-weather skies: from irradiances to the state of the sky, its luminance coefficients and luminous efficacies.
+//!
+//! Sources: Perez, Seals, Michalsky, "All-weather model for sky luminance distribution", Solar Energy 50 (1993)
+//! 235–245; Perez, Ineichen, Seals, Michalsky, Stewart, "Modeling daylight availability …", Solar Energy 44 (1990)
+//! 271–289 (efficacy); Kasten 1965 (air mass). E₀ = 1367 W/m² without the eccentricity of the earth's orbit, since a
+//! scene given by sun angles has no date.
+
+use std::f64::consts::FRAC_PI_2;
+
+/// Solar constant. [W/m²]
+const SOLAR_CONSTANT: f64 = 1367.0;
+/// Lower borders of the clearness bins 2 … 8.
+const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
+/// Precipitable water where nothing is known of it. [cm]
+const WATER: f64 = 2.0;
+
+/// a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin.
+const LUMINANCE: [[[f64; 4]; 5]; 8] = [
+    [
+        [1.3525, -0.2576, -0.2690, -1.4366],
+        [-0.7670, 0.0007, 1.2734, -0.1233],
+        [2.8000, 0.6004, 1.2375, 1.0000],
+        [1.8734, 0.6297, 0.9738, 0.2809],
+        [0.0356, -0.1246, -0.5718, 0.9938],
+    ],
+    [
+        [-1.2219, -0.7730, 1.4148, 1.1016],
+        [-0.2054, 0.0367, -3.9128, 0.9156],
+        [6.9750, 0.1774, 6.4477, -0.1239],
+        [-1.5798, -0.5081, -1.7812, 0.1080],
+        [0.2624, 0.0672, -0.2190, -0.4285],
+    ],
+    [
+        [-1.1000, -0.2515, 0.8952, 0.0156],
+        [0.2782, -0.1812, -4.5000, 1.1766],
+        [24.7219, -13.0812, -37.7000, 34.8438],
+        [-5.0000, 1.5218, 3.9229, -2.6204],
+        [-0.0156, 0.1597, 0.4199, -0.5562],
+    ],
+    [
+        [-0.5484, -0.6654, -0.2672, 0.7117],
+        [0.7234, -0.6219, -5.6812, 2.6297],
+        [33.3389, -18.3000, -62.2500, 52.0781],
+        [-3.5000, 0.0016, 1.1477, 0.1062],
+        [0.4659, -0.3296, -0.0876, -0.0329],
+    ],
+    [
+        [-0.6000, -0.3566, -2.5000, 2.3250],
+        [0.2937, 0.0496, -5.6812, 1.8415],
+        [21.0000, -4.7656, -21.5906, 7.2492],
+        [-3.5000, -0.1554, 1.4062, 0.3988],
+        [0.0032, 0.0766, -0.0656, -0.1294],
+    ],
+    [
+        [-1.0156, -0.3670, 1.0078, 1.4051],
+        [0.2875, -0.5328, -3.8500, 3.3750],
+        [14.0000, -0.9999, -7.1406, 7.5469],
+        [-3.4000, -0.1078, -1.0750, 1.5702],
+        [-0.0672, 0.4016, 0.3017, -0.4844],
+    ],
+    [
+        [-1.0000, 0.0211, 0.5025, -0.5119],
+        [-0.3000, 0.1922, 0.7023, -1.6317],
+        [19.0000, -5.0000, 1.2438, -1.9094],
+        [-4.0000, 0.0250, 0.3844, 0.2656],
+        [1.0468, -0.3788, -2.4517, 1.4656],
+    ],
+    [
+        [-1.0500, 0.0289, 0.4260, 0.3590],
+        [-0.3250, 0.1156, 0.7781, 0.0025],
+        [31.0625, -14.5000, -46.1148, 55.3750],
+        [-7.2312, 0.4050, 13.3500, 0.6234],
+        [1.5000, -0.6426, 1.8564, 0.5636],
+    ],
+];
+
+/// Luminous efficacy of the diffuse light per bin: a + b·W + c·cosZ + d·lnΔ. [lm/W]
+const DIFFUSE_EFFICACY: [[f64; 4]; 8] = [
+    [97.24, -0.46, 12.00, -8.91],
+    [107.22, 1.15, 0.59, -3.95],
+    [104.97, 2.96, -5.53, -8.77],
+    [102.39, 5.59, -13.95, -13.90],
+    [100.71, 5.94, -22.75, -23.74],
+    [106.42, 3.83, -36.15, -28.83],
+    [141.88, 1.90, -53.24, -14.03],
+    [152.23, 0.35, -45.27, -7.98],
+];
+
+/// Luminous efficacy of the beam per bin: max(0, a + b·W + c·e^{5.73Z−5} + d·Δ). [lm/W]
+const DIRECT_EFFICACY: [[f64; 4]; 8] = [
+    [57.20, -4.55, -2.98, 117.12],
+    [98.99, -3.46, -1.21, 12.38],
+    [109.83, -4.90, -1.71, -8.81],
+    [110.34, -5.84, -1.99, -4.56],
+    [106.36, -3.97, -1.75, -6.16],
+    [107.19, -1.25, -1.51, -26.73],
+    [105.75, 0.77, -1.26, -34.44],
+    [101.18, 1.58, -1.10, -8.29],
+];
+
+/// The state of a Perez sky.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PerezState {
+    /// Clearness ε, 1 … 12.009.
+    pub clearness: f64,
+    /// Brightness Δ, 0.01 … 0.6, as the efficacy takes it; the luminance raises it to 0.2 for 1.065 < ε < 2.8.
+    pub brightness: f64,
+    /// a, b, c, d, e of the relative luminance.
+    pub coefficients: [f64; 5],
+    /// Zenith angle of the sun. [rad]
+    zenith: f64,
+    bin: usize,
+}
+
+impl PerezState {
+    /// From the sun's altitude (above the horizon) [rad], direct normal and diffuse horizontal irradiance [W/m²].
+    /// `None` where the model has no meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
+    pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64) -> Option<Self> {
+        let valid = altitude > 0.0
+            && altitude <= FRAC_PI_2 + 1e-12
+            && direct_normal >= 0.0
+            && direct_normal.is_finite()
+            && diffuse_horizontal > 0.0
+            && diffuse_horizontal.is_finite();
+        if !valid {
+            return None;
+        }
+        let zenith = (FRAC_PI_2 - altitude).max(0.0);
+        let cubed = 1.041 * zenith.powi(3);
+        let clearness = ((diffuse_horizontal + direct_normal) / diffuse_horizontal + cubed) / (1.0 + cubed);
+        let clearness = clearness.clamp(1.0, 12.009);
+        let air_mass = 1.0 / (zenith.cos() + 0.15 * (93.885 - zenith.to_degrees()).powf(-1.253));
+        let brightness = (diffuse_horizontal * air_mass / SOLAR_CONSTANT).clamp(0.01, 0.6);
+        let bin = BIN_BORDERS.iter().filter(|&&border| clearness >= border).count();
+        let coefficients = luminance_coefficients(bin, clearness, brightness, zenith);
+        Some(Self { clearness, brightness, coefficients, zenith, bin })
+    }
+
+    /// Luminous efficacy of the diffuse light. [lm/W]
+    pub fn diffuse_efficacy(&self) -> f64 {
+        let [a, b, c, d] = DIFFUSE_EFFICACY[self.bin];
+        (a + b * WATER + c * self.zenith.cos() + d * self.brightness.ln()).max(0.0)
+    }
+
+    /// Luminous efficacy of the beam. [lm/W]
+    pub fn direct_efficacy(&self) -> f64 {
+        let [a, b, c, d] = DIRECT_EFFICACY[self.bin];
+        (a + b * WATER + c * (5.73 * self.zenith - 5.0).exp() + d * self.brightness).max(0.0)
+    }
+}
+
+/// x = x₁ + x₂Z + Δ(x₃ + x₄Z); in the first bin c and d have forms of their own (Perez 1993 eq 7, 8).
+fn luminance_coefficients(bin: usize, clearness: f64, brightness: f64, zenith: f64) -> [f64; 5] {
+    let delta = if clearness > 1.065 && clearness < 2.8 { brightness.max(0.2) } else { brightness };
+    let rows = LUMINANCE[bin];
+    let mut x = rows.map(|[x1, x2, x3, x4]| x1 + x2 * zenith + delta * (x3 + x4 * zenith));
+    if bin == 0 {
+        let [c1, c2, c3, c4] = rows[2];
+        let [d1, d2, d3, d4] = rows[3];
+        x[2] = (delta * (c1 + c2 * zenith)).powf(c3).exp() - c4;
+        x[3] = -(delta * (d1 + d2 * zenith)).exp() + d3 + delta * d4;
+    }
+    x
+}

@@ -1,0 +1,71 @@
+//! Sky scans: 145 luminances on Tregenza's lattice, lowest row first, each row clockwise from north.
+//!
+//! Read: text with numbers separated by commas, semicolons, tabs or blanks. Either one or more bare numbers a line,
+//! 145 in all; or a table with a header that has a column `L_mean_cdm2`, `luminance` or, failing these,
+//! `L_centre_cdm2`, with 145 rows in order. Lines that begin with `#` are comments. Not read: other lattices, gaps.
+
+use crate::compute::sky::Scan;
+
+/// Why the text is no scan.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ScanError {
+    /// Not text.
+    #[error("not UTF-8 text at byte {0}")]
+    NotText(usize),
+    /// A field that is no luminance.
+    #[error("line {line}: \"{found}\" is no luminance (expected a number of 0 cd/m² or more)")]
+    Number {
+        /// Line number, from 1.
+        line: usize,
+        /// The field.
+        found: String,
+    },
+    /// A header without a known column.
+    #[error("line {line}: no column L_mean_cdm2, luminance or L_centre_cdm2 in the header")]
+    Header {
+        /// Line number, from 1.
+        line: usize,
+    },
+    /// Wrong number of values.
+    #[error("{0} luminances (expected the 145 of Tregenza's lattice)")]
+    Count(usize),
+}
+
+/// Reads 145 luminances. [cd/m²]
+pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
+    let text = std::str::from_utf8(bytes).map_err(|error| ScanError::NotText(error.valid_up_to()))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut values = Vec::with_capacity(145);
+    let mut column = None;
+    let mut first = true;
+    for (index, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let number = index + 1;
+        let fields: Vec<&str> = line.split([',', ';', '\t', ' ']).filter(|field| !field.is_empty()).collect();
+        if std::mem::take(&mut first) && fields.iter().any(|field| field.parse::<f64>().is_err()) {
+            column = Some(value_column(&fields).ok_or(ScanError::Header { line: number })?);
+            continue;
+        }
+        let chosen = match column {
+            Some(column) => fields.get(column..=column).unwrap_or(&["(missing)"]),
+            None => &fields[..],
+        };
+        for field in chosen {
+            let value = field.parse::<f64>().ok().filter(|value| value.is_finite() && *value >= 0.0);
+            values.push(value.ok_or_else(|| ScanError::Number { line: number, found: (*field).to_owned() })?);
+        }
+        if values.len() > 100_000 {
+            break;
+        }
+    }
+    Scan::new(&values).ok_or(ScanError::Count(values.len()))
+}
+
+fn value_column(header: &[&str]) -> Option<usize> {
+    ["L_mean_cdm2", "luminance", "L_centre_cdm2"]
+        .iter()
+        .find_map(|name| header.iter().position(|field| field.eq_ignore_ascii_case(name)))
+}
