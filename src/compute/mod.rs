@@ -22,4 +22,5 @@ pub mod direction;
 pub mod estimate;
 pub mod lid;
 pub mod quadrature;
+pub mod room;
 pub mod sky;

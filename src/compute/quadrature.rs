@@ -72,7 +72,7 @@ pub fn gauss_legendre(order: usize) -> Vec<(f64, f64)> {
 const KRONROD_15: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4),
     (0.207_784_955_007_898_47, 0.204_432_940_075_298_9, 0.0),
-    (0.405_845_151_377_397_2, 0.190_350_578_064_785_4, 0.381_830_050_505_118_94),
+    (0.405_845_151_377_397_2, 0.190_350_578_064_785_4, 0.381_830_050_505_118_9),
     (0.586_087_235_467_691_1, 0.169_004_726_639_267_9, 0.0),
     (0.741_531_185_599_394_4, 0.140_653_259_715_525_92, 0.279_705_391_489_276_7),
     (0.864_864_423_359_769_1, 0.104_790_010_322_250_18, 0.0),
@@ -266,4 +266,59 @@ pub fn integrate_rectangles(
         |domain| kronrod_7_squared(&mut f, domain),
         |domain, second_axis| domain.halves(second_axis),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gauss_legendre_is_exact_for_its_degree() {
+        for order in [1, 2, 5, 12, 40] {
+            let rule = gauss_legendre(order);
+            for degree in [0, 1, 2 * order - 1] {
+                let sum: f64 = rule.iter().map(|(x, weight)| weight * x.powi(degree as i32)).sum();
+                assert!((sum * (degree + 1) as f64 - 1.0).abs() < 1e-13, "order {order}, degree {degree}: {sum}");
+            }
+        }
+    }
+
+    #[test]
+    fn kronrod_rules_are_exact_for_their_degree() {
+        // 15 points: degree 22; 7 points: degree 11, in each axis.
+        let line = kronrod_15(&mut |x: f64| 23.0 * x.powi(22), 0.0, 1.0);
+        assert!((line.value - 1.0).abs() < 1e-14);
+        let (square, _) = kronrod_7_squared(&mut |x: f64, y: f64| 144.0 * (x * y).powi(11), Rectangle::UNIT);
+        assert!((square.value - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn errors_bound_the_truth_for_smooth_and_rough() {
+        let cases: [(fn(f64) -> f64, f64); 4] = [
+            (|x| x.exp(), 1_f64.exp() - 1.0),
+            (|x| x.sqrt(), 2.0 / 3.0),
+            (|x| (x - 0.3).abs(), 0.5 * (0.09 + 0.49)),
+            (|x| 1.0 / (1e-4 + (x - 0.7).powi(2)), 100.0 * ((30_f64).atan() + (70_f64).atan())),
+        ];
+        for (index, (f, truth)) in cases.into_iter().enumerate() {
+            let got = integrate(f, &[0.0, 1.0], Tolerance::relative(1e-9));
+            assert!((got.value - truth).abs() <= got.error.max(1e-14 * truth), "{index}: {got:?} {truth}");
+            assert!(got.error <= 1.1e-9 * truth, "{index}: {got:?}");
+        }
+    }
+
+    #[test]
+    fn rectangles_adapt_to_a_cone() {
+        // ∬ √(x² + y²) over the unit square = (√2 + asinh 1)/3
+        let truth = (2_f64.sqrt() + 1_f64.asinh()) / 3.0;
+        let got = integrate_rectangles(f64::hypot, &[Rectangle::UNIT], Tolerance::relative(1e-8));
+        assert!((got.value - truth).abs() <= got.error && got.error < 1.1e-8, "{got:?}");
+    }
+
+    #[test]
+    fn effort_is_bounded_and_told() {
+        let tolerance = Tolerance { max_pieces: 10, ..Tolerance::relative(1e-12) };
+        let got = integrate(|x: f64| (1e4 * x).sin().signum(), &[0.0, 1.0], tolerance);
+        assert!(got.error > 1e-3);
+    }
 }

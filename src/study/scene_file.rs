@@ -83,47 +83,132 @@ pub struct ApertureKeys {
 }
 
 /// `aperture.reflectance`: a number, or "dataset".
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ApertureReflectance {
+    /// The dataset's own back reflection where it has one, 0 for ideal systems.
+    #[default]
+    Dataset,
     /// Diffuse reflectance of the room side, 0 … 1.
     Value(f64),
-    /// The dataset's own back reflection where it has one, 0 for ideal systems.
-    Dataset(DatasetWord),
-    /// Not given: as "dataset".
-    #[default]
-    #[serde(skip)]
-    Default,
 }
 
-/// The word "dataset".
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DatasetWord {
-    /// "dataset"
-    #[serde(rename = "dataset")]
-    Dataset,
+impl Serialize for ApertureReflectance {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Dataset => serializer.serialize_str("dataset"),
+            Self::Value(value) => serializer.serialize_f64(*value),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for ApertureReflectance {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl serde::de::Visitor<'_> for Visitor {
+            type Value = ApertureReflectance;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a reflectance from 0 to 1 or the word \"dataset\"")
+            }
+            fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Self::Value, E> {
+                Ok(ApertureReflectance::Value(value))
+            }
+            fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Self::Value, E> {
+                Ok(ApertureReflectance::Value(value as f64))
+            }
+            fn visit_u64<E: serde::de::Error>(self, value: u64) -> Result<Self::Value, E> {
+                Ok(ApertureReflectance::Value(value as f64))
+            }
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
+                if text == "dataset" {
+                    Ok(ApertureReflectance::Dataset)
+                } else {
+                    Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+                }
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
 }
 
 /// `aperture.system`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(try_from = "SystemAsTyped", into = "SystemAsTyped")]
 pub enum SystemKeys {
     /// `{ ideal = "transparent", transmittance = 1.0 }`
-    Ideal(IdealKeys),
+    Ideal {
+        /// Transparent or diffuse.
+        kind: IdealKind,
+        /// 0 … 1
+        transmittance: f64,
+    },
     /// `{ file = "system.xml" }`
-    File(FileKeys),
+    File {
+        /// Relative to the scene file.
+        path: PathBuf,
+        /// Key of the state in a file of several.
+        state: Option<String>,
+    },
     /// `{ catalogue = "product-key", state = "45" }`
-    Catalogue(CatalogueKeys),
+    Catalogue {
+        /// Product key.
+        key: String,
+        /// Key of the state, or "controlled".
+        state: Option<String>,
+    },
 }
 
-/// An ideal system.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// All keys that `aperture.system` may have; which belong together is judged afterwards, so that the message can say.
+#[derive(Debug, Clone, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
-pub struct IdealKeys {
-    /// Transparent or diffuse.
-    pub ideal: IdealKind,
-    /// 0 … 1
-    pub transmittance: f64,
+struct SystemAsTyped {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ideal: Option<IdealKind>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transmittance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    catalogue: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state: Option<String>,
+}
+
+impl TryFrom<SystemAsTyped> for SystemKeys {
+    type Error = String;
+
+    fn try_from(typed: SystemAsTyped) -> Result<Self, String> {
+        match typed {
+            SystemAsTyped {
+                ideal: Some(kind),
+                transmittance: Some(transmittance),
+                file: None,
+                catalogue: None,
+                state: None,
+            } => Ok(Self::Ideal { kind, transmittance }),
+            SystemAsTyped { ideal: None, transmittance: None, file: Some(path), catalogue: None, state } => {
+                Ok(Self::File { path, state })
+            }
+            SystemAsTyped { ideal: None, transmittance: None, file: None, catalogue: Some(key), state } => {
+                Ok(Self::Catalogue { key, state })
+            }
+            _ => Err(
+                "system needs exactly one of: ideal and transmittance; file; catalogue (state goes with the last two)"
+                    .into(),
+            ),
+        }
+    }
+}
+
+impl From<SystemKeys> for SystemAsTyped {
+    fn from(keys: SystemKeys) -> Self {
+        match keys {
+            SystemKeys::Ideal { kind, transmittance } => {
+                Self { ideal: Some(kind), transmittance: Some(transmittance), ..Self::default() }
+            }
+            SystemKeys::File { path, state } => Self { file: Some(path), state, ..Self::default() },
+            SystemKeys::Catalogue { key, state } => Self { catalogue: Some(key), state, ..Self::default() },
+        }
+    }
 }
 
 /// `system.ideal`
@@ -134,28 +219,6 @@ pub enum IdealKind {
     Transparent,
     /// Lambertian emission, τ independent of incidence.
     Diffuse,
-}
-
-/// A dataset file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FileKeys {
-    /// Relative to the scene file.
-    pub file: PathBuf,
-    /// Key of the state in a file of several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub state: Option<String>,
-}
-
-/// A product of the catalogue.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CatalogueKeys {
-    /// Product key.
-    pub catalogue: String,
-    /// Key of the state, or "controlled".
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub state: Option<String>,
 }
 
 /// `[site]`

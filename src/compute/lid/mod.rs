@@ -1,5 +1,9 @@
 //! The luminous-intensity distribution of an aperture: what the room side emits, as a luminaire would.
 
+mod emission;
+
+pub use emission::{CellLight, Emission, Facing};
+
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use std::fmt;

@@ -1,0 +1,221 @@
+//! What the room side of an aperture emits under a given outside: the report's eq 8 as parts that the near field can
+//! integrate each in its own exact way.
+//!
+//! Linear data on cells (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
+//! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
+
+use super::{Beam, EmergentLuminance, Lid};
+use crate::compute::basis::{Ring, RingBasis};
+use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
+use crate::compute::direction::{Dir, Emergent, Facade, Orientation, Surface};
+use crate::compute::estimate::Estimate;
+use crate::compute::room::sun_disc::{self, Edge};
+use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
+use glam::DVec3;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Outside as one aperture faces it.
+#[derive(Debug, Clone, Copy)]
+pub struct Facing<'a> {
+    /// Sky, ground, skyline.
+    pub outside: &'a Outside,
+    /// The disc, if it shines at all.
+    pub sun: Option<&'a Sun>,
+    /// Turns the room to the compass.
+    pub orientation: Orientation,
+    /// The aperture's surface.
+    pub surface: Surface,
+}
+
+impl Facing<'_> {
+    /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
+    pub fn sun_direction(&self) -> Option<Dir<Facade>> {
+        self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
+    }
+
+    /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
+    /// the aperture's frame.
+    pub fn sun_edges(&self) -> [Edge; 2] {
+        let zenith = self.surface.facade_from_room(DVec3::Z);
+        let offset = self.outside.skyline_altitude().sin();
+        [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]
+    }
+
+    /// Illuminance of the aperture's outside by the sun's disc. [lx]
+    pub fn sun_illuminance(&self) -> f64 {
+        match (self.sun, self.sun_direction()) {
+            (Some(sun), Some(direction)) => {
+                sun.direct_normal * sun_disc::share(direction.vector(), DVec3::Z, self.sun_edges())
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// Luminance on emergent cells, diffuse light and sun apart. [cd/m²]
+#[derive(Debug, Clone)]
+pub struct CellLight {
+    /// Emergent cells, by through-name.
+    pub basis: Arc<RingBasis>,
+    /// From sky, ground and skyline.
+    pub diffuse: Vec<f64>,
+    /// From the sun's scattered light.
+    pub sun: Vec<f64>,
+    /// Error of the luminances, relative.
+    pub relative_error: f64,
+}
+
+/// Everything that an aperture emits.
+#[derive(Debug, Clone)]
+pub struct Emission {
+    /// Lambertian part. [cd/m²]
+    pub uniform: Estimate,
+    /// Part on cells.
+    pub cells: Option<CellLight>,
+    /// The outside seen straight through, with this transmittance.
+    pub regular: Option<AngularTransmittance>,
+    /// Regular transmittance for the sun's direction; 0 without sun.
+    pub beam_tau: f64,
+    /// Illuminance of the outside face by diffuse light. [lx]
+    pub incident_diffuse: Estimate,
+    /// Illuminance of the outside face by the sun. [lx]
+    pub incident_sun: f64,
+}
+
+impl Emission {
+    /// Computes what the room side of a system emits.
+    pub fn new(btdf: &Btdf, facing: &Facing<'_>) -> Self {
+        let incident_sun = facing.sun_illuminance();
+        let sun_direction = facing.sun_direction().filter(|_| incident_sun > 0.0);
+        let frame = Frame::of_aperture(facing.orientation, facing.surface);
+        let mut emission = Self {
+            uniform: Estimate::default(),
+            cells: None,
+            regular: btdf.regular.clone(),
+            beam_tau: 0.0,
+            incident_diffuse: Estimate::default(),
+            incident_sun,
+        };
+        if let (Some(tau), Some(sun)) = (&btdf.regular, sun_direction) {
+            emission.beam_tau = tau.at(sun.theta().min(0.5 * PI));
+        }
+        match &btdf.scattered {
+            None => {
+                emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum()
+            }
+            Some(Scattered::Lambert(tau)) => {
+                // A constant needs the total alone; else rings of 2.5°, each with the τ of its own mean angle.
+                let rings = if matches!(tau, AngularTransmittance::Constant(_)) { 1 } else { 36 };
+                let basis = bands(rings);
+                let illuminance = incident_illuminances(facing.outside, &basis, &frame);
+                for (ring, &e) in basis.rings().iter().zip(&illuminance) {
+                    emission.incident_diffuse += e;
+                    emission.uniform += e * (ring_mean(tau, ring) / PI);
+                }
+                if let Some(sun) = sun_direction {
+                    emission.uniform += Estimate::exact(tau.at(sun.theta().min(0.5 * PI)) * incident_sun / PI);
+                }
+            }
+            Some(Scattered::Cells(matrix)) => {
+                let illuminance = incident_illuminances(facing.outside, matrix.incident(), &frame);
+                emission.incident_diffuse = illuminance.iter().copied().sum();
+                let values: Vec<f64> = illuminance.iter().map(|e| e.value).collect();
+                let sun = sun_direction
+                    .and_then(|sun| matrix.incident().index(sun))
+                    .map_or_else(Vec::new, |cell| matrix.row(cell).iter().map(|q| q * incident_sun).collect());
+                emission.cells = Some(CellLight {
+                    basis: Arc::new(matrix.emergent().clone()),
+                    diffuse: matrix.luminance(&values),
+                    sun: if sun.is_empty() { vec![0.0; matrix.emergent().len()] } else { sun },
+                    relative_error: relative(emission.incident_diffuse),
+                });
+            }
+            Some(Scattered::Tree(_tree)) => {}
+        }
+        emission
+    }
+
+    /// Flux that leaves into the room per area, beam included. [lm/m²]
+    pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
+        let mut sum = self.uniform * PI;
+        if let Some(cells) = &self.cells {
+            let total: f64 = cells
+                .basis
+                .cells()
+                .zip(cells.diffuse.iter().zip(&cells.sun))
+                .map(|(cell, (diffuse, sun))| cell.projected_solid_angle() * (diffuse + sun))
+                .sum();
+            sum += Estimate::new(total, total * cells.relative_error);
+        }
+        if let Some(tau) = &self.regular {
+            sum += match tau {
+                AngularTransmittance::Constant(tau) => self.incident_diffuse * *tau,
+                AngularTransmittance::Table(_) => {
+                    let basis = bands(36);
+                    let frame = Frame::of_aperture(facing.orientation, facing.surface);
+                    incident_illuminances(facing.outside, &basis, &frame)
+                        .into_iter()
+                        .zip(basis.rings())
+                        .map(|(e, ring)| e * ring_mean(tau, ring))
+                        .sum()
+                }
+            };
+            sum += Estimate::exact(self.beam_tau * self.incident_sun);
+        }
+        sum
+    }
+
+    /// As a luminous-intensity distribution (eq 5).
+    pub fn lid(&self, facing: &Facing<'_>, size: [f64; 2]) -> Lid {
+        let mut parts = Vec::new();
+        if self.uniform.value > 0.0 {
+            parts.push(EmergentLuminance::Uniform(self.uniform.value));
+        }
+        if let Some(cells) = &self.cells {
+            parts.push(EmergentLuminance::Cells {
+                basis: Arc::clone(&cells.basis),
+                luminance: cells.diffuse.iter().zip(&cells.sun).map(|(a, b)| a + b).collect(),
+            });
+        }
+        if let Some(tau) = &self.regular {
+            let (tau, outside) = (tau.clone(), facing.outside.clone());
+            let (orientation, surface) = (facing.orientation, facing.surface);
+            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
+                let world = orientation.world_from_room(surface.room_dir(twin));
+                tau.at(twin.theta()) * outside.luminance(world)
+            })));
+        }
+        let beam_flux = self.beam_tau * self.incident_sun * size[0] * size[1];
+        let beam = facing
+            .sun_direction()
+            .filter(|_| beam_flux > 0.0)
+            .map(|sun| Beam { direction: Emergent::from_through_name(sun), flux: beam_flux });
+        Lid { surface: facing.surface, size, parts, beam }
+    }
+}
+
+fn relative(e: Estimate) -> f64 {
+    if e.value > 0.0 { e.error / e.value } else { 0.0 }
+}
+
+/// Rings of equal width in θ, undivided in φ.
+fn bands(count: usize) -> RingBasis {
+    let step = 0.5 * PI / count as f64;
+    let rings = (0..count)
+        .map(|i| Ring { theta_min: i as f64 * step, theta_max: (i + 1) as f64 * step, sectors: 1, first_phi: 0.0 })
+        .collect();
+    RingBasis::new("bands", rings, crate::compute::basis::AzimuthMap::FACADE).expect("equal steps rise from 0 to 90°")
+}
+
+/// Mean of τ over a ring, weighted by the projected solid angle; three-point Gauss in sin²θ.
+fn ring_mean(tau: &AngularTransmittance, ring: &Ring) -> f64 {
+    if let AngularTransmittance::Constant(tau) = tau {
+        return *tau;
+    }
+    let (a, b) = (ring.theta_min.sin().powi(2), ring.theta_max.sin().powi(2));
+    crate::compute::quadrature::gauss_legendre(3)
+        .into_iter()
+        .map(|(x, weight)| weight * tau.at((a + (b - a) * x).sqrt().clamp(0.0, 1.0).asin()))
+        .sum()
+}

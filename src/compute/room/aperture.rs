@@ -1,0 +1,67 @@
+//! A rectangular aperture in the façade or the roof, and how a sensor sees it.
+
+use crate::compute::direction::Surface;
+use glam::DVec3;
+
+/// A rectangular opening. Lies in y = 0 (façade) or z = height (roof) of the room.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aperture {
+    /// Where it lies.
+    pub surface: Surface,
+    /// Lower-left corner, room frame. [m]
+    pub corner: DVec3,
+    /// Size along x_F and along y_F. [m]
+    pub size: [f64; 2],
+}
+
+/// The aperture as seen from a point: in gnomonic coordinates of the through-name, `x = d·tanθ cosφ`, the opening is the
+/// rectangle `x[0]…x[1]` × `y[0]…y[1]` at distance `distance` from the point, for every point. [m]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Limits along x_F, relative to the point. [m]
+    pub x: [f64; 2],
+    /// Limits along y_F, relative to the point. [m]
+    pub y: [f64; 2],
+    /// Distance of the point from the aperture's plane, positive inside the room. [m]
+    pub distance: f64,
+    /// The sensor's normal in the façade frame: cos of a through-name direction ω′ is normal·ω′.
+    pub normal: DVec3,
+}
+
+impl Aperture {
+    /// Area. [m²]
+    pub fn area(&self) -> f64 {
+        self.size[0] * self.size[1]
+    }
+
+    /// The four corners, counter-clockwise seen from outside, room frame. [m]
+    pub fn corners(&self) -> [DVec3; 4] {
+        let u = self.surface.room_from_facade(DVec3::X) * self.size[0];
+        let v = self.surface.room_from_facade(DVec3::Y) * self.size[1];
+        [self.corner, self.corner + u, self.corner + u + v, self.corner + v]
+    }
+
+    /// How a sensor sees it; `None` when the sensor lies in or behind the aperture's plane, where no light from the
+    /// aperture arrives.
+    pub fn view(&self, position: DVec3, normal: DVec3) -> Option<View> {
+        let to_corner = self.surface.facade_from_room(self.corner - position);
+        (to_corner.z > 0.0).then(|| View {
+            x: [to_corner.x, to_corner.x + self.size[0]],
+            y: [to_corner.y, to_corner.y + self.size[1]],
+            distance: to_corner.z,
+            normal: self.surface.facade_from_room(normal),
+        })
+    }
+}
+
+impl View {
+    /// The corners of the opening as vectors from the sensor, façade frame. [m]
+    pub fn corners(&self) -> [DVec3; 4] {
+        [
+            DVec3::new(self.x[0], self.y[0], self.distance),
+            DVec3::new(self.x[1], self.y[0], self.distance),
+            DVec3::new(self.x[1], self.y[1], self.distance),
+            DVec3::new(self.x[0], self.y[1], self.distance),
+        ]
+    }
+}

@@ -1,0 +1,300 @@
+//! Exact near field of an aperture whose luminance is constant on the cells of a ring basis (eq 17 in solid-angle
+//! form): for every cell, the integral of the sensor's cosine over the part of the cell that the aperture fills.
+//!
+//! The aperture, clipped by the sensor's plane, is a convex polygon in the gnomonic plane of the through-name. In
+//! polar coordinates about the aperture's normal every cell border is a circle or a ray, every polygon edge a great
+//! circle, so that between the azimuths where borders cross all integrals have closed forms: no sampling, no
+//! singularity at grazing sensors.
+
+use super::aperture::View;
+use super::polygon::{clip, edge};
+use crate::compute::angle::wrap_two_pi;
+use crate::compute::basis::{Ring, RingBasis};
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// Calls `visit(cell, weight)` for every cell that the sensor sees through the aperture; E = Σ L_cell · weight. [sr]
+/// A cell may be visited several times, in a fixed order.
+pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize, f64)) {
+    let mut corners = Vec::with_capacity(6);
+    clip(&view.corners(), view.normal, &mut corners);
+    if corners.len() < 3 {
+        return;
+    }
+    let Some(polygon) = Polygon::new(&corners, view.distance) else {
+        return;
+    };
+    let mut breaks = Vec::with_capacity(64);
+    for (index, ring) in basis.rings().iter().enumerate() {
+        polygon.ring(basis, index, ring, view, &mut breaks, &mut visit);
+    }
+}
+
+/// A convex polygon in the plane z = distance, seen from the origin in polar coordinates about z.
+struct Polygon {
+    /// Inward half planes n·p ≥ c of the edges from vertex k to k + 1, n of unit length.
+    edges: Vec<(DVec2, f64)>,
+    distance: f64,
+    /// Azimuth from which relative azimuths are counted, and their range.
+    reference: f64,
+    range: [f64; 2],
+    /// Relative azimuths of the vertices.
+    azimuths: Vec<f64>,
+}
+
+impl Polygon {
+    fn new(corners: &[DVec3], distance: f64) -> Option<Self> {
+        let mut vertices: Vec<DVec2> = corners.iter().map(|c| c.truncate()).collect();
+        vertices.dedup();
+        let area: f64 = (0..vertices.len()).map(|i| vertices[i].perp_dot(vertices[(i + 1) % vertices.len()])).sum();
+        if vertices.len() < 3 || area <= 0.0 {
+            return None;
+        }
+        let edges: Vec<(DVec2, f64)> = (0..vertices.len())
+            .filter_map(|i| {
+                let (p, q) = (vertices[i], vertices[(i + 1) % vertices.len()]);
+                let normal = (q - p).perp().try_normalize()?;
+                Some((normal, normal.dot(p)))
+            })
+            .collect();
+        if edges.len() != vertices.len() {
+            return None;
+        }
+        let pole_inside = edges.iter().all(|&(_, c)| c < 0.0);
+        let centre = vertices.iter().sum::<DVec2>() / vertices.len() as f64;
+        let reference = if pole_inside { 0.0 } else { centre.y.atan2(centre.x) };
+        let azimuths: Vec<f64> = vertices.iter().map(|v| relative(v.y.atan2(v.x), reference)).collect();
+        let range = if pole_inside {
+            [-PI, PI]
+        } else {
+            // A vertex at the pole itself has no azimuth: the two edges that meet there give the range.
+            let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+            for (vertex, &azimuth) in vertices.iter().zip(&azimuths) {
+                if *vertex != DVec2::ZERO {
+                    range = [range[0].min(azimuth), range[1].max(azimuth)];
+                }
+            }
+            range
+        };
+        Some(Self { edges, distance, reference, range, azimuths })
+    }
+
+    /// The interval of distances from the pole along a relative azimuth, with the edges that bound it.
+    fn along(&self, azimuth: f64) -> Option<[(f64, Option<usize>); 2]> {
+        let (sin, cos) = (azimuth + self.reference).sin_cos();
+        let ray = DVec2::new(cos, sin);
+        let (mut low, mut high) = ((0.0, None), (f64::INFINITY, None));
+        for (k, &(normal, c)) in self.edges.iter().enumerate() {
+            let s = normal.dot(ray);
+            if s > 0.0 {
+                if c / s > low.0 {
+                    low = (c / s, Some(k));
+                }
+            } else if s < 0.0 {
+                if c / s < high.0 {
+                    high = (c / s, Some(k));
+                }
+            } else if c > 0.0 {
+                return None;
+            }
+        }
+        (high.0 > low.0).then_some([low, high])
+    }
+
+    fn ring(
+        &self,
+        basis: &RingBasis,
+        index: usize,
+        ring: &Ring,
+        view: &View,
+        breaks: &mut Vec<f64>,
+        visit: &mut impl FnMut(usize, f64),
+    ) {
+        let inner = self.distance * ring.theta_min.tan();
+        let outer =
+            if ring.theta_max < 0.5 * PI - 1e-12 { self.distance * ring.theta_max.tan() } else { f64::INFINITY };
+        let [first, last] = self.range;
+        let width = 2.0 * PI / ring.sectors as f64;
+        breaks.clear();
+        breaks.extend([first, last]);
+        if ring.sectors > 1 {
+            for sector in 0..ring.sectors {
+                let own = ring.first_phi + (sector as f64 + 0.5) * width;
+                breaks.push(relative(basis.azimuth().facade_phi(own), self.reference));
+            }
+        }
+        breaks.extend(&self.azimuths);
+        for radius in [inner, outer] {
+            if radius > 0.0 && radius.is_finite() {
+                self.crossings(radius, breaks);
+            }
+        }
+        breaks.retain(|&azimuth| azimuth >= first && azimuth <= last);
+        breaks.sort_unstable_by(f64::total_cmp);
+        let mut from = first;
+        for &to in breaks.iter() {
+            if to - from < 1e-15 {
+                continue;
+            }
+            let (a, b) = (from, to);
+            from = to;
+            let middle = 0.5 * (a + b);
+            let Some([low, high]) = self.along(middle) else {
+                continue;
+            };
+            let lower = if low.0 >= inner { Bound::Edge(low.1) } else { Bound::Circle(ring.theta_min) };
+            let upper = if high.0 <= outer { Bound::Edge(high.1) } else { Bound::Circle(ring.theta_max) };
+            if high.0.min(outer) <= low.0.max(inner) {
+                continue;
+            }
+            let ends = [a, b].map(|azimuth| (azimuth + self.reference).sin_cos());
+            let fan = |bound: &Bound| self.fan(bound, ends, b - a);
+            let weight = view.normal.dot(fan(&upper) - fan(&lower));
+            let own = basis.azimuth().own_phi(middle + self.reference);
+            let sector = (wrap_two_pi(own - ring.first_phi + 0.5 * width) / width) as usize;
+            visit(basis.first_cell(index) + sector.min(ring.sectors - 1), weight.max(0.0));
+        }
+    }
+
+    /// Azimuths at which the polygon's edges cross a circle about the pole.
+    fn crossings(&self, radius: f64, breaks: &mut Vec<f64>) {
+        for &(normal, c) in &self.edges {
+            if c.abs() < radius {
+                let along = (radius * radius - c * c).sqrt();
+                let foot = normal * c;
+                for point in [foot + normal.perp() * along, foot - normal.perp() * along] {
+                    breaks.push(relative(point.y.atan2(point.x), self.reference));
+                }
+            }
+        }
+    }
+
+    /// ∫ ω dω from the pole to a bound, between two azimuths given by (sin, cos), `turn` apart.
+    fn fan(&self, bound: &Bound, ends: [(f64, f64); 2], turn: f64) -> DVec3 {
+        let [(sin_a, cos_a), (sin_b, cos_b)] = ends;
+        match *bound {
+            Bound::Circle(theta) => {
+                let (sin, cos) = theta.sin_cos();
+                let radial = 0.5 * (theta - sin * cos);
+                DVec3::new(radial * (sin_b - sin_a), radial * (cos_a - cos_b), 0.5 * sin * sin * turn)
+            }
+            Bound::Edge(None) => DVec3::ZERO,
+            Bound::Edge(Some(k)) => {
+                let (normal, c) = self.edges[k];
+                let radius = |(sin, cos): (f64, f64)| c / normal.dot(DVec2::new(cos, sin));
+                let (rho_a, rho_b) = (radius((sin_a, cos_a)), radius((sin_b, cos_b)));
+                let point = |rho: f64, (sin, cos): (f64, f64)| DVec3::new(rho * cos, rho * sin, self.distance);
+                // The two radial arcs lie in planes through z: Γ n̂ = θ · (z × radial direction).
+                let arc = |rho: f64, (sin, cos): (f64, f64)| rho.atan2(self.distance) * DVec3::new(-sin, cos, 0.0);
+                let chord = edge(point(rho_a, ends[0]), point(rho_b, ends[1]));
+                0.5 * (arc(rho_a, ends[0]) + chord - arc(rho_b, ends[1]))
+            }
+        }
+    }
+}
+
+enum Bound {
+    /// A ring's limit. [rad]
+    Circle(f64),
+    /// An edge of the polygon; `None` is the pole itself.
+    Edge(Option<usize>),
+}
+
+/// Azimuth counted from a reference, −π … π.
+fn relative(azimuth: f64, reference: f64) -> f64 {
+    let turned = wrap_two_pi(azimuth - reference);
+    if turned > PI { turned - 2.0 * PI } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::aperture::Aperture;
+    use super::super::polygon::projected_solid_angle;
+    use super::*;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::direction::{Dir, Surface};
+
+    fn window() -> Aperture {
+        Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 1.0), size: [3.0, 1.5] }
+    }
+
+    fn bases() -> Vec<RingBasis> {
+        vec![
+            RingBasis::hemisphere(),
+            RingBasis::klems_full(AzimuthMap::KLEMS_FRONT),
+            RingBasis::tregenza(),
+            RingBasis::equal_area(9),
+        ]
+    }
+
+    fn sensors() -> Vec<(DVec3, DVec3)> {
+        let points = [
+            DVec3::new(2.0, 2.0, 1.7),
+            DVec3::new(2.0, 0.3, 0.85),
+            DVec3::new(0.5, 1.0, 1.0),
+            DVec3::new(2.0, 1e-3, 0.999),
+            DVec3::new(3.9, 5.9, 0.1),
+            DVec3::new(2.0, 500.0, 1.2),
+        ];
+        let normals =
+            [DVec3::Z, DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z, DVec3::new(0.3, -0.6, 0.5).normalize(), DVec3::Y];
+        points.into_iter().flat_map(|p| normals.map(|n| (p, n))).collect()
+    }
+
+    #[test]
+    fn weights_sum_to_lamberts_closed_form() {
+        for (position, normal) in sensors() {
+            let view = window().view(position, normal).unwrap();
+            let exact = projected_solid_angle(&view.corners(), view.normal);
+            for basis in bases() {
+                let mut sum = 0.0;
+                for_each_cell(&view, &basis, |_, weight| sum += weight);
+                let scale = exact.max(1e-12);
+                assert!(
+                    (sum - exact).abs() < 1e-9 * scale + 1e-14,
+                    "{} {position} {normal}: {sum} {exact}",
+                    basis.name()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn each_weight_agrees_with_dense_sampling() {
+        let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let view = window().view(DVec3::new(1.2, 0.9, 0.85), DVec3::new(0.2, -0.4, 0.7).normalize()).unwrap();
+        let mut exact = vec![0.0; basis.len()];
+        for_each_cell(&view, &basis, |cell, weight| exact[cell] += weight);
+        let mut sampled = vec![0.0; basis.len()];
+        let n = 1200;
+        let step = [(view.x[1] - view.x[0]) / n as f64, (view.y[1] - view.y[0]) / n as f64];
+        for i in 0..n {
+            for j in 0..n {
+                let p = DVec3::new(
+                    view.x[0] + (i as f64 + 0.5) * step[0],
+                    view.y[0] + (j as f64 + 0.5) * step[1],
+                    view.distance,
+                );
+                let d = Dir::new(p).unwrap();
+                let solid = step[0] * step[1] * view.distance / p.length().powi(3);
+                sampled[basis.index(d).unwrap()] += solid * view.normal.dot(d.vector()).max(0.0);
+            }
+        }
+        let total: f64 = exact.iter().sum();
+        for (cell, (a, b)) in exact.iter().zip(&sampled).enumerate() {
+            assert!((a - b).abs() < 2e-5 * total, "cell {cell}: {a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_sensor_on_the_aperture_corner_axis_is_finite() {
+        // The pole lies exactly on a vertex and on edges of the opening.
+        for position in [DVec3::new(0.5, 1.0, 1.0), DVec3::new(2.0, 1.0, 1.0), DVec3::new(0.5, 0.2, 1.5)] {
+            let view = window().view(position, DVec3::NEG_Y).unwrap();
+            let exact = projected_solid_angle(&view.corners(), view.normal);
+            let mut sum = 0.0;
+            for_each_cell(&view, &RingBasis::tregenza(), |_, weight| sum += weight);
+            assert!((sum - exact).abs() < 1e-12);
+        }
+    }
+}

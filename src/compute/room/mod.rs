@@ -1,0 +1,13 @@
+//! Light in a box room: apertures, the near field at a sensor, interreflection.
+
+pub mod aperture;
+pub mod beam;
+pub mod cell_weights;
+pub mod direct;
+pub mod first_bounce;
+pub mod form_factor;
+pub mod mesh;
+pub mod polygon;
+pub mod radiosity;
+pub mod sun_disc;
+pub mod through;

@@ -1,0 +1,236 @@
+//! Near field of an aperture through which the outside is seen as it is (eq 20 in eq 17): the sky's own luminance,
+//! integrated over the part of the world that the sensor sees through the opening.
+//!
+//! In azimuth and altitude about the zenith a plane opening, the horizon, a skyline and the sun's altitude are all
+//! simple limits of the altitude, for a façade as for a roof. The region is cut along them, and each piece is
+//! integrated adaptively with an error estimate.
+
+use super::aperture::View;
+use super::polygon::{clip, projected_solid_angle};
+use crate::compute::direction::{Dir, Orientation, Surface};
+use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::{Rectangle, Tolerance, integrate_rectangles};
+use crate::compute::sky::Outside;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// What stands outside an aperture, and how the room is turned to it.
+#[derive(Debug, Clone, Copy)]
+pub struct Prospect<'a> {
+    /// Luminance of sky, ground and skyline.
+    pub outside: &'a Outside,
+    /// Turns the room to the compass.
+    pub orientation: Orientation,
+    /// The aperture's surface.
+    pub surface: Surface,
+}
+
+impl Prospect<'_> {
+    /// Luminance of the outside in a direction of the aperture's frame. [cd/m²]
+    pub fn luminance(&self, d: DVec3) -> f64 {
+        let room = Dir::from_unit(self.surface.room_from_facade(d));
+        self.outside.luminance(self.orientation.world_from_room(room))
+    }
+}
+
+/// Illuminance at a sensor from the outside seen through the opening, each direction weighted by `tau(θ)` of the
+/// system. [lx] `uniform_tau` is the transmittance if it does not depend on θ: parts of constant luminance then have
+/// a closed form.
+pub fn illuminance(
+    view: &View,
+    prospect: &Prospect<'_>,
+    uniform_tau: Option<f64>,
+    tau: impl Fn(f64) -> f64,
+    tolerance: Tolerance,
+) -> Estimate {
+    let to_room = |v: DVec3| prospect.surface.room_from_facade(v);
+    let normal = to_room(view.normal);
+    let mut polygon = Vec::with_capacity(6);
+    clip(&view.corners().map(to_room), normal, &mut polygon);
+    if polygon.len() < 3 {
+        return Estimate::default();
+    }
+    let outside = prospect.outside;
+    let mut sum = Estimate::default();
+    let mut above = polygon.clone();
+    if let Some(tau) = uniform_tau {
+        let mut below = Vec::with_capacity(7);
+        clip(&polygon, DVec3::NEG_Z, &mut below);
+        if below.len() >= 3 {
+            sum += Estimate::exact(tau * outside.ground_luminance() * projected_solid_angle(&below, normal));
+        }
+        clip(&polygon, DVec3::Z, &mut above);
+        if above.len() < 3 {
+            return sum;
+        }
+        if outside.is_uniform_above_horizon() {
+            let luminance = prospect.luminance(prospect.surface.facade_from_room(DVec3::Z));
+            return sum + Estimate::exact(tau * luminance * projected_solid_angle(&above, normal));
+        }
+    }
+    let sun = outside.sun_direction().map(|sun| prospect.orientation.room_from_world(sun).vector());
+    let region = Region::new(&above, prospect.surface, sun, outside.skyline_altitude());
+    let integrand = |azimuth: f64, altitude: f64| {
+        let (sin_h, cos_h) = altitude.sin_cos();
+        let (sin_a, cos_a) = azimuth.sin_cos();
+        let d = DVec3::new(cos_h * cos_a, cos_h * sin_a, sin_h);
+        let local = prospect.surface.facade_from_room(d);
+        let luminance = outside.luminance(prospect.orientation.world_from_room(Dir::from_unit(d)));
+        luminance * tau(local.z.clamp(-1.0, 1.0).acos()) * normal.dot(d).max(0.0) * cos_h
+    };
+    sum + region.integrate(integrand, tolerance)
+}
+
+/// A convex plane polygon seen from the origin, in azimuth and altitude.
+struct Region<'a> {
+    polygon: &'a [DVec3],
+    surface: Surface,
+    /// Azimuths at which the limits of the altitude have kinks. [rad]
+    azimuths: Vec<f64>,
+    /// Altitudes at which the luminance has kinks or jumps, with the ends. [rad]
+    altitudes: Vec<f64>,
+}
+
+impl<'a> Region<'a> {
+    fn new(polygon: &'a [DVec3], surface: Surface, sun: Option<DVec3>, skyline: f64) -> Self {
+        let azimuth = |v: DVec3| v.y.atan2(v.x);
+        let mut altitudes = vec![-0.5 * PI, 0.0, 0.5 * PI];
+        if skyline > 0.0 {
+            altitudes.push(skyline);
+        }
+        let mut inner: Vec<f64> =
+            polygon.iter().filter(|v| v.truncate() != glam::DVec2::ZERO).map(|&v| azimuth(v)).collect();
+        let contains_zenith = surface == Surface::Roof && {
+            let inside = |i: usize| {
+                let (p, q) = (polygon[i].truncate(), polygon[(i + 1) % polygon.len()].truncate());
+                (q - p).perp_dot(-p)
+            };
+            (0..polygon.len()).all(|i| inside(i) < 0.0) || (0..polygon.len()).all(|i| inside(i) > 0.0)
+        };
+        // Count azimuths from a direction that the region does not straddle.
+        let (mut low, mut high) = (-PI, PI);
+        if !contains_zenith {
+            let centre = polygon.iter().sum::<DVec3>();
+            let reference = azimuth(centre);
+            for a in &mut inner {
+                *a = near(*a, reference);
+            }
+            low = inner.iter().copied().fold(f64::INFINITY, f64::min);
+            high = inner.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        }
+        let middle = 0.5 * (low + high);
+        if let Some(sun) = sun {
+            altitudes.push(sun.z.clamp(-1.0, 1.0).asin());
+            inner.push(near(azimuth(sun), middle));
+        }
+        // Where edges at constant height cross the skyline or the sun's altitude, limits change over.
+        for i in 0..polygon.len() {
+            let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+            for &altitude in altitudes.iter().filter(|h| h.abs() < 1.5 && **h != 0.0) {
+                for t in crossings(p, q, altitude.tan()) {
+                    inner.push(near(azimuth(p + (q - p) * t), middle));
+                }
+            }
+        }
+        inner.retain(|a| *a > low && *a < high);
+        inner.extend([low, high]);
+        if contains_zenith {
+            inner.extend([-0.5 * PI, 0.0, 0.5 * PI]);
+        }
+        inner.sort_unstable_by(f64::total_cmp);
+        altitudes.sort_unstable_by(f64::total_cmp);
+        Self { polygon, surface, azimuths: inner, altitudes }
+    }
+
+    /// Lowest and highest altitude of the polygon in a vertical half plane. [rad]
+    fn limits(&self, azimuth: f64) -> Option<(f64, f64)> {
+        let (sin, cos) = azimuth.sin_cos();
+        // Signed distance from the vertical plane; the half plane is where `along` is positive.
+        let across = |v: DVec3| v.y * cos - v.x * sin;
+        let along = |v: DVec3| v.x * cos + v.y * sin;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut seen = 0;
+        for i in 0..self.polygon.len() {
+            let (p, q) = (self.polygon[i], self.polygon[(i + 1) % self.polygon.len()]);
+            let (a, b) = (across(p), across(q));
+            if (a <= 0.0) == (b <= 0.0) {
+                continue;
+            }
+            let point = p + (q - p) * (a / (a - b));
+            let r = along(point);
+            let altitude = point.z.atan2(r);
+            if r >= 0.0 {
+                low = low.min(altitude);
+                high = high.max(altitude);
+                seen += 1;
+            }
+        }
+        // A roof that holds the zenith is cut once: from its border up to the zenith.
+        if seen == 1 && self.surface == Surface::Roof {
+            high = 0.5 * PI;
+        }
+        (seen > 0 && high > low).then_some((low, high))
+    }
+
+    fn integrate(&self, integrand: impl Fn(f64, f64) -> f64, tolerance: Tolerance) -> Estimate {
+        // Pieces lie on a strip: x runs through the azimuth intervals one after the other, y through the bands of
+        // altitude; the band's own limits are clamped to the polygon's.
+        let bands = self.altitudes.len() - 1;
+        let intervals = self.azimuths.len() - 1;
+        let mut pieces = Vec::with_capacity(bands * intervals);
+        for i in 0..intervals {
+            let (a, b) = (self.azimuths[i], self.azimuths[i + 1]);
+            if b - a < 1e-14 {
+                continue;
+            }
+            for k in 0..bands {
+                let (from, to) = (self.altitudes[k], self.altitudes[k + 1]);
+                if to - from < 1e-14 {
+                    continue;
+                }
+                let touched = [0.02, 0.5, 0.98]
+                    .iter()
+                    .any(|t| self.limits(a + (b - a) * t).is_some_and(|(low, high)| high > from && low < to));
+                if touched {
+                    pieces.push(Rectangle { x: (i as f64, (i + 1) as f64), y: (k as f64, (k + 1) as f64) });
+                }
+            }
+        }
+        integrate_rectangles(
+            |x, y| {
+                let i = (x as usize).min(intervals - 1);
+                let k = (y as usize).min(bands - 1);
+                let (a, b) = (self.azimuths[i], self.azimuths[i + 1]);
+                let azimuth = a + (b - a) * (x - i as f64);
+                let Some((low, high)) = self.limits(azimuth) else {
+                    return 0.0;
+                };
+                let from = low.clamp(self.altitudes[k], self.altitudes[k + 1]);
+                let to = high.clamp(self.altitudes[k], self.altitudes[k + 1]);
+                let altitude = from + (to - from) * (y - k as f64);
+                if to <= from { 0.0 } else { integrand(azimuth, altitude) * (to - from) * (b - a) }
+            },
+            &pieces,
+            tolerance,
+        )
+    }
+}
+
+/// An azimuth, by whole turns as near to the reference as can be.
+fn near(azimuth: f64, reference: f64) -> f64 {
+    azimuth - 2.0 * PI * ((azimuth - reference) / (2.0 * PI)).round()
+}
+
+/// Parameters 0 < t < 1 at which the segment p…q crosses the cone z = slope · horizontal distance.
+fn crossings(p: DVec3, q: DVec3, slope: f64) -> impl Iterator<Item = f64> {
+    let d = q - p;
+    let s2 = slope * slope;
+    let a = d.z * d.z - s2 * (d.x * d.x + d.y * d.y);
+    let b = 2.0 * (p.z * d.z - s2 * (p.x * d.x + p.y * d.y));
+    let c = p.z * p.z - s2 * (p.x * p.x + p.y * p.y);
+    let discriminant = b * b - 4.0 * a * c;
+    let root = discriminant.max(0.0).sqrt();
+    let roots =
+        if discriminant < 0.0 || a == 0.0 { [f64::NAN; 2] } else { [(-b - root) / (2.0 * a), (-b + root) / (2.0 * a)] };
+    roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0)
+}

@@ -1,0 +1,52 @@
+//! Why a study cannot be made: one sentence each, naming the key or the file and what would be right.
+
+use crate::compute::estimate::Cancelled;
+use crate::compute::room::radiosity::NothingAbsorbs;
+use std::path::PathBuf;
+
+/// Why a study cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StudyError {
+    /// A key of the scene is wrong.
+    #[error("{key}: {message}")]
+    Key {
+        /// Full name, e.g. `aperture[1].size`.
+        key: String,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// The text is no scene.
+    #[error("line {line}, column {column}: {message}")]
+    Syntax {
+        /// From 1.
+        line: usize,
+        /// From 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// A file cannot be read.
+    #[error("{}: {message}", path.display())]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// The catalogue has no such thing, or cannot be read.
+    #[error("catalogue: {0}")]
+    Catalogue(String),
+    /// The room has no solution.
+    #[error("room.reflectance: {0}")]
+    Room(#[from] NothingAbsorbs),
+    /// Withdrawn.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl StudyError {
+    /// A wrong key.
+    pub fn key(key: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::Key { key: key.into(), message: message.into() }
+    }
+}

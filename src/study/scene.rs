@@ -1,0 +1,280 @@
+//! The scene as it is meant: keys judged together, systems loaded, everything in the units and frames of `compute`.
+
+use super::error::StudyError;
+use super::scene_file::{
+    ApertureKeys, ApertureReflectance, ControlMode, Interpolation, RoomKeys, SceneFile, SensorKeys, SurfaceKey,
+    SystemKeys,
+};
+use super::sky::outside_from_keys;
+use super::system::{System, SystemLibrary};
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Orientation, Surface};
+use crate::compute::lid::Facing;
+use crate::compute::room::aperture::Aperture;
+use crate::compute::room::direct::Sensor;
+use crate::compute::room::mesh::BoxRoom;
+use crate::compute::sky::{Outside, Sun};
+use glam::DVec3;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Most sensors that one scene may have.
+const MOST_SENSORS: usize = 1_000_000;
+
+/// One aperture with what fills it.
+#[derive(Debug, Clone)]
+pub struct SceneAperture {
+    /// Geometry.
+    pub aperture: Aperture,
+    /// What fills it.
+    pub system: Arc<System>,
+    /// Diffuse reflectance of the room side.
+    pub reflectance: f64,
+}
+
+/// A resolved scene.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The box.
+    pub room: BoxRoom,
+    /// At least one.
+    pub apertures: Vec<SceneAperture>,
+    /// Room against compass.
+    pub orientation: Orientation,
+    /// Bearing of the façade's outward normal.
+    pub facade: Bearing,
+    /// Sky, ground, skyline.
+    pub outside: Outside,
+    /// The disc, if it shines.
+    pub sun: Option<Sun>,
+    /// Where illuminance is asked for.
+    pub sensors: Vec<Sensor>,
+    /// Cells along x and y when the sensors come from `sensors.plane`.
+    pub grid: Option<[usize; 2]>,
+    /// Interreflection wanted?
+    pub interreflection: bool,
+    /// Relative error asked for.
+    pub error_target: Option<f64>,
+    /// Between and inside the dataset's directions.
+    pub interpolation: Interpolation,
+}
+
+impl SceneFile {
+    /// Reads the TOML text of a scene.
+    pub fn parse(text: &str) -> Result<Self, StudyError> {
+        toml::from_str(text).map_err(|error| {
+            let before = &text[..error.span().map_or(0, |span| span.start.min(text.len()))];
+            StudyError::Syntax {
+                line: before.matches('\n').count() + 1,
+                column: before.chars().rev().take_while(|c| *c != '\n').count() + 1,
+                message: error.message().replace('\n', "; "),
+            }
+        })
+    }
+}
+
+impl Scene {
+    /// Judges the keys together and loads the systems. `base` is what relative paths start from.
+    pub fn resolve(file: &SceneFile, base: &Path, library: &dyn SystemLibrary) -> Result<Self, StudyError> {
+        let room = room(&file.room)?;
+        let (outside, sun) =
+            outside_from_keys(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
+        let facade = Bearing::from_degrees(file.site.azimuth);
+        let orientation = Orientation::new(facade);
+        let geometry = apertures(&file.aperture, &room)?;
+        let (sensors, grid) = sensors(&file.sensors, &room)?;
+        let controlled = file.control.as_ref().map(|control| control.mode);
+        let mut list = Vec::with_capacity(geometry.len());
+        for (index, (keys, aperture)) in file.aperture.iter().zip(geometry).enumerate() {
+            let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
+            let wanted = controlled_state(keys, controlled, library, &facing)
+                .map_err(|error| in_aperture(index, error))?;
+            let system = library.load(&wanted, base).map_err(|error| in_aperture(index, error))?;
+            if system.dataset.transmission().is_none() {
+                return Err(StudyError::key(
+                    format!("aperture[{}].system", index + 1),
+                    format!("'{}' has no transmission data, only {:?}", system.label, system.dataset.visible.components()),
+                ));
+            }
+            let reflectance = match keys.reflectance {
+                ApertureReflectance::Value(value) => {
+                    within(&format!("aperture[{}].reflectance", index + 1), value, 0.0, 1.0, "")?
+                }
+                ApertureReflectance::Dataset => system.dataset.room_side_reflectance().unwrap_or(0.0),
+            };
+            list.push(SceneAperture { aperture, system, reflectance });
+        }
+        if let Some(target) = file.compute.error_target {
+            within("compute.error_target", target, 1e-8, 1.0, "")?;
+        }
+        Ok(Self {
+            room,
+            apertures: list,
+            orientation,
+            facade,
+            outside,
+            sun,
+            sensors,
+            grid,
+            interreflection: file.compute.interreflection,
+            error_target: file.compute.error_target,
+            interpolation: file.compute.interpolation,
+        })
+    }
+
+    /// The outside as one aperture faces it.
+    pub fn facing(&self, aperture: usize) -> Facing<'_> {
+        Facing {
+            outside: &self.outside,
+            sun: self.sun.as_ref(),
+            orientation: self.orientation,
+            surface: self.apertures[aperture].aperture.surface,
+        }
+    }
+}
+
+fn in_aperture(index: usize, error: StudyError) -> StudyError {
+    match error {
+        StudyError::Key { key, message } => StudyError::Key { key: format!("aperture[{}].{key}", index + 1), message },
+        other => other,
+    }
+}
+
+/// The system's keys with the state that the control picks, where the aperture leaves the state to it.
+fn controlled_state(
+    keys: &ApertureKeys,
+    mode: Option<ControlMode>,
+    library: &dyn SystemLibrary,
+    facing: &Facing<'_>,
+) -> Result<SystemKeys, StudyError> {
+    match &keys.system {
+        SystemKeys::Catalogue { key, state: Some(word) } if word == "controlled" => {
+            let mode = mode.ok_or_else(|| {
+                StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode")
+            })?;
+            let state = library.controlled_state(key, mode, facing)?;
+            Ok(SystemKeys::Catalogue { key: key.clone(), state: Some(state) })
+        }
+        other => Ok(other.clone()),
+    }
+}
+
+fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, StudyError> {
+    if (min..=max).contains(&value) {
+        Ok(value)
+    } else {
+        Err(StudyError::key(key, format!("{value}{unit} is out of range (allowed: {min} to {max}{unit})")))
+    }
+}
+
+fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
+    let length = |key: &str, value| within(key, value, 1e-3, 1e5, " m");
+    let share = |key: &str, value| within(key, value, 0.0, 1.0, "");
+    Ok(BoxRoom {
+        size: DVec3::new(
+            length("room.width", keys.width)?,
+            length("room.depth", keys.depth)?,
+            length("room.height", keys.height)?,
+        ),
+        floor: share("room.reflectance.floor", keys.reflectance.floor)?,
+        walls: share("room.reflectance.walls", keys.reflectance.walls)?,
+        ceiling: share("room.reflectance.ceiling", keys.reflectance.ceiling)?,
+    })
+}
+
+fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, StudyError> {
+    if keys.is_empty() {
+        return Err(StudyError::key("aperture", "the scene needs at least one [[aperture]]"));
+    }
+    let mut list: Vec<Aperture> = Vec::with_capacity(keys.len());
+    for (index, keys) in keys.iter().enumerate() {
+        let name = |key: &str| format!("aperture[{}].{key}", index + 1);
+        let (surface, wall, limits) = match keys.surface {
+            SurfaceKey::Facade => (Surface::Facade, "façade", [room.size.x, room.size.z]),
+            SurfaceKey::Roof => (Surface::Roof, "roof", [room.size.x, room.size.y]),
+        };
+        for axis in 0..2 {
+            let (from, size) = (keys.origin[axis], keys.size[axis]);
+            if !(size > 0.0 && size.is_finite()) {
+                return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
+            }
+            let slack = 1e-9 * limits[axis];
+            if !(from >= -slack && from + size <= limits[axis] + slack) {
+                return Err(StudyError::key(
+                    name(if from >= -slack && from <= limits[axis] { "size" } else { "origin" }),
+                    format!("{from} m to {} m lies beyond the {wall}, 0 to {} m", from + size, limits[axis]),
+                ));
+            }
+        }
+        let [u, v] = keys.origin;
+        let corner = match surface {
+            Surface::Facade => DVec3::new(u, 0.0, v),
+            Surface::Roof => DVec3::new(u, v, room.size.z),
+        };
+        let overlapping = list.iter().zip(1..).find(|(other, _)| {
+            let offset = surface.facade_from_room(corner - other.corner);
+            other.surface == surface
+                && (0..2).all(|axis| {
+                    let slack = 1e-9 * limits[axis];
+                    offset[axis] + keys.size[axis] > slack && offset[axis] < other.size[axis] - slack
+                })
+        });
+        if let Some((_, number)) = overlapping {
+            return Err(StudyError::key(name("origin"), format!("overlaps aperture {number}; apertures must lie apart")));
+        }
+        list.push(Aperture { surface, corner, size: keys.size });
+    }
+    Ok(list)
+}
+
+fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[usize; 2]>), StudyError> {
+    let mut list = Vec::new();
+    let mut grid = None;
+    let unit = |key: &str, normal: [f64; 3]| {
+        DVec3::from_array(normal)
+            .try_normalize()
+            .ok_or_else(|| StudyError::key(key, format!("{normal:?} has no direction; e.g. [0.0, 0.0, 1.0] faces up")))
+    };
+    if let Some(plane) = &keys.plane {
+        within("sensors.plane.z", plane.z, 0.0, room.size.z, " m")?;
+        let normal = unit("sensors.plane.normal", plane.normal)?;
+        for (key, n) in [("sensors.plane.nx", plane.nx), ("sensors.plane.ny", plane.ny)] {
+            if n == 0 || n > MOST_SENSORS {
+                return Err(StudyError::key(key, format!("{n} cells (allowed: 1 to {MOST_SENSORS})")));
+            }
+        }
+        if plane.nx.saturating_mul(plane.ny) > MOST_SENSORS {
+            return Err(StudyError::key("sensors.plane", format!("more than {MOST_SENSORS} sensors")));
+        }
+        for j in 0..plane.ny {
+            for i in 0..plane.nx {
+                let position = DVec3::new(
+                    (i as f64 + 0.5) * room.size.x / plane.nx as f64,
+                    (j as f64 + 0.5) * room.size.y / plane.ny as f64,
+                    plane.z,
+                );
+                list.push(Sensor { position, normal });
+            }
+        }
+        if keys.points.is_empty() {
+            grid = Some([plane.nx, plane.ny]);
+        }
+    }
+    if !keys.points.is_empty() {
+        let normal = unit("sensors.normal", keys.normal.unwrap_or([0.0, 0.0, 1.0]))?;
+        for (number, point) in keys.points.iter().enumerate() {
+            let position = DVec3::from_array(*point);
+            if !(position.is_finite() && position.cmpge(DVec3::ZERO).all() && position.cmple(room.size).all()) {
+                return Err(StudyError::key(
+                    format!("sensors.points[{}]", number + 1),
+                    format!("{point:?} lies outside the room, 0 to {:?} m", room.size.to_array()),
+                ));
+            }
+            list.push(Sensor { position, normal });
+        }
+    }
+    if list.is_empty() {
+        return Err(StudyError::key("sensors", "needs a plane or points"));
+    }
+    Ok((list, grid))
+}

@@ -1,0 +1,45 @@
+//! Where the systems of a scene come from: closed forms, files, the catalogue.
+
+use super::error::StudyError;
+use super::scene_file::{ControlMode, IdealKind, SystemKeys};
+use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::lid::Facing;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A system ready to be computed with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct System {
+    /// What to call it in results.
+    pub label: String,
+    /// Key of the state; empty for systems without.
+    pub state: String,
+    /// Its photometry.
+    pub dataset: Arc<Dataset>,
+}
+
+/// Loads what `aperture.system` names.
+pub trait SystemLibrary: Sync {
+    /// Loads a system. Key names in errors are relative to the aperture.
+    fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError>;
+
+    /// The state that a control picks for a product under the given outside.
+    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError>;
+}
+
+/// An ideal system.
+pub fn ideal(kind: IdealKind, transmittance: f64) -> Result<Arc<System>, StudyError> {
+    if !(0.0..=1.0).contains(&transmittance) {
+        return Err(StudyError::key(
+            "system.transmittance",
+            format!("{transmittance} is out of range (allowed: 0 to 1)"),
+        ));
+    }
+    let (name, btdf) = match kind {
+        IdealKind::Transparent => ("ideal transparent", Btdf::ideal_transparent(transmittance)),
+        IdealKind::Diffuse => ("ideal diffuse", Btdf::ideal_diffuse(transmittance)),
+    };
+    let mut dataset = Dataset { name: format!("{name}, τ = {transmittance}"), ..Dataset::default() };
+    dataset.visible.transmission_front = Some(btdf);
+    Ok(Arc::new(System { label: dataset.name.clone(), state: String::new(), dataset: Arc::new(dataset) }))
+}
