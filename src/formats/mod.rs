@@ -1,2 +1,99 @@
-//! Bytes to compute types and back.
+//! Bytes to compute types and back. Readers take `&[u8]` and never touch files.
+//!
+//! A new dataset format is a file here, an arm of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
+//! [`write_dataset`].
+
+pub mod bsdf_xml;
+mod location;
 pub mod scan;
+
+pub use location::{FormatError, Location};
+
+use crate::compute::btdf::Dataset;
+
+/// The dataset formats that are read and written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// LBNL BSDF XML: Klems matrices and tensor trees.
+    BsdfXml,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 1] = [Self::BsdfXml];
+
+    /// Short name for messages and listings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BsdfXml => "BSDF XML",
+        }
+    }
+
+    /// Extensions, lower case without the dot.
+    pub const fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::BsdfXml => &["xml"],
+        }
+    }
+
+    /// By the end of a file's name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let name = name.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|format| format.extensions().iter().any(|ext| name.ends_with(&format!(".{ext}"))))
+    }
+
+    /// By content, then by name.
+    pub fn sniff(name: &str, bytes: &[u8]) -> Option<Self> {
+        let head = &bytes[..bytes.len().min(4096)];
+        let holds = |word: &[u8]| head.windows(word.len()).any(|window| window == word);
+        if holds(b"<WindowElement") {
+            return Some(Self::BsdfXml);
+        }
+        Self::from_name(name)
+    }
+
+    fn list() -> String {
+        let names: Vec<String> = Self::ALL
+            .into_iter()
+            .map(|format| format!("{} (.{})", format.name(), format.extensions().join(", .")))
+            .collect();
+        names.join(", ")
+    }
+}
+
+/// Reads a file's bytes, whatever its format: one dataset for every state that it holds. `name` is only used for
+/// its extension.
+///
+/// # Errors
+/// Of the reader; or an unknown format.
+pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
+    match Format::sniff(name, bytes) {
+        Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
+        None if bytes.is_empty() => Err(FormatError::new(Location::file(), "an empty file", Format::list())),
+        None => Err(FormatError::new(Location::file(), "an unknown format", Format::list())),
+    }
+}
+
+/// The datasets as a file of the given format.
+///
+/// # Errors
+/// More states than the format holds; or what the writer cannot express.
+pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Vec<u8>, FormatError> {
+    match (format, datasets) {
+        (Format::BsdfXml, [one]) => bsdf_xml::write(one),
+        (Format::BsdfXml, many) => Err(FormatError::new(
+            Location::file(),
+            format!("{} states for one BSDF XML file", many.len()),
+            "exactly one state (choose it by its key)",
+        )),
+    }
+}
+
+/// The format that a file name asks for when writing.
+///
+/// # Errors
+/// An extension that no format has.
+pub fn format_to_write(name: &str) -> Result<Format, FormatError> {
+    Format::from_name(name)
+        .ok_or_else(|| FormatError::new(Location::file(), "an extension that no format has", Format::list()))
+}

@@ -1,11 +1,15 @@
 //! What physics demands of a dataset: energy and reciprocity.
 
 use super::{Btdf, Scattered};
+use crate::compute::direction::{Dir, Incident};
 
 /// Mean relative difference between a front function and the back function turned round, weighted by the projected
 /// solid angles of both cells: Σ w|q_f − q_b| / Σ w(q_f + q_b)/2. `None` unless both are given on cells of the same
-/// directions.
+/// directions, or as trees of the same rank.
 pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
+    if let (Some(Scattered::Tree(front)), Some(Scattered::Tree(back))) = (&front.scattered, &back.scattered) {
+        return front.relative_difference(&back.reversed());
+    }
     let (Some(Scattered::Cells(front)), Some(Scattered::Cells(back))) = (&front.scattered, &back.scattered) else {
         return None;
     };
@@ -29,4 +33,25 @@ pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
         }
     }
     Some(if sum > 0.0 { difference / sum } else { 0.0 })
+}
+
+/// Largest directional-hemispherical transmittance of any incident cell, regular part included: more than 1 breaks
+/// the conservation of energy.
+pub fn tau_max(btdf: &Btdf) -> f64 {
+    let regular = |theta: f64| btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
+    match &btdf.scattered {
+        Some(Scattered::Cells(matrix)) => matrix
+            .incident()
+            .cells()
+            .zip(matrix.tau_by_cell())
+            .map(|(cell, tau)| tau + regular(cell.theta()))
+            .fold(0.0, f64::max),
+        Some(Scattered::Tree(tree)) if btdf.regular.is_none() => tree.tau_max(),
+        _ => (0..=180)
+            .map(|k| {
+                let theta = std::f64::consts::FRAC_PI_2 * f64::from(k) / 180.0;
+                btdf.tau(Incident(Dir::from_theta_phi(theta, 0.0)))
+            })
+            .fold(0.0, f64::max),
+    }
 }

@@ -10,14 +10,15 @@ mod checks;
 mod dataset;
 mod finding;
 mod ideal;
+mod tensor_emission;
 mod tensor_tree;
 
 pub use angular::AngularTransmittance;
 pub use cell_matrix::CellMatrix;
-pub use checks::reciprocity_error;
+pub use checks::{reciprocity_error, tau_max};
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
-pub use tensor_tree::TensorTree;
+pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};

@@ -1,34 +1,529 @@
 //! Tensor trees: scattering on the squares that Shirley and Chiu map to the disk of direction cosines.
-use crate::compute::basis::RingBasis;
-use crate::compute::btdf::Indicatrix;
-use crate::compute::direction::{Emergent, Incident};
+//!
+//! A tree of rank 4 divides (incident square) × (emergent square); one of rank 3 has a single incident coordinate,
+//! 0.5 − sinθ/2, and an emergent square that turns with the azimuth of incidence. Every leaf is a constant q.
+//! Squares are those of the *file*, whose axes stand to the façade frame as [`TreeAxes`] says; nothing is converted
+//! when a tree is read, so that directions on borders fall into the same leaf as in Radiance.
+//!
+//! Child k of a branch lies in the upper half of dimension d where bit d of k is set.
+//! Reference: Radiance `bsdf_t.c` (dimension order, rotation of rank 3, reciprocity).
 
-/// placeholder
-#[derive(Debug, Clone, PartialEq)]
-pub struct TensorTree;
+use crate::compute::basis::{AzimuthMap, MAX_LEVEL, RingBasis, SquareGrid, disk_from_square, square_from_disk};
+use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use std::f64::consts::PI;
 
-impl TensorTree {
-    pub fn q(&self, _incident: Incident, _emergent: Emergent) -> f64 {
-        0.0
+/// How many coordinates a tree has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TreeRank {
+    /// Rotationally symmetric: sinθ of incidence, and the emergent square relative to the azimuth of incidence.
+    Three,
+    /// Incident square and emergent square.
+    Four,
+}
+
+impl TreeRank {
+    /// Number of coordinates.
+    pub const fn dimensions(self) -> usize {
+        match self {
+            Self::Three => 3,
+            Self::Four => 4,
+        }
     }
-    pub fn tau(&self, _incident: Incident) -> f64 {
-        0.0
-    }
-    pub fn tau_hemispherical(&self) -> f64 {
-        0.0
-    }
-    pub fn incident_listing(&self) -> RingBasis {
-        RingBasis::hemisphere()
-    }
-    pub fn indicatrix(&self, _incident: Incident) -> Indicatrix {
-        Indicatrix { basis: RingBasis::hemisphere(), q: vec![0.0] }
-    }
-    /// Number of cells along one side of the finest incident square.
-    pub fn incident_resolution(&self) -> usize {
-        1
-    }
-    /// Emergent luminance from illuminance per incident square cell.
-    pub fn luminance(&self, _illuminance: &[f64]) -> (RingBasis, Vec<f64>) {
-        (RingBasis::hemisphere(), vec![0.0])
+
+    /// Children of every branch.
+    pub const fn children(self) -> usize {
+        1 << self.dimensions()
     }
 }
+
+/// How the squares' axes stand to the façade frame, through-names on both sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TreeAxes {
+    /// Light from outside: (x, −y), as [`AzimuthMap::KLEMS_FRONT`].
+    Front,
+    /// Light from inside: (−x, y), as [`AzimuthMap::KLEMS_BACK`].
+    Back,
+}
+
+impl TreeAxes {
+    /// The same relation for azimuths.
+    pub const fn azimuth(self) -> AzimuthMap {
+        match self {
+            Self::Front => AzimuthMap::KLEMS_FRONT,
+            Self::Back => AzimuthMap::KLEMS_BACK,
+        }
+    }
+
+    /// Disk coordinates in the tree's axes. An involution: the same for the way back.
+    pub(super) fn turn(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Front => [x, -y],
+            Self::Back => [-x, y],
+        }
+    }
+
+    /// Grid cell of the tree's axes ↔ of the façade frame.
+    pub(super) const fn turn_cell(self, [ix, iy]: [usize; 2], resolution: usize) -> [usize; 2] {
+        match self {
+            Self::Front => [ix, resolution - 1 - iy],
+            Self::Back => [resolution - 1 - ix, iy],
+        }
+    }
+}
+
+/// A node of a tree in its list form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TreeNode {
+    /// The same q in the whole box. [1/sr]
+    Leaf(f64),
+    /// Index of the first of 2^rank consecutive children.
+    Branch(u32),
+}
+
+/// Why a list of nodes is no tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum TreeError {
+    /// Nothing at all.
+    #[error("the tree has no nodes")]
+    Empty,
+    /// A branch names children that do not follow it or are not in the list.
+    #[error("node {0} names children that are not in the list behind it")]
+    Children(usize),
+    /// Finer than any instrument or simulation.
+    #[error("the tree is more than {MAX_LEVEL} levels deep")]
+    Depth,
+    /// A value that is negative or not finite.
+    #[error("node {0} holds a value that is negative or not finite")]
+    Value(usize),
+}
+
+/// A BTDF or BRDF as a tensor tree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TensorTree {
+    rank: TreeRank,
+    axes: TreeAxes,
+    grid: SquareGrid,
+    nodes: Vec<TreeNode>,
+    /// τ of every finest incident cell: rank 4 the square in the tree's own axes, row by row; rank 3 rings of equal
+    /// steps of sinθ from the normal outwards.
+    tau: Vec<f64>,
+}
+
+impl TensorTree {
+    /// From nodes, the root first and every branch before its children.
+    pub fn new(rank: TreeRank, axes: TreeAxes, nodes: Vec<TreeNode>) -> Result<Self, TreeError> {
+        if nodes.is_empty() {
+            return Err(TreeError::Empty);
+        }
+        let mut level = vec![0_u8; nodes.len()];
+        let mut depth = 0;
+        for (index, node) in nodes.iter().enumerate() {
+            match *node {
+                TreeNode::Leaf(q) if q.is_finite() && q >= 0.0 => {}
+                TreeNode::Leaf(_) => return Err(TreeError::Value(index)),
+                TreeNode::Branch(first) => {
+                    let children = first as usize..first as usize + rank.children();
+                    if children.start <= index || children.end > nodes.len() {
+                        return Err(TreeError::Children(index));
+                    }
+                    let below = level[index] + 1;
+                    if u32::from(below) > MAX_LEVEL {
+                        return Err(TreeError::Depth);
+                    }
+                    depth = depth.max(below);
+                    level[children].fill(below);
+                }
+            }
+        }
+        let grid = SquareGrid::new(u32::from(depth).max(1)).ok_or(TreeError::Depth)?;
+        let mut tree = Self { rank, axes, grid, nodes, tau: Vec::new() };
+        tree.tau = tree.tau_of_cells();
+        Ok(tree)
+    }
+
+    /// Rank.
+    pub const fn rank(&self) -> TreeRank {
+        self.rank
+    }
+
+    /// How its squares stand to the façade frame.
+    pub const fn axes(&self) -> TreeAxes {
+        self.axes
+    }
+
+    /// The nodes, root first.
+    pub fn nodes(&self) -> &[TreeNode] {
+        &self.nodes
+    }
+
+    /// Number of leaves.
+    pub fn leaves(&self) -> usize {
+        self.nodes.iter().filter(|node| matches!(node, TreeNode::Leaf(_))).count()
+    }
+
+    /// The finest incident (and emergent) grid in the façade frame.
+    pub const fn incident_grid(&self) -> SquareGrid {
+        self.grid
+    }
+
+    /// Number of cells along one side of the finest incident square. Rank 3 resolves sinθ in half as many steps.
+    pub const fn incident_resolution(&self) -> usize {
+        self.grid.resolution()
+    }
+
+    /// Directional-hemispherical transmittance for every cell of [`Self::incident_grid`], façade frame.
+    pub fn tau_by_cell(&self) -> Vec<f64> {
+        let resolution = self.grid.resolution();
+        self.grid
+            .cells()
+            .map(|cell| match self.rank {
+                TreeRank::Four => {
+                    let [ix, iy] = self.axes.turn_cell(cell.position(), resolution);
+                    self.tau[iy * resolution + ix]
+                }
+                TreeRank::Three => self.tau[frame_of(cell.position(), resolution)],
+            })
+            .collect()
+    }
+
+    /// Largest τ of any incident cell.
+    pub fn tau_max(&self) -> f64 {
+        self.tau.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// q of the leaf that holds the two directions; 0 for directions from behind. [1/sr]
+    pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
+        let (Some(incident), Some(twin)) = (self.disk(incident.0), self.disk(emergent.through_name())) else {
+            return 0.0;
+        };
+        match self.rank {
+            TreeRank::Four => {
+                let ([a, b], [c, d]) = (square_from_disk(incident), square_from_disk(twin));
+                self.leaf(&[a, b, c, d])
+            }
+            TreeRank::Three => {
+                let [c, d] = square_from_disk(rotate(twin, -incident[1].atan2(incident[0])));
+                self.leaf(&[radial_coordinate(incident), c, d])
+            }
+        }
+    }
+
+    /// Directional-hemispherical transmittance of the incident cell that holds the direction.
+    pub fn tau(&self, incident: Incident) -> f64 {
+        self.disk(incident.0).map_or(0.0, |disk| match self.rank {
+            TreeRank::Four => {
+                let [ix, iy] = self.grid.position(disk);
+                self.tau[iy * self.grid.resolution() + ix]
+            }
+            TreeRank::Three => self.tau[self.ring(disk)],
+        })
+    }
+
+    /// Transmittance for uniform luminance.
+    pub fn tau_hemispherical(&self) -> f64 {
+        match self.rank {
+            TreeRank::Four => self.tau.iter().sum::<f64>() / self.tau.len() as f64,
+            TreeRank::Three => {
+                let n = self.tau.len() as f64;
+                self.tau.iter().enumerate().map(|(k, tau)| tau * (2.0 * k as f64 + 1.0) / (n * n)).sum()
+            }
+        }
+    }
+
+    /// Directions to list τ by: the centres of Klems' full basis, θ = 0, 10, 20, … 70, 82.5°, counted in the tree's
+    /// own azimuth. Only the centres matter: τ belongs to the tree's cell that holds them, not to the Klems patch.
+    pub fn incident_listing(&self) -> RingBasis {
+        RingBasis::klems_full(self.axes.azimuth())
+    }
+
+    /// The same function for light going the other way, by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
+    ///
+    /// Rank 4: an exchange of the two squares, exact. Rank 3: the exchanged function is no tree of the same cells; it
+    /// is averaged over them anew (27 points a leaf), with τ for uniform light kept exactly.
+    pub fn reversed(&self) -> Self {
+        match self.rank {
+            TreeRank::Four => {
+                let mut nodes = vec![TreeNode::Leaf(0.0)];
+                self.exchange(0, 0, &mut nodes);
+                Self::new(self.rank, self.axes, nodes).expect("exchanged squares make a tree of the same depth")
+            }
+            TreeRank::Three => self.reversed_isotropic(),
+        }
+    }
+
+    fn exchange(&self, from: usize, to: usize, nodes: &mut Vec<TreeNode>) {
+        match self.nodes[from] {
+            leaf @ TreeNode::Leaf(_) => nodes[to] = leaf,
+            TreeNode::Branch(first) => {
+                let start = nodes.len();
+                nodes[to] = TreeNode::Branch(start as u32);
+                nodes.extend([TreeNode::Leaf(0.0); 16]);
+                for child in 0..16 {
+                    let exchanged = ((child & 3) << 2) | (child >> 2);
+                    self.exchange(first as usize + exchanged, start + child, nodes);
+                }
+            }
+        }
+    }
+
+    fn reversed_isotropic(&self) -> Self {
+        const POINTS: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
+        let resolution = self.grid.resolution();
+        let side = 1.0 / resolution as f64;
+        let mean = |corner: [usize; 3]| -> f64 {
+            let at = |d: usize, p: f64| (corner[d] as f64 + p) * side;
+            let mut sum = 0.0;
+            let mut weight = 0.0;
+            for p in POINTS {
+                let r_in = 1.0 - 2.0 * at(0, p);
+                for (u, v) in POINTS.iter().flat_map(|&u| POINTS.map(|v| (u, v))) {
+                    let twin = disk_from_square([at(1, u), at(2, v)]);
+                    // Incidence at r_in along the axis, emergence at `twin`; asked the other way round:
+                    // incidence at |twin|, emergence at r_in, turned back by the azimuth of `twin`.
+                    let r_out = twin[0].hypot(twin[1]);
+                    let [c, d] = square_from_disk(rotate([r_in, 0.0], -twin[1].atan2(twin[0])));
+                    sum += r_in * self.leaf(&[radial_coordinate([r_out, 0.0]), c, d]);
+                    weight += r_in;
+                }
+            }
+            sum / weight
+        };
+        let mut nodes = vec![TreeNode::Leaf(0.0)];
+        build_isotropic(self.grid.level(), [0; 3], 0, resolution / 2, &mean, &mut nodes, 0);
+        let mut tree = Self::new(self.rank, self.axes, nodes).expect("means of leaves are finite and not negative");
+        let (want, got) = (self.tau_hemispherical(), tree.tau_hemispherical());
+        if got > 0.0 {
+            let scaled = tree.nodes.iter().map(|node| match *node {
+                TreeNode::Leaf(q) => TreeNode::Leaf(q * want / got),
+                branch @ TreeNode::Branch(_) => branch,
+            });
+            tree = Self::new(self.rank, self.axes, scaled.collect()).expect("scaling keeps a tree a tree");
+        }
+        tree
+    }
+
+    /// Weighted mean relative difference from another tree of the same rank, as in
+    /// [`super::reciprocity_error`]; `None` for different ranks.
+    pub(super) fn relative_difference(&self, other: &Self) -> Option<f64> {
+        if self.rank != other.rank {
+            return None;
+        }
+        // Front and back axes differ by a half turn of both squares; relative azimuths of rank 3 are not touched.
+        let flip = if self.axes != other.axes && self.rank == TreeRank::Four { 15 } else { 0 };
+        let mut total = (0.0, 0.0);
+        self.compare(0, other, 0, flip, (0, 1.0), &mut total);
+        Some(if total.1 > 0.0 { total.0 / total.1 } else { 0.0 })
+    }
+
+    fn compare(
+        &self,
+        here: usize,
+        other: &Self,
+        there: usize,
+        flip: usize,
+        (level, weight): (u32, f64),
+        total: &mut (f64, f64),
+    ) {
+        let below = (level + 1, weight / self.rank.children() as f64);
+        for child in 0..self.rank.children() {
+            // The upper half of the radial coordinate is not used.
+            if self.rank == TreeRank::Three && level == 0 && child & 1 == 1 {
+                continue;
+            }
+            let (a, b) = match (self.nodes[here], other.nodes[there]) {
+                (TreeNode::Leaf(p), TreeNode::Leaf(q)) => {
+                    total.0 += weight * (p - q).abs();
+                    total.1 += weight * 0.5 * (p + q);
+                    return;
+                }
+                (TreeNode::Branch(first), TreeNode::Leaf(_)) => (first as usize + child, there),
+                (TreeNode::Leaf(_), TreeNode::Branch(first)) => (here, first as usize + (child ^ flip)),
+                (TreeNode::Branch(p), TreeNode::Branch(q)) => (p as usize + child, q as usize + (child ^ flip)),
+            };
+            self.compare(a, other, b, flip, below, total);
+        }
+    }
+
+    /// Disk coordinates in the tree's axes; `None` from behind.
+    pub(super) fn disk(&self, d: Dir<Facade>) -> Option<[f64; 2]> {
+        let v = d.vector();
+        (v.z >= -1e-12).then(|| self.axes.turn([v.x, v.y]))
+    }
+
+    /// Ring of equal steps of sinθ that holds a point of the disk.
+    pub(super) fn ring(&self, disk: [f64; 2]) -> usize {
+        let rings = self.grid.resolution() / 2;
+        rings - 1 - ((radial_coordinate(disk) * self.grid.resolution() as f64) as usize).min(rings - 1)
+    }
+
+    fn leaf(&self, at: &[f64]) -> f64 {
+        let mut at = [at[0], at[1], at[2], at.get(3).copied().unwrap_or(0.0)];
+        let mut index = 0;
+        loop {
+            match self.nodes[index] {
+                TreeNode::Leaf(q) => return q,
+                TreeNode::Branch(first) => {
+                    let mut child = 0;
+                    for (d, s) in at.iter_mut().enumerate().take(self.rank.dimensions()) {
+                        *s *= 2.0;
+                        if *s >= 1.0 {
+                            *s -= 1.0;
+                            child |= 1 << d;
+                        }
+                    }
+                    index = first as usize + child;
+                }
+            }
+        }
+    }
+
+    /// Every leaf with its level and the corner of its box in cells of that level.
+    pub(super) fn for_each_leaf(&self, f: &mut impl FnMut(u32, [usize; 4], f64)) {
+        self.walk(0, 0, [0; 4], f);
+    }
+
+    fn walk(&self, index: usize, level: u32, corner: [usize; 4], f: &mut impl FnMut(u32, [usize; 4], f64)) {
+        match self.nodes[index] {
+            TreeNode::Leaf(q) => f(level, corner, q),
+            TreeNode::Branch(first) => {
+                for child in 0..self.rank.children() {
+                    if self.rank == TreeRank::Three && level == 0 && child & 1 == 1 {
+                        continue;
+                    }
+                    let corner = std::array::from_fn(|d| 2 * corner[d] + (child >> d & 1));
+                    self.walk(first as usize + child, level + 1, corner, f);
+                }
+            }
+        }
+    }
+
+    fn tau_of_cells(&self) -> Vec<f64> {
+        let level = self.grid.level();
+        match self.rank {
+            TreeRank::Four => {
+                let mut sums = Pyramid::new(level);
+                self.for_each_leaf(&mut |level, corner, q| {
+                    // An emergent box of that level has 4^−level of the disk's projected solid angle π.
+                    *sums.at(level, corner[0], corner[1]) += q * PI / 4_f64.powi(level as i32);
+                });
+                sums.spread()
+            }
+            TreeRank::Three => {
+                let rings = self.grid.resolution() / 2;
+                let mut tau = vec![0.0; rings];
+                self.for_each_leaf(&mut |at, corner, q| {
+                    let cells = self.grid.resolution() >> at;
+                    let from = corner[0] * cells;
+                    for cell in from..(from + cells).min(rings) {
+                        tau[rings - 1 - cell] += q * PI / 4_f64.powi(at as i32);
+                    }
+                });
+                tau
+            }
+        }
+    }
+}
+
+/// Incident coordinate of rank 3; the small shift puts borders into the ring farther out, as Radiance does.
+fn radial_coordinate(disk: [f64; 2]) -> f64 {
+    (0.5 - 1e-12 - 0.5 * disk[0].hypot(disk[1])).max(0.0)
+}
+
+/// A point turned counter-clockwise.
+fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+/// Number of the concentric frame, from the centre, in which a grid cell lies.
+pub(super) fn frame_of([ix, iy]: [usize; 2], resolution: usize) -> usize {
+    let half = resolution / 2;
+    let from_centre = |i: usize| if i >= half { i - half } else { half - 1 - i };
+    from_centre(ix).max(from_centre(iy))
+}
+
+/// A full tree of means, with equal children merged and the unused half left zero.
+fn build_isotropic(
+    levels_below: u32,
+    corner: [usize; 3],
+    place: usize,
+    used: usize,
+    mean: &impl Fn([usize; 3]) -> f64,
+    nodes: &mut Vec<TreeNode>,
+    level: u32,
+) {
+    if levels_below == 0 {
+        nodes[place] = TreeNode::Leaf(if corner[0] < used { mean(corner) } else { 0.0 });
+        return;
+    }
+    if corner[0] << levels_below >= used {
+        nodes[place] = TreeNode::Leaf(0.0);
+        return;
+    }
+    let start = nodes.len();
+    nodes[place] = TreeNode::Branch(start as u32);
+    nodes.extend([TreeNode::Leaf(0.0); 8]);
+    for child in 0..8 {
+        let below = std::array::from_fn(|d| 2 * corner[d] + (child >> d & 1));
+        build_isotropic(levels_below - 1, below, start + child, used, mean, nodes, level + 1);
+    }
+    let first = nodes[start];
+    if nodes.len() == start + 8 && matches!(first, TreeNode::Leaf(_)) && nodes[start..].iter().all(|n| *n == first) {
+        nodes.truncate(start);
+        nodes[place] = first;
+    }
+}
+
+/// Square grids of every resolution from 1 to the finest, one above the other.
+pub(super) struct Pyramid {
+    levels: Vec<Vec<f64>>,
+}
+
+impl Pyramid {
+    pub(super) fn new(finest: u32) -> Self {
+        Self { levels: (0..=finest).map(|level| vec![0.0; 1 << (2 * level)]).collect() }
+    }
+
+    /// From totals of the finest cells: every coarser cell holds the sum of its four.
+    pub(super) fn gather(finest: u32, totals: Vec<f64>) -> Self {
+        let mut pyramid = Self::new(finest);
+        pyramid.levels[finest as usize] = totals;
+        for level in (0..finest as usize).rev() {
+            let side = 1 << level;
+            let (coarse, fine) = pyramid.levels.split_at_mut(level + 1);
+            for iy in 0..side {
+                for ix in 0..side {
+                    let k = 4 * iy * side + 2 * ix;
+                    let fine = &fine[0];
+                    coarse[level][iy * side + ix] = fine[k] + fine[k + 1] + fine[k + 2 * side] + fine[k + 2 * side + 1];
+                }
+            }
+        }
+        pyramid
+    }
+
+    pub(super) fn at(&mut self, level: u32, ix: usize, iy: usize) -> &mut f64 {
+        &mut self.levels[level as usize][(iy << level) + ix]
+    }
+
+    pub(super) fn get(&self, level: u32, ix: usize, iy: usize) -> f64 {
+        self.levels[level as usize][(iy << level) + ix]
+    }
+
+    /// Every cell's value handed down to all finest cells below it, and summed there.
+    pub(super) fn spread(mut self) -> Vec<f64> {
+        for level in 1..self.levels.len() {
+            let side = 1 << level;
+            let (coarse, fine) = self.levels.split_at_mut(level);
+            for iy in 0..side {
+                for ix in 0..side {
+                    fine[0][iy * side + ix] += coarse[level - 1][(iy / 2) * (side / 2) + ix / 2];
+                }
+            }
+        }
+        self.levels.pop().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! From the cells of one basis to those of another: the one place where values change their cells.
+//!
+//! Both bases are products of θ-rings and equal azimuth sectors, so what two cells share is the product of an overlap
+//! in sin²θ and one in φ: exact, no sampling. Values are taken as constant on their cells; the result is their mean
+//! over every target cell, so the flux is kept to rounding wherever the source covers the hemisphere.
+
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::CellMatrix;
+use std::f64::consts::PI;
+
+/// Overlaps of the cells of two bases in projected solid angle, in the façade frame.
+#[derive(Debug, Clone)]
+pub struct Resampling {
+    /// For every target cell the source cells that it overlaps, each with overlap / area of the target.
+    shares: Vec<Vec<(usize, f64)>>,
+}
+
+impl Resampling {
+    /// From one basis to another.
+    pub fn new(source: &RingBasis, target: &RingBasis) -> Self {
+        let mut shares = vec![Vec::new(); target.len()];
+        for (to, to_ring) in target.rings().iter().enumerate() {
+            let to_span = span(to_ring.theta_min, to_ring.theta_max);
+            for (from, from_ring) in source.rings().iter().enumerate() {
+                let common =
+                    span(to_ring.theta_min.max(from_ring.theta_min), to_ring.theta_max.min(from_ring.theta_max));
+                if common <= 1e-13 * to_span {
+                    continue;
+                }
+                for o in 0..to_ring.sectors {
+                    let index = target.first_cell(to) + o;
+                    let cell = target.cell(index);
+                    for i in 0..from_ring.sectors {
+                        let other = source.cell(source.first_cell(from) + i);
+                        let width = common_width((cell.phi, cell.width), (other.phi, other.width));
+                        if width > 1e-12 * cell.width {
+                            shares[index].push((source.first_cell(from) + i, common / to_span * (width / cell.width)));
+                        }
+                    }
+                }
+            }
+        }
+        Self { shares }
+    }
+
+    /// Means over the target cells of a function that is constant on the source cells.
+    pub fn apply(&self, values: &[f64]) -> Vec<f64> {
+        self.shares.iter().map(|list| list.iter().map(|&(cell, share)| share * values[cell]).sum()).collect()
+    }
+
+    /// The source cells of one target cell, with the share of the target that each fills.
+    pub fn shares(&self, target: usize) -> &[(usize, f64)] {
+        &self.shares[target]
+    }
+}
+
+/// sin²b − sin²a without cancellation; not positive when b ≤ a.
+fn span(a: f64, b: f64) -> f64 {
+    (b - a).sin() * (b + a).sin()
+}
+
+/// Common width of two azimuth intervals given by centre and width, both at most a full turn. [rad]
+fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
+    let (a0, a1) = (a.0 - 0.5 * a.1, a.0 + 0.5 * a.1);
+    [-4.0 * PI, -2.0 * PI, 0.0, 2.0 * PI, 4.0 * PI]
+        .iter()
+        .map(|turn| {
+            let (b0, b1) = (b.0 - 0.5 * b.1 + turn, b.0 + 0.5 * b.1 + turn);
+            (a1.min(b1) - a0.max(b0)).max(0.0)
+        })
+        .sum()
+}
+
+/// A matrix on other cells: means over the new incident and the new emergent cells.
+pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
+    if matrix.incident() == incident && matrix.emergent() == emergent {
+        return matrix.clone();
+    }
+    let inward = Resampling::new(matrix.incident(), incident);
+    let outward = Resampling::new(matrix.emergent(), emergent);
+    let n_out = matrix.emergent().len();
+    let mut values = Vec::with_capacity(incident.len() * emergent.len());
+    let mut mean = vec![0.0; n_out];
+    for i in 0..incident.len() {
+        mean.fill(0.0);
+        for &(cell, share) in inward.shares(i) {
+            for (m, q) in mean.iter_mut().zip(matrix.row(cell)) {
+                *m += share * q;
+            }
+        }
+        values.extend(outward.apply(&mean));
+    }
+    CellMatrix::new(incident.clone(), emergent.clone(), values).expect("one row an incident cell")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::direction::Dir;
+
+    fn bases() -> Vec<RingBasis> {
+        vec![
+            RingBasis::klems_full(AzimuthMap::KLEMS_FRONT),
+            RingBasis::klems_quarter(AzimuthMap::KLEMS_BACK),
+            RingBasis::tregenza(),
+            RingBasis::equal_area(6),
+            RingBasis::hemisphere(),
+        ]
+    }
+
+    #[test]
+    fn keeps_flux_and_uniform_values() {
+        for source in bases() {
+            let values: Vec<f64> = (0..source.len()).map(|k| ((k * 37) % 11) as f64).collect();
+            let flux = |basis: &RingBasis, v: &[f64]| -> f64 {
+                basis.projected_solid_angles().iter().zip(v).map(|(w, x)| w * x).sum()
+            };
+            for target in bases() {
+                let resampling = Resampling::new(&source, &target);
+                let out = resampling.apply(&values);
+                assert!((flux(&source, &values) - flux(&target, &out)).abs() < 1e-10, "{}", target.name());
+                let uniform = resampling.apply(&vec![3.0; source.len()]);
+                assert!(uniform.iter().all(|v| (v - 3.0).abs() < 1e-11));
+            }
+        }
+    }
+
+    #[test]
+    fn agrees_with_dense_sampling() {
+        let source = RingBasis::klems_full(AzimuthMap::KLEMS_BACK);
+        let target = RingBasis::tregenza();
+        let values: Vec<f64> = (0..source.len()).map(|k| ((k * 53) % 17) as f64).collect();
+        let out = Resampling::new(&source, &target).apply(&values);
+        for (index, cell) in target.cells().enumerate() {
+            let (n, mut sum) = (60, 0.0);
+            let (s0, s1) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+            for a in 0..n {
+                let theta = (s0 + (s1 - s0) * (a as f64 + 0.5) / n as f64).sqrt().asin();
+                for b in 0..n {
+                    let phi = cell.phi + cell.width * ((b as f64 + 0.5) / n as f64 - 0.5);
+                    sum += values[source.index(Dir::from_theta_phi(theta, phi)).unwrap()];
+                }
+            }
+            assert!((sum / (n * n) as f64 - out[index]).abs() < 0.25, "{index}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_keeps_its_hemispherical_transmittance() {
+        let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let values: Vec<f64> = (0..145 * 145).map(|k| ((k * 7919) % 101) as f64 / 400.0).collect();
+        let matrix = CellMatrix::new(basis.clone(), basis, values).unwrap();
+        let there = RingBasis::equal_area(9);
+        let other = resample_matrix(&matrix, &there, &RingBasis::tregenza());
+        assert!((other.tau_hemispherical() - matrix.tau_hemispherical()).abs() < 1e-10);
+    }
+}

@@ -1,0 +1,170 @@
+//! What a tensor tree sends out: luminances and indicatrices, summed over the tree without ever making it dense.
+
+use super::Indicatrix;
+use super::tensor_tree::{Pyramid, TensorTree, TreeNode, TreeRank};
+use crate::compute::basis::{RingBasis, SquareGrid};
+use crate::compute::direction::Incident;
+use std::f64::consts::PI;
+
+impl TensorTree {
+    /// Emergent luminance [cd/m²] from the illuminance [lx] that arrives through every cell of
+    /// [`TensorTree::incident_grid`] (façade frame, row by row). Panics when the counts differ.
+    ///
+    /// The result stands on [`RingBasis::equal_area`]: the emergent grid of the tree with straightened azimuth
+    /// borders, flux kept ring by ring (see [`SquareGrid::to_rings`]). Rank 3: the emergent distribution turns with
+    /// the azimuth of every incident cell, its light spread over the cell's width.
+    pub fn luminance(&self, illuminance: &[f64]) -> (RingBasis, Vec<f64>) {
+        let grid = self.incident_grid();
+        assert_eq!(illuminance.len(), grid.len(), "one illuminance an incident cell");
+        let luminance = match self.rank() {
+            TreeRank::Four => {
+                let own = Pyramid::gather(grid.level(), self.turned(illuminance));
+                let mut out = Pyramid::new(grid.level());
+                self.for_each_leaf(&mut |level, corner, q| {
+                    let e = own.get(level, corner[0], corner[1]);
+                    if e != 0.0 && q != 0.0 {
+                        *out.at(level, corner[2], corner[3]) += q * e;
+                    }
+                });
+                grid.to_rings(&self.turned(&out.spread()))
+            }
+            TreeRank::Three => self.luminance_isotropic(&grid.to_rings(illuminance)),
+        };
+        (grid.rings(), luminance)
+    }
+
+    /// Emergent luminance [cd/m²] from light of one direction with the given illuminance [lx] on the element.
+    pub fn sun_luminance(&self, incident: Incident, illuminance: f64) -> (RingBasis, Vec<f64>) {
+        let Indicatrix { basis, mut q } = self.indicatrix(incident);
+        q.iter_mut().for_each(|q| *q *= illuminance);
+        (basis, q)
+    }
+
+    /// The emergent distribution of the incident cell that holds the direction, on [`RingBasis::equal_area`]; turned
+    /// to the exact azimuth for rank 3. All zero for directions from behind.
+    pub fn indicatrix(&self, incident: Incident) -> Indicatrix {
+        let grid = self.incident_grid();
+        let q = match (self.disk(incident.0), self.rank()) {
+            (None, _) => vec![0.0; grid.len()],
+            (Some(disk), TreeRank::Four) => {
+                let [ix, iy] = grid.position(disk);
+                grid.to_rings(&self.turned(&self.slice(&[ix, iy])))
+            }
+            (Some(disk), TreeRank::Three) => {
+                let row = self.relative_row(self.ring(disk));
+                turn_rings(grid, &row, incident.0.phi())
+            }
+        };
+        Indicatrix { basis: grid.rings(), q }
+    }
+
+    /// Emergent square, in the tree's axes, for one finest incident cell given by its incident coordinates.
+    fn slice(&self, incident: &[usize]) -> Vec<f64> {
+        let mut out = Pyramid::new(self.incident_grid().level());
+        self.slice_node(0, 0, incident, [0, 0], &mut out);
+        out.spread()
+    }
+
+    fn slice_node(&self, index: usize, level: u32, incident: &[usize], corner: [usize; 2], out: &mut Pyramid) {
+        match self.nodes()[index] {
+            TreeNode::Leaf(q) => *out.at(level, corner[0], corner[1]) = q,
+            TreeNode::Branch(first) => {
+                let shift = self.incident_grid().level() - level - 1;
+                let fixed = incident.iter().enumerate().fold(0, |bits, (d, at)| bits | (at >> shift & 1) << d);
+                for child in 0..4 {
+                    let below = [2 * corner[0] + (child & 1), 2 * corner[1] + (child >> 1)];
+                    let node = first as usize + (fixed | child << incident.len());
+                    self.slice_node(node, level + 1, incident, below, out);
+                }
+            }
+        }
+    }
+
+    /// q on the ring cells for incidence in one ring of sinθ at façade azimuth 0 (rank 3).
+    fn relative_row(&self, ring: usize) -> Vec<f64> {
+        let grid = self.incident_grid();
+        let resolution = grid.resolution();
+        let own = self.slice(&[resolution / 2 - 1 - ring]);
+        // Both kinds of axes mirror azimuths, so the relative azimuth changes its sign.
+        let mirrored: Vec<f64> =
+            (0..resolution).rev().flat_map(|iy| own[iy * resolution..][..resolution].to_vec()).collect();
+        grid.to_rings(&mirrored)
+    }
+
+    /// A grid in the tree's axes from one in the façade frame, or the way back.
+    fn turned(&self, values: &[f64]) -> Vec<f64> {
+        let resolution = self.incident_grid().resolution();
+        (0..values.len())
+            .map(|k| {
+                let [ix, iy] = self.axes().turn_cell([k % resolution, k / resolution], resolution);
+                values[iy * resolution + ix]
+            })
+            .collect()
+    }
+
+    fn luminance_isotropic(&self, illuminance: &[f64]) -> Vec<f64> {
+        let grid = self.incident_grid();
+        let rings = grid.resolution() / 2;
+        let mut luminance = vec![0.0; grid.len()];
+        for ring in 0..rings {
+            let arriving = &illuminance[ring_cells(ring)];
+            if arriving.iter().all(|e| *e == 0.0) {
+                continue;
+            }
+            let row = self.relative_row(ring);
+            for out in 0..rings {
+                let (q, l) = (&row[ring_cells(out)], &mut luminance[ring_cells(out)]);
+                let n = q.len();
+                if q.iter().all(|q| *q == 0.0) {
+                    continue;
+                }
+                for (t, e) in sectors(arriving, n).into_iter().enumerate().filter(|(_, e)| *e != 0.0) {
+                    for (u, q) in q.iter().enumerate() {
+                        // Two sectors' widths add up: from (t + u) to (t + u + 2) sector widths, a triangle.
+                        let half = 0.5 * e * q;
+                        l[(t + u) % n] += half;
+                        l[(t + u + 1) % n] += half;
+                    }
+                }
+            }
+        }
+        luminance
+    }
+}
+
+/// Cells of one ring of [`RingBasis::equal_area`].
+fn ring_cells(ring: usize) -> std::ops::Range<usize> {
+    4 * ring * ring..4 * (ring + 1) * (ring + 1)
+}
+
+/// Totals of equal sectors handed over to `n` equal sectors, both starting at azimuth 0.
+fn sectors(totals: &[f64], n: usize) -> Vec<f64> {
+    let mut out = vec![0.0; n];
+    let ratio = n as f64 / totals.len() as f64;
+    for (k, total) in totals.iter().enumerate() {
+        let (from, to) = (k as f64 * ratio, (k + 1) as f64 * ratio);
+        let mut sector = from as usize;
+        while sector < n && (sector as f64) < to - 1e-12 {
+            let common = to.min((sector + 1) as f64) - from.max(sector as f64);
+            out[sector] += total * common / ratio;
+            sector += 1;
+        }
+    }
+    out
+}
+
+/// Ring values turned by an azimuth, split between the two sectors that a sector then touches.
+fn turn_rings(grid: SquareGrid, values: &[f64], phi: f64) -> Vec<f64> {
+    let mut out = vec![0.0; values.len()];
+    for ring in 0..grid.resolution() / 2 {
+        let (from, to) = (&values[ring_cells(ring)], &mut out[ring_cells(ring)]);
+        let n = from.len();
+        let shift = phi / (2.0 * PI) * n as f64;
+        let (whole, part) = (shift.floor() as usize, shift - shift.floor());
+        for (k, q) in from.iter().enumerate() {
+            to[(k + whole) % n] += (1.0 - part) * q;
+            to[(k + whole + 1) % n] += part * q;
+        }
+    }
+    out
+}

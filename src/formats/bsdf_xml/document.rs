@@ -1,0 +1,202 @@
+//! From bytes to an XML tree that is safe to walk: encodings, junk before the declaration, depth, places of errors.
+
+use crate::compute::btdf::Finding;
+use crate::formats::location::{FormatError, Location, excerpt};
+use roxmltree::{Document, Node, ParsingOptions};
+
+/// Deepest nesting that is looked at; makers' files have 7 levels.
+const MAX_DEPTH: usize = 64;
+/// More elements than any dataset needs, few enough to stay small in memory.
+const MAX_NODES: u32 = 200_000;
+/// How far an XML declaration is looked for.
+const MAX_JUNK: usize = 65_536;
+
+/// The text of a file, cut to where the XML begins.
+pub(super) struct Source {
+    text: String,
+    /// Line breaks in the junk that was cut off.
+    lines_before: usize,
+}
+
+impl Source {
+    /// Decodes, cuts off junk, refuses what is no XML or nested too deeply.
+    pub(super) fn new(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<Self, FormatError> {
+        if bytes.is_empty() {
+            return Err(FormatError::new(Location::file(), "an empty file", "a BSDF XML file"));
+        }
+        let text = decode(bytes, findings)?;
+        let Some(start) = start_of_xml(&text) else {
+            return Err(FormatError::new(
+                Location::byte(0),
+                format!("not XML (begins with '{}')", excerpt(text.get(..80).unwrap_or(&text))),
+                "'<?xml' or '<WindowElement'",
+            ));
+        };
+        let junk = &text[..start];
+        if !junk.trim().is_empty() {
+            findings.push(Finding::info(
+                "junk-before-xml",
+                format!("{start} bytes before the XML declaration were skipped ('{}').", excerpt(junk)),
+            ));
+        }
+        let lines_before = junk.matches('\n').count();
+        let text = if start == 0 { text } else { text[start..].to_owned() };
+        let source = Self { text, lines_before };
+        source.check_depth()?;
+        Ok(source)
+    }
+
+    /// Parses the text.
+    pub(super) fn parse(&self) -> Result<Document<'_>, FormatError> {
+        let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
+        Document::parse_with_options(&self.text, options).map_err(|error| {
+            let at = error.pos();
+            let at = Location::line_column(at.row as usize + self.lines_before, at.col as usize);
+            match error {
+                roxmltree::Error::DtdDetected => FormatError::new(
+                    Location::line(1 + self.lines_before),
+                    "a document type declaration (entities are not expanded)",
+                    "XML without <!DOCTYPE …>",
+                ),
+                roxmltree::Error::NodesLimitReached => FormatError::new(
+                    Location::file(),
+                    format!("more than {MAX_NODES} XML nodes"),
+                    "a BSDF file, which has some hundred",
+                ),
+                roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode => FormatError::new(
+                    Location::line(self.text.lines().count() + self.lines_before),
+                    "unexpected end of the XML (truncated file)",
+                    "closing tags up to </WindowElement>",
+                ),
+                other => FormatError::new(at, format!("not well-formed XML ({other})"), "well-formed XML"),
+            }
+        })
+    }
+
+    /// Line and column of a node, with its name.
+    pub(super) fn place(&self, node: Node<'_, '_>) -> Location {
+        self.line_of(node.range().start).in_element(format!("<{}>", node.tag_name().name()))
+    }
+
+    /// Line of a byte offset of the text.
+    fn line_of(&self, byte: usize) -> Location {
+        let before = self.text.as_bytes().get(..byte).unwrap_or_default();
+        Location::line(1 + before.iter().filter(|b| **b == b'\n').count() + self.lines_before)
+    }
+
+    /// Counts open tags before anything recursive sees them.
+    fn check_depth(&self) -> Result<(), FormatError> {
+        let bytes = self.text.as_bytes();
+        let (mut depth, mut at) = (0_usize, 0);
+        while let Some(found) = bytes[at..].iter().position(|b| *b == b'<') {
+            let open = at + found;
+            let rest = &bytes[open + 1..];
+            // Comments and CDATA may hold tags that are none.
+            let skip_to: Option<&[u8]> = if rest.starts_with(b"!--") {
+                Some(b"-->")
+            } else if rest.starts_with(b"![CDATA[") {
+                Some(b"]]>")
+            } else {
+                None
+            };
+            let end: &[u8] = skip_to.unwrap_or(b">");
+            let Some(length) = rest.windows(end.len()).position(|window| window == end) else {
+                return Ok(()); // Unclosed: the parser says so with its place.
+            };
+            if skip_to.is_none() {
+                match rest.first() {
+                    Some(b'/') => depth = depth.saturating_sub(1),
+                    Some(b'?' | b'!') => {}
+                    _ if length > 0 && rest[length - 1] == b'/' => {}
+                    _ => depth += 1,
+                }
+                if depth > MAX_DEPTH {
+                    return Err(FormatError::new(
+                        self.line_of(open),
+                        format!("elements nested more than {MAX_DEPTH} deep"),
+                        "the 7 levels of a BSDF file",
+                    ));
+                }
+            }
+            at = open + 1 + length + end.len();
+        }
+        Ok(())
+    }
+}
+
+fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, FormatError> {
+    let utf16 = |bytes: &[u8], from: fn([u8; 2]) -> u16| -> Result<String, FormatError> {
+        let units = bytes.chunks_exact(2).map(|pair| from([pair[0], pair[1]]));
+        char::decode_utf16(units).collect::<Result<String, _>>().map_err(|_unpaired| {
+            FormatError::new(Location::file(), "broken UTF-16 text", "UTF-8, or well-formed UTF-16")
+        })
+    };
+    match bytes {
+        [0xEF, 0xBB, 0xBF, rest @ ..] => Ok(decode_bytes(rest, findings)),
+        [0xFF, 0xFE, rest @ ..] => without_declaration(utf16(rest, u16::from_le_bytes)?),
+        [0xFE, 0xFF, rest @ ..] => without_declaration(utf16(rest, u16::from_be_bytes)?),
+        _ => Ok(decode_bytes(bytes, findings)),
+    }
+}
+
+/// The declared encoding no longer holds once the text is decoded; the rest of the declaration does not matter.
+fn without_declaration(text: String) -> Result<String, FormatError> {
+    Ok(match (text.find("<?xml"), text.find("?>")) {
+        (Some(0), Some(end)) => text[end + 2..].to_owned(),
+        _ => text,
+    })
+}
+
+fn decode_bytes(bytes: &[u8], findings: &mut Vec<Finding>) -> String {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).to_ascii_lowercase();
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) if head.contains("iso-8859-1") || head.contains("windows-1252") => {
+            bytes.iter().map(|byte| char::from(*byte)).collect()
+        }
+        Err(error) => {
+            findings.push(Finding::warning(
+                "encoding-repaired",
+                format!("The file is not valid UTF-8 from byte {}; unknown characters were replaced.", error.valid_up_to()),
+            ));
+            String::from_utf8_lossy(bytes).into_owned()
+        }
+    }
+}
+
+fn start_of_xml(text: &str) -> Option<usize> {
+    let mut limit = text.len().min(MAX_JUNK);
+    while !text.is_char_boundary(limit) {
+        limit -= 1;
+    }
+    let head = &text[..limit];
+    if let Some(start) = head.find("<?xml").or_else(|| head.find("<WindowElement")) {
+        return Some(start);
+    }
+    // Any other XML: let the parser and the check of the root element judge it.
+    let trimmed = text.trim_start();
+    let tag = trimmed.strip_prefix('<')?;
+    tag.starts_with(|c: char| c.is_alphabetic() || c == '!' || c == '_').then(|| text.len() - trimmed.len())
+}
+
+/// First child element of that name, whatever its namespace and capitals.
+pub(super) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
+    children(node, name).next()
+}
+
+/// Child elements of that name.
+pub(super) fn children<'a, 'd>(node: Node<'a, 'd>, name: &str) -> impl Iterator<Item = Node<'a, 'd>> {
+    let name = name.to_owned();
+    node.children().filter(move |n| n.is_element() && n.tag_name().name().eq_ignore_ascii_case(&name))
+}
+
+/// All text directly inside an element (CDATA too, comments left out), trimmed.
+pub(super) fn text(node: Node<'_, '_>) -> String {
+    let parts: Vec<&str> = node.children().filter(|n| n.is_text()).filter_map(|n| n.text()).collect();
+    parts.concat().trim().to_owned()
+}
+
+/// Trimmed text of a child; empty when there is none.
+pub(super) fn child_text(node: Node<'_, '_>, name: &str) -> String {
+    child(node, name).map(text).unwrap_or_default()
+}

@@ -1,0 +1,103 @@
+//! Where in a file something is wrong, and the error that every reader returns.
+
+use std::fmt;
+
+/// A place in a file, as exactly as the reader knows it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Location {
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column in characters, from 1.
+    pub column: Option<usize>,
+    /// Offset in bytes, from 0.
+    pub byte: Option<usize>,
+    /// The element, block or key, in the file's own words.
+    pub element: Option<String>,
+}
+
+impl Location {
+    /// The file as a whole.
+    pub fn file() -> Self {
+        Self::default()
+    }
+
+    /// A line, from 1.
+    pub fn line(line: usize) -> Self {
+        Self { line: Some(line), ..Self::default() }
+    }
+
+    /// A line and a column, both from 1.
+    pub fn line_column(line: usize, column: usize) -> Self {
+        Self { line: Some(line), column: Some(column), ..Self::default() }
+    }
+
+    /// A byte offset, from 0.
+    pub fn byte(byte: usize) -> Self {
+        Self { byte: Some(byte), ..Self::default() }
+    }
+
+    /// The same place with the name of the element or block.
+    #[must_use]
+    pub fn in_element(mut self, element: impl Into<String>) -> Self {
+        self.element = Some(element.into());
+        self
+    }
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        if let Some(line) = self.line {
+            parts.push(format!("line {line}"));
+        }
+        if let Some(column) = self.column {
+            parts.push(format!("column {column}"));
+        }
+        if let Some(byte) = self.byte {
+            parts.push(format!("byte {byte}"));
+        }
+        if let Some(element) = &self.element {
+            parts.push(element.clone());
+        }
+        if parts.is_empty() { f.write_str("file") } else { f.write_str(&parts.join(", ")) }
+    }
+}
+
+/// Why bytes could not be read: place, what is there, what would be right. The caller adds the file's name.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{at}: {found}; expected {expected}")]
+pub struct FormatError {
+    /// The place.
+    pub at: Location,
+    /// What was found there, one phrase.
+    pub found: String,
+    /// What would be right, one phrase.
+    pub expected: String,
+}
+
+impl FormatError {
+    /// From its three parts; line breaks become blanks, so that the message stays on one line.
+    pub fn new(at: Location, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        let one_line = |text: String| text.split(['\n', '\r']).map(str::trim).collect::<Vec<_>>().join(" ");
+        Self { at, found: one_line(found.into()), expected: one_line(expected.into()) }
+    }
+}
+
+/// At most 40 characters of a file's text, control characters left out, for quoting in messages.
+pub(crate) fn excerpt(text: &str) -> String {
+    let clean: String = text.trim().chars().filter(|c| !c.is_control()).take(41).collect();
+    if clean.chars().count() > 40 { clean.chars().take(40).collect::<String>() + "…" } else { clean }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn says_everything_on_one_line() {
+        let at = Location::line_column(12, 3).in_element("<ScatteringData>");
+        let error = FormatError::new(at, "'a\nb'", "a number");
+        assert_eq!(error.to_string(), "line 12, column 3, <ScatteringData>: 'a b'; expected a number");
+        assert_eq!(FormatError::new(Location::file(), "nothing", "data").to_string(), "file: nothing; expected data");
+    }
+}
