@@ -1,1 +1,20 @@
-fn main() {}
+//! `cfs`: without a subcommand the window, with one the command line.
+
+use clap::Parser as _;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = cfs::cli::Arguments::parse();
+    let result = match &arguments.command {
+        Some(command) => cfs::cli::run(command, arguments.catalogue.as_deref()),
+        None => Err(anyhow::anyhow!("the window is not there yet")),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // One line whatever the causes say, so that scripts can show it.
+            eprintln!("cfs: {}", format!("{error:#}").replace('\n', " "));
+            ExitCode::from(2)
+        }
+    }
+}

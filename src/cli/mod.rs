@@ -1,2 +1,28 @@
-//! The command line.
+//! The command line: arguments in, files and tables out, no display needed.
+
+mod args;
+pub mod convert;
+mod dataset_file;
+pub mod info;
+mod output;
+pub mod room;
 pub mod sky;
+
+pub use args::{Arguments, Command};
+
+use crate::study::Library;
+use std::path::Path;
+
+/// Runs a subcommand.
+///
+/// # Errors
+/// One line that names the file, the place in it, what is wrong and what would be right.
+pub fn run(command: &Command, _catalogue: Option<&Path>) -> anyhow::Result<()> {
+    let library = Library::default();
+    match command {
+        Command::Room(args) => room::run(args, &library),
+        Command::Sky(args) => sky::run(args),
+        Command::Info(args) => info::run(args),
+        Command::Convert(args) => convert::run(args),
+    }
+}

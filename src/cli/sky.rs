@@ -5,7 +5,6 @@ use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
 use crate::compute::sky::patches::{mean_luminance, tregenza_patches};
 use crate::compute::sky::{Outside, Sun, irradiance};
-use crate::study::scene_file::SceneFile;
 use crate::study::sky::outside_from_keys;
 use anyhow::{Context, anyhow};
 use rayon::prelude::*;
@@ -38,8 +37,7 @@ struct Row {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let name = args.scene.display();
-    let text = std::fs::read_to_string(&args.scene).with_context(|| format!("{name}"))?;
-    let scene: SceneFile = toml::from_str(&text).map_err(|error| anyhow!("{name}: {error}"))?;
+    let scene = crate::study::read_scene_file(&args.scene)?;
     let base_dir = args.scene.parent().unwrap_or(Path::new("."));
     let (outside, sun) =
         outside_from_keys(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;

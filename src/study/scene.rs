@@ -87,13 +87,17 @@ impl Scene {
         let mut list = Vec::with_capacity(geometry.len());
         for (index, (keys, aperture)) in file.aperture.iter().zip(geometry).enumerate() {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
-            let wanted = controlled_state(keys, controlled, library, &facing)
-                .map_err(|error| in_aperture(index, error))?;
+            let wanted =
+                controlled_state(keys, controlled, library, &facing).map_err(|error| in_aperture(index, error))?;
             let system = library.load(&wanted, base).map_err(|error| in_aperture(index, error))?;
             if system.dataset.transmission().is_none() {
                 return Err(StudyError::key(
                     format!("aperture[{}].system", index + 1),
-                    format!("'{}' has no transmission data, only {:?}", system.label, system.dataset.visible.components()),
+                    format!(
+                        "'{}' has no transmission data, only {:?}",
+                        system.label,
+                        system.dataset.visible.components()
+                    ),
                 ));
             }
             let reflectance = match keys.reflectance {
@@ -220,7 +224,10 @@ fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, Stu
                 })
         });
         if let Some((_, number)) = overlapping {
-            return Err(StudyError::key(name("origin"), format!("overlaps aperture {number}; apertures must lie apart")));
+            return Err(StudyError::key(
+                name("origin"),
+                format!("overlaps aperture {number}; apertures must lie apart"),
+            ));
         }
         list.push(Aperture { surface, corner, size: keys.size });
     }

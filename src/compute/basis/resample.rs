@@ -71,10 +71,35 @@ fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
         .sum()
 }
 
+/// For every target cell the source cell that is the same, when both bases have the same cells and only count them
+/// differently.
+fn same_cells(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
+    if source.len() != target.len() {
+        return None;
+    }
+    target
+        .cells()
+        .map(|cell| {
+            let index = source.index(cell.centre())?;
+            let other = source.cell(index);
+            let turn = (cell.phi - other.phi).rem_euclid(2.0 * PI);
+            let same = (cell.theta_min - other.theta_min).abs() < 1e-9
+                && (cell.theta_max - other.theta_max).abs() < 1e-9
+                && (cell.width - other.width).abs() < 1e-9
+                && (cell.is_cap() || turn.min(2.0 * PI - turn) < 1e-9);
+            same.then_some(index)
+        })
+        .collect()
+}
+
 /// A matrix on other cells: means over the new incident and the new emergent cells.
 pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     if matrix.incident() == incident && matrix.emergent() == emergent {
         return matrix.clone();
+    }
+    if let (Some(i), Some(o)) = (same_cells(matrix.incident(), incident), same_cells(matrix.emergent(), emergent)) {
+        let values = i.iter().flat_map(|&i| o.iter().map(move |&o| matrix.row(i)[o])).collect();
+        return CellMatrix::new(incident.clone(), emergent.clone(), values).expect("as many cells as before");
     }
     let inward = Resampling::new(matrix.incident(), incident);
     let outward = Resampling::new(matrix.emergent(), emergent);
@@ -144,6 +169,19 @@ mod tests {
             }
             assert!((sum / (n * n) as f64 - out[index]).abs() < 0.25, "{index}");
         }
+    }
+
+    #[test]
+    fn the_same_cells_counted_otherwise_are_only_reordered() {
+        let front = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let back = RingBasis::klems_full(AzimuthMap::KLEMS_BACK);
+        let values: Vec<f64> = (0..145 * 145).map(|k| k as f64).collect();
+        let matrix = CellMatrix::new(front.clone(), front.clone(), values).unwrap();
+        let turned = resample_matrix(&matrix, &back, &back);
+        let (a, b) = (back.cell(77), back.cell(23));
+        let expected = matrix.row(front.index(a.centre()).unwrap())[front.index(b.centre()).unwrap()];
+        assert_eq!(turned.row(77)[23], expected);
+        assert_eq!(resample_matrix(&turned, &front, &front), matrix);
     }
 
     #[test]

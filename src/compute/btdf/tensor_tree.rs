@@ -230,16 +230,17 @@ impl TensorTree {
         }
     }
 
-    /// Directions to list τ by: the centres of Klems' full basis, θ = 0, 10, 20, … 70, 82.5°, counted in the tree's
-    /// own azimuth. Only the centres matter: τ belongs to the tree's cell that holds them, not to the Klems patch.
+    /// Directions to list τ by: the centres of Klems' full basis, θ = 0, 10, 20, … 70, 82.5°, azimuths counted
+    /// as Klems counts them for light from outside, which is also the way of a front tree's square. Only the centres matter: τ belongs to the tree's cell that holds them, not to the Klems patch.
     pub fn incident_listing(&self) -> RingBasis {
-        RingBasis::klems_full(self.axes.azimuth())
+        RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
     }
 
     /// The same function for light going the other way, by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
     ///
     /// Rank 4: an exchange of the two squares, exact. Rank 3: the exchanged function is no tree of the same cells; it
-    /// is averaged over them anew (27 points a leaf), with τ for uniform light kept exactly.
+    /// is averaged over them anew (27 points a leaf), with τ for uniform light kept exactly. A rotationally symmetric
+    /// system is taken as mirror-symmetric too, as all that are measured or built are.
     pub fn reversed(&self) -> Self {
         match self.rank {
             TreeRank::Four => {
@@ -279,9 +280,10 @@ impl TensorTree {
                 for (u, v) in POINTS.iter().flat_map(|&u| POINTS.map(|v| (u, v))) {
                     let twin = disk_from_square([at(1, u), at(2, v)]);
                     // Incidence at r_in along the axis, emergence at `twin`; asked the other way round:
-                    // incidence at |twin|, emergence at r_in, turned back by the azimuth of `twin`.
+                    // incidence at |twin|, emergence at r_in, turned back by the azimuth of `twin`, and mirrored,
+                    // which changes nothing but keeps straight light on its side of the border at azimuth 0.
                     let r_out = twin[0].hypot(twin[1]);
-                    let [c, d] = square_from_disk(rotate([r_in, 0.0], -twin[1].atan2(twin[0])));
+                    let [c, d] = square_from_disk(rotate([r_in, 0.0], twin[1].atan2(twin[0])));
                     sum += r_in * self.leaf(&[radial_coordinate([r_out, 0.0]), c, d]);
                     weight += r_in;
                 }
@@ -347,7 +349,10 @@ impl TensorTree {
     /// Disk coordinates in the tree's axes; `None` from behind.
     pub(super) fn disk(&self, d: Dir<Facade>) -> Option<[f64; 2]> {
         let v = d.vector();
-        (v.z >= -1e-12).then(|| self.axes.turn([v.x, v.y]))
+        // The square has a border on the vertical meridian, where suns are often put. Such directions count to the
+        // counter-clockwise side, so that rounding of a cosine does not decide.
+        let x = if v.x.abs() < 1e-12 && v.y != 0.0 { (-1e-12_f64).copysign(-v.y) } else { v.x };
+        (v.z >= -1e-12).then(|| self.axes.turn([x, v.y]))
     }
 
     /// Ring of equal steps of sinθ that holds a point of the disk.

@@ -77,8 +77,13 @@ impl PatchWeights {
         if received <= 0.0 {
             return (vec![0.0; self.rows.len()], 0.0);
         }
-        let left: f64 =
-            self.received.iter().zip(&self.closure).zip(luminance).map(|((r, c), l)| if *c > 0.0 { r / c * l } else { 0.0 }).sum();
+        let left: f64 = self
+            .received
+            .iter()
+            .zip(&self.closure)
+            .zip(luminance)
+            .map(|((r, c), l)| if *c > 0.0 { r / c * l } else { 0.0 })
+            .sum();
         let scale = left / received;
         let first = self.rows.iter().map(|row| scale * row.iter().zip(luminance).map(|(w, l)| w * l).sum::<f64>());
         (first.collect(), (scale - 1.0).abs())

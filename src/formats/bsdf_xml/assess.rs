@@ -1,5 +1,6 @@
 //! What is told about a file that could be read: missing, mislabelled, unphysical, derived.
 
+use crate::compute::basis::{AzimuthMap, resample_matrix};
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, TreeRank, reciprocity_error, tau_max};
 use crate::formats::location::{FormatError, Location};
 
@@ -32,7 +33,8 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
             "The file holds no visible transmission; it cannot light a room.",
         )),
         Some(0.0) => {
-            findings.push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
+            findings
+                .push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
         }
         Some(_) => {}
     }
@@ -171,8 +173,16 @@ fn derive_front(dataset: &mut Dataset, findings: &mut Vec<Finding>) {
         return;
     };
     let (reversed, how) = match scattered {
-        Scattered::Cells(matrix) => (Scattered::Cells(Box::new(matrix.reversed())), "exactly"),
-        Scattered::Tree(tree) if tree.rank() == TreeRank::Four => (Scattered::Tree(Box::new(tree.reversed())), "exactly"),
+        Scattered::Cells(matrix) => {
+            // Counted as a front block counts, so that lists do not depend on which block a file holds.
+            let reversed = matrix.reversed();
+            let incident = reversed.incident().clone().with_azimuth(AzimuthMap::KLEMS_FRONT);
+            let emergent = reversed.emergent().clone().with_azimuth(AzimuthMap::KLEMS_FRONT);
+            (Scattered::Cells(Box::new(resample_matrix(&reversed, &incident, &emergent))), "exactly")
+        }
+        Scattered::Tree(tree) if tree.rank() == TreeRank::Four => {
+            (Scattered::Tree(Box::new(tree.reversed())), "exactly")
+        }
         Scattered::Tree(tree) => {
             (Scattered::Tree(Box::new(tree.reversed())), "with its leaves averaged anew, as rank 3 demands")
         }

@@ -157,7 +157,10 @@ fn decode_bytes(bytes: &[u8], findings: &mut Vec<Finding>) -> String {
         Err(error) => {
             findings.push(Finding::warning(
                 "encoding-repaired",
-                format!("The file is not valid UTF-8 from byte {}; unknown characters were replaced.", error.valid_up_to()),
+                format!(
+                    "The file is not valid UTF-8 from byte {}; unknown characters were replaced.",
+                    error.valid_up_to()
+                ),
             ));
             String::from_utf8_lossy(bytes).into_owned()
         }

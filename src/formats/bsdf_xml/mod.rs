@@ -17,7 +17,9 @@ mod write;
 pub use write::write;
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeRank};
+use crate::compute::btdf::{
+    Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeRank,
+};
 use crate::formats::location::{FormatError, Location, excerpt};
 use basis::Bases;
 use document::{Source, child, child_text, children, text};
@@ -107,11 +109,7 @@ fn layer<'a, 'd>(
     Ok(first)
 }
 
-fn structure(
-    source: &Source,
-    layer: Node<'_, '_>,
-    definition: Option<Node<'_, '_>>,
-) -> Result<Structure, FormatError> {
+fn structure(source: &Source, layer: Node<'_, '_>, definition: Option<Node<'_, '_>>) -> Result<Structure, FormatError> {
     let node = definition.and_then(|d| child(d, "IncidentDataStructure"));
     let word = node.map(text).unwrap_or_default();
     match word.to_ascii_lowercase().as_str() {
@@ -214,8 +212,9 @@ impl Reader<'_> {
                 "every direction once in a band",
             ));
         }
-        let data = child(block, "ScatteringData")
-            .ok_or_else(|| FormatError::new(self.source.place(block), format!("{title} without ScatteringData"), "numbers"))?;
+        let data = child(block, "ScatteringData").ok_or_else(|| {
+            FormatError::new(self.source.place(block), format!("{title} without ScatteringData"), "numbers")
+        })?;
         let at = self.source.place(data);
         let at = Location { element: Some(format!("<ScatteringData> of {title}")), ..at };
         let outside = matches!(component, Component::TransmissionFront | Component::ReflectionFront);

@@ -79,7 +79,9 @@ impl Parser<'_> {
             return Err(self.error("a tensor tree that is too deep", &format!("at most {MAX_LEVEL} levels of braces")));
         }
         if !self.rest.starts_with('{') {
-            return Err(self.error("a missing '{' in the tensor tree (wrong number of children?)", "a '{' for every child"));
+            return Err(
+                self.error("a missing '{' in the tensor tree (wrong number of children?)", "a '{' for every child")
+            );
         }
         self.skip(1);
         if self.rest.starts_with('{') {

@@ -40,7 +40,8 @@ fn common_basis(dataset: &Dataset) -> RingBasis {
             && rings.first().is_some_and(|ring| ring.theta_min == 0.0)
             && rings.last().is_some_and(|ring| (ring.theta_max - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
         let klems_like = matches!(a.azimuth(), AzimuthMap::KLEMS_FRONT | AzimuthMap::KLEMS_BACK);
-        let writable = klems_like && complete && rings.iter().all(|ring| ring.first_phi == 0.0) && a.rings() == b.rings();
+        let writable =
+            klems_like && complete && rings.iter().all(|ring| ring.first_phi == 0.0) && a.rings() == b.rings();
         writable.then(|| a.clone())
     });
     own.unwrap_or_else(|| RingBasis::klems_full(AzimuthMap::KLEMS_FRONT))
@@ -48,12 +49,16 @@ fn common_basis(dataset: &Dataset) -> RingBasis {
 
 fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
     xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    xml.push_str("<WindowElement xmlns=\"http://windows.lbl.gov\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" ");
+    xml.push_str(
+        "<WindowElement xmlns=\"http://windows.lbl.gov\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" ",
+    );
     xml.push_str("xsi:schemaLocation=\"http://windows.lbl.gov/BSDF-v1.4.xsd\">\n");
     if !dataset.description.is_empty() {
         let _ = writeln!(xml, "<!-- {} -->", dataset.description.replace("--", "- -").trim_end_matches('-'));
     }
-    xml.push_str("\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n");
+    xml.push_str(
+        "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
+    );
     let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(&dataset.name));
     let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(&dataset.manufacturer));
     if let Some(thickness) = dataset.thickness {

@@ -132,9 +132,9 @@ fn reversing_a_rank_4_tree_exchanges_the_directions() {
 
 #[test]
 fn reversing_a_rank_3_tree_keeps_smooth_functions() {
-    // q depends on both sines and on the relative azimuth, handed: its transpose is known in closed form.
+    // q depends on both sines and on the relative azimuth: its transpose is known in closed form.
     let q =
-        |r_in: f64, r_out: f64, turn: f64| 0.2 * (1.0 + r_in * r_in) * (1.0 + r_out) * (1.0 + 0.5 * r_out * turn.sin());
+        |r_in: f64, r_out: f64, turn: f64| 0.2 * (1.0 + r_in * r_in) * (1.0 + r_out) * (1.0 + 0.5 * r_out * turn.cos());
     let side = 1.0 / 32.0;
     let mean = |corner: [usize; 3]| {
         let at = |d: usize| (corner[d] as f64 + 0.5) * side;

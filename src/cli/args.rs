@@ -1,0 +1,43 @@
+//! What can be typed.
+
+use super::{convert::ConvertArgs, info::InfoArgs, room::RoomArgs, sky::SkyArgs};
+use std::path::PathBuf;
+
+/// From a complex fenestration system's BTDF to the light in a room
+#[derive(Debug, Clone, clap::Parser)]
+#[command(
+    name = "cfs",
+    version,
+    about,
+    after_help = "Without a command the window opens.
+
+Examples:
+  cfs                                   the window
+  cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
+  cfs room office.toml --out office.csv illuminance at every sensor
+  cfs sky office.toml                   luminances of the 145 sky patches
+  cfs convert blind.xml copy.xml        between dataset formats
+
+On bad input every command ends with status 2 and one line that says what would be right."
+)]
+pub struct Arguments {
+    /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
+    #[arg(long, global = true, value_name = "FILE", env = "CFS_CATALOGUE")]
+    pub catalogue: Option<PathBuf>,
+    /// What to do; nothing opens the window
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// Subcommands.
+#[derive(Debug, Clone, clap::Subcommand)]
+pub enum Command {
+    /// Illuminance at every sensor of a scene
+    Room(RoomArgs),
+    /// Luminances of the 145 Tregenza patches of the sky dome
+    Sky(SkyArgs),
+    /// What a dataset file is
+    Info(InfoArgs),
+    /// A dataset in another format
+    Convert(ConvertArgs),
+}

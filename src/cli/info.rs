@@ -1,0 +1,185 @@
+//! `cfs info`: what a dataset is, and what is to be said about it.
+
+use crate::cli::dataset_file;
+use crate::compute::btdf::{Btdf, Component, Dataset, Scattered, Severity, TreeRank, reciprocity_error};
+use crate::compute::direction::Incident;
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// Arguments of `cfs info`.
+#[derive(Debug, clap::Args)]
+pub struct InfoArgs {
+    /// Dataset file, any format that the program reads.
+    pub file: PathBuf,
+    /// One JSON object (an array for several states) instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Reads the file and prints what it is.
+///
+/// # Errors
+/// A file that cannot be read; the message is one line with the file's name and the place in it.
+pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
+    let datasets = dataset_file::read(&args.file)?;
+    let text = if args.json {
+        let mut list: Vec<Value> = datasets.iter().map(|dataset| to_json(dataset, &datasets)).collect();
+        let value = if list.len() == 1 { list.remove(0) } else { Value::Array(list) };
+        serde_json::to_string_pretty(&value)? + "\n"
+    } else {
+        datasets.iter().map(to_text).collect::<Vec<_>>().join("\n")
+    };
+    match std::io::stdout().write_all(text.as_bytes()) {
+        // A reader that has seen enough (`| head`) is no error.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}
+
+/// Keys as the contract of the scene file's page lists them.
+fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
+    let key = |component: &Component| Value::from(component.key());
+    let transmission = dataset.transmission();
+    let mut object = Map::new();
+    object.insert("format".into(), dataset.format.clone().into());
+    object.insert("name".into(), dataset.name.clone().into());
+    object.insert("manufacturer".into(), dataset.manufacturer.clone().into());
+    object.insert("description".into(), dataset.description.clone().into());
+    object.insert("state".into(), dataset.state.clone().into());
+    object.insert("thickness_m".into(), dataset.thickness.into());
+    object.insert("incident_basis".into(), dataset.incident_basis.clone().into());
+    object.insert("emergent_basis".into(), dataset.emergent_basis.clone().into());
+    object.insert("resolution".into(), transmission.map(resolution).into());
+    object.insert("states".into(), all.iter().map(|one| one.state.clone()).collect::<Vec<_>>().into());
+    object.insert("components".into(), dataset.visible.components().iter().map(key).collect::<Vec<_>>().into());
+    object.insert("derived".into(), dataset.derived.iter().map(key).collect::<Vec<_>>().into());
+    object.insert("solar".into(), dataset.solar.is_some().into());
+    object.insert("tau_normal_hemispherical".into(), transmission.map(Btdf::tau_normal).into());
+    object.insert("tau_hemispherical_hemispherical".into(), transmission.map(Btdf::tau_hemispherical).into());
+    object.insert("hemispherical_hemispherical".into(), hemispherical(dataset));
+    object.insert("tau_dir_hem".into(), transmission.map_or_else(|| json!([]), tau_dir_hem));
+    object.insert("reciprocity_error".into(), reciprocity(dataset).into());
+    let findings = dataset
+        .findings
+        .iter()
+        .map(|finding| json!({"severity": finding.severity.word(), "code": finding.code, "message": finding.message}));
+    object.insert("findings".into(), findings.collect::<Vec<_>>().into());
+    Value::Object(object)
+}
+
+fn hemispherical(dataset: &Dataset) -> Value {
+    let components = dataset.visible.components().into_iter();
+    let pairs =
+        components.filter_map(|c| Some((c.key().to_owned(), dataset.visible.get(c)?.tau_hemispherical().into())));
+    Value::Object(pairs.collect())
+}
+
+/// τ of every incident cell in the basis's own order, angles at its centre, azimuth in the basis's own counting.
+fn tau_dir_hem(btdf: &Btdf) -> Value {
+    let own = match &btdf.scattered {
+        Some(Scattered::Cells(matrix)) => Some(matrix.tau_by_cell()),
+        _ => None,
+    };
+    let basis = btdf.incident_basis();
+    let rows = basis.cells().enumerate().map(|(k, cell)| {
+        let tau = match (own, &btdf.regular) {
+            (Some(own), None) => own[k],
+            _ => btdf.tau(Incident(cell.centre())),
+        };
+        json!({"theta_deg": tidy(cell.theta().to_degrees()), "phi_deg": tidy(cell.phi_own.to_degrees()), "tau": tau})
+    });
+    rows.collect::<Vec<_>>().into()
+}
+
+/// Degrees without the noise of the way through radians.
+fn tidy(degrees: f64) -> f64 {
+    (degrees * 1e9).round() / 1e9
+}
+
+/// Only between blocks that the file itself holds.
+fn reciprocity(dataset: &Dataset) -> Option<f64> {
+    if !dataset.derived.is_empty() {
+        return None;
+    }
+    reciprocity_error(dataset.visible.transmission_front.as_ref()?, dataset.visible.transmission_back.as_ref()?)
+}
+
+fn resolution(btdf: &Btdf) -> String {
+    match &btdf.scattered {
+        None => "no scattering".into(),
+        Some(Scattered::Lambert(_)) => "diffuse".into(),
+        Some(Scattered::Cells(matrix)) => {
+            format!("{} incident × {} emergent directions", matrix.incident().len(), matrix.emergent().len())
+        }
+        Some(Scattered::Tree(tree)) => {
+            let n = tree.incident_resolution();
+            let incident = match tree.rank() {
+                TreeRank::Three => format!("{} rings of incidence", n / 2),
+                TreeRank::Four => format!("{n} × {n} incident cells"),
+            };
+            format!("{incident}, {n} × {n} emergent cells, {} leaves", tree.leaves())
+        }
+    }
+}
+
+fn to_text(dataset: &Dataset) -> String {
+    let mut text = String::new();
+    let mut line = |label: &str, value: &str| {
+        if !value.is_empty() {
+            let _ = writeln!(text, "{label:<22}{value}");
+        }
+    };
+    line("Name", &dataset.name);
+    line("Manufacturer", &dataset.manufacturer);
+    line("Description", &dataset.description.replace('\n', "; "));
+    line("State", &dataset.state);
+    line("Format", &dataset.format);
+    line("Incident basis", &dataset.incident_basis);
+    line("Emergent basis", &dataset.emergent_basis);
+    line("Resolution", &dataset.transmission().map(resolution).unwrap_or_default());
+    line("Thickness", &dataset.thickness.map(|t| format!("{:.3} mm", 1000.0 * t)).unwrap_or_default());
+    let components = dataset.visible.components().into_iter().map(|component| {
+        let derived = if dataset.derived.contains(&component) { " (derived)" } else { "" };
+        format!("{}{derived}", component.key().replace('_', " "))
+    });
+    line("Visible", &components.collect::<Vec<_>>().join(", "));
+    line("Solar", if dataset.solar.is_some() { "kept" } else { "not in the file" });
+    if let Some(transmission) = dataset.transmission() {
+        line("τ normal", &format!("{:.5}", transmission.tau_normal()));
+        line("τ hemispherical", &format!("{:.5}", transmission.tau_hemispherical()));
+    }
+    if let Some(error) = reciprocity(dataset) {
+        line("Reciprocity error", &format!("{:.2} % on average", 100.0 * error));
+    }
+    if let Some(transmission) = dataset.transmission() {
+        let _ = write!(text, "\n{}", tau_table(transmission));
+    }
+    let _ = writeln!(text, "\nFindings");
+    if dataset.findings.is_empty() {
+        let _ = writeln!(text, "  none");
+    }
+    for severity in [Severity::Error, Severity::Warning, Severity::Info] {
+        for finding in dataset.findings.iter().filter(|finding| finding.severity == severity) {
+            let _ = writeln!(text, "  {:<8} {:<22} {}", severity.word(), finding.code, finding.message);
+        }
+    }
+    text
+}
+
+/// τ at 0, 30 and 60° from four sides, façade frame.
+fn tau_table(btdf: &Btdf) -> String {
+    let mut text = String::from("τ, light from            right      above      left       below\n");
+    for theta in [0.0_f64, 30.0, 60.0] {
+        let _ = write!(text, "  θ = {theta:>2}°              ");
+        let azimuths: &[f64] = if theta == 0.0 { &[0.0] } else { &[0.0, 90.0, 180.0, 270.0] };
+        for phi in azimuths {
+            let direction = crate::compute::direction::Dir::from_theta_phi(theta.to_radians(), phi.to_radians());
+            let _ = write!(text, " {:<10.5}", btdf.tau(Incident(direction)));
+        }
+        text.truncate(text.trim_end().len());
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,69 @@
+//! `cfs room`: illuminance at every sensor of a scene.
+
+use super::output::{number, print, write_file};
+use crate::compute::estimate::Silent;
+use crate::study::{RoomResult, Session, load_scene, system::SystemLibrary};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Illuminance at every sensor of a scene
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  cfs room office.toml                       table on standard output
+  cfs room office.toml --out office.csv      the same into a file
+  cfs room office.toml --json                with the plan: what ran, what was left out and why, and how long it took
+
+Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error).")]
+pub struct RoomArgs {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// CSV file to write
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Results for programs, on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+    let scene = load_scene(&args.scene, library)?;
+    let result = Session::new().room(&scene, &Silent)?;
+    let mut csv = String::from("x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx\n");
+    for row in &result.sensors {
+        let total = row.total();
+        let [p, n] = [row.sensor.position, row.sensor.normal];
+        let cells =
+            [p.x, p.y, p.z, n.x, n.y, n.z, total.value, row.direct.value, row.interreflected.value, total.error];
+        csv.push_str(&cells.map(number).join(","));
+        csv.push('\n');
+    }
+    if let Some(path) = &args.out {
+        write_file(path, csv.as_bytes())?;
+    }
+    if args.json {
+        print(&format!("{:#}\n", to_json(&result)))?;
+    } else if args.out.is_none() {
+        print(&csv)?;
+    }
+    Ok(())
+}
+
+fn to_json(result: &RoomResult) -> serde_json::Value {
+    json!({
+        "flux_lm": result.flux.value,
+        "flux_error_lm": result.flux.error,
+        "flux_gap": result.flux_gap,
+        "plan": result.plan.stages.iter().map(|stage| json!({
+            "stage": stage.name, "runs": stage.runs, "reason": stage.reason, "seconds": stage.time.as_secs_f64(),
+        })).collect::<Vec<_>>(),
+        "sensors": result.sensors.iter().map(|row| json!({
+            "position_m": row.sensor.position.to_array(),
+            "normal": row.sensor.normal.to_array(),
+            "E_lx": row.total().value,
+            "E_direct_lx": row.direct.value,
+            "E_interreflected_lx": row.interreflected.value,
+            "E_error_lx": row.total().error,
+        })).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,45 @@
+//! Keeps what a changed sky, time or product does not touch: a few most recently used results by exact key.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The numbers that a result depends on, as bits.
+pub type Key = Vec<u64>;
+
+/// Most recently used values; shared between threads.
+pub struct Cache<T> {
+    entries: Mutex<Vec<(Key, Arc<T>)>>,
+    capacity: usize,
+}
+
+impl<T> Cache<T> {
+    /// Keeps at most `capacity` values.
+    pub const fn new(capacity: usize) -> Self {
+        Self { entries: Mutex::new(Vec::new()), capacity }
+    }
+
+    /// The value of a key, computed if it is not there. Two threads may compute the same value at once; both get
+    /// equal results.
+    pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
+        {
+            let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(at) = entries.iter().position(|(k, _)| *k == key) {
+                let entry = entries.remove(at);
+                let value = Arc::clone(&entry.1);
+                entries.push(entry);
+                return Ok(value);
+            }
+        }
+        let value = Arc::new(compute()?);
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        if entries.len() >= self.capacity {
+            entries.remove(0);
+        }
+        entries.push((key, Arc::clone(&value)));
+        Ok(value)
+    }
+}
+
+/// Bits of numbers, for keys.
+pub fn bits(numbers: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u64> {
+    numbers.into_iter().map(f64::to_bits)
+}

@@ -1,0 +1,91 @@
+//! What a scene needs, and what was left out and why: decided before any work, printed with every result.
+
+use super::scene::Scene;
+use crate::compute::btdf::Scattered;
+use std::time::Duration;
+
+/// One stage of the computation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// Stable name.
+    pub name: &'static str,
+    /// True if it runs.
+    pub runs: bool,
+    /// Why it runs or is left out.
+    pub reason: String,
+    /// Time spent on it, once done.
+    pub time: Duration,
+}
+
+/// The list of stages.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Plan {
+    /// In order of work.
+    pub stages: Vec<Stage>,
+}
+
+impl Plan {
+    /// Looks at a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let mut plan = Self::default();
+        let scattered = |test: fn(&Scattered) -> bool| {
+            scene.apertures.iter().filter_map(|a| a.system.dataset.transmission()?.scattered.as_ref()).any(test)
+        };
+        let regular =
+            scene.apertures.iter().any(|a| a.system.dataset.transmission().is_some_and(|btdf| btdf.regular.is_some()));
+        let cells = scattered(|part| matches!(part, Scattered::Cells(_) | Scattered::Tree(_)));
+        let sun_on = (0..scene.apertures.len()).any(|index| scene.facing(index).sun_illuminance() > 0.0);
+        plan.add(
+            "sun",
+            sun_on,
+            match (&scene.sun, sun_on) {
+                (None, _) => "no direct normal illuminance, or the sun is below the horizon",
+                (_, false) => "the sun does not reach any aperture",
+                _ => "the sun shines on an aperture",
+            },
+        );
+        let ground = scene.outside.ground_luminance() > 0.0;
+        plan.add("ground", ground, if ground { "the ground reflects" } else { "the ground is black or dark" });
+        plan.add(
+            "cells",
+            cells,
+            if cells { "a system scatters by its dataset's cells" } else { "no system has scattering data" },
+        );
+        plan.add(
+            "seen through",
+            regular,
+            if regular { "a system lets light straight on" } else { "no system lets light straight on" },
+        );
+        let reflects = scene.room.floor > 0.0
+            || scene.room.walls > 0.0
+            || scene.room.ceiling > 0.0
+            || scene.apertures.iter().any(|a| a.reflectance > 0.0);
+        plan.add(
+            "interreflection",
+            scene.interreflection && reflects,
+            match (scene.interreflection, reflects) {
+                (false, _) => "the scene asks for the direct component alone",
+                (true, false) => "nothing in the room reflects",
+                (true, true) => "surfaces reflect",
+            },
+        );
+        plan
+    }
+
+    fn add(&mut self, name: &'static str, runs: bool, reason: &str) {
+        self.stages.push(Stage { name, runs, reason: reason.to_owned(), time: Duration::ZERO });
+    }
+
+    /// Does a stage run?
+    pub fn runs(&self, name: &str) -> bool {
+        self.stages.iter().any(|stage| stage.name == name && stage.runs)
+    }
+
+    /// Books time on a stage; stages that only take time are added.
+    pub fn spend(&mut self, name: &'static str, time: Duration) {
+        match self.stages.iter_mut().find(|stage| stage.name == name) {
+            Some(stage) => stage.time += time,
+            None => self.stages.push(Stage { name, runs: true, reason: String::from("always"), time }),
+        }
+    }
+}
