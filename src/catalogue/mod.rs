@@ -1,1 +1,33 @@
-//! The catalogue of products.
+//! The catalogue of products: one SQLite file with full-text search, in which datasets lie in compact binary form.
+//!
+//! ```no_run
+//! use cfs::catalogue::{Catalogue, Query};
+//! let catalogue = Catalogue::open_default()?;
+//! for row in catalogue.search(&Query { text: "slat".into(), ..Query::default() })? {
+//!     println!("{} {}", row.key, row.name);
+//! }
+//! # Ok::<(), cfs::catalogue::CatalogueError>(())
+//! ```
+//!
+//! A [`Catalogue`] is one connection; several connections, threads and windows may work on one file at a time.
+//! Every change is one transaction: it happens as a whole or not at all.
+
+mod builtin;
+mod error;
+mod exchange;
+mod open;
+mod product;
+mod search;
+mod store;
+mod validate;
+
+pub use builtin::{BUILTIN_VERSION, builtin_products};
+pub use error::CatalogueError;
+pub use open::{Catalogue, default_path};
+pub use product::{
+    CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State,
+    StateName, profile_transmittances,
+};
+pub use search::{Facet, Facets, ProductRow, Query};
+pub use store::Removed;
+pub use validate::check;

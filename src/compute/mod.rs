@@ -24,3 +24,4 @@ pub mod lid;
 pub mod quadrature;
 pub mod room;
 pub mod sky;
+pub mod system;

@@ -4,7 +4,9 @@
 //! [`write_dataset`].
 
 pub mod bsdf_xml;
+pub mod dataset_blob;
 mod location;
+pub mod package;
 pub mod scan;
 
 pub use location::{FormatError, Location};

@@ -1,0 +1,76 @@
+//! What can go wrong with the catalogue.
+
+use crate::formats::dataset_blob::BlobError;
+use crate::formats::package::PackageError;
+use std::path::PathBuf;
+
+/// Why the catalogue could not do what it was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum CatalogueError {
+    /// The file cannot be opened or made.
+    #[error("catalogue {path}: {source}")]
+    Open {
+        /// Which file.
+        path: PathBuf,
+        /// What SQLite says.
+        source: rusqlite::Error,
+    },
+    /// The folder of the file cannot be made.
+    #[error("catalogue folder {path}: {source}")]
+    Folder {
+        /// Which folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The system names no folder for a user's data.
+    #[error("no folder for the catalogue is known; name a file with CFS_CATALOGUE or --catalogue")]
+    NoHome,
+    /// A database of something else.
+    #[error("{0} is a database, but no catalogue")]
+    NotACatalogue(String),
+    /// Written by a newer program.
+    #[error("the catalogue has layout {found}, written by a newer program; this one knows layouts up to {known}")]
+    Newer {
+        /// Layout of the file.
+        found: i64,
+        /// Newest layout this program knows.
+        known: i64,
+    },
+    /// No product of this key.
+    #[error("no product \"{0}\" in the catalogue")]
+    NoProduct(String),
+    /// The product has no state of this key, or several and none was named.
+    #[error("product \"{product}\": {what}; its states are: {states}")]
+    NoState {
+        /// Key of the product.
+        product: String,
+        /// What is wrong with the request.
+        what: String,
+        /// The keys there are.
+        states: String,
+    },
+    /// Data that cannot be stored.
+    #[error("cannot import: {0}")]
+    Import(String),
+    /// Built-in products stay.
+    #[error("product \"{0}\" is built in and cannot be removed")]
+    BuiltIn(String),
+    /// A key that is taken.
+    #[error("there is a product \"{0}\" already")]
+    Taken(String),
+    /// A stored or packed dataset cannot be read.
+    #[error("dataset {hash}: {source}")]
+    Dataset {
+        /// Its hash.
+        hash: String,
+        /// Why.
+        source: BlobError,
+    },
+    /// A package cannot be read or written.
+    #[error(transparent)]
+    Package(#[from] PackageError),
+    /// SQLite.
+    #[error("catalogue: {0}")]
+    Sql(#[from] rusqlite::Error),
+}

@@ -1,0 +1,107 @@
+//! Packages out of the catalogue and into it.
+
+use super::store::{Removed, add, read_record};
+use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName, store};
+use crate::formats::dataset_blob::decode;
+use crate::formats::package::{
+    self, Package, PackageCurvePoint, PackageProduct, PackageProvenance, PackageState,
+};
+
+impl Catalogue {
+    /// The bytes of a package with these products.
+    pub fn export_package(&self, keys: &[String]) -> Result<Vec<u8>, CatalogueError> {
+        let snapshot = self.db.unchecked_transaction()?;
+        let mut package = Package::default();
+        for key in keys {
+            let Removed { product, datasets } = read_record(&snapshot, key)?;
+            package.products.push(packed(product));
+            package.datasets.extend(datasets);
+        }
+        Ok(package::write(&package)?)
+    }
+
+    /// Adds all products of a package, or none. What their datasets contain is checked anew.
+    pub fn import_package(&mut self, bytes: &[u8]) -> Result<Vec<Imported>, CatalogueError> {
+        let package = package::read(bytes)?;
+        let mut records = Vec::new();
+        for product in package.products {
+            let mut datasets = Vec::new();
+            for state in &product.states {
+                let hash = state.dataset.clone();
+                let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
+                let dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
+                if dataset.state != state.key {
+                    return Err(CatalogueError::Import(format!(
+                        "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",
+                        state.key, product.key, dataset.state
+                    )));
+                }
+                datasets.push(dataset);
+            }
+            records.push(store::prepare(&datasets, unpacked(product))?);
+        }
+        let tx = self.change()?;
+        let imported = records.into_iter().map(|record| add(&tx, record)).collect::<Result<_, _>>()?;
+        tx.commit()?;
+        Ok(imported)
+    }
+}
+
+fn packed(product: Product) -> PackageProduct {
+    let from = product.provenance;
+    PackageProduct {
+        key: product.key,
+        name: product.name,
+        manufacturer: product.manufacturer,
+        kind: product.kind,
+        description: product.description,
+        provenance: PackageProvenance {
+            origin: from.origin.word().to_owned(),
+            author: from.author,
+            method: from.method,
+            date: from.date,
+            source_file: from.source_file,
+            source_hash: from.source_hash,
+            inside_face: from.inside_face,
+        },
+        tags: product.tags,
+        states: product
+            .states
+            .into_iter()
+            .map(|s| PackageState { key: s.key, label: s.label, value: s.value, dataset: s.dataset })
+            .collect(),
+        control_curve: product
+            .control_curve
+            .into_iter()
+            .map(|p| PackageCurvePoint { profile_angle: p.profile_angle, value: p.value })
+            .collect(),
+    }
+}
+
+fn unpacked(product: PackageProduct) -> NewProduct {
+    let from = product.provenance;
+    NewProduct {
+        // Keys from outside become as plain as our own.
+        key: Some(super::product::slug(&product.key)),
+        name: product.name,
+        manufacturer: product.manufacturer,
+        kind: product.kind,
+        description: product.description,
+        provenance: Provenance {
+            origin: Origin::from_word(&from.origin),
+            author: from.author,
+            method: from.method,
+            date: from.date,
+            source_file: from.source_file,
+            source_hash: from.source_hash,
+            inside_face: from.inside_face,
+        },
+        tags: product.tags,
+        states: product.states.iter().map(|s| StateName { label: s.label.clone(), value: s.value }).collect(),
+        control_curve: product
+            .control_curve
+            .iter()
+            .map(|p| super::CurvePoint { profile_angle: p.profile_angle, value: p.value })
+            .collect(),
+    }
+}

@@ -1,0 +1,175 @@
+//! Opening the file: settings of the connection, numbered migrations, built-in products.
+
+use super::{CatalogueError, builtin};
+use crate::compute::btdf::Dataset;
+use rusqlite::{Connection, OpenFlags, TransactionBehavior};
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The steps from an empty file to the present layout; `PRAGMA user_version` counts those done.
+const MIGRATIONS: &[&str] = &[include_str!("../../migrations/0001_products.sql")];
+
+/// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.
+const APPLICATION: i64 = 0x4346_5358;
+
+/// How long a connection waits for another one to finish writing.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// One connection to a catalogue. May move between threads; for use from several threads open one each.
+#[derive(Debug)]
+pub struct Catalogue {
+    pub(super) db: Connection,
+    /// The datasets used last, decoded, newest at the end.
+    pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
+}
+
+/// The user's catalogue: `CFS_CATALOGUE` when set, else `catalogue.sqlite` in the user's folder for data.
+pub fn default_path() -> Result<PathBuf, CatalogueError> {
+    if let Some(path) = std::env::var_os("CFS_CATALOGUE").filter(|path| !path.is_empty()) {
+        return Ok(path.into());
+    }
+    let folders = directories::ProjectDirs::from("", "", "cfs").ok_or(CatalogueError::NoHome)?;
+    Ok(folders.data_dir().join("catalogue.sqlite"))
+}
+
+impl Catalogue {
+    /// Opens a catalogue file, makes it when missing, brings it to the present layout and its built-in products to
+    /// this program's version.
+    pub fn open(path: &Path) -> Result<Self, CatalogueError> {
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            std::fs::create_dir_all(folder)
+                .map_err(|source| CatalogueError::Folder { path: folder.to_owned(), source })?;
+        }
+        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+        let opened = Connection::open_with_flags(path, flags);
+        let located = |source| CatalogueError::Open { path: path.to_owned(), source };
+        Self::prepare(opened.map_err(located)?).map_err(|error| match error {
+            CatalogueError::Sql(source) => located(source),
+            CatalogueError::NotACatalogue(_) => CatalogueError::NotACatalogue(path.display().to_string()),
+            other => other,
+        })
+    }
+
+    /// The user's own catalogue, see [`default_path`].
+    pub fn open_default() -> Result<Self, CatalogueError> {
+        Self::open(&default_path()?)
+    }
+
+    /// A catalogue that is gone with the value, with the built-in products.
+    pub fn in_memory() -> Result<Self, CatalogueError> {
+        Self::prepare(Connection::open_in_memory()?)
+    }
+
+    fn prepare(db: Connection) -> Result<Self, CatalogueError> {
+        db.busy_timeout(PATIENCE)?;
+        db.pragma_update(None, "foreign_keys", true)?;
+        let mut catalogue = Self { db, recent: RefCell::default() };
+        // Judged before anything is written: a foreign file stays as it is.
+        catalogue.judge()?;
+        catalogue.write_ahead()?;
+        catalogue.migrate(MIGRATIONS)?;
+        builtin::renew(&mut catalogue)?;
+        Ok(catalogue)
+    }
+
+    /// Write-ahead logging, so that readers and a writer do not wait for each other. Two connections that both
+    /// change the mode of a new file may meet; SQLite then answers "busy" without waiting.
+    fn write_ahead(&self) -> Result<(), CatalogueError> {
+        let mut tries = 0;
+        loop {
+            match self.db.pragma_update_and_check(None, "journal_mode", "wal", |row| row.get::<_, String>(0)) {
+                Ok(_) => break,
+                Err(error) if tries < 100 && error.sqlite_error_code() == Some(rusqlite::ErrorCode::DatabaseBusy) => {
+                    tries += 1;
+                    std::thread::sleep(Duration::from_millis(20));
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        // In write-ahead mode a crash of the program loses nothing; a power cut at most the last changes.
+        Ok(self.db.pragma_update(None, "synchronous", "normal")?)
+    }
+
+    fn version(db: &Connection) -> Result<i64, CatalogueError> {
+        Ok(db.pragma_query_value(None, "user_version", |row| row.get(0))?)
+    }
+
+    /// Refuses files of other programs and of newer ones.
+    fn judge(&self) -> Result<(), CatalogueError> {
+        let found = Self::version(&self.db)?;
+        let application: i64 = self.db.pragma_query_value(None, "application_id", |row| row.get(0))?;
+        let tables: i64 = self.db.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+        if tables > 0 && application != APPLICATION {
+            return Err(CatalogueError::NotACatalogue(String::new()));
+        }
+        let known = MIGRATIONS.len() as i64;
+        if found > known { Err(CatalogueError::Newer { found, known }) } else { Ok(()) }
+    }
+
+    /// Takes the missing steps, each in one transaction.
+    fn migrate(&mut self, steps: &[&str]) -> Result<(), CatalogueError> {
+        while Self::version(&self.db)? < steps.len() as i64 {
+            let step = self.db.transaction_with_behavior(TransactionBehavior::Immediate)?;
+            // Another connection may have taken it while this one waited.
+            let done = Self::version(&step)?;
+            if let Some(sql) = usize::try_from(done).ok().and_then(|done| steps.get(done)) {
+                step.execute_batch(sql)?;
+                step.pragma_update(None, "user_version", done + 1)?;
+            }
+            step.commit()?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bare() -> Catalogue {
+        let db = Connection::open_in_memory().unwrap();
+        db.pragma_update(None, "foreign_keys", true).unwrap();
+        Catalogue { db, recent: RefCell::default() }
+    }
+
+    fn schema(db: &Connection) -> Vec<(String, String)> {
+        let sql = "SELECT name, coalesce(sql, '') FROM sqlite_schema ORDER BY name";
+        let mut statement = db.prepare(sql).unwrap();
+        statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?))).unwrap().map(Result::unwrap).collect()
+    }
+
+    #[test]
+    fn a_migrated_file_has_the_layout_of_a_new_one() {
+        let new = Catalogue::in_memory().unwrap();
+        for from in 0..MIGRATIONS.len() {
+            let mut old = bare();
+            old.migrate(&MIGRATIONS[..from]).unwrap();
+            old.migrate(MIGRATIONS).unwrap();
+            assert_eq!(schema(&old.db), schema(&new.db), "from {from}");
+        }
+    }
+
+    #[test]
+    fn a_failing_step_leaves_nothing_behind() {
+        let mut catalogue = bare();
+        catalogue.migrate(MIGRATIONS).unwrap();
+        let before = schema(&catalogue.db);
+        let mut steps = MIGRATIONS.to_vec();
+        steps.push("CREATE TABLE half (x) STRICT; CREATE TABLE broken (");
+        assert!(catalogue.migrate(&steps).is_err());
+        assert_eq!(schema(&catalogue.db), before);
+        assert_eq!(Catalogue::version(&catalogue.db).unwrap(), MIGRATIONS.len() as i64);
+    }
+
+    #[test]
+    fn the_mark_of_a_catalogue_is_set() {
+        let catalogue = Catalogue::in_memory().unwrap();
+        let mark: i64 = catalogue.db.pragma_query_value(None, "application_id", |row| row.get(0)).unwrap();
+        assert_eq!(mark, APPLICATION);
+        let on: bool = catalogue.db.pragma_query_value(None, "foreign_keys", |row| row.get(0)).unwrap();
+        assert!(on);
+    }
+}

@@ -1,0 +1,456 @@
+//! Products in and out of the tables. Every change is one transaction.
+
+use super::product::slug;
+use super::search::profile;
+use super::{
+    Catalogue, CatalogueError, CurvePoint, Imported, NewProduct, Origin, Product, ProductFinding, Provenance, State,
+    check, profile_transmittances,
+};
+use crate::compute::btdf::{Dataset, Severity};
+use crate::formats::dataset_blob::{content_hash, decode, encode};
+use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior, params};
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// Most decoded datasets kept by a connection.
+const RECENT: usize = 32;
+/// Rank of products that users add: behind the built-in ones.
+pub(super) const USER_RANK: i64 = 1_000_000;
+
+/// A product taken out of the catalogue, with all that is needed to put it back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Removed {
+    pub(super) product: Product,
+    /// Hash and bytes of every dataset the product refers to.
+    pub(super) datasets: Vec<(String, Vec<u8>)>,
+}
+
+impl Removed {
+    /// The product as it was.
+    pub const fn product(&self) -> &Product {
+        &self.product
+    }
+}
+
+/// Everything of a product that is to be stored, checked; nothing is written yet.
+pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed, CatalogueError> {
+    let refuse = |what: String| Err(CatalogueError::Import(what));
+    let Some(first) = datasets.first() else {
+        return refuse("there is no dataset".to_owned());
+    };
+    let or = |told: String, own: &str| if told.trim().is_empty() { own.trim().to_owned() } else { told.trim().to_owned() };
+    let name = or(meta.name, &first.name);
+    if name.is_empty() {
+        return refuse("the product has no name, and the dataset does not give one".to_owned());
+    }
+    if !meta.states.is_empty() && meta.states.len() != datasets.len() {
+        return refuse(format!("{} names of states for {} datasets", meta.states.len(), datasets.len()));
+    }
+    let mut keys = HashSet::new();
+    let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, dataset) in datasets.iter().enumerate() {
+        if !keys.insert(dataset.state.as_str()) || (datasets.len() > 1 && dataset.state.is_empty()) {
+            return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", dataset.state));
+        }
+        let blob = encode(dataset);
+        let hash = content_hash(&blob);
+        if let Err(source) = decode(&blob) {
+            return Err(CatalogueError::Dataset { hash, source });
+        }
+        let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
+            return refuse(format!("dataset \"{}\" has no visible transmission", dataset.name));
+        };
+        let mut told = dataset.findings.clone();
+        told.extend(check(dataset).into_iter().filter(|finding| !dataset.findings.contains(finding)));
+        findings.extend(told.into_iter().map(|finding| ProductFinding {
+            state: dataset.state.clone(),
+            severity: finding.severity,
+            code: finding.code.to_owned(),
+            message: finding.message,
+        }));
+        let named = meta.states.get(index).cloned().unwrap_or_default();
+        states.push(State {
+            key: dataset.state.clone(),
+            label: or(named.label, &dataset.state),
+            // A key that is a number is an angle, as the formats write states.
+            value: named.value.or_else(|| dataset.state.parse().ok().filter(|value: &f64| value.is_finite())),
+            dataset: hash.clone(),
+            tau_normal: Some(transmission.tau_normal()),
+            tau_hemispherical: Some(transmission.tau_hemispherical()),
+            tau_profile: profile_transmittances(transmission),
+        });
+        blobs.push((hash, blob));
+    }
+    let mut tags: Vec<String> = meta.tags.iter().map(|tag| tag.trim().to_owned()).filter(|t| !t.is_empty()).collect();
+    tags.sort();
+    tags.dedup();
+    let rising = meta.control_curve.windows(2).all(|pair| pair[0].profile_angle < pair[1].profile_angle);
+    if !rising || meta.control_curve.iter().any(|point| !(point.profile_angle.is_finite() && point.value.is_finite())) {
+        return refuse("profile angles of the control curve must rise, and all numbers be finite".to_owned());
+    }
+    let product = Product {
+        key: meta.key.unwrap_or_else(|| slug(&name)),
+        manufacturer: or(meta.manufacturer, &first.manufacturer),
+        description: or(meta.description, &first.description),
+        name,
+        kind: meta.kind.trim().to_owned(),
+        provenance: meta.provenance,
+        tags,
+        states,
+        control_curve: meta.control_curve,
+        findings,
+        favourite: false,
+        builtin: false,
+    };
+    Ok(Removed { product, datasets: blobs })
+}
+
+/// The wanted key, or the first of wanted-2, wanted-3, … that is free.
+pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, CatalogueError> {
+    let mut statement = db.prepare_cached("SELECT EXISTS (SELECT 1 FROM product WHERE key = ?)")?;
+    let wanted: String = if wanted.is_empty() { "product".into() } else { wanted.chars().take(150).collect() };
+    let mut key = wanted.clone();
+    for number in 2_u64.. {
+        if !statement.query_row([&key], |row| row.get::<_, bool>(0))? {
+            break;
+        }
+        key = format!("{wanted}-{number}");
+    }
+    Ok(key)
+}
+
+/// Writes a product under the key it has.
+pub(super) fn insert(tx: &Transaction, record: &Removed, rank: i64) -> Result<(), CatalogueError> {
+    let (p, from) = (&record.product, &record.product.provenance);
+    tx.prepare_cached(
+        "INSERT INTO product (key, name, manufacturer, kind, description, origin, author, method, date, source_file,
+                              source_hash, inside_face, builtin, rank)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
+    )?
+    .execute(params![
+        p.key,
+        p.name,
+        p.manufacturer,
+        p.kind,
+        p.description,
+        from.origin.word(),
+        from.author,
+        from.method,
+        from.date,
+        from.source_file,
+        from.source_hash,
+        from.inside_face,
+        p.builtin,
+        rank
+    ])?;
+    let id = tx.last_insert_rowid();
+    for (hash, blob) in &record.datasets {
+        tx.prepare_cached("INSERT OR IGNORE INTO dataset (hash, blob) VALUES (?, ?)")?.execute(params![hash, blob])?;
+    }
+    for (position, s) in record.product.states.iter().enumerate() {
+        let curve = serde_json::json!(s.tau_profile).to_string();
+        tx.prepare_cached(
+            "INSERT INTO state (product, position, key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
+        )?
+        .execute(params![
+            id,
+            position as i64,
+            s.key,
+            s.label,
+            s.value,
+            s.dataset,
+            s.tau_normal,
+            s.tau_hemispherical,
+            curve
+        ])?;
+        let of_state = p.findings.iter().filter(|finding| finding.state == s.key);
+        for (number, f) in of_state.enumerate() {
+            tx.prepare_cached("INSERT INTO finding VALUES (?, ?, ?, ?, ?, ?)")?.execute(params![
+                id,
+                position as i64,
+                number as i64,
+                f.severity.word(),
+                f.code,
+                f.message
+            ])?;
+        }
+    }
+    for (position, point) in p.control_curve.iter().enumerate() {
+        tx.prepare_cached("INSERT INTO control_point VALUES (?, ?, ?, ?)")?.execute(params![
+            id,
+            position as i64,
+            point.profile_angle,
+            point.value
+        ])?;
+    }
+    for tag in &p.tags {
+        tx.prepare_cached("INSERT INTO tag VALUES (?, ?)")?.execute(params![id, tag])?;
+    }
+    if p.favourite {
+        tx.execute("INSERT OR IGNORE INTO favourite VALUES (?)", [&p.key])?;
+    }
+    tx.prepare_cached(
+        "INSERT INTO product_text (rowid, name, manufacturer, kind, description, tags) VALUES (?, ?, ?, ?, ?, ?)",
+    )?
+    .execute(params![id, p.name, p.manufacturer, p.kind, p.description, p.tags.join(" ")])?;
+    Ok(())
+}
+
+/// Takes a product's rows out; datasets that no state refers to any more go with it.
+pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> {
+    tx.execute("DELETE FROM product_text WHERE rowid = (SELECT id FROM product WHERE key = ?)", [key])?;
+    tx.execute("DELETE FROM product WHERE key = ?", [key])?;
+    tx.execute("DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state)", [])?;
+    Ok(())
+}
+
+/// Stores a prepared product of the user's under a free key and tells which others share its content.
+pub(super) fn add(tx: &Transaction, mut record: Removed) -> Result<Imported, CatalogueError> {
+    let mut same_content_as = Vec::new();
+    for (hash, _) in &record.datasets {
+        let mut statement = tx.prepare_cached(
+            "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id WHERE s.dataset = ? ORDER BY p.key",
+        )?;
+        for key in statement.query_map([hash], |row| row.get::<_, String>(0))? {
+            let key = key?;
+            if !same_content_as.contains(&key) {
+                same_content_as.push(key);
+            }
+        }
+    }
+    record.product.key = free_key(tx, &record.product.key)?;
+    insert(tx, &record, USER_RANK)?;
+    Ok(Imported { key: record.product.key, same_content_as })
+}
+
+fn severity(word: &str) -> Severity {
+    match word {
+        "info" => Severity::Info,
+        "warning" => Severity::Warning,
+        _ => Severity::Error,
+    }
+}
+
+/// The product of a key, from one connection or transaction.
+pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, CatalogueError> {
+    let found = db
+        .prepare_cached(
+            "SELECT id, name, manufacturer, kind, description, origin, author, method, date, source_file, source_hash,
+                    inside_face, builtin, EXISTS (SELECT 1 FROM favourite WHERE product_key = key)
+             FROM product WHERE key = ?",
+        )?
+        .query_row([key], |row| {
+            let provenance = Provenance {
+                origin: Origin::from_word(&row.get::<_, String>(5)?),
+                author: row.get(6)?,
+                method: row.get(7)?,
+                date: row.get(8)?,
+                source_file: row.get(9)?,
+                source_hash: row.get(10)?,
+                inside_face: row.get(11)?,
+            };
+            let product = Product {
+                key: key.to_owned(),
+                name: row.get(1)?,
+                manufacturer: row.get(2)?,
+                kind: row.get(3)?,
+                description: row.get(4)?,
+                provenance,
+                tags: Vec::new(),
+                states: Vec::new(),
+                control_curve: Vec::new(),
+                findings: Vec::new(),
+                builtin: row.get(12)?,
+                favourite: row.get(13)?,
+            };
+            Ok((row.get::<_, i64>(0)?, product))
+        })
+        .optional()?;
+    let (id, mut product) = found.ok_or_else(|| CatalogueError::NoProduct(key.to_owned()))?;
+    product.states = db
+        .prepare_cached(
+            "SELECT key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile
+             FROM state WHERE product = ? ORDER BY position",
+        )?
+        .query_map([id], |row| {
+            Ok(State {
+                key: row.get(0)?,
+                label: row.get(1)?,
+                value: row.get(2)?,
+                dataset: row.get(3)?,
+                tau_normal: row.get(4)?,
+                tau_hemispherical: row.get(5)?,
+                tau_profile: profile(&row.get::<_, String>(6)?),
+            })
+        })?
+        .collect::<Result<_, _>>()?;
+    product.tags = db
+        .prepare_cached("SELECT tag FROM tag WHERE product = ? ORDER BY tag")?
+        .query_map([id], |row| row.get(0))?
+        .collect::<Result<_, _>>()?;
+    product.control_curve = db
+        .prepare_cached("SELECT profile_angle, value FROM control_point WHERE product = ? ORDER BY position")?
+        .query_map([id], |row| Ok(CurvePoint { profile_angle: row.get(0)?, value: row.get(1)? }))?
+        .collect::<Result<_, _>>()?;
+    product.findings = db
+        .prepare_cached(
+            "SELECT s.key, f.severity, f.code, f.message
+             FROM finding f JOIN state s ON s.product = f.product AND s.position = f.state
+             WHERE f.product = ? ORDER BY f.state, f.position",
+        )?
+        .query_map([id], |row| {
+            Ok(ProductFinding {
+                state: row.get(0)?,
+                severity: severity(&row.get::<_, String>(1)?),
+                code: row.get(2)?,
+                message: row.get(3)?,
+            })
+        })?
+        .collect::<Result<_, _>>()?;
+    Ok(product)
+}
+
+/// A product with its datasets.
+pub(super) fn read_record(db: &Connection, key: &str) -> Result<Removed, CatalogueError> {
+    let product = read_product(db, key)?;
+    let mut datasets: Vec<(String, Vec<u8>)> = Vec::new();
+    for state in &product.states {
+        if datasets.iter().all(|(hash, _)| *hash != state.dataset) {
+            let blob = db
+                .prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?
+                .query_row([&state.dataset], |row| row.get(0))?;
+            datasets.push((state.dataset.clone(), blob));
+        }
+    }
+    Ok(Removed { product, datasets })
+}
+
+impl Catalogue {
+    /// Begins a change. Immediate: it waits for another writer at the start, not in the middle.
+    pub(super) fn change(&mut self) -> Result<Transaction<'_>, CatalogueError> {
+        Ok(self.db.transaction_with_behavior(TransactionBehavior::Immediate)?)
+    }
+
+    /// The product of a key.
+    pub fn product(&self, key: &str) -> Result<Product, CatalogueError> {
+        // One snapshot for all the reads.
+        let snapshot = self.db.unchecked_transaction()?;
+        read_product(&snapshot, key)
+    }
+
+    /// The dataset of a state. `None`: the only state; an error when there are several.
+    pub fn dataset(&self, key: &str, state: Option<&str>) -> Result<Arc<Dataset>, CatalogueError> {
+        let product = self.product(key)?;
+        let wrong = |what: String| CatalogueError::NoState {
+            product: key.to_owned(),
+            what,
+            states: product.states.iter().map(|s| format!("\"{}\"", s.key)).collect::<Vec<_>>().join(", "),
+        };
+        let found = match (state, product.states.as_slice()) {
+            (None, [only]) => only,
+            (None, _) => return Err(wrong("several states and none named".to_owned())),
+            (Some(state), states) => {
+                states.iter().find(|s| s.key == state).ok_or_else(|| wrong(format!("no state \"{state}\"")))?
+            }
+        };
+        self.dataset_of_hash(&found.dataset)
+    }
+
+    /// The dataset of a content hash, from memory when it was asked for lately.
+    fn dataset_of_hash(&self, hash: &str) -> Result<Arc<Dataset>, CatalogueError> {
+        let mut recent = self.recent.borrow_mut();
+        if let Some(at) = recent.iter().position(|(known, _)| known == hash)
+            && let Some(entry) = recent.remove(at)
+        {
+            let dataset = Arc::clone(&entry.1);
+            recent.push_back(entry);
+            return Ok(dataset);
+        }
+        let blob: Vec<u8> = self
+            .db
+            .prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?
+            .query_row([hash], |row| row.get(0))?;
+        let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.to_owned(), source })?;
+        let dataset = Arc::new(dataset);
+        if recent.len() >= RECENT {
+            recent.pop_front();
+        }
+        recent.push_back((hash.to_owned(), Arc::clone(&dataset)));
+        Ok(dataset)
+    }
+
+    /// Adds a product whose states are the given datasets, in order. Fails without a trace.
+    pub fn import(&mut self, datasets: &[Dataset], meta: NewProduct) -> Result<Imported, CatalogueError> {
+        let record = prepare(datasets, meta)?;
+        let tx = self.change()?;
+        let imported = add(&tx, record)?;
+        tx.commit()?;
+        Ok(imported)
+    }
+
+    /// Takes a product of the user's out; [`Self::restore`] puts it back.
+    pub fn remove_product(&mut self, key: &str) -> Result<Removed, CatalogueError> {
+        let tx = self.change()?;
+        let record = read_record(&tx, key)?;
+        if record.product.builtin {
+            return Err(CatalogueError::BuiltIn(key.to_owned()));
+        }
+        tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
+        delete(&tx, key)?;
+        tx.commit()?;
+        Ok(record)
+    }
+
+    /// Puts a removed product back under its key.
+    pub fn restore(&mut self, removed: &Removed) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        if free_key(&tx, &removed.product.key)? != removed.product.key {
+            return Err(CatalogueError::Taken(removed.product.key.clone()));
+        }
+        insert(&tx, removed, USER_RANK)?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Marks or unmarks a favourite.
+    pub fn set_favourite(&mut self, key: &str, favourite: bool) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        if !tx.query_row("SELECT EXISTS (SELECT 1 FROM product WHERE key = ?)", [key], |row| row.get::<_, bool>(0))? {
+            return Err(CatalogueError::NoProduct(key.to_owned()));
+        }
+        if favourite {
+            tx.execute("INSERT OR IGNORE INTO favourite VALUES (?)", [key])?;
+        } else {
+            tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
+        }
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Checks every stored dataset of a product anew: its bytes against their hash, energy, reciprocity.
+    pub fn validate(&self, key: &str) -> Result<Vec<ProductFinding>, CatalogueError> {
+        let record = read_record(&*self.db.unchecked_transaction()?, key)?;
+        let mut findings = Vec::new();
+        for state in &record.product.states {
+            let mut tell = |severity, code: &str, message: String| {
+                findings.push(ProductFinding { state: state.key.clone(), severity, code: code.to_owned(), message });
+            };
+            let blob = record.datasets.iter().find(|(hash, _)| *hash == state.dataset).map(|(_, blob)| blob);
+            let Some(blob) = blob else { continue };
+            if content_hash(blob) != state.dataset {
+                tell(Severity::Error, "hash-differs", format!("the stored bytes are not those of {}", state.dataset));
+            }
+            match decode(blob) {
+                Err(error) => tell(Severity::Error, "unreadable", error.to_string()),
+                Ok(dataset) => {
+                    let own = check(&dataset).into_iter().filter(|finding| !dataset.findings.contains(finding));
+                    for finding in dataset.findings.iter().cloned().chain(own) {
+                        tell(finding.severity, finding.code, finding.message);
+                    }
+                }
+            }
+        }
+        Ok(findings)
+    }
+}

@@ -1,0 +1,34 @@
+//! Systems whose BTDF follows from a closed form or from an exact small computation: panes, diffusers, laser-cut
+//! panels, flat Lambertian slats.
+//!
+//! Every function here averages incidence over the incident cell and the result over the emergent cell, conserves
+//! energy and is reciprocal: q_front(ω_e, ω′) = q_back(ω′, ω_e) in through-names.
+
+pub mod diffuser;
+pub mod glazing;
+pub mod laser_cut;
+pub mod slats;
+
+use crate::compute::basis::{AzimuthMap, Cell, RingBasis};
+use crate::compute::direction::{Dir, Facade};
+
+/// The cells that computed systems are given on: LBNL/Klems Full, as light from outside names them.
+pub fn front_basis() -> RingBasis {
+    RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
+}
+
+/// `n` × `n` directions that share a cell's projected solid angle equally (midpoints in sin²θ and φ).
+pub fn sub_directions(cell: &Cell, n: usize) -> impl Iterator<Item = Dir<Facade>> {
+    let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+    let (phi, width) = (cell.phi, cell.width);
+    (0..n * n).map(move |k| {
+        let (row, column) = ((k / n) as f64 + 0.5, (k % n) as f64 + 0.5);
+        let sin2 = low + (high - low) * row / n as f64;
+        Dir::from_theta_phi(sin2.sqrt().asin(), phi + width * (column / n as f64 - 0.5))
+    })
+}
+
+/// Mean of a function over a cell, weighted by projected solid angle, from `n` × `n` directions.
+pub fn cell_mean(cell: &Cell, n: usize, f: impl Fn(Dir<Facade>) -> f64) -> f64 {
+    sub_directions(cell, n).map(f).sum::<f64>() / (n * n) as f64
+}

@@ -1,0 +1,65 @@
+//! The compact binary form of a [`Dataset`], as the catalogue and exchange packages keep it.
+//!
+//! `CFSD`, a version byte, then fields in a fixed order, little-endian; texts and lists carry their length. Values of
+//! cell matrices are rounded to f32 (relative 6e-8), split into their four byte planes and compressed with zstd.
+//! Equal datasets have equal bytes, so that the BLAKE3 hash of a blob names its content.
+
+mod read;
+mod write;
+
+pub use read::decode;
+pub use write::encode;
+
+/// First bytes of every blob.
+pub(crate) const MAGIC: &[u8; 4] = b"CFSD";
+/// Version of the layout that is written.
+pub(crate) const VERSION: u8 = 1;
+
+/// Why bytes are no dataset.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum BlobError {
+    /// Other bytes at the beginning.
+    #[error("not a binary dataset: it does not begin with CFSD")]
+    Magic,
+    /// Written by a newer program.
+    #[error("binary dataset of version {0}; this program reads version {VERSION}")]
+    Version(u8),
+    /// The bytes end early.
+    #[error("binary dataset cut off at byte {0}")]
+    Truncated(usize),
+    /// Bytes remain behind the last field.
+    #[error("{0} bytes behind the end of the binary dataset")]
+    Trailing(usize),
+    /// A field that cannot be.
+    #[error("binary dataset, byte {at}: {what}")]
+    Invalid {
+        /// Where reading stopped.
+        at: usize,
+        /// What is wrong.
+        what: String,
+    },
+}
+
+/// The BLAKE3 hash of a blob as 64 hexadecimal digits: the name of its content.
+pub fn content_hash(blob: &[u8]) -> String {
+    blake3::hash(blob).to_hex().to_string()
+}
+
+/// Two bytes planes apart: byte k of every value in a row, which compresses far better than values one by one.
+pub(crate) fn split_planes(values: &[f64]) -> Vec<u8> {
+    let mut planes = vec![0; values.len() * 4];
+    for (index, value) in values.iter().enumerate() {
+        for (plane, byte) in (*value as f32).to_le_bytes().into_iter().enumerate() {
+            planes[plane * values.len() + index] = byte;
+        }
+    }
+    planes
+}
+
+/// The inverse of [`split_planes`]; four bytes a value.
+pub(crate) fn join_planes(planes: &[u8]) -> Vec<f64> {
+    let n = planes.len() / 4;
+    (0..n)
+        .map(|i| f64::from(f32::from_le_bytes([planes[i], planes[n + i], planes[2 * n + i], planes[3 * n + i]])))
+        .collect()
+}

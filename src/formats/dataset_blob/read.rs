@@ -1,0 +1,242 @@
+//! Reading the compact binary form: every count is checked against what is there before memory is asked for.
+
+use super::{BlobError, MAGIC, VERSION, join_planes};
+use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
+use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered};
+use std::collections::HashSet;
+use std::io::Read;
+use std::sync::{Mutex, OnceLock};
+
+/// Most values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences over 2°.
+const MOST_VALUES: usize = 1 << 24;
+/// Most cells of one basis.
+const MOST_CELLS: usize = 1 << 18;
+
+/// The dataset that bytes hold. Hostile bytes give an error, never a panic nor memory beyond the limits above.
+pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
+    if !bytes.starts_with(MAGIC) {
+        return Err(BlobError::Magic);
+    }
+    let mut input = Reader { bytes, at: MAGIC.len() };
+    let version = input.byte()?;
+    if version != VERSION {
+        return Err(BlobError::Version(version));
+    }
+    let mut dataset = Dataset {
+        name: input.text()?,
+        manufacturer: input.text()?,
+        description: input.text()?,
+        state: input.text()?,
+        format: input.text()?,
+        incident_basis: input.text()?,
+        emergent_basis: input.text()?,
+        ..Dataset::default()
+    };
+    if input.flag()? {
+        dataset.thickness = Some(input.number()?);
+    }
+    dataset.visible = input.band()?;
+    if input.flag()? {
+        dataset.solar = Some(input.band()?);
+    }
+    dataset.derived = input.components()?;
+    dataset.findings = input.findings()?;
+    match bytes.len() - input.at {
+        0 => Ok(dataset),
+        rest => Err(BlobError::Trailing(rest)),
+    }
+}
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn invalid<T>(&self, what: impl Into<String>) -> Result<T, BlobError> {
+        Err(BlobError::Invalid { at: self.at, what: what.into() })
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8], BlobError> {
+        let end = self.at.checked_add(count).filter(|&end| end <= self.bytes.len());
+        let end = end.ok_or(BlobError::Truncated(self.bytes.len()))?;
+        let taken = &self.bytes[self.at..end];
+        self.at = end;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], BlobError> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.take(N)?);
+        Ok(array)
+    }
+
+    fn byte(&mut self) -> Result<u8, BlobError> {
+        Ok(self.array::<1>()?[0])
+    }
+
+    fn flag(&mut self) -> Result<bool, BlobError> {
+        match self.byte()? {
+            0 => Ok(false),
+            1 => Ok(true),
+            other => self.invalid(format!("{other} where 0 or 1 is expected")),
+        }
+    }
+
+    /// A count of items of which each takes at least `least` bytes.
+    fn count(&mut self, least: usize) -> Result<usize, BlobError> {
+        let count = u32::from_le_bytes(self.array()?) as usize;
+        if count.saturating_mul(least) > self.bytes.len() - self.at {
+            return Err(BlobError::Truncated(self.bytes.len()));
+        }
+        Ok(count)
+    }
+
+    fn number(&mut self) -> Result<f64, BlobError> {
+        let number = f64::from_le_bytes(self.array()?);
+        if number.is_finite() { Ok(number) } else { self.invalid("a number that is not finite") }
+    }
+
+    fn text(&mut self) -> Result<String, BlobError> {
+        let count = self.count(1)?;
+        match std::str::from_utf8(self.take(count)?) {
+            Ok(text) => Ok(text.to_owned()),
+            Err(_) => self.invalid("text that is not UTF-8"),
+        }
+    }
+
+    fn components(&mut self) -> Result<Vec<Component>, BlobError> {
+        let mask = self.byte()?;
+        if mask > 0b1111 {
+            return self.invalid("a function that is none of the four");
+        }
+        Ok(Component::ALL.into_iter().enumerate().filter(|(k, _)| mask >> k & 1 == 1).map(|(_, c)| c).collect())
+    }
+
+    fn band(&mut self) -> Result<Band, BlobError> {
+        let mut band = Band::default();
+        for component in self.components()? {
+            let btdf = if self.flag()? {
+                match &band.transmission_front {
+                    Some(Btdf { regular, scattered: Some(Scattered::Cells(front)) }) => {
+                        let scattered = Some(Scattered::Cells(Box::new(front.reversed())));
+                        Btdf { regular: regular.clone(), scattered }
+                    }
+                    _ => return self.invalid("a function said to be the reciprocal of one that is not there"),
+                }
+            } else {
+                self.btdf()?
+            };
+            band.set(component, btdf);
+        }
+        Ok(band)
+    }
+
+    fn btdf(&mut self) -> Result<Btdf, BlobError> {
+        let regular = if self.flag()? { Some(self.angular()?) } else { None };
+        let scattered = match self.byte()? {
+            0 => None,
+            1 => Some(Scattered::Lambert(self.angular()?)),
+            2 => Some(Scattered::Cells(Box::new(self.cells()?))),
+            other => return self.invalid(format!("kind {other} of scattering, which this version does not know")),
+        };
+        Ok(Btdf { regular, scattered })
+    }
+
+    fn angular(&mut self) -> Result<AngularTransmittance, BlobError> {
+        if !self.flag()? {
+            return Ok(AngularTransmittance::Constant(self.number()?));
+        }
+        let count = self.count(8)?;
+        if count < 2 {
+            return self.invalid("a table over the angle of incidence with fewer than two values");
+        }
+        Ok(AngularTransmittance::Table((0..count).map(|_| self.number()).collect::<Result<_, _>>()?))
+    }
+
+    fn basis(&mut self) -> Result<RingBasis, BlobError> {
+        let name = self.text()?;
+        let azimuth = AzimuthMap { sign: self.number()?, offset: self.number()? };
+        if azimuth.sign.abs() != 1.0 {
+            return self.invalid("a sense of azimuth that is neither 1 nor −1");
+        }
+        let count = self.count(28)?;
+        let mut rings = Vec::with_capacity(count);
+        let mut cells = 0_usize;
+        for _ in 0..count {
+            let (theta_min, theta_max) = (self.number()?, self.number()?);
+            let sectors = self.count(0)?;
+            cells = cells.saturating_add(sectors);
+            rings.push(Ring { theta_min, theta_max, sectors, first_phi: self.number()? });
+        }
+        if cells > MOST_CELLS {
+            return self.invalid(format!("a basis of {cells} cells (at most {MOST_CELLS})"));
+        }
+        RingBasis::new(name, rings, azimuth).or_else(|error| self.invalid(error.to_string()))
+    }
+
+    fn cells(&mut self) -> Result<CellMatrix, BlobError> {
+        let (incident, emergent) = (self.basis()?, self.basis()?);
+        let count = self.count(0)?;
+        if count > MOST_VALUES || count != incident.len().saturating_mul(emergent.len()) {
+            let (rows, columns) = (incident.len(), emergent.len());
+            return self.invalid(format!("{count} values for {rows} × {columns} cells (at most {MOST_VALUES})"));
+        }
+        let packed = self.count(1)?;
+        let packed = self.take(packed)?;
+        let values = join_planes(&self.unpack(packed, count * 4)?);
+        if values.iter().any(|value| !value.is_finite()) {
+            return self.invalid("a value that is not finite");
+        }
+        CellMatrix::new(incident, emergent, values).map_or_else(|| self.invalid("values do not fit the cells"), Ok)
+    }
+
+    /// Decompresses exactly `size` bytes; memory grows only as bytes really come.
+    fn unpack(&self, packed: &[u8], size: usize) -> Result<Vec<u8>, BlobError> {
+        let mut plain = Vec::new();
+        let read = zstd::stream::read::Decoder::new(packed)
+            .and_then(|decoder| decoder.take(size as u64 + 1).read_to_end(&mut plain));
+        match read {
+            Ok(_) if plain.len() == size => Ok(plain),
+            Ok(_) => self.invalid(format!("compressed values do not have {size} bytes")),
+            Err(error) => self.invalid(format!("compressed values cannot be read: {error}")),
+        }
+    }
+
+    fn findings(&mut self) -> Result<Vec<Finding>, BlobError> {
+        let count = self.count(9)?;
+        (0..count)
+            .map(|_| {
+                let severity = self.byte()?;
+                let code = code(&self.text()?);
+                let message = self.text()?;
+                match severity {
+                    0 => Ok(Finding::info(code, message)),
+                    1 => Ok(Finding::warning(code, message)),
+                    2 => Ok(Finding::error(code, message)),
+                    other => self.invalid(format!("severity {other} of a finding")),
+                }
+            })
+            .collect()
+    }
+}
+
+/// Finding codes live as long as the program. Those read from outside are kept once each, and only so many of them.
+fn code(text: &str) -> &'static str {
+    const OTHER: &str = "other";
+    static CODES: OnceLock<Mutex<HashSet<&'static str>>> = OnceLock::new();
+    let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if text.is_empty() || text.len() > 64 || !text.chars().all(kebab) {
+        return OTHER;
+    }
+    let Ok(mut codes) = CODES.get_or_init(Mutex::default).lock() else { return OTHER };
+    match codes.get(text) {
+        Some(known) => known,
+        None if codes.len() < 512 => {
+            let kept: &'static str = Box::leak(text.to_owned().into_boxed_str());
+            codes.insert(kept);
+            kept
+        }
+        None => OTHER,
+    }
+}

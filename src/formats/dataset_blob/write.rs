@@ -1,0 +1,164 @@
+//! Writing the compact binary form.
+
+use super::{MAGIC, VERSION, split_planes};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{
+    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, Severity,
+};
+
+/// Bytes of a dataset. The same dataset always gives the same bytes.
+pub fn encode(dataset: &Dataset) -> Vec<u8> {
+    let mut out = Writer(MAGIC.to_vec());
+    out.byte(VERSION);
+    for text in [
+        &dataset.name,
+        &dataset.manufacturer,
+        &dataset.description,
+        &dataset.state,
+        &dataset.format,
+        &dataset.incident_basis,
+        &dataset.emergent_basis,
+    ] {
+        out.text(text);
+    }
+    out.byte(u8::from(dataset.thickness.is_some()));
+    if let Some(thickness) = dataset.thickness {
+        out.number(thickness);
+    }
+    out.band(&dataset.visible);
+    out.byte(u8::from(dataset.solar.is_some()));
+    if let Some(solar) = &dataset.solar {
+        out.band(solar);
+    }
+    out.byte(mask(dataset.derived.iter().copied()));
+    out.findings(&dataset.findings);
+    out.0
+}
+
+/// One bit a component, in the order of [`Component::ALL`].
+fn mask(components: impl Iterator<Item = Component>) -> u8 {
+    components.fold(0, |mask, component| {
+        mask | 1 << Component::ALL.iter().position(|&one| one == component).expect("ALL holds every component")
+    })
+}
+
+struct Writer(Vec<u8>);
+
+impl Writer {
+    fn byte(&mut self, byte: u8) {
+        self.0.push(byte);
+    }
+
+    fn count(&mut self, count: usize) {
+        let count = u32::try_from(count).expect("no part of a dataset in memory has 2³² items");
+        self.0.extend(count.to_le_bytes());
+    }
+
+    fn number(&mut self, number: f64) {
+        self.0.extend(number.to_le_bytes());
+    }
+
+    fn text(&mut self, text: &str) {
+        self.count(text.len());
+        self.0.extend(text.as_bytes());
+    }
+
+    fn band(&mut self, band: &Band) {
+        self.byte(mask(band.components().into_iter()));
+        for component in band.components() {
+            let btdf = band.get(component).expect("components() lists what is there");
+            let turned = component == Component::TransmissionBack
+                && band.transmission_front.as_ref().is_some_and(|front| is_front_turned(front, btdf));
+            self.byte(u8::from(turned));
+            if !turned {
+                self.btdf(btdf);
+            }
+        }
+    }
+
+    fn btdf(&mut self, btdf: &Btdf) {
+        self.byte(u8::from(btdf.regular.is_some()));
+        if let Some(regular) = &btdf.regular {
+            self.angular(regular);
+        }
+        match &btdf.scattered {
+            None => self.byte(0),
+            Some(Scattered::Lambert(tau)) => {
+                self.byte(1);
+                self.angular(tau);
+            }
+            Some(Scattered::Cells(matrix)) => {
+                self.byte(2);
+                self.basis(matrix.incident());
+                self.basis(matrix.emergent());
+                self.values(matrix.values());
+            }
+            Some(Scattered::Tree(tree)) => {
+                self.byte(3);
+                self.tree(tree);
+            }
+        }
+    }
+
+    fn angular(&mut self, tau: &AngularTransmittance) {
+        match tau {
+            AngularTransmittance::Constant(value) => {
+                self.byte(0);
+                self.number(*value);
+            }
+            AngularTransmittance::Table(values) => {
+                self.byte(1);
+                self.count(values.len());
+                values.iter().for_each(|value| self.number(*value));
+            }
+        }
+    }
+
+    fn basis(&mut self, basis: &RingBasis) {
+        self.text(basis.name());
+        self.number(basis.azimuth().sign);
+        self.number(basis.azimuth().offset);
+        self.count(basis.rings().len());
+        for ring in basis.rings() {
+            self.number(ring.theta_min);
+            self.number(ring.theta_max);
+            self.count(ring.sectors);
+            self.number(ring.first_phi);
+        }
+    }
+
+    fn values(&mut self, values: &[f64]) {
+        let packed = zstd::bulk::compress(&split_planes(values), 1).expect("compression into memory does not fail");
+        self.count(values.len());
+        self.count(packed.len());
+        self.0.extend(packed);
+    }
+
+    fn tree(&mut self, _tree: &crate::compute::btdf::TensorTree) {}
+
+    fn findings(&mut self, findings: &[Finding]) {
+        self.count(findings.len());
+        for finding in findings {
+            self.byte(match finding.severity {
+                Severity::Info => 0,
+                Severity::Warning => 1,
+                Severity::Error => 2,
+            });
+            self.text(finding.code);
+            self.text(&finding.message);
+        }
+    }
+}
+
+/// Is the back function what reciprocity makes of the front one? Then it need not be stored.
+fn is_front_turned(front: &Btdf, back: &Btdf) -> bool {
+    let (Some(Scattered::Cells(f)), Some(Scattered::Cells(b))) = (&front.scattered, &back.scattered) else {
+        return false;
+    };
+    let same_cells = f.incident() == b.emergent() && f.emergent() == b.incident();
+    let turned = |f: &CellMatrix, b: &CellMatrix| {
+        let (n, m) = (f.incident().len(), f.emergent().len());
+        (0..n).all(|i| (0..m).all(|o| f.values()[i * m + o].to_bits() == b.values()[o * n + i].to_bits()))
+    };
+    front.regular == back.regular && same_cells && turned(f, b)
+}
