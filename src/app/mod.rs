@@ -1,1 +1,4 @@
 //! The window.
+
+pub mod paint;
+pub mod views;
