@@ -10,11 +10,13 @@ pub mod dialogs;
 pub mod engine;
 pub mod jobs;
 pub mod moment;
+pub mod paint;
 pub mod panels;
 pub mod shelf;
 pub mod state;
 pub mod theme;
 pub mod title;
+pub mod views;
 pub mod work;
 
 use command::Command;
