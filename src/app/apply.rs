@@ -7,14 +7,14 @@ use super::moment;
 use super::shelf::Addition;
 use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
 use super::work;
-use crate::study::scene_file::{CatalogueKeys, SceneFile, SystemKeys};
+use crate::study::scene_file::{SceneFile, SystemKeys};
 use std::path::PathBuf;
 
 /// Puts a product into every aperture that is filled from the catalogue; into the first one if none is.
 pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     let state = (!selection.state.is_empty()).then(|| selection.state.clone());
-    let keys = SystemKeys::Catalogue(CatalogueKeys { catalogue: selection.product.clone(), state });
-    let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue(_));
+    let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
+    let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
     if !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)) {
         if let Some(first) = scene.aperture.first_mut() {
             first.system = keys;

@@ -3,6 +3,7 @@
 use super::shelf::Shelf;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Lid;
+use crate::formats::luminaire::Description;
 use crate::study::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,6 +48,8 @@ pub struct LidFigures {
     pub lid: Lid,
     /// All its flux. [lm]
     pub flux: Estimate,
+    /// Header of a luminaire file.
+    pub description: Description,
     /// Wall-clock time that it took. [s]
     pub seconds: f64,
 }

@@ -4,6 +4,7 @@
 //! [`work`] asks for whatever a change affects and takes in results. Nothing here waits.
 
 pub mod apply;
+pub mod backend;
 pub mod command;
 pub mod daylight;
 pub mod dialogs;
@@ -211,10 +212,10 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
                 .and_then(|text| serde_json::from_str(&text).ok())
                 .unwrap_or_default();
             let services = Services {
-                open_catalogue: Arc::new(move || panels::open_shelf(catalogue.as_deref())),
+                open_catalogue: Arc::new(move || backend::open_shelf(catalogue.as_deref())),
                 read: read_dataset,
                 dialogs: Arc::new(NativeDialogs),
-                engine: Arc::new(panels::engine()),
+                engine: Arc::new(backend::StudyEngine::default()),
             };
             let mut app = App::new(services, settings);
             app.logic(&cc.egui_ctx);

@@ -5,7 +5,7 @@ use super::theme::ThemeChoice;
 use crate::compute::btdf::Dataset;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, CatalogueKeys, ComputeKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
+    ApertureKeys, ApertureReflectance, ComputeKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
     SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
 };
 use crate::study::sky::SkyKeyError;
@@ -249,7 +249,7 @@ pub fn first_scene() -> SceneFile {
             surface: SurfaceKey::Facade,
             origin: [0.5, 0.9],
             size: [3.0, 1.8],
-            system: SystemKeys::Catalogue(CatalogueKeys { catalogue: String::new(), state: None }),
+            system: SystemKeys::Catalogue { key: String::new(), state: None },
             reflectance: ApertureReflectance::Default,
         }],
         site: SiteKeys {

@@ -286,12 +286,11 @@ impl App {
     fn adopt_selection(&mut self) {
         use crate::study::scene_file::SystemKeys;
         let keys = self.state.document.scene.aperture.iter().find_map(|aperture| match &aperture.system {
-            SystemKeys::Catalogue(keys) => Some(keys.clone()),
+            SystemKeys::Catalogue { key, state } => Some((key.clone(), state.clone())),
             _ => None,
         });
-        if let Some(keys) = keys {
-            let state = keys.state.unwrap_or_default();
-            self.state.document.selection = Selection { product: keys.catalogue, state };
+        if let Some((product, state)) = keys {
+            self.state.document.selection = Selection { product, state: state.unwrap_or_default() };
         }
     }
 

@@ -4,6 +4,7 @@ mod args;
 pub mod convert;
 mod dataset_file;
 pub mod info;
+pub mod lid;
 mod output;
 pub mod room;
 pub mod sky;

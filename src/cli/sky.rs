@@ -1,5 +1,6 @@
 //! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
 
+use super::output::write_whole;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
@@ -9,7 +10,6 @@ use crate::study::sky::outside_from_keys;
 use anyhow::{Context, anyhow};
 use rayon::prelude::*;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Luminances of the 145 Tregenza patches of the sky dome
@@ -133,19 +133,4 @@ fn json(
         "sun": sun,
         "patches": patches,
     })
-}
-
-/// Writes beside the target and renames, so that nothing half-written is left behind.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".part");
-    let partial = PathBuf::from(partial);
-    let result = std::fs::File::create(&partial)
-        .and_then(|mut file| file.write_all(bytes))
-        .and_then(|()| std::fs::rename(&partial, path));
-    if result.is_err() {
-        // The first error is the one to report.
-        let _ = std::fs::remove_file(&partial);
-    }
-    result
 }

@@ -7,6 +7,11 @@ pub mod bsdf_xml;
 pub mod dataset_blob;
 mod location;
 pub mod package;
+pub mod drawing;
+pub mod eulumdat;
+pub mod ies;
+pub mod lid_tables;
+pub mod luminaire;
 pub mod scan;
 
 pub use location::{FormatError, Location};

@@ -5,6 +5,7 @@
 pub mod cache;
 mod error;
 pub mod library;
+pub mod luminaire_file;
 pub mod plan;
 pub mod scene;
 pub mod scene_file;

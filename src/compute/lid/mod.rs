@@ -1,5 +1,6 @@
 //! The luminous-intensity distribution of an aperture: what the room side emits, as a luminaire would.
 
+pub mod c_gamma;
 mod emission;
 
 pub use emission::{CellLight, Emission, Facing};

@@ -1,0 +1,135 @@
+//! A luminaire's distribution as a picture and as a table: the polar diagram and the C-γ values as CSV.
+
+use super::drawing::{Drawing, Rgb, Shape};
+use super::luminaire::{Luminaire, number};
+
+const GRID: Rgb = [205, 205, 205];
+const INK: Rgb = [60, 60, 60];
+const C0: Rgb = [196, 58, 40];
+const C90: Rgb = [38, 96, 168];
+
+/// The polar diagram of the planes C0–C180 (red) and C90–C270 (blue), nadir down, C0 and C90 to the right.
+pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
+    const SIZE: u32 = 640;
+    let centre = 0.5 * f64::from(SIZE);
+    let radius = 250.0;
+    let drawn = [0.0, 90.0, 180.0, 270.0].map(|c| luminaire.plane(nearest_plane(luminaire, c)));
+    let full = round_up(drawn.into_iter().flatten().copied().fold(0.0, f64::max));
+    let at = |gamma_deg: f64, r: f64, side: f64| {
+        let (sin, cos) = gamma_deg.to_radians().sin_cos();
+        [centre + side * r * sin, centre + r * cos]
+    };
+    let mut shapes = Vec::new();
+    for ring in 1..=4 {
+        let r = radius * f64::from(ring) / 4.0;
+        let points = (0..=120).map(|k| at(f64::from(k) * 3.0, r, 1.0)).collect();
+        shapes.push(Shape::Line { points, colour: GRID, width: 1.0 });
+    }
+    for k in 0..12 {
+        let gamma = f64::from(k) * 30.0;
+        shapes.push(Shape::Line { points: vec![[centre, centre], at(gamma, radius, 1.0)], colour: GRID, width: 1.0 });
+        let shown = if gamma > 180.0 { 360.0 - gamma } else { gamma };
+        shapes.push(Shape::Text { at: at(gamma, radius + 26.0, 1.0), text: format!("{shown}°"), colour: INK });
+    }
+    for (c, colour) in [(0.0, C0), (90.0, C90)] {
+        for (plane_c, side) in [(c, 1.0), (c + 180.0, -1.0)] {
+            let plane = luminaire.plane(nearest_plane(luminaire, plane_c));
+            let points =
+                luminaire.gamma_deg.iter().zip(plane).map(|(&g, &i)| at(g, radius * i.max(0.0) / full, side)).collect();
+            shapes.push(Shape::Line { points, colour, width: 2.0 });
+        }
+    }
+    for ring in [2.0, 4.0] {
+        let text = format!("{} cd", number(full * ring / 4.0, 3));
+        shapes.push(Shape::Text { at: at(165.0, radius * ring / 4.0, 1.0), text, colour: INK });
+    }
+    shapes.push(Shape::Text { at: [80.0, 20.0], text: "C0-C180".to_owned(), colour: C0 });
+    shapes.push(Shape::Text { at: [80.0, 42.0], text: "C90-C270".to_owned(), colour: C90 });
+    shapes.push(Shape::Text { at: [540.0, 20.0], text: format!("{} lm", number(luminaire.flux(), 1)), colour: INK });
+    Drawing { width: SIZE, height: SIZE, shapes }
+}
+
+/// The plane whose C is closest, all round the turn.
+fn nearest_plane(luminaire: &Luminaire, c_deg: f64) -> usize {
+    let away = |c: f64| ((c - c_deg + 180.0).rem_euclid(360.0) - 180.0).abs();
+    (0..luminaire.c_deg.len())
+        .min_by(|&a, &b| away(luminaire.c_deg[a]).total_cmp(&away(luminaire.c_deg[b])))
+        .unwrap_or(0)
+}
+
+/// The next of 1, 1.2, 1.6, 2, 2.4, 3.2, 4, 5, 6, 8, 10 times a power of ten: halves and quarters stay short.
+fn round_up(value: f64) -> f64 {
+    if value <= 0.0 {
+        return 1.0;
+    }
+    let decade = 10_f64.powf(value.log10().floor());
+    [1.0, 1.2, 1.6, 2.0, 2.4, 3.2, 4.0, 5.0, 6.0, 8.0, 10.0]
+        .map(|step| step * decade)
+        .into_iter()
+        .find(|&step| step >= value * (1.0 - 1e-12))
+        .unwrap_or(10.0 * decade)
+}
+
+/// The table as CSV: `c_deg,gamma_deg,intensity_cd`, plane by plane.
+pub fn to_csv(luminaire: &Luminaire) -> String {
+    let mut csv = String::from("c_deg,gamma_deg,intensity_cd\n");
+    for (plane, c) in luminaire.c_deg.iter().enumerate() {
+        for (gamma, intensity) in luminaire.gamma_deg.iter().zip(luminaire.plane(plane)) {
+            csv.push_str(&format!("{},{},{intensity:.6e}\n", number(*c, 4), number(*gamma, 4)));
+        }
+    }
+    csv
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::{Dir, Facade, Surface};
+    use crate::compute::lid::c_gamma::{Aim, CGammaTable, Step};
+    use crate::compute::lid::{EmergentLuminance, Lid};
+    use crate::formats::luminaire::Description;
+    use std::sync::Arc;
+
+    /// Light that goes up only, into the room: C0 above the horizontal.
+    fn upwards() -> Luminaire {
+        let up = |twin: Dir<Facade>| if twin.vector().y < 0.0 { 1000.0 } else { 0.0 };
+        let parts = vec![EmergentLuminance::Function(Arc::new(up))];
+        let lid = Lid { surface: Surface::Facade, size: [1.0, 1.0], parts, beam: None };
+        let table = CGammaTable::new(&lid, Aim::Mounted, Step::from_degrees(5.0).unwrap());
+        Luminaire::from_table(&table, lid.size, Description::default())
+    }
+
+    #[test]
+    fn light_into_the_room_and_up_is_drawn_right_and_up() {
+        let drawing = polar_diagram(&upwards());
+        let red = drawing.shapes.iter().find_map(|shape| match shape {
+            Shape::Line { points, colour, width } if *colour == C0 && *width == 2.0 => Some(points),
+            _ => None,
+        });
+        let far = red.unwrap().iter().filter(|p| (p[0] - 320.0).hypot(p[1] - 320.0) > 130.0);
+        let mut count = 0;
+        for point in far {
+            count += 1;
+            assert!(point[0] > 320.0 && point[1] < 320.0, "{point:?}");
+        }
+        assert!(count > 5);
+        assert!(drawing.to_png().is_ok());
+    }
+
+    #[test]
+    fn csv_has_every_node() {
+        let csv = to_csv(&upwards());
+        assert_eq!(csv.lines().count(), 1 + 72 * 37);
+        let mut reader = csv::Reader::from_reader(csv.as_bytes());
+        let sum: f64 = reader.records().map(|r| r.unwrap()[2].parse::<f64>().unwrap()).sum();
+        let table: f64 = upwards().intensity.iter().sum();
+        assert!((sum / table - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn scales_end_at_round_numbers() {
+        for (value, expected) in [(0.0, 1.0), (3.3, 4.0), (860.0, 1000.0), (1000.0, 1000.0), (0.013, 0.016)] {
+            assert!((round_up(value) / expected - 1.0).abs() < 1e-12, "{value}");
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! A luminaire as photometric files describe it: what EULUMDAT and LM-63 have in common.
+//!
+//! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
+
+use crate::compute::btdf::Finding;
+use crate::compute::lid::c_gamma::{Aim, CGammaTable};
+use std::fmt::Write as _;
+
+/// Which axis the planes of a photometric file turn about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Photometry {
+    /// About the vertical: C and γ.
+    C,
+    /// About a horizontal axis: B and β. Read as it stands, not turned into C.
+    B,
+    /// About a vertical axis, counted from the direction of travel. Read as it stands.
+    A,
+}
+
+/// The text that identifies a luminaire.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Description {
+    /// Number of the measurement or computation.
+    pub report: String,
+    /// Who measured or computed.
+    pub laboratory: String,
+    /// Date of issue.
+    pub date: String,
+    /// Maker.
+    pub manufacturer: String,
+    /// Catalogue number.
+    pub number: String,
+    /// What it is.
+    pub name: String,
+    /// The light source.
+    pub lamp: String,
+    /// Anything else a user of the file must know, a paragraph each.
+    pub remarks: Vec<String>,
+}
+
+/// Size of the luminous opening. [m] Negative values, as LM-63 marks round shapes, are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Opening {
+    /// Along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT).
+    pub along_c0: f64,
+    /// Along the C90–C270 plane ("width" of LM-63, "length" of EULUMDAT).
+    pub along_c90: f64,
+    /// Vertical.
+    pub height: f64,
+}
+
+/// A luminaire.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Luminaire {
+    /// Format as the file names itself.
+    pub format: String,
+    /// Identifying text.
+    pub text: Description,
+    /// Kind of planes.
+    pub photometry: Photometry,
+    /// Luminous opening.
+    pub opening: Opening,
+    /// Planes, rising; for photometry C all of the turn (360° not repeated) or one plane for all. [°]
+    pub c_deg: Vec<f64>,
+    /// Angles in a plane, rising. [°]
+    pub gamma_deg: Vec<f64>,
+    /// Plane by plane. [cd]
+    pub intensity: Vec<f64>,
+    /// Rated flux of the lamps that the intensities belong to; `None` for absolute photometry. [lm]
+    pub lamp_flux: Option<f64>,
+    /// Electrical power. [W]
+    pub power: f64,
+    /// What a reader had to assume.
+    pub findings: Vec<Finding>,
+}
+
+/// Why a file is no luminaire.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: found {found}, expected {expected}")]
+pub struct LuminaireError {
+    /// Line of the file, from 1.
+    pub line: usize,
+    /// What is there.
+    pub found: String,
+    /// What should be there.
+    pub expected: String,
+}
+
+impl LuminaireError {
+    pub(super) fn new(line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { line, found: found.into(), expected: expected.into() }
+    }
+}
+
+impl Luminaire {
+    /// The luminaire of an aperture whose distribution was tabulated.
+    ///
+    /// `size` is the aperture's along its own x and y [m]. Remarks on orientation, subdivision and quadrature are added
+    /// to those of `text`, because a host that does not know them gets the near field or the direction wrong.
+    pub fn from_table(table: &CGammaTable, size: [f64; 2], mut text: Description) -> Self {
+        let [x, y] = size;
+        let opening = match table.aim {
+            Aim::Mounted => Opening { along_c0: 0.0, along_c90: x, height: y },
+            Aim::Down => Opening { along_c0: x, along_c90: y, height: 0.0 },
+        };
+        text.remarks.extend(orientation_remarks(table.aim, size));
+        text.remarks.push(table_remark(table));
+        let step = table.step.degrees();
+        let degrees = |count: usize| (0..count).map(|k| k as f64 * step).collect();
+        Self {
+            format: "computed".to_owned(),
+            text,
+            photometry: Photometry::C,
+            opening,
+            c_deg: degrees(table.planes()),
+            gamma_deg: degrees(table.angles()),
+            intensity: table.intensity.clone(),
+            lamp_flux: Some(table.flux.value),
+            power: 0.0,
+            findings: Vec::new(),
+        }
+    }
+
+    /// Intensities of one plane. [cd]
+    pub fn plane(&self, plane: usize) -> &[f64] {
+        &self.intensity[plane * self.gamma_deg.len()..][..self.gamma_deg.len()]
+    }
+
+    /// Flux between the nadir and γ, by the zonal sum: a zone between two angles has the mean of their intensities, a
+    /// plane stands for half the way to its neighbours. Only for photometry C. [lm]
+    pub fn flux_within(&self, gamma_deg: f64) -> f64 {
+        let weights = self.plane_weights();
+        let mut flux = 0.0;
+        for (pair_index, pair) in self.gamma_deg.windows(2).enumerate() {
+            if pair[0] >= gamma_deg {
+                break;
+            }
+            let end = pair[1].min(gamma_deg);
+            let share = (end - pair[0]) / (pair[1] - pair[0]);
+            let zone = pair[0].to_radians().cos() - end.to_radians().cos();
+            for (plane, weight) in weights.iter().enumerate() {
+                let [from, to] = [pair_index, pair_index + 1].map(|k| self.plane(plane)[k]);
+                let to = from + share * (to - from);
+                flux += 0.5 * (from + to) * zone * weight;
+            }
+        }
+        flux
+    }
+
+    /// Flux of the whole distribution. [lm]
+    pub fn flux(&self) -> f64 {
+        self.flux_within(180.0)
+    }
+
+    /// Azimuth that each plane stands for. [rad]
+    fn plane_weights(&self) -> Vec<f64> {
+        let n = self.c_deg.len();
+        (0..n)
+            .map(|k| {
+                let next = if k + 1 < n { self.c_deg[k + 1] } else { self.c_deg[0] + 360.0 };
+                let last = if k > 0 { self.c_deg[k - 1] } else { self.c_deg[n - 1] - 360.0 };
+                (0.5 * (next - last)).to_radians()
+            })
+            .collect()
+    }
+
+    /// Largest intensity. [cd]
+    pub fn peak(&self) -> f64 {
+        self.intensity.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+fn orientation_remarks(aim: Aim, [x, y]: [f64; 2]) -> Vec<String> {
+    let orientation = match aim {
+        Aim::Mounted => {
+            "Orientation: type C as mounted in the facade. Nadir is down, C0 points into the room, C90 to the left seen \
+             from outside (C counted counter-clockwise seen from above). Place without tilt."
+        }
+        Aim::Down => {
+            "Orientation: outward normal up, light goes down (as in a roof). C0 is the right seen from outside, C90 the \
+             aperture's up. For a facade tilt by 90 deg so that C90 points up and the nadir into the room."
+        }
+    };
+    vec![
+        orientation.to_owned(),
+        format!(
+            "Opening {x:.4} m x {y:.4} m (width x height seen from outside). The host must subdivide the luminous area: \
+             as a point source it is wrong nearer than about five times its size."
+        ),
+    ]
+}
+
+fn table_remark(table: &CGammaTable) -> String {
+    let mut text = format!(
+        "Intensities are means over cells of {} deg; zonal flux {:.4} lm, scaled by {:+.4} % to match the computed flux \
+         (numerical error {:.4} lm).",
+        table.step.degrees(),
+        table.flux.value,
+        100.0 * (table.scaled_by - 1.0),
+        table.flux.error
+    );
+    if table.beam_flux != 0.0 {
+        write!(
+            text,
+            " The unscattered sunbeam of {:.4} lm is spread over the four nearest nodes: patches of sun are blurred to \
+             this step.",
+            table.beam_flux
+        )
+        .expect("writing to a String cannot fail");
+    }
+    text
+}
+
+/// Text of a file: UTF-8 if it is, else Latin-1, without a byte-order mark.
+pub(super) fn decode(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.trim_start_matches('\u{feff}').to_owned(),
+        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
+    }
+}
+
+/// Printable ASCII: what every reader takes. Letters with marks are spelt out, line breaks become blanks, the rest '?'.
+pub(super) fn ascii(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            ' '..='~' => out.push(c),
+            'ä' => out.push_str("ae"),
+            'ö' => out.push_str("oe"),
+            'ü' => out.push_str("ue"),
+            'Ä' => out.push_str("Ae"),
+            'Ö' => out.push_str("Oe"),
+            'Ü' => out.push_str("Ue"),
+            'ß' => out.push_str("ss"),
+            'à' | 'â' | 'á' | 'å' => out.push('a'),
+            'é' | 'è' | 'ê' | 'ë' => out.push('e'),
+            'ç' => out.push('c'),
+            'ñ' => out.push('n'),
+            'ô' | 'ó' | 'ø' => out.push('o'),
+            '°' => out.push_str(" deg"),
+            '²' => out.push('2'),
+            '×' => out.push('x'),
+            '–' | '—' | '−' => out.push('-'),
+            c if c.is_whitespace() => out.push(' '),
+            _ => out.push('?'),
+        }
+    }
+    out
+}
+
+/// Fails unless the angles rise strictly.
+pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), LuminaireError> {
+    match angles.windows(2).find(|pair| pair[1] <= pair[0]) {
+        Some(pair) => Err(LuminaireError::new(
+            line,
+            format!("{name} {} after {}", pair[1], pair[0]),
+            format!("{name}s that increase strictly"),
+        )),
+        None => Ok(()),
+    }
+}
+
+/// The shortest of up to `decimals` decimals, without trailing zeros or "-0".
+pub(super) fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,225 @@
+//! The luminaire file of an aperture: format by extension, orientation and step by choice or from the data, and a
+//! header that says which scene, sky and product the light belongs to.
+
+use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::Lid;
+use crate::compute::lid::c_gamma::{Aim, CGammaTable, Step};
+use crate::formats::ies::IesEdition;
+use crate::formats::luminaire::{Description, Luminaire};
+use crate::formats::{eulumdat, ies, lid_tables};
+use std::path::Path;
+
+/// What a distribution can be written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LidFormat {
+    /// `.ldt`
+    Eulumdat,
+    /// `.ies`
+    Ies(IesEdition),
+    /// `.csv`: C, γ, cd.
+    Csv,
+    /// `.png`: polar diagram.
+    Png,
+    /// `.svg`: polar diagram.
+    Svg,
+}
+
+/// Why no file was made.
+#[derive(Debug, thiserror::Error)]
+pub enum LuminaireFileError {
+    /// The extension names no format that is written.
+    #[error("extension \"{0}\" names no format for a luminous-intensity distribution (ldt, ies, csv, png or svg)")]
+    Extension(String),
+    /// The diagram could not be encoded.
+    #[error("the diagram could not be encoded: {0}")]
+    Image(#[from] image::ImageError),
+}
+
+impl LidFormat {
+    /// By a file's extension; `edition` counts for `.ies` alone.
+    pub fn of(path: &Path, edition: IesEdition) -> Result<Self, LuminaireFileError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match extension.as_str() {
+            "ldt" => Ok(Self::Eulumdat),
+            "ies" => Ok(Self::Ies(edition)),
+            "csv" => Ok(Self::Csv),
+            "png" => Ok(Self::Png),
+            "svg" => Ok(Self::Svg),
+            _ => Err(LuminaireFileError::Extension(extension)),
+        }
+    }
+}
+
+/// A file in memory and what to tell about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LuminaireFile {
+    /// The whole file.
+    pub bytes: Vec<u8>,
+    /// Flux of the aperture. [lm]
+    pub flux: Estimate,
+    /// Relative correction that closed the table's flux.
+    pub scaled_by: f64,
+    /// Largest intensity of the table. [cd]
+    pub peak: f64,
+    /// Orientation used.
+    pub aim: Aim,
+    /// Step used.
+    pub step: Step,
+}
+
+/// Tabulates and writes a distribution. Without `aim` the aperture's real orientation is used, without `step` one that
+/// suits the data.
+pub fn encode(
+    lid: &Lid,
+    text: Description,
+    format: LidFormat,
+    aim: Option<Aim>,
+    step: Option<Step>,
+) -> Result<LuminaireFile, LuminaireFileError> {
+    let aim = aim.unwrap_or_else(|| Aim::of(lid.surface));
+    let step = step.unwrap_or_else(|| Step::for_lid(lid));
+    let table = CGammaTable::new(lid, aim, step);
+    let luminaire = Luminaire::from_table(&table, lid.size, text);
+    let bytes = match format {
+        LidFormat::Eulumdat => eulumdat::write(&luminaire),
+        LidFormat::Ies(edition) => ies::write(&luminaire, edition),
+        LidFormat::Csv => lid_tables::to_csv(&luminaire).into_bytes(),
+        LidFormat::Png => lid_tables::polar_diagram(&luminaire).to_png()?,
+        LidFormat::Svg => lid_tables::polar_diagram(&luminaire).to_svg().into_bytes(),
+    };
+    Ok(LuminaireFile { bytes, flux: table.flux, scaled_by: table.scaled_by, peak: luminaire.peak(), aim, step })
+}
+
+/// The header of a luminaire file: scene, product, sky, sun and time, as the scene file states them.
+///
+/// `aperture` counts from 0 and must exist; `date` is the day of issue.
+pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str) -> Description {
+    let keys = &scene.aperture[aperture];
+    let system = match &keys.system {
+        SystemKeys::Ideal { kind, transmittance } => {
+            let kind = match kind {
+                IdealKind::Transparent => "transparent",
+                IdealKind::Diffuse => "diffuse",
+            };
+            format!("ideal {kind}, transmittance {transmittance}")
+        }
+        SystemKeys::File { path, state } => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            with_state(format!("file {name}"), state.as_deref())
+        }
+        SystemKeys::Catalogue { key, state } => with_state(key.clone(), state.as_deref()),
+    };
+    let program = concat!("cfs ", env!("CARGO_PKG_VERSION"));
+    Description {
+        report: format!("{scene_name}, aperture {}", aperture + 1),
+        laboratory: format!("computed by {program}"),
+        date: date.to_owned(),
+        manufacturer: program.to_owned(),
+        number: format!("aperture {}", aperture + 1),
+        name: format!("Daylight aperture, {system}"),
+        lamp: "daylight".to_owned(),
+        remarks: vec![
+            format!("Daylight through one aperture of the scene {scene_name}, not an electric luminaire."),
+            sky_remark(scene),
+            "Light that the host's own room sends to the aperture is not reflected: give the window a reflectance."
+                .to_owned(),
+        ],
+    }
+}
+
+fn with_state(name: String, state: Option<&str>) -> String {
+    state.map_or_else(|| name.clone(), |state| format!("{name}, state {state}"))
+}
+
+fn sky_remark(scene: &SceneFile) -> String {
+    let sky = &scene.sky;
+    let model = match sky.model {
+        SkyModelKey::Cie => {
+            format!("CIE type {}", sky.cie_type.map_or_else(|| "unstated".to_owned(), |t| t.to_string()))
+        }
+        SkyModelKey::Uniform => "uniform".to_owned(),
+        SkyModelKey::Perez => "Perez all-weather".to_owned(),
+        SkyModelKey::Scan => "measured scan".to_owned(),
+    };
+    let mut parts = vec![format!("Sky {model}")];
+    let mut add = |name: &str, value: Option<f64>, unit: &str| {
+        if let Some(value) = value {
+            parts.push(format!("{name} {value} {unit}"));
+        }
+    };
+    add("E_dh", sky.diffuse_horizontal, "lx");
+    add("E_dn", sky.sun.direct_normal, "lx");
+    add("diffuse horizontal irradiance", sky.diffuse_horizontal_irradiance, "W/m2");
+    add("direct horizontal irradiance", sky.direct_horizontal_irradiance, "W/m2");
+    add("sun altitude", sky.sun.altitude, "deg");
+    add("sun azimuth", sky.sun.azimuth, "deg");
+    add("facade azimuth", Some(scene.site.azimuth), "deg");
+    add("ground reflectance", Some(scene.site.ground_reflectance), "");
+    if let Some(time) = &sky.time {
+        parts.push(format!("time {}", time.text()));
+    }
+    format!("{}.", parts.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Surface;
+    use crate::compute::lid::EmergentLuminance;
+
+    const SCENE: &str = r#"
+[room]
+width = 4.0
+depth = 6.0
+height = 3.0
+reflectance = { floor = 0.2, walls = 0.5, ceiling = 0.7 }
+[[aperture]]
+surface = "facade"
+origin = [0.0, 1.0]
+size = [4.0, 1.5]
+system = { file = "systems/blind.xml", state = "45" }
+[site]
+azimuth = 170.0
+ground_reflectance = 0.2
+[sky]
+model = "cie"
+type = 12
+diffuse_horizontal = 12000.0
+sun = { altitude = 20.0, azimuth = 180.0, direct_normal = 65000.0 }
+[sensors]
+points = [[2.0, 2.0, 0.85]]
+normal = [0.0, 0.0, 1.0]
+"#;
+
+    #[test]
+    fn header_names_scene_product_sky_and_opening() {
+        let scene: SceneFile = toml::from_str(SCENE).unwrap();
+        let text = describe("office.toml", &scene, 0, "2026-03-21");
+        let parts = vec![EmergentLuminance::Uniform(500.0)];
+        let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beam: None };
+        let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();
+        let file = encode(&lid, text, format, None, None).unwrap();
+        // Continuation lines cut sentences anywhere.
+        let file = String::from_utf8(file.bytes).unwrap().replace("\r\n[MORE]", "");
+        for piece in [
+            "office.toml, aperture 1",
+            "[ISSUEDATE] 2026-03-21",
+            "blind.xml, state 45",
+            "CIE type 12",
+            "E_dh 12000 lx",
+            "E_dn 65000 lx",
+            "4.0000 m x 1.5000 m",
+            "must subdivide",
+            env!("CARGO_PKG_VERSION"),
+        ] {
+            assert!(file.contains(piece), "{piece}\n{}", &file[..2000]);
+        }
+    }
+
+    #[test]
+    fn unknown_extension_lists_the_known_ones() {
+        let error = LidFormat::of(Path::new("a.dwg"), IesEdition::Lm63_2002).unwrap_err().to_string();
+        assert!(error.contains("dwg") && error.contains("ldt"), "{error}");
+    }
+}
