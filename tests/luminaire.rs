@@ -4,8 +4,8 @@ use cfs::compute::direction::{Dir, Facade, Surface};
 use cfs::compute::lid::c_gamma::{Aim, CGammaTable, Step};
 use cfs::compute::lid::{EmergentLuminance, Lid};
 use cfs::formats::ies::IesEdition;
-use cfs::formats::luminaire::{Description, Luminaire, LuminaireError, Photometry};
-use cfs::formats::{eulumdat, ies};
+use cfs::formats::luminaire::{Description, Luminaire, Photometry};
+use cfs::formats::{FormatError, Location, eulumdat, ies};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -154,7 +154,7 @@ fn data() -> Option<PathBuf> {
     found.then(|| root.join("data"))
 }
 
-fn read(path: &Path) -> Result<Luminaire, LuminaireError> {
+fn read(path: &Path) -> Result<Luminaire, FormatError> {
     let bytes = std::fs::read(path).expect("file");
     if path.extension().is_some_and(|e| e == "ldt") { eulumdat::read(&bytes) } else { ies::read(&bytes) }
 }
@@ -172,7 +172,7 @@ fn real_files_are_read_and_rewritten() {
             }
             let result = read(&path);
             if name == "mdl_test_file_format_error.ies" {
-                assert_eq!(result.unwrap_err().line, 3);
+                assert_eq!(result.unwrap_err().at, Location::line(3));
                 continue;
             }
             let luminaire = result.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -235,7 +235,7 @@ fn damaged_files_are_refused_with_their_reason() {
 fn faults_are_told_with_their_line() {
     let file = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n1 x\n";
     let error = ies::read(file).unwrap_err();
-    assert_eq!((error.line, error.found.as_str()), (7, "\"x\""));
+    assert_eq!((error.at, error.found.as_str()), (Location::line(7), "\"x\""));
     assert!(ies::read(b"").is_err() && eulumdat::read(b"").is_err());
 }
 

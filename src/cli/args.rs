@@ -1,10 +1,10 @@
 //! What can be typed.
 
-use super::{convert::ConvertArgs, info::InfoArgs, room::RoomArgs, sky::SkyArgs};
+use super::{convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs};
 use std::path::PathBuf;
 
 /// From a complex fenestration system's BTDF to the light in a room
-#[derive(Debug, Clone, clap::Parser)]
+#[derive(Debug, clap::Parser)]
 #[command(
     name = "cfs",
     version,
@@ -15,6 +15,7 @@ Examples:
   cfs                                   the window
   cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
   cfs room office.toml --out office.csv illuminance at every sensor
+  cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
 
@@ -30,10 +31,12 @@ pub struct Arguments {
 }
 
 /// Subcommands.
-#[derive(Debug, Clone, clap::Subcommand)]
+#[derive(Debug, clap::Subcommand)]
 pub enum Command {
     /// Illuminance at every sensor of a scene
     Room(RoomArgs),
+    /// Luminous-intensity distribution of an aperture as a luminaire file
+    Lid(LidArgs),
     /// Luminances of the 145 Tregenza patches of the sky dome
     Sky(SkyArgs),
     /// What a dataset file is

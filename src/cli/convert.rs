@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use std::path::PathBuf;
 
 /// Arguments of `cfs convert`.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct ConvertArgs {
     /// File to read.
     pub input: PathBuf,

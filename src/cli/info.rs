@@ -9,7 +9,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 /// Arguments of `cfs info`.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct InfoArgs {
     /// Dataset file, any format that the program reads.
     pub file: PathBuf,

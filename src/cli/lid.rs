@@ -1,12 +1,14 @@
 //! `cfs lid`: the luminous-intensity distribution of an aperture as a luminaire file, table or diagram.
 
-use super::output::write_whole;
+use super::output::{print, write_file};
+use crate::compute::estimate::Silent;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire::Description;
-use crate::study::luminaire_file::{LidFormat, encode};
-use anyhow::{Context, Result};
+use crate::study::luminaire_file::{LidFormat, describe, encode};
+use crate::study::{Session, load_scene, read_scene_file, system::SystemLibrary};
+use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -55,11 +57,29 @@ pub enum AimArg {
     Down,
 }
 
-/// Runs the command. `distribution` computes the aperture's distribution and the header from the scene's path and the
+/// Runs the command.
+pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
+    write_distribution(args, |path, index| {
+        let scene = load_scene(path, library)?;
+        let count = scene.apertures.len();
+        if index >= count {
+            bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
+        }
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let date = jiff::Zoned::now().date().to_string();
+        let text = describe(&name, &read_scene_file(path)?, index, &date);
+        Ok((Session::new().lid(&scene, index, &Silent)?.lid, text))
+    })
+}
+
+/// The command with `distribution` to compute the aperture's light and the file's header from the scene's path and the
 /// aperture's index, counted from 0.
 ///
 /// Options are checked before anything is computed; the file appears whole or not at all.
-pub fn run(args: &LidArgs, distribution: impl FnOnce(&Path, usize) -> Result<(Lid, Description)>) -> Result<()> {
+fn write_distribution(
+    args: &LidArgs,
+    distribution: impl FnOnce(&Path, usize) -> Result<(Lid, Description)>,
+) -> Result<()> {
     let edition = match args.edition {
         EditionArg::Y2002 => IesEdition::Lm63_2002,
         EditionArg::Y2019 => IesEdition::Lm63_2019,
@@ -73,7 +93,7 @@ pub fn run(args: &LidArgs, distribution: impl FnOnce(&Path, usize) -> Result<(Li
     });
     let (lid, text) = distribution(&args.scene, args.aperture as usize - 1)?;
     let file = encode(&lid, text, format, aim, step).with_context(|| format!("{shown}"))?;
-    write_whole(&args.out, &file.bytes).with_context(|| format!("{shown}: cannot be written"))?;
+    write_file(&args.out, &file.bytes)?;
     if args.json {
         let summary = serde_json::json!({
             "out": args.out.to_string_lossy(),
@@ -85,7 +105,7 @@ pub fn run(args: &LidArgs, distribution: impl FnOnce(&Path, usize) -> Result<(Li
             "step_deg": file.step.degrees(),
             "aim": match file.aim { Aim::Mounted => "mounted", Aim::Down => "down" },
         });
-        println!("{summary}");
+        print(&format!("{summary:#}\n"))?;
     } else {
         eprintln!(
             "{shown}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
@@ -114,7 +134,7 @@ mod tests {
 
     fn run_on(words: &[&str], surface: Surface) -> Result<()> {
         let command = Command::try_parse_from(["lid"].iter().chain(words))?;
-        run(&command.lid, |_, _| {
+        write_distribution(&command.lid, |_, _| {
             let parts = vec![EmergentLuminance::Uniform(100.0)];
             Ok((Lid { surface, size: [2.0, 1.0], parts, beam: None }, Description::default()))
         })

@@ -22,6 +22,7 @@ pub fn run(command: &Command, _catalogue: Option<&Path>) -> anyhow::Result<()> {
     let library = Library::default();
     match command {
         Command::Room(args) => room::run(args, &library),
+        Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),

@@ -4,9 +4,8 @@
 //! lamp sets (the first one counts: sets are alternatives), decimal commas, byte-order mark, blank lines after the
 //! header, whatever follows the last intensity. Not read: nothing is made of direct ratios and colour data.
 
-use super::luminaire::{
-    Description, Luminaire, LuminaireError, Opening, Photometry, ascii, check_rising, decode, number,
-};
+use super::FormatError;
+use super::luminaire::{Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number};
 use crate::compute::btdf::Finding;
 
 const LAMP_SETS_LINE: usize = 26;
@@ -100,7 +99,7 @@ pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
 /// # Errors
 /// A header that ends early, counts or the symmetry indicator out of range, angles that do not increase, text where a
 /// number belongs, fewer intensities than the counts ask for. The first fault is told with its line.
-pub fn read(bytes: &[u8]) -> Result<Luminaire, LuminaireError> {
+pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let text = decode(bytes);
     let lines = Lines { lines: text.lines().map(str::trim).collect() };
     let symmetry = lines.whole(3, "symmetry indicator Isym", 0.0, 4.0)?;
@@ -223,9 +222,9 @@ struct Lines<'a> {
 
 impl Lines<'_> {
     /// Fails when the file is shorter than the header.
-    fn header(&self, line: usize) -> Result<(), LuminaireError> {
+    fn header(&self, line: usize) -> Result<(), FormatError> {
         if self.lines.len() < line {
-            return Err(LuminaireError::new(
+            return Err(at_line(
                 self.lines.len(),
                 "the end of the file in the header",
                 format!("at least {line} header lines"),
@@ -238,7 +237,7 @@ impl Lines<'_> {
         self.lines.get(line - 1).copied().unwrap_or_default().to_owned()
     }
 
-    fn number_or_zero(&self, line: usize, name: &str) -> Result<f64, LuminaireError> {
+    fn number_or_zero(&self, line: usize, name: &str) -> Result<f64, FormatError> {
         self.header(line)?;
         match self.lines[line - 1] {
             "" => Ok(0.0),
@@ -246,10 +245,10 @@ impl Lines<'_> {
         }
     }
 
-    fn whole(&self, line: usize, name: &str, min: f64, max: f64) -> Result<usize, LuminaireError> {
+    fn whole(&self, line: usize, name: &str, min: f64, max: f64) -> Result<usize, FormatError> {
         let value = self.number_or_zero(line, name)?;
         if !(min..=max).contains(&value) || value.fract() != 0.0 {
-            return Err(LuminaireError::new(
+            return Err(at_line(
                 line,
                 format!("{name} {value}, out of range"),
                 format!("a whole number from {min} to {max}"),
@@ -267,11 +266,11 @@ struct Values<'a, 'b> {
 }
 
 impl Values<'_, '_> {
-    fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, LuminaireError> {
+    fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
         let mut values = Vec::new();
         while values.len() < count {
             let Some(text) = self.lines.lines.get(self.next - 1) else {
-                return Err(LuminaireError::new(
+                return Err(at_line(
                     self.lines.lines.len(),
                     format!("the end of the file after {} of {count} {name}", values.len()),
                     format!("{count} {name}"),
@@ -286,10 +285,10 @@ impl Values<'_, '_> {
     }
 }
 
-fn parse(text: &str, line: usize, name: &str) -> Result<f64, LuminaireError> {
+fn parse(text: &str, line: usize, name: &str) -> Result<f64, FormatError> {
     let value = text.replace(',', ".").parse::<f64>().ok().filter(|value| value.is_finite());
     value.ok_or_else(|| {
         let shown: String = text.chars().take(40).collect();
-        LuminaireError::new(line, format!("\"{shown}\""), format!("a number ({name})"))
+        at_line(line, format!("\"{shown}\""), format!("a number ({name})"))
     })
 }

@@ -4,9 +4,8 @@
 //! characters, CRLF, editions 2002 and 2019. Read: 1986 to 2019, types A, B and C (only C is expanded to a full turn),
 //! TILT=NONE and INCLUDE (the factors are told, not applied). Not read: tilt in another file.
 
-use super::luminaire::{
-    Description, Luminaire, LuminaireError, Opening, Photometry, ascii, check_rising, decode, number,
-};
+use super::FormatError;
+use super::luminaire::{Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number};
 use crate::compute::btdf::Finding;
 
 /// Editions that are written.
@@ -113,13 +112,13 @@ fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
 /// # Errors
 /// No TILT line, tilt in another file, counts or types out of range, angles that do not increase, text among the
 /// numbers, fewer numbers than the counts ask for. The first fault is told with its line.
-pub fn read(bytes: &[u8]) -> Result<Luminaire, LuminaireError> {
+pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let text = decode(bytes);
     let lines: Vec<&str> = text.lines().collect();
     let tilt_line = lines
         .iter()
         .position(|line| line.trim_start().to_ascii_uppercase().starts_with("TILT="))
-        .ok_or_else(|| LuminaireError::new(lines.len(), "no TILT line", "a line TILT=NONE or TILT=INCLUDE"))?;
+        .ok_or_else(|| at_line(lines.len(), "no TILT line", "a line TILT=NONE or TILT=INCLUDE"))?;
     let format = lines[0].trim();
     let old = !format.contains("2002") && !format.contains("2019");
     let mut findings = Vec::new();
@@ -138,7 +137,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, LuminaireError> {
             ));
         }
         other => {
-            return Err(LuminaireError::new(
+            return Err(at_line(
                 tilt_line + 1,
                 format!("TILT={}: an external tilt file, which is not available", &other[..other.len().min(40)]),
                 "TILT=NONE or TILT=INCLUDE",
@@ -231,7 +230,7 @@ fn keyword_value(lines: &[&str], name: &str) -> String {
 }
 
 /// Planes of the full turn and, for each, which of the file's planes it copies.
-fn expand(c_file: &[f64], line: usize) -> Result<(Vec<f64>, Vec<usize>), LuminaireError> {
+fn expand(c_file: &[f64], line: usize) -> Result<(Vec<f64>, Vec<usize>), FormatError> {
     let (first, last) = (c_file[0], c_file[c_file.len() - 1]);
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     if c_file.len() == 1 {
@@ -244,7 +243,7 @@ fn expand(c_file: &[f64], line: usize) -> Result<(Vec<f64>, Vec<usize>), Luminai
     } else if near(first, 90.0) && near(last, 270.0) {
         all.extend(c_file.iter().zip(0..).map(|(c, k)| ((540.0 - c).rem_euclid(360.0), k)));
     } else if !(near(first, 0.0) && (near(last, 180.0) || last > 180.0 && last <= 360.0 + 1e-6)) {
-        return Err(LuminaireError::new(
+        return Err(at_line(
             line,
             format!("horizontal angles from {first} to {last}"),
             "0 alone, 0 to 90, 0 to 180, 0 to 360 or 90 to 270",
@@ -289,45 +288,41 @@ impl<'a> Tokens<'a> {
         self.tokens.get(self.next.saturating_sub(1)).or(self.tokens.last()).map_or(1, |token| token.0)
     }
 
-    fn number(&mut self, name: &str) -> Result<f64, LuminaireError> {
+    fn number(&mut self, name: &str) -> Result<f64, FormatError> {
         let Some(&(line, token)) = self.tokens.get(self.next) else {
-            return Err(LuminaireError::new(self.line(), "the end of the file", name));
+            return Err(at_line(self.line(), "the end of the file", name));
         };
         self.next += 1;
         token.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| {
             let shown: String = token.chars().take(40).collect();
-            LuminaireError::new(line, format!("\"{shown}\""), format!("a number ({name})"))
+            at_line(line, format!("\"{shown}\""), format!("a number ({name})"))
         })
     }
 
     /// A count of things of which at least as many numbers must follow.
-    fn count(&mut self, name: &str) -> Result<usize, LuminaireError> {
+    fn count(&mut self, name: &str) -> Result<usize, FormatError> {
         let value = self.number(name)?;
         if !(1.0..=3601.0).contains(&value) || value.fract() != 0.0 {
-            return Err(LuminaireError::new(
-                self.line(),
-                format!("{name} {value}, out of range"),
-                "a whole number from 1 to 3601",
-            ));
+            return Err(at_line(self.line(), format!("{name} {value}, out of range"), "a whole number from 1 to 3601"));
         }
         Ok(value as usize)
     }
 
-    fn choice(&mut self, name: &str, allowed: &str, max: u8) -> Result<u8, LuminaireError> {
+    fn choice(&mut self, name: &str, allowed: &str, max: u8) -> Result<u8, FormatError> {
         let value = self.number(name)?;
-        (1..=max).find(|&choice| value == f64::from(choice)).ok_or_else(|| {
-            LuminaireError::new(self.line(), format!("{name} {value}"), format!("{name} must be {allowed}"))
-        })
+        (1..=max)
+            .find(|&choice| value == f64::from(choice))
+            .ok_or_else(|| at_line(self.line(), format!("{name} {value}"), format!("{name} must be {allowed}")))
     }
 
-    fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, LuminaireError> {
+    fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
         let left = self.tokens.len() - self.next;
         if left < count {
             // Text among the numbers explains more than the count does.
             for _ in 0..left {
                 self.number(name)?;
             }
-            return Err(LuminaireError::new(
+            return Err(at_line(
                 self.line(),
                 format!("only {left} {name}, then the end of the file"),
                 format!("{count} {name}"),

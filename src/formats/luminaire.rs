@@ -2,6 +2,7 @@
 //!
 //! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
 
+use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::lid::c_gamma::{Aim, CGammaTable};
 use std::fmt::Write as _;
@@ -72,24 +73,6 @@ pub struct Luminaire {
     pub power: f64,
     /// What a reader had to assume.
     pub findings: Vec<Finding>,
-}
-
-/// Why a file is no luminaire.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}: found {found}, expected {expected}")]
-pub struct LuminaireError {
-    /// Line of the file, from 1.
-    pub line: usize,
-    /// What is there.
-    pub found: String,
-    /// What should be there.
-    pub expected: String,
-}
-
-impl LuminaireError {
-    pub(super) fn new(line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { line, found: found.into(), expected: expected.into() }
-    }
 }
 
 impl Luminaire {
@@ -248,10 +231,15 @@ pub(super) fn ascii(text: &str) -> String {
     out
 }
 
+/// The error of a reader at a line, counted from 1.
+pub(super) fn at_line(line: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
+    FormatError::new(Location::line(line), found, expected)
+}
+
 /// Fails unless the angles rise strictly.
-pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), LuminaireError> {
+pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), FormatError> {
     match angles.windows(2).find(|pair| pair[1] <= pair[0]) {
-        Some(pair) => Err(LuminaireError::new(
+        Some(pair) => Err(at_line(
             line,
             format!("{name} {} after {}", pair[1], pair[0]),
             format!("{name}s that increase strictly"),

@@ -155,7 +155,7 @@ fn sky_remark(scene: &SceneFile) -> String {
     add("sun altitude", sky.sun.altitude, "deg");
     add("sun azimuth", sky.sun.azimuth, "deg");
     add("facade azimuth", Some(scene.site.azimuth), "deg");
-    add("ground reflectance", Some(scene.site.ground_reflectance), "");
+    parts.push(format!("ground reflectance {}", scene.site.ground_reflectance));
     if let Some(time) = &sky.time {
         parts.push(format!("time {}", time.text()));
     }
