@@ -54,11 +54,8 @@ impl Axis {
         if let Some(marks) = &self.marks {
             return marks.clone();
         }
-        let values = if self.log {
-            ticks::logarithmic(self.lo, self.hi, count)
-        } else {
-            ticks::linear(self.lo, self.hi, count)
-        };
+        let values =
+            if self.log { ticks::logarithmic(self.lo, self.hi, count) } else { ticks::linear(self.lo, self.hi, count) };
         values.into_iter().map(|v| (v, ticks::tick(v))).collect()
     }
 }

@@ -69,11 +69,7 @@ impl ColourScale {
             pos2(rect.left() + 6.0, rect.top() + 3.0),
             pos2((rect.right() - words.size().x - 12.0).max(rect.left() + 40.0), rect.top() + 12.0),
         );
-        painter.galley(
-            pos2(bar.right() + 8.0, bar.center().y - 0.5 * words.size().y),
-            words,
-            palette.weak,
-        );
+        painter.galley(pos2(bar.right() + 8.0, bar.center().y - 0.5 * words.size().y), words, palette.weak);
         let mut mesh = Mesh::default();
         const STEPS: u32 = 64;
         for i in 0..=STEPS {
@@ -89,11 +85,8 @@ impl ColourScale {
         painter.add(Shape::mesh(mesh));
         painter.rect_stroke(bar, 0, Stroke::new(1.0, palette.outline), StrokeKind::Outside);
         let room = (bar.width() / 42.0).max(1.0) as usize;
-        let marks = if self.log {
-            ticks::logarithmic(self.lo, self.hi, room)
-        } else {
-            ticks::linear(self.lo, self.hi, room)
-        };
+        let marks =
+            if self.log { ticks::logarithmic(self.lo, self.hi, room) } else { ticks::linear(self.lo, self.hi, room) };
         for mark in marks {
             let x = egui::lerp(bar.x_range(), self.fraction(mark));
             painter.line_segment([pos2(x, bar.bottom()), pos2(x, bar.bottom() + 3.0)], Stroke::new(1.0, palette.weak));

@@ -58,7 +58,10 @@ pub fn iso_lines(nx: usize, ny: usize, values: &[f64], level: f64) -> Vec<IsoLin
         let t = if a == b { 0.5 } else { ((level - a) / (b - a)).clamp(0.0, 1.0) };
         if up { [i as f64, j as f64 + t] } else { [i as f64 + t, j as f64] }
     };
-    trace(links).into_iter().map(|(edges, closed)| IsoLine { points: edges.into_iter().map(point).collect(), closed }).collect()
+    trace(links)
+        .into_iter()
+        .map(|(edges, closed)| IsoLine { points: edges.into_iter().map(point).collect(), closed })
+        .collect()
 }
 
 /// Follows the links: open chains from their ends first, then what is left as loops.

@@ -206,13 +206,7 @@ impl Disk {
             let at = pos2(x, c.y) - 0.5 * galley.size();
             painter.add(TextShape::new(at, galley, palette.weak).with_angle_and_anchor(angle, Align2::CENTER_CENTER));
         }
-        painter.text(
-            pos2(c.x, c.y + r + 1.0),
-            Align2::CENTER_TOP,
-            corner,
-            font,
-            palette.ink,
-        );
+        painter.text(pos2(c.x, c.y + r + 1.0), Align2::CENTER_TOP, corner, font, palette.ink);
     }
 }
 
@@ -288,8 +282,7 @@ mod tests {
     #[test]
     fn arrows_walk_over_a_basis_and_back() {
         let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
-        let points: Vec<_> =
-            basis.cells().map(|c| Side::Incident.disk(Projection::default(), c.centre())).collect();
+        let points: Vec<_> = basis.cells().map(|c| Side::Incident.disk(Projection::default(), c.centre())).collect();
         let up = neighbour(&points, points[0], [0.0, 1.0]).unwrap();
         assert!(points[up][1] > 0.1 && points[up][0].abs() < 1e-9);
         assert_eq!(neighbour(&points, points[up], [0.0, -1.0]), Some(0));

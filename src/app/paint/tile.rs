@@ -56,8 +56,9 @@ pub fn show(
         let notice = status.error.or(words.empty);
         if let Some(text) = notice {
             let colour = if status.error.is_some() { ui.visuals().error_fg_color } else { palette.weak };
-            let mut child =
-                ui.new_child(UiBuilder::new().max_rect(inner).layout(Layout::centered_and_justified(egui::Direction::TopDown)));
+            let mut child = ui.new_child(
+                UiBuilder::new().max_rect(inner).layout(Layout::centered_and_justified(egui::Direction::TopDown)),
+            );
             child.add(egui::Label::new(RichText::new(text).size(13.0).color(colour)).wrap());
         } else if inner.is_positive() {
             let mut child = ui.new_child(UiBuilder::new().max_rect(inner));
@@ -66,8 +67,7 @@ pub fn show(
                 child.multiply_opacity(0.5);
             }
             let text = body(&mut child, inner);
-            let mut line =
-                ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
+            let mut line = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
             line.add(egui::Label::new(RichText::new(text).size(13.0).color(palette.ink)).truncate());
         }
     });

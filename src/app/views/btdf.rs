@@ -136,13 +136,17 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
-fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> String {
+fn picture(
+    ui: &mut Ui,
+    rect: Rect,
+    btdf: &Btdf,
+    input: &Input<'_>,
+    state: &mut State,
+    out: &mut Vec<Action>,
+) -> String {
     let stacked = rect.height() > 1.25 * rect.width();
-    let (left, right) = if stacked {
-        rect.split_top_bottom_at_fraction(0.5)
-    } else {
-        rect.split_left_right_at_fraction(0.5)
-    };
+    let (left, right) =
+        if stacked { rect.split_top_bottom_at_fraction(0.5) } else { rect.split_left_right_at_fraction(0.5) };
     let incident = incident_side(ui, left, btdf, input, state, out);
     let emergent = emergent_side(ui, right, btdf, input, state);
     emergent.or(incident).unwrap_or_else(|| selection_text(btdf, input.incident))
@@ -249,7 +253,8 @@ fn incident_side(
     if shade {
         scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|i| cells.tau[i]), &palette);
     }
-    pointed.map(|i| format!("incidence {} · τ {}", direction_text(cells.basis.cell(i).centre()), number(cells.tau[i], 3)))
+    pointed
+        .map(|i| format!("incidence {} · τ {}", direction_text(cells.basis.cell(i).centre()), number(cells.tau[i], 3)))
 }
 
 fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<egui::Pos2> {
@@ -296,9 +301,9 @@ fn emergent_side(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state:
             None => held.unwrap_or_else(|| ColourScale::up_to(max, state.log, 3, ColourMap::Sequential)),
         };
         let mesh = state.right.get((input.revision, key, disk, projection, weighted, scale.clone()), || {
-            Arc::new(disk.cells(projection, Side::Emergent, basis, |i| {
-                scale.colour(drawn(q[i], &basis.cell(i), weighted))
-            }))
+            Arc::new(
+                disk.cells(projection, Side::Emergent, basis, |i| scale.colour(drawn(q[i], &basis.cell(i), weighted))),
+            )
         });
         ui.painter().add(Shape::Mesh(mesh.clone()));
         let pointed = response
@@ -353,7 +358,12 @@ pub fn csv(input: &Input<'_>) -> String {
     let theta = input.incident.0.theta();
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(theta));
     let _ = writeln!(out, "# {}", input.name.replace(['\n', '\r'], " "));
-    let _ = writeln!(out, "# incidence theta_deg,{:.4},phi_deg,{:.4}", theta.to_degrees(), input.incident.0.phi().to_degrees());
+    let _ = writeln!(
+        out,
+        "# incidence theta_deg,{:.4},phi_deg,{:.4}",
+        theta.to_degrees(),
+        input.incident.0.phi().to_degrees()
+    );
     let _ = writeln!(out, "# tau,{:.6},regular,{regular:.6}", btdf.tau(input.incident));
     out.push_str("leaving_theta_deg,leaving_phi_deg,projected_solid_angle_sr,q_per_sr\n");
     if let Some(Indicatrix { basis, q }) = btdf.indicatrix(input.incident) {

@@ -224,7 +224,9 @@ fn dome(
     if response.drag_started() && ui.input(|i| i.pointer.press_origin()).is_some_and(grabbed) {
         state.dragging = true;
     }
-    if state.dragging && let Some(at) = response.interact_pointer_pos() {
+    if state.dragging
+        && let Some(at) = response.interact_pointer_pos()
+    {
         let free = ui.input(|i| i.modifiers.alt);
         out.push(Action::SunDragged { place: place_of(disk.disk(at)), free });
     }
@@ -306,9 +308,8 @@ fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     }
     painter.circle_stroke(disk.centre, disk.radius, Stroke::new(1.5, palette.outline));
     // The façade's plane, and a tick where its normal points.
-    let along = [-1.0, 1.0].map(|side| {
-        disk.screen(disk_point(Place { altitude: 0.0, bearing: input.facade_bearing + side * FRAC_PI_2 }))
-    });
+    let along = [-1.0, 1.0]
+        .map(|side| disk.screen(disk_point(Place { altitude: 0.0, bearing: input.facade_bearing + side * FRAC_PI_2 })));
     painter.line_segment(along, Stroke::new(2.0, palette.ink));
     for (word, deg) in [("N", 0.0_f64), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
         let [x, y] = disk_point(Place { altitude: 0.0, bearing: deg.to_radians() });

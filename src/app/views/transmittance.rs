@@ -96,7 +96,10 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         title: "Transmittance",
         subtitle: input.name,
         help: HELP,
-        empty: input.btdf.is_none().then_some("Choose a product in the catalogue to see how much light it lets through."),
+        empty: input
+            .btdf
+            .is_none()
+            .then_some("Choose a product in the catalogue to see how much light it lets through."),
         controls_width: 90.0,
     };
     let mut paths = !state.hide_paths;
@@ -116,7 +119,14 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
-fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> String {
+fn picture(
+    ui: &mut Ui,
+    rect: Rect,
+    btdf: &Btdf,
+    input: &Input<'_>,
+    state: &mut State,
+    out: &mut Vec<Action>,
+) -> String {
     let palette = Palette::of(ui.visuals());
     let bar = input.split.map(|split| {
         let width = 118.0_f32.min(0.42 * rect.width());
@@ -130,15 +140,15 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
     let response = ui.interact(area, ui.scope_id().with("map"), Sense::click());
     let basis = btdf.incident_basis();
-    let max = *state.max.get(input.revision, || {
-        basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max)
-    });
+    let max = *state
+        .max
+        .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
     let scale = ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
     let mesh = state.mesh.get((input.revision, disk, scale.clone()), || {
         Arc::new(match &btdf.scattered {
-            Some(Scattered::Cells(_) | Scattered::Tree(_)) => {
-                disk.cells(PROJECTION, Side::Incident, &basis, |i| scale.colour(btdf.tau(Incident(basis.cell(i).centre()))))
-            }
+            Some(Scattered::Cells(_) | Scattered::Tree(_)) => disk.cells(PROJECTION, Side::Incident, &basis, |i| {
+                scale.colour(btdf.tau(Incident(basis.cell(i).centre())))
+            }),
             _ => disk.smooth(|p| {
                 let d = Side::Incident.through_name(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
                 scale.colour(d.map_or(0.0, |d| btdf.tau(Incident(d))))
@@ -218,9 +228,9 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Pal
 
 fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
     let total = split.total();
-    let response = ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(
-        "Zones by the height at which light leaves: shares of the light that arrives on the façade",
-    );
+    let response = ui
+        .interact(rect, ui.scope_id().with("split"), Sense::hover())
+        .on_hover_text("Zones by the height at which light leaves: shares of the light that arrives on the façade");
     tile::name(ui, &response, "Flux split", &split.sentence());
     let font = FontId::proportional(13.0);
     let sentence = ui.painter().layout(split.sentence(), font.clone(), palette.ink, rect.width() - 6.0);
