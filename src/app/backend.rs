@@ -162,6 +162,7 @@ impl Engine for StudyEngine {
         Ok(LidFigures {
             lid: result.lid,
             flux: result.flux,
+            incident: Some(result.incident.0.value + result.incident.1),
             description: describe(&name, &question.scene, 0, ""),
             seconds: start.elapsed().as_secs_f64(),
         })

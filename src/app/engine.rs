@@ -48,6 +48,8 @@ pub struct LidFigures {
     pub lid: Lid,
     /// All its flux. [lm]
     pub flux: Estimate,
+    /// Illuminance of the aperture's outside face, sun included. [lx]
+    pub incident: Option<f64>,
     /// Header of a luminaire file.
     pub description: Description,
     /// Wall-clock time that it took. [s]

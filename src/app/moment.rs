@@ -1,5 +1,7 @@
 //! The scene's date and time as the window handles them: sliders, steps, words.
 
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
 use crate::study::scene_file::{SceneFile, TimeKey};
 use crate::study::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
 use jiff::civil::DateTime;
@@ -48,6 +50,43 @@ pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
     }
 }
 
+/// Moves date and time to where the sun of the year comes nearest to a place in the sky [rad], in steps of 5 minutes;
+/// false without a place and a date to start from. Of the two days that fit, the one nearer to the present one.
+pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64) -> bool {
+    let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };
+    let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
+    let miss = |time: DateTime| {
+        sun_position(&place, time).map_or(f64::INFINITY, |(altitude, bearing)| {
+            1.0 - Dir::<World>::from_altitude_bearing(altitude, bearing).dot(aim)
+        })
+    };
+    let moved = |days: i32, minutes: i32| now.checked_add(days.days().minutes(minutes)).ok();
+    // Days in steps of 4 and half hours first, then finer about the best; a day further away must be worth it.
+    let mut best = (f64::INFINITY, now);
+    for days in (-180..=180).step_by(4) {
+        for minutes in (0..24 * 60).step_by(30) {
+            let start = 60 * i32::from(now.hour()) + i32::from(now.minute());
+            let Some(time) = moved(days, minutes - start) else { continue };
+            let cost = miss(time) + 1e-6 * f64::from(days.abs());
+            if time.year() == now.year() && cost < best.0 {
+                best = (cost, time);
+            }
+        }
+    }
+    let coarse = best.1;
+    for days in -3..=3 {
+        for minutes in (-30..=30).step_by(5) {
+            let Ok(time) = coarse.checked_add(days.days().minutes(minutes)) else { continue };
+            let cost = miss(time);
+            if time.year() == now.year() && cost < best.0 {
+                best = (cost, time);
+            }
+        }
+    }
+    set(scene, best.1);
+    true
+}
+
 /// `14:05` of hours since midnight.
 pub fn clock(hours: f64) -> String {
     let minutes = (hours * 60.0).round() as i64;
@@ -61,8 +100,7 @@ pub fn words(time: DateTime) -> String {
 
 /// A bearing in words: `south`, `south-west`.
 pub fn bearing_word(degrees: f64) -> &'static str {
-    const WORDS: [&str; 8] =
-        ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
+    const WORDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
     WORDS[((degrees.rem_euclid(360.0) / 45.0).round() as usize) % 8]
 }
 
@@ -88,6 +126,17 @@ mod tests {
         assert!((bearing - 180.0).abs() < 12.0, "{bearing}");
         let hours = sun_hours(&first_scene()).unwrap();
         assert!((hours.set.unwrap() - hours.rise.unwrap() - 12.15).abs() < 0.15);
+    }
+
+    #[test]
+    fn dragging_the_sun_finds_its_moment_again() {
+        let mut scene = first_scene();
+        step(&mut scene, 20, 150);
+        let (altitude, bearing) = sun(&scene).unwrap();
+        let mut other = first_scene();
+        assert!(towards(&mut other, altitude, bearing.to_radians()));
+        let found = sun(&other).unwrap();
+        assert!((found.0 - altitude).abs() < 0.02 && (found.1 - bearing).abs() < 1.5, "{found:?} {altitude} {bearing}");
     }
 
     #[test]

@@ -5,8 +5,8 @@ use super::theme::ThemeChoice;
 use crate::compute::btdf::Dataset;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
-    SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys,
+    SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
 };
 use crate::study::sky::SkyKeyError;
 use std::path::PathBuf;
@@ -250,7 +250,7 @@ pub fn first_scene() -> SceneFile {
             origin: [0.5, 0.9],
             size: [3.0, 1.8],
             system: SystemKeys::Catalogue { key: String::new(), state: None },
-            reflectance: ApertureReflectance::Default,
+            reflectance: ApertureReflectance::default(),
         }],
         site: SiteKeys {
             azimuth: 180.0,

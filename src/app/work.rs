@@ -53,7 +53,11 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
     {
         let scene = read_bytes(path).and_then(|bytes| {
             let text = String::from_utf8(bytes).map_err(|e| {
-                format!("{}: byte {} is not UTF-8; a scene is a text file", path.display(), e.utf8_error().valid_up_to())
+                format!(
+                    "{}: byte {} is not UTF-8; a scene is a text file",
+                    path.display(),
+                    e.utf8_error().valid_up_to()
+                )
             })?;
             SceneFile::parse(&text).map(Box::new).map_err(|error| format!("{}: {error}", path.display()))
         });
@@ -94,9 +98,10 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
 
 /// Writes beside the target first, so that a failure leaves nothing half-written.
 fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, String> {
-    let mut name = path.file_name().map(std::ffi::OsStr::to_os_string).ok_or_else(|| {
-        format!("{}: names no file; give a path that ends in a file name", path.display())
-    })?;
+    let mut name = path
+        .file_name()
+        .map(std::ffi::OsStr::to_os_string)
+        .ok_or_else(|| format!("{}: names no file; give a path that ends in a file name", path.display()))?;
     name.push(".part");
     let part = path.with_file_name(name);
     let told = |error: std::io::Error| format!("{}: cannot be written ({error})", path.display());
