@@ -7,7 +7,7 @@ fn main() -> ExitCode {
     let arguments = cfs::cli::Arguments::parse();
     let result = match &arguments.command {
         Some(command) => cfs::cli::run(command, arguments.catalogue.as_deref()),
-        None => Err(anyhow::anyhow!("the window is not there yet")),
+        None => cfs::app::run(arguments.catalogue.as_deref(), Vec::new()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

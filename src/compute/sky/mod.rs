@@ -12,6 +12,7 @@
 //!
 //! The direct beam is never part of an [`Outside`]; it is a [`Sun`].
 
+pub mod availability;
 pub mod cie;
 mod distribution;
 mod horizontal;

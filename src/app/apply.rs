@@ -1,0 +1,229 @@
+//! Acting on commands: the only place where what the window knows changes by the user's will.
+
+use super::App;
+use super::command::{Command, ImportFields};
+use super::jobs::Lane;
+use super::moment;
+use super::shelf::Addition;
+use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
+use super::work;
+use crate::study::scene_file::{SceneFile, SystemKeys};
+use std::path::PathBuf;
+
+/// Puts a product into every aperture that is filled from the catalogue; into the first one if none is.
+pub fn fill(scene: &mut SceneFile, selection: &Selection) {
+    let state = (!selection.state.is_empty()).then(|| selection.state.clone());
+    let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
+    let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
+    if !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)) {
+        if let Some(first) = scene.aperture.first_mut() {
+            first.system = keys;
+        }
+        return;
+    }
+    for aperture in scene.aperture.iter_mut().filter(|aperture| from_catalogue(&aperture.system)) {
+        aperture.system = keys.clone();
+    }
+}
+
+impl App {
+    /// Does what a command says.
+    pub fn apply(&mut self, command: Command) {
+        let state = &mut self.state;
+        match command {
+            Command::Open => self.ask_paths(),
+            Command::SaveScene => self.ask_target(PathUse::SaveScene),
+            Command::ExportLid => self.ask_target(PathUse::ExportLid),
+            Command::Quit => self.ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+            Command::Undo => self.step_history(false),
+            Command::Redo => self.step_history(true),
+            Command::Search => {
+                state.settings.catalogue_open = true;
+                state.focus_search = true;
+            }
+            Command::Palette => {
+                state.palette = if state.palette.is_some() { None } else { Some(String::new()) };
+            }
+            Command::EditPalette(text) => state.palette = Some(text),
+            Command::Maximise(tile) => state.maximised = tile,
+            Command::Hour(hours) => {
+                moment::step(&mut state.document.scene, 0, 60 * hours);
+            }
+            Command::Day(days) => {
+                moment::step(&mut state.document.scene, days, 0);
+            }
+            Command::NextState(step) => self.step_state(step),
+            Command::ToggleCatalogue => state.settings.catalogue_open ^= true,
+            Command::ToggleScene => state.settings.scene_open ^= true,
+            Command::Theme(choice) => {
+                state.settings.theme = choice;
+                choice.apply(&self.ctx);
+            }
+            Command::ResetScene => {
+                state.document.scene = first_scene();
+                state.document.daylight_follows = true;
+                fill(&mut state.document.scene, &state.document.selection);
+            }
+            Command::Sheet(sheet) => {
+                state.sheet = if state.sheet == sheet { None } else { sheet };
+            }
+            Command::Cancel(lane) => {
+                if self.jobs.cancel(lane) {
+                    self.toasts.info(format!("{} stopped; what is shown is older than the scene", lane.word()));
+                }
+            }
+            Command::Select(product) => self.select(Selection { product, state: String::new() }),
+            Command::SelectState(key) => {
+                let product = state.document.selection.product.clone();
+                self.select(Selection { product, state: key });
+            }
+            Command::Row(step) => {
+                let last = state.found.entries.len().saturating_sub(1);
+                let here = state.found.entries.iter().position(|entry| entry.key == state.document.selection.product);
+                state.row = match here {
+                    Some(row) => row.saturating_add_signed(step as isize).min(last),
+                    None => 0,
+                };
+                if let Some(entry) = state.found.entries.get(state.row) {
+                    let product = entry.key.clone();
+                    self.select(Selection { product, state: String::new() });
+                }
+            }
+            Command::Scene(scene) => state.document.scene = *scene,
+            Command::DaylightFollows(follows) => state.document.daylight_follows = follows,
+            Command::Find(query) => {
+                state.query = query;
+                self.search();
+            }
+            Command::Favourite(key, favourite) => self.store(move |shelf| shelf.set_favourite(&key, favourite)),
+            Command::OpenPaths(paths) => self.read_paths(paths),
+            Command::Write(what, path) => self.write(what, path),
+            Command::EditPath(text) => state.path = text,
+            Command::EditImport(fields) => self.edit_import(*fields),
+            Command::AddImport => self.add_import(),
+            Command::DiscardImport => {
+                state.import = None;
+                state.sheet = None;
+            }
+            Command::RetryCatalogue => self.open_catalogue(),
+        }
+    }
+
+    fn select(&mut self, selection: Selection) {
+        let document = &mut self.state.document;
+        if document.selection != selection {
+            self.undoer.add_undo(document);
+            document.selection = selection;
+            fill(&mut document.scene, &document.selection);
+            self.undoer.add_undo(document);
+        }
+    }
+
+    fn step_state(&mut self, step: i32) {
+        let selection = &self.state.document.selection;
+        let Some(entry) = self.state.found.entries.iter().find(|entry| entry.key == selection.product) else { return };
+        let here = entry.states.iter().position(|key| *key == selection.state).unwrap_or(0);
+        let next = here.saturating_add_signed(step as isize).min(entry.states.len().saturating_sub(1));
+        if let Some(state) = entry.states.get(next) {
+            let (product, state) = (selection.product.clone(), state.clone());
+            self.select(Selection { product, state });
+        }
+    }
+
+    /// Back or forth; additions to the catalogue follow.
+    fn step_history(&mut self, forth: bool) {
+        let document = &self.state.document;
+        let other = if forth { self.undoer.redo(document) } else { self.undoer.undo(document) };
+        let Some(other) = other.cloned() else {
+            self.toasts.info(if forth { "Nothing to redo" } else { "Nothing to undo" });
+            return;
+        };
+        let before = std::mem::replace(&mut self.state.document, other);
+        let after = self.state.document.additions.clone();
+        for &gone in before.additions.iter().filter(|number| !after.contains(number)) {
+            if let Some(key) = self.state.additions[gone].key.take() {
+                self.store(move |shelf| shelf.remove(&key));
+            }
+        }
+        for &back in after.iter().filter(|number| !before.additions.contains(number)) {
+            let addition = self.state.additions[back].addition.clone();
+            self.store_addition(back, addition);
+        }
+    }
+
+    fn edit_import(&mut self, fields: ImportFields) {
+        if let Some(import) = &mut self.state.import {
+            import.name = fields.name;
+            import.manufacturer = fields.manufacturer;
+            import.kind = fields.kind;
+            import.tags = fields.tags;
+        }
+    }
+
+    fn add_import(&mut self) {
+        let Some(import) = self.state.import.take() else { return };
+        let addition = Addition {
+            datasets: import.datasets,
+            name: import.name.trim().to_owned(),
+            manufacturer: import.manufacturer.trim().to_owned(),
+            kind: import.kind.trim().to_owned(),
+            tags: import.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect(),
+        };
+        self.state.sheet = None;
+        let number = self.state.additions.len();
+        self.state.additions.push(Added { addition: addition.clone(), key: None });
+        self.undoer.add_undo(&self.state.document);
+        self.state.document.additions.push(number);
+        self.store_addition(number, addition);
+    }
+
+    /// Asks for files: the path field at once, the desktop's dialog beside it.
+    fn ask_paths(&mut self) {
+        self.state.path.clear();
+        self.state.sheet = Some(Sheet::Path(PathUse::Open));
+        let dialogs = self.services.dialogs.clone();
+        self.start(Lane::Import, move |_| work::Outcome::Chosen(dialogs.open()));
+    }
+
+    fn ask_target(&mut self, what: PathUse) {
+        self.state.path = match (what, &self.state.scene_path) {
+            (PathUse::SaveScene, Some(path)) => path.display().to_string(),
+            (PathUse::ExportLid, _) => "window.ldt".to_owned(),
+            _ => "scene.toml".to_owned(),
+        };
+        self.state.sheet = Some(Sheet::Path(what));
+        let dialogs = self.services.dialogs.clone();
+        self.start(Lane::Export, move |_| work::Outcome::Target(what, dialogs.save(what)));
+    }
+
+    fn read_paths(&mut self, paths: Vec<PathBuf>) {
+        if paths.is_empty() {
+            return;
+        }
+        self.state.sheet = None;
+        let read = self.services.read;
+        self.start(Lane::Import, move |_| work::read_files(&paths, read));
+    }
+
+    fn write(&mut self, what: PathUse, path: PathBuf) {
+        self.state.sheet = None;
+        match what {
+            PathUse::Open => self.read_paths(vec![path]),
+            PathUse::SaveScene => {
+                let text = toml::to_string_pretty(&self.state.document.scene);
+                self.start(Lane::Export, move |_| work::save_scene(&path, text));
+            }
+            PathUse::ExportLid => {
+                let (engine, lid) = (self.services.engine.clone(), self.results.lid.value.clone());
+                self.start(Lane::Export, move |_| work::export_lid(&path, lid.as_deref(), &*engine));
+            }
+        }
+    }
+
+    /// Opens the catalogue in a job.
+    pub(super) fn open_catalogue(&mut self) {
+        self.state.catalogue = CatalogueState::Opening;
+        let open = self.services.open_catalogue.clone();
+        self.start(Lane::Catalogue, move |_| work::Outcome::Opened(open()));
+    }
+}

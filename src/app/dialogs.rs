@@ -1,0 +1,49 @@
+//! File dialogs behind a trait, so that tests can script them. They run in a job: some block until answered.
+
+use super::state::PathUse;
+use std::path::PathBuf;
+
+/// Asks the user for paths.
+pub trait FileDialogs: Send + Sync {
+    /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
+    fn open(&self) -> Result<Vec<PathBuf>, String>;
+    /// Where to write.
+    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, String>;
+}
+
+/// The desktop's own dialogs.
+pub struct NativeDialogs;
+
+impl FileDialogs for NativeDialogs {
+    fn open(&self) -> Result<Vec<PathBuf>, String> {
+        let dialog = rfd::FileDialog::new().set_title("Open datasets or a scene").add_filter("All files", &["*"]);
+        Ok(dialog.pick_files().unwrap_or_default())
+    }
+
+    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, String> {
+        let dialog = match what {
+            PathUse::ExportLid => rfd::FileDialog::new()
+                .set_title("Export the LID")
+                .set_file_name("window.ldt")
+                .add_filter("Luminaire files", &["ldt", "ies"]),
+            PathUse::SaveScene | PathUse::Open => rfd::FileDialog::new()
+                .set_title("Save the scene")
+                .set_file_name("scene.toml")
+                .add_filter("Scene", &["toml"]),
+        };
+        Ok(dialog.save_file())
+    }
+}
+
+/// Nothing to ask: the path field takes over.
+pub struct NoDialogs;
+
+impl FileDialogs for NoDialogs {
+    fn open(&self) -> Result<Vec<PathBuf>, String> {
+        Err("no file dialog here".to_owned())
+    }
+
+    fn save(&self, _what: PathUse) -> Result<Option<PathBuf>, String> {
+        Err("no file dialog here".to_owned())
+    }
+}

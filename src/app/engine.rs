@@ -1,0 +1,78 @@
+//! What the window asks of the study. A trait, so that tests can put a slow or failing one in its place.
+
+use super::shelf::Shelf;
+use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::lid::Lid;
+use crate::formats::luminaire::Description;
+use crate::study::scene_file::SceneFile;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Illuminances in the room.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RoomFigures {
+    /// Positions of the sensors. [m]
+    pub positions: Vec<[f64; 3]>,
+    /// Straight from the apertures. [lx]
+    pub direct: Vec<Estimate>,
+    /// From the room's surfaces. [lx]
+    pub interreflected: Vec<Estimate>,
+    /// Columns and rows when the sensors are a grid.
+    pub grid: Option<[usize; 2]>,
+    /// Wall-clock time that it took. [s]
+    pub seconds: f64,
+}
+
+impl RoomFigures {
+    /// Illuminance at a sensor. [lx]
+    pub fn total(&self, sensor: usize) -> Estimate {
+        self.direct[sensor] + self.interreflected[sensor]
+    }
+
+    /// Greatest error over the greatest illuminance.
+    pub fn relative_error(&self) -> f64 {
+        let (mut error, mut greatest) = (0.0_f64, 0.0_f64);
+        for sensor in 0..self.positions.len() {
+            let total = self.total(sensor);
+            error = error.max(total.error);
+            greatest = greatest.max(total.value);
+        }
+        if greatest > 0.0 { error / greatest } else { 0.0 }
+    }
+}
+
+/// The light of the first aperture as a luminaire.
+#[derive(Debug, Clone)]
+pub struct LidFigures {
+    /// The distribution.
+    pub lid: Lid,
+    /// All its flux. [lm]
+    pub flux: Estimate,
+    /// Illuminance of the aperture's outside face, sun included. [lx]
+    pub incident: Option<f64>,
+    /// Header of a luminaire file.
+    pub description: Description,
+    /// Wall-clock time that it took. [s]
+    pub seconds: f64,
+}
+
+/// A scene on its way into a job.
+#[derive(Clone)]
+pub struct Question {
+    /// As typed.
+    pub scene: SceneFile,
+    /// What relative paths start from.
+    pub base: PathBuf,
+    /// Where products come from.
+    pub shelf: Arc<dyn Shelf>,
+}
+
+/// Computes. Every error is a sentence for the user.
+pub trait Engine: Send + Sync {
+    /// Illuminances in the room.
+    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, String>;
+    /// The light of the first aperture.
+    fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, String>;
+    /// The bytes of a luminaire file, its format by the path's extension.
+    fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, String>;
+}

@@ -1,0 +1,149 @@
+//! The scene's date and time as the window handles them: sliders, steps, words.
+
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
+use crate::study::scene_file::{SceneFile, TimeKey};
+use crate::study::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
+use jiff::civil::DateTime;
+use jiff::{Span, ToSpan};
+
+/// The scene's local standard time; `None` when it is given by sun angles or is no time.
+pub fn of(scene: &SceneFile) -> Option<DateTime> {
+    parse_local_time(&scene.sky.time.as_ref()?.text()).ok()
+}
+
+/// Writes a moment into the scene, instead of sun angles.
+pub fn set(scene: &mut SceneFile, time: DateTime) {
+    scene.sky.time = Some(TimeKey::Text(time.strftime("%Y-%m-%dT%H:%M").to_string()));
+    scene.sky.sun.altitude = None;
+    scene.sky.sun.azimuth = None;
+}
+
+/// Moves the scene's moment; false where there is none or the calendar ends.
+pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
+    let span: Span = days.days().minutes(minutes);
+    let Some(moved) = of(scene).and_then(|time| time.checked_add(span).ok()) else { return false };
+    set(scene, moved);
+    true
+}
+
+/// The scene's place, if it is whole.
+pub fn place(scene: &SceneFile) -> Option<Place> {
+    let site = &scene.site;
+    Place::new(site.latitude?, site.longitude?, site.utc_offset?).ok()
+}
+
+/// Sunrise and sunset of the scene's day.
+pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
+    let time = of(scene)?;
+    rise_set(&place(scene)?, time.year(), time.month(), time.day()).ok()
+}
+
+/// Altitude [rad] and bearing [°] of the sun at the scene's moment.
+pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
+    match (of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
+        (Some(time), _, _) => {
+            sun_position(&place(scene)?, time).ok().map(|(altitude, bearing)| (altitude, bearing.degrees()))
+        }
+        (None, Some(altitude), Some(azimuth)) => Some((altitude.to_radians(), azimuth)),
+        _ => None,
+    }
+}
+
+/// Moves date and time to where the sun of the year comes nearest to a place in the sky [rad], in steps of 5 minutes;
+/// false without a place and a date to start from. Of the two days that fit, the one nearer to the present one.
+pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64) -> bool {
+    let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };
+    let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
+    let miss = |time: DateTime| {
+        sun_position(&place, time).map_or(f64::INFINITY, |(altitude, bearing)| {
+            1.0 - Dir::<World>::from_altitude_bearing(altitude, bearing).dot(aim)
+        })
+    };
+    let moved = |days: i32, minutes: i32| now.checked_add(days.days().minutes(minutes)).ok();
+    // Days in steps of 4 and half hours first, then finer about the best; a day further away must be worth it.
+    let mut best = (f64::INFINITY, now);
+    for days in (-180..=180).step_by(4) {
+        for minutes in (0..24 * 60).step_by(30) {
+            let start = 60 * i32::from(now.hour()) + i32::from(now.minute());
+            let Some(time) = moved(days, minutes - start) else { continue };
+            let cost = miss(time) + 1e-6 * f64::from(days.abs());
+            if time.year() == now.year() && cost < best.0 {
+                best = (cost, time);
+            }
+        }
+    }
+    let coarse = best.1;
+    for days in -3..=3 {
+        for minutes in (-30..=30).step_by(5) {
+            let Ok(time) = coarse.checked_add(days.days().minutes(minutes)) else { continue };
+            let cost = miss(time);
+            if time.year() == now.year() && cost < best.0 {
+                best = (cost, time);
+            }
+        }
+    }
+    set(scene, best.1);
+    true
+}
+
+/// `14:05` of hours since midnight.
+pub fn clock(hours: f64) -> String {
+    let minutes = (hours * 60.0).round() as i64;
+    format!("{:02}:{:02}", minutes.div_euclid(60), minutes.rem_euclid(60))
+}
+
+/// `21 Mar 12:00`
+pub fn words(time: DateTime) -> String {
+    time.strftime("%-d %b %H:%M").to_string()
+}
+
+/// A bearing in words: `south`, `south-west`.
+pub fn bearing_word(degrees: f64) -> &'static str {
+    const WORDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
+    WORDS[((degrees.rem_euclid(360.0) / 45.0).round() as usize) % 8]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::state::first_scene;
+
+    #[test]
+    fn steps_cross_midnight_and_months() {
+        let mut scene = first_scene();
+        assert!(step(&mut scene, 11, 12 * 60));
+        assert_eq!(words(of(&scene).unwrap()), "2 Apr 00:00");
+        scene.sky.time = None;
+        assert!(!step(&mut scene, 1, 0));
+    }
+
+    #[test]
+    fn the_equinox_noon_in_stuttgart_is_where_the_almanac_has_it() {
+        // Altitude at noon of the equinox is 90° − latitude, within the declination's change over a day (0.4°).
+        let (altitude, bearing) = sun(&first_scene()).unwrap();
+        assert!((altitude.to_degrees() - (90.0 - 48.78)).abs() < 0.8, "{}", altitude.to_degrees());
+        assert!((bearing - 180.0).abs() < 12.0, "{bearing}");
+        let hours = sun_hours(&first_scene()).unwrap();
+        assert!((hours.set.unwrap() - hours.rise.unwrap() - 12.15).abs() < 0.15);
+    }
+
+    #[test]
+    fn dragging_the_sun_finds_its_moment_again() {
+        let mut scene = first_scene();
+        step(&mut scene, 20, 150);
+        let (altitude, bearing) = sun(&scene).unwrap();
+        let mut other = first_scene();
+        assert!(towards(&mut other, altitude, bearing.to_radians()));
+        let found = sun(&other).unwrap();
+        assert!((found.0 - altitude).abs() < 0.02 && (found.1 - bearing).abs() < 1.5, "{found:?} {altitude} {bearing}");
+    }
+
+    #[test]
+    fn bearings_read_as_words() {
+        assert_eq!(bearing_word(180.0), "south");
+        assert_eq!(bearing_word(-44.0), "north-west");
+        assert_eq!(bearing_word(359.0), "north");
+        assert_eq!(clock(6.508), "06:30");
+    }
+}

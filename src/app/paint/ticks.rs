@@ -1,0 +1,166 @@
+//! Round numbers for axes, and numbers as text with their unit.
+
+/// The next of 1, 2, 5 · 10ⁿ that is at least `value`; 1 for what is not positive and finite.
+pub fn nice_ceil(value: f64) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let decade = 10_f64.powf(value.log10().floor());
+    let mantissa = value / decade;
+    let rounded = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| mantissa <= m * (1.0 + 1e-9)).unwrap_or(10.0);
+    rounded * decade
+}
+
+/// Round values within lo … hi, at most `count` + 1 of them.
+pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
+    if !(hi > lo && (hi - lo).is_finite()) || count == 0 {
+        return vec![];
+    }
+    let step = nice_ceil((hi - lo) / count as f64);
+    let first = (lo / step - 1e-9).ceil() as i64;
+    let last = (hi / step + 1e-9).floor() as i64;
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// Decades within lo … hi; with 2 and 5 between them when there is room (`count`).
+pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
+    if !(lo > 0.0 && hi > lo && hi.is_finite()) {
+        return vec![];
+    }
+    let (first, last) = (lo.log10().floor() as i32, hi.log10().ceil() as i32);
+    let within = |v: &f64| *v >= lo * (1.0 - 1e-9) && *v <= hi * (1.0 + 1e-9);
+    let fine: Vec<f64> =
+        (first..=last).flat_map(|n| [1.0, 2.0, 5.0].map(|m| m * 10_f64.powi(n))).filter(within).collect();
+    if fine.len() <= count + 1 {
+        return fine;
+    }
+    let stride = ((last - first) as usize).div_ceil(count.max(1)).max(1);
+    (first..=last).step_by(stride).map(|n| 10_f64.powi(n)).filter(within).collect()
+}
+
+/// A number to `digits` significant digits, without needless zeros: "0.0123", "412", "12 300".
+pub fn number(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    if !(-4..7).contains(&magnitude) {
+        return format!("{value:.*e}", digits.saturating_sub(1));
+    }
+    let decimals = (digits as i32 - 1 - magnitude).max(0) as usize;
+    let keep = 10_f64.powi((magnitude + 1 - digits as i32).max(0));
+    let text = format!("{:.*}", decimals, (value / keep).round_ties_even_if(keep > 1.0) * keep);
+    group(&text)
+}
+
+trait RoundIf {
+    fn round_ties_even_if(self, condition: bool) -> f64;
+}
+
+impl RoundIf for f64 {
+    fn round_ties_even_if(self, condition: bool) -> f64 {
+        if condition { self.round_ties_even() } else { self }
+    }
+}
+
+/// Thin groups of three for whole parts of five digits and more.
+fn group(text: &str) -> String {
+    let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("−", rest));
+    let (whole, fraction) = rest.split_once('.').map_or((rest, ""), |(a, b)| (a, b));
+    let mut out = String::from(sign);
+    for (i, digit) in whole.chars().enumerate() {
+        if whole.len() > 4 && i > 0 && (whole.len() - i).is_multiple_of(3) {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    if !fraction.is_empty() {
+        out.push('.');
+        out.push_str(fraction);
+    }
+    out
+}
+
+/// A quantity with its unit, kilo and mega from ten thousand up: "12.3 klx", "850 lx".
+pub fn si(value: f64, unit: &str) -> String {
+    let size = value.abs();
+    if size >= 1e7 {
+        format!("{} M{unit}", number(value * 1e-6, 3))
+    } else if size >= 1e4 {
+        format!("{} k{unit}", number(value * 1e-3, 3))
+    } else {
+        format!("{} {unit}", number(value, 3))
+    }
+}
+
+/// A tick's text: like [`number`] with few digits, thousands as "k".
+pub fn tick(value: f64) -> String {
+    let size = value.abs();
+    if size >= 1e6 {
+        format!("{}M", number(value * 1e-6, 3))
+    } else if size >= 1e4 {
+        format!("{}k", number(value * 1e-3, 3))
+    } else {
+        let text = number(value, 4);
+        if text.contains('.') && !text.contains('e') {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            text
+        }
+    }
+}
+
+/// An angle in radians as whole degrees: "40°".
+pub fn degrees(radians: f64) -> String {
+    format!("{:.0}°", radians.to_degrees() + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn round_numbers() {
+        assert_eq!(nice_ceil(0.37), 0.5);
+        assert_eq!(nice_ceil(2000.0), 2000.0);
+        assert_eq!(nice_ceil(0.0), 1.0);
+        assert_eq!(linear(0.0, 1.0, 5), vec![0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
+        assert_eq!(logarithmic(1.0, 1000.0, 4), vec![1.0, 10.0, 100.0, 1000.0]);
+        assert!(linear(1.0, 1.0, 4).is_empty() && logarithmic(0.0, 1.0, 4).is_empty());
+    }
+
+    #[test]
+    fn text_of_quantities() {
+        assert_eq!(si(12_345.0, "lx"), "12.3 klx");
+        assert_eq!(si(850.4, "lx"), "850 lx");
+        assert_eq!(si(1.47e9, "cd/m²"), "1470 Mcd/m²");
+        assert_eq!(number(0.012_345, 3), "0.0123");
+        assert_eq!(number(123_456.0, 3), "123 000");
+        assert_eq!(number(-5.0, 2), "−5.0");
+        assert_eq!(number(f64::NAN, 3), "–");
+        assert_eq!(tick(0.2), "0.2");
+        assert_eq!(tick(0.0005), "0.0005");
+        assert_eq!(tick(20_000.0), "20k");
+    }
+
+    proptest! {
+        #[test]
+        fn ticks_lie_inside_and_are_few(lo in -1e6..1e6_f64, width in 1e-3..1e6_f64, count in 1..12_usize) {
+            let ticks = linear(lo, lo + width, count);
+            prop_assert!(ticks.len() <= count + 1);
+            for t in ticks {
+                prop_assert!(t >= lo - width * 1e-6 && t <= lo + width * (1.0 + 1e-6));
+            }
+        }
+
+        #[test]
+        fn a_number_reads_back(value in 1e-3..1e5_f64) {
+            let read: f64 = number(value, 4).replace(' ', "").parse().unwrap();
+            prop_assert!((read / value - 1.0).abs() < 6e-4);
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! What is there: search field, chips, list.
+
+use crate::app::command::Command;
+use crate::app::shelf::{Entry, Query};
+use crate::app::state::{CatalogueState, State};
+use crate::app::theme;
+use egui::{Align2, FontId, Key, Pos2, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+
+/// Draws the panel.
+pub fn show(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+    ui.heading("Catalogue");
+    match &state.catalogue {
+        CatalogueState::Opening => {
+            ui.add_space(20.0);
+            ui.vertical_centered(|ui| {
+                ui.spinner();
+                ui.label("Opening the catalogue…");
+            });
+            return;
+        }
+        CatalogueState::Failed(error) => {
+            ui.add_space(12.0);
+            ui.colored_label(theme::palette(ui).error, error);
+            if ui.button(Command::RetryCatalogue.info().text).clicked() {
+                commands.push(Command::RetryCatalogue);
+            }
+            return;
+        }
+        CatalogueState::Ready(_) => {}
+    }
+    let mut query = state.query.clone();
+    search_field(ui, state, &mut query, commands);
+    chips(ui, state, &mut query);
+    if query != state.query {
+        commands.push(Command::Find(query));
+    }
+    if let Some(error) = &state.search_error {
+        ui.colored_label(theme::palette(ui).error, error);
+    }
+    ui.weak(format!("{} of {} products", state.found.entries.len(), state.found.total));
+    if state.found.entries.is_empty() {
+        ui.add_space(20.0);
+        ui.vertical_centered(|ui| {
+            ui.label("Nothing has all these words.");
+            if ui.button("Show all").clicked() {
+                commands.push(Command::Find(Query::default()));
+            }
+        });
+        return;
+    }
+    rows(ui, state, commands);
+    states(ui, state, commands);
+}
+
+fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mut Vec<Command>) {
+    let field =
+        ui.add(egui::TextEdit::singleline(&mut query.text).hint_text("Search (Ctrl+F)").desired_width(f32::INFINITY));
+    field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Search"));
+    if std::mem::take(&mut state.focus_search) {
+        field.request_focus();
+    }
+    if field.has_focus() {
+        let (up, down) = ui.input(|input| (input.key_pressed(Key::ArrowUp), input.key_pressed(Key::ArrowDown)));
+        if up || down {
+            commands.push(Command::Row(if down { 1 } else { -1 }));
+        }
+    }
+}
+
+fn chips(ui: &mut Ui, state: &State, query: &mut Query) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+        if ui.selectable_label(query.favourites, "★ starred").clicked() {
+            query.favourites = !query.favourites;
+        }
+        for (kind, count) in &state.found.kinds {
+            let chosen = query.kinds.contains(kind);
+            let word = if kind.is_empty() { "other" } else { kind };
+            if ui.selectable_label(chosen, format!("{word} {count}")).clicked() {
+                if chosen {
+                    query.kinds.retain(|other| other != kind);
+                } else {
+                    query.kinds.push(kind.clone());
+                }
+            }
+        }
+    });
+}
+
+fn rows(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let entries = &state.found.entries;
+    let height = (ui.available_height() - 54.0).max(80.0);
+    ScrollArea::vertical().id_salt("rows").max_height(height).auto_shrink([false, false]).show_rows(
+        ui,
+        theme::ROW_HEIGHT,
+        entries.len(),
+        |ui, range| {
+            for entry in &entries[range] {
+                row(ui, entry, entry.key == state.document.selection.product, commands);
+            }
+        },
+    );
+}
+
+fn figure(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2}"))
+}
+
+fn row(ui: &mut Ui, entry: &Entry, chosen: bool, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    let size = vec2(ui.available_width(), theme::ROW_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let response = response.on_hover_text("τ at normal incidence and under uniform light; number of states");
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, true, chosen, &entry.name));
+    if response.clicked() {
+        commands.push(Command::Select(entry.key.clone()));
+    }
+    let painter = ui.painter_at(rect);
+    let fill = if chosen {
+        palette.chosen
+    } else if response.hovered() || response.has_focus() {
+        palette.raised
+    } else {
+        palette.surface
+    };
+    painter.rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4, fill);
+    let picture = Rect::from_min_size(rect.min + vec2(5.0, 7.0), Vec2::splat(theme::ROW_HEIGHT - 14.0));
+    thumbnail(&painter, picture, entry, palette);
+    let left = picture.right() + 9.0;
+    let text = Rect::from_min_max(pos2(left, rect.top()), pos2(rect.right() - 26.0, rect.bottom()));
+    let clipped = painter.with_clip_rect(text.intersect(ui.clip_rect()));
+    clipped.text(
+        pos2(left, rect.top() + 15.0),
+        Align2::LEFT_CENTER,
+        &entry.name,
+        FontId::proportional(13.5),
+        palette.text,
+    );
+    let kind = if entry.kind.is_empty() { &entry.manufacturer } else { &entry.kind };
+    let states = match entry.states.len() {
+        0 | 1 => "1 state".to_owned(),
+        n => format!("{n} states"),
+    };
+    let figures = format!("{kind}  τ {} · {} · {states}", figure(entry.tau_normal), figure(entry.tau_hemispherical));
+    clipped.text(pos2(left, rect.top() + 36.0), Align2::LEFT_CENTER, figures, FontId::proportional(13.0), palette.weak);
+    star(ui, rect, entry, commands);
+}
+
+fn star(ui: &mut Ui, row: Rect, entry: &Entry, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    let rect = Rect::from_center_size(pos2(row.right() - 14.0, row.center().y), Vec2::splat(24.0));
+    let response = ui.interact(rect, ui.scope_id().with(("star", &entry.key)), Sense::click());
+    let label = format!("{} {}", if entry.favourite { "Take the star of" } else { "Star" }, entry.name);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::Button, true, entry.favourite, &label));
+    let (glyph, colour) = if entry.favourite { ("★", palette.sun) } else { ("☆", palette.weak) };
+    ui.painter().text(rect.center(), Align2::CENTER_CENTER, glyph, FontId::proportional(15.0), colour);
+    if response.clicked() {
+        commands.push(Command::Favourite(entry.key.clone(), !entry.favourite));
+    }
+}
+
+/// τ in the vertical plane, sun from below on the left to above on the right.
+fn thumbnail(painter: &egui::Painter, rect: Rect, entry: &Entry, palette: &theme::Palette) {
+    painter.rect_filled(rect, 3, palette.raised);
+    let last = entry.profile.len().saturating_sub(1);
+    if last == 0 {
+        return;
+    }
+    let point = |(i, tau): (usize, &f32)| -> Pos2 {
+        let x = rect.left() + 2.0 + (rect.width() - 4.0) * i as f32 / last as f32;
+        pos2(x, rect.bottom() - 2.0 - (rect.height() - 4.0) * tau.clamp(0.0, 1.0))
+    };
+    let line: Vec<Pos2> = entry.profile.iter().enumerate().map(point).collect();
+    painter.add(Shape::line(line, Stroke::new(1.5, palette.accent)));
+}
+
+/// Under the list: the states of the selected product.
+fn states(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let selection = &state.document.selection;
+    let Some(entry) = state.found.entries.iter().find(|entry| entry.key == selection.product) else { return };
+    if entry.states.len() < 2 {
+        ui.weak("One state");
+        return;
+    }
+    ui.horizontal(|ui| {
+        ui.label("State");
+        ScrollArea::horizontal().id_salt("states").show(ui, |ui| {
+            ui.horizontal(|ui| {
+                for (i, key) in entry.states.iter().enumerate() {
+                    let chosen = *key == selection.state || (selection.state.is_empty() && i == 0);
+                    if ui.selectable_label(chosen, RichText::new(key)).clicked() {
+                        commands.push(Command::SelectState(key.clone()));
+                    }
+                }
+            });
+        });
+    });
+}

@@ -1,0 +1,47 @@
+//! Drawing of everything around the tiles. Each panel reads the window and returns commands.
+
+pub mod bench;
+mod catalogue;
+mod menu;
+mod palette;
+mod scene;
+mod sheets;
+mod status;
+
+use super::App;
+use super::command::Command;
+use super::theme;
+
+/// Draws the whole window.
+pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let bar = theme::bar_frame(ui);
+    egui::Panel::top("menu").frame(bar).show(ui, |ui| menu::show(ui, &app.state, &mut commands));
+    egui::Panel::bottom("status").frame(bar).show(ui, |ui| status::show(ui, app, &mut commands));
+    let side = theme::panel_frame(ui);
+    if app.state.settings.catalogue_open {
+        egui::Panel::left("catalogue")
+            .frame(side)
+            .default_size(290.0)
+            .size_range(240.0..=380.0)
+            .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut commands));
+    }
+    if app.state.settings.scene_open {
+        egui::Panel::right("scene")
+            .frame(side)
+            .default_size(270.0)
+            .size_range(250.0..=340.0)
+            .show(ui, |ui| scene::show(ui, &app.state, &mut commands));
+    }
+    if let Some(sheet) = app.state.sheet {
+        egui::Panel::right("sheet")
+            .frame(side)
+            .default_size(330.0)
+            .size_range(280.0..=460.0)
+            .show(ui, |ui| sheets::show(ui, &app.state, sheet, &mut commands));
+    }
+    let ground = egui::Frame::new().fill(theme::palette(ui).ground).inner_margin(theme::TILE_GAP);
+    egui::CentralPanel::default().frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
+    palette::show(ui, &app.state, &mut commands);
+    commands
+}

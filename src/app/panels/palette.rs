@@ -1,0 +1,54 @@
+//! The command palette: words narrow the list, Enter takes the first.
+
+use crate::app::command::Command;
+use crate::app::state::State;
+use egui::{Align2, Area, Id, Key, Order, Ui};
+
+/// Rows shown at most.
+const ROWS: usize = 12;
+
+/// Draws it when it is open.
+pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let Some(words) = &state.palette else { return };
+    let mut text = words.clone();
+    let area = Area::new(Id::unique("palette")).order(Order::Foreground).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
+    let inner = area.show(ui.ctx(), |ui| {
+        egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_width(420.0);
+            let field = ui.add(egui::TextEdit::singleline(&mut text).hint_text("Type a command").desired_width(420.0));
+            field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Command"));
+            if !field.has_focus() && !field.lost_focus() {
+                field.request_focus();
+            }
+            let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
+            let fits = |command: &Command| {
+                let name = command.info().text.to_lowercase();
+                wanted.iter().all(|word| name.contains(word))
+            };
+            let list: Vec<Command> =
+                Command::listed().into_iter().filter(|c| *c != Command::Palette && fits(c)).take(ROWS).collect();
+            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if list.is_empty() {
+                ui.weak("No command has these words");
+            }
+            for (row, command) in list.into_iter().enumerate() {
+                let info = command.info();
+                let mut button = egui::Button::new(info.text).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
+                if let Some(keys) = info.shortcut {
+                    button = button.shortcut_text(ui.ctx().format_shortcut(&keys));
+                }
+                if ui.add(button).on_hover_text(info.tip).clicked() || (row == 0 && entered) {
+                    commands.push(Command::Palette);
+                    commands.push(command);
+                }
+            }
+        });
+    });
+    if text != *words {
+        commands.push(Command::EditPalette(text));
+    }
+    let escaped = ui.input(|input| input.key_pressed(Key::Escape));
+    if (escaped || inner.response.clicked_elsewhere()) && !commands.contains(&Command::Palette) {
+        commands.push(Command::Palette);
+    }
+}

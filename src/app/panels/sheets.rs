@@ -1,0 +1,172 @@
+//! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
+
+use crate::app::command::{Command, ImportFields};
+use crate::app::state::{Import, PathUse, Sheet, State};
+use crate::app::theme;
+use crate::compute::btdf::{Finding, Severity};
+use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
+use std::path::PathBuf;
+
+/// Draws the sheet that is open.
+pub fn show(ui: &mut Ui, state: &State, sheet: Sheet, commands: &mut Vec<Command>) {
+    let title = match sheet {
+        Sheet::Import => "Import",
+        Sheet::Findings => "Findings of the dataset",
+        Sheet::Keys => "Keys",
+        Sheet::Path(PathUse::Open) => "Open",
+        Sheet::Path(PathUse::SaveScene) => "Save the scene",
+        Sheet::Path(PathUse::ExportLid) => "Export the LID",
+    };
+    ui.horizontal(|ui| {
+        ui.heading(title);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.button("Close").on_hover_text("Close this sheet").clicked() {
+                commands.push(Command::Sheet(None));
+            }
+        });
+    });
+    ScrollArea::vertical().id_salt(title).auto_shrink([false, false]).show(ui, |ui| match sheet {
+        Sheet::Import => import(ui, state, commands),
+        Sheet::Findings => match state.dataset.value.as_deref() {
+            Some(dataset) => {
+                ui.strong(&dataset.name);
+                findings(ui, &dataset.findings);
+            }
+            None => {
+                ui.label("No product is selected.");
+            }
+        },
+        Sheet::Keys => keys(ui),
+        Sheet::Path(what) => path(ui, state, what, commands),
+    });
+}
+
+fn findings(ui: &mut Ui, findings: &[Finding]) {
+    let palette = theme::palette(ui);
+    if findings.is_empty() {
+        ui.label("The checks have nothing to say.");
+    }
+    for severity in [Severity::Error, Severity::Warning, Severity::Info] {
+        for finding in findings.iter().filter(|finding| finding.severity == severity) {
+            let colour = match severity {
+                Severity::Error => palette.error,
+                Severity::Warning => palette.warning,
+                Severity::Info => palette.weak,
+            };
+            ui.add_space(4.0);
+            ui.colored_label(colour, severity.word());
+            ui.add(egui::Label::new(&finding.message).wrap());
+        }
+    }
+}
+
+fn import(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    let Some(import) = &state.import else {
+        ui.label("Drop dataset files anywhere on the window, or press Ctrl+O.");
+        return;
+    };
+    for failure in &import.failures {
+        ui.add_space(4.0);
+        ui.colored_label(palette.error, "Not read");
+        ui.add(egui::Label::new(failure).wrap());
+    }
+    if import.datasets.is_empty() {
+        ui.add_space(6.0);
+        ui.label("The catalogue is unchanged.");
+    } else {
+        recognised(ui, import);
+        fields(ui, import, commands);
+    }
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        let missing = import.name.trim().is_empty();
+        if !import.datasets.is_empty() {
+            let add = ui.add_enabled(!missing, egui::Button::new(Command::AddImport.info().text));
+            if add.on_disabled_hover_text("Give it a name first").clicked() {
+                commands.push(Command::AddImport);
+            }
+        }
+        let discard = Command::DiscardImport.info();
+        if ui.button(discard.text).on_hover_text(discard.tip).clicked() {
+            commands.push(Command::DiscardImport);
+        }
+    });
+}
+
+fn recognised(ui: &mut Ui, import: &Import) {
+    ui.add_space(4.0);
+    ui.strong("Recognised");
+    for dataset in &import.datasets {
+        let state = if dataset.state.is_empty() { String::new() } else { format!(", state {}", dataset.state) };
+        ui.label(format!("{}{state}", if dataset.name.is_empty() { "(no name)" } else { &dataset.name }));
+        ui.weak(format!(
+            "{}; incident {}, emergent {}",
+            dataset.format, dataset.incident_basis, dataset.emergent_basis
+        ));
+        if let Some(btdf) = dataset.transmission() {
+            ui.weak(format!("τ {:.3} normal, {:.3} hemispherical", btdf.tau_normal(), btdf.tau_hemispherical()));
+        }
+        findings(ui, &dataset.findings);
+    }
+}
+
+fn fields(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
+    let mut fields = ImportFields {
+        name: import.name.clone(),
+        manufacturer: import.manufacturer.clone(),
+        kind: import.kind.clone(),
+        tags: import.tags.clone(),
+    };
+    ui.add_space(6.0);
+    ui.strong("About it");
+    egui::Grid::new("about").num_columns(2).show(ui, |ui| {
+        for (label, text) in [
+            ("Name", &mut fields.name),
+            ("Manufacturer", &mut fields.manufacturer),
+            ("Kind", &mut fields.kind),
+            ("Tags", &mut fields.tags),
+        ] {
+            let name = ui.label(label);
+            ui.add(TextEdit::singleline(text).desired_width(200.0)).labelled_by(name.id);
+            ui.end_row();
+        }
+    });
+    let before = (&import.name, &import.manufacturer, &import.kind, &import.tags);
+    if before != (&fields.name, &fields.manufacturer, &fields.kind, &fields.tags) {
+        commands.push(Command::EditImport(Box::new(fields)));
+    }
+}
+
+fn keys(ui: &mut Ui) {
+    egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
+        for command in Command::listed() {
+            let info = command.info();
+            if let Some(keys) = info.shortcut {
+                ui.label(RichText::new(ui.ctx().format_shortcut(&keys)).monospace());
+                ui.label(info.text);
+                ui.end_row();
+            }
+        }
+    });
+}
+
+fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
+    let (hint, action) = match what {
+        PathUse::Open => ("Dataset (.xml) or scene (.toml); or drop the file on the window.", "Open"),
+        PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
+        PathUse::ExportLid => ("Luminaire file: .ldt (EULUMDAT) or .ies (LM-63); the ending decides.", "Export"),
+    };
+    ui.add(egui::Label::new(hint).wrap());
+    let mut text = state.path.clone();
+    let name = ui.label("Path");
+    let field = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY)).labelled_by(name.id);
+    if text != state.path {
+        commands.push(Command::EditPath(text.clone()));
+    }
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    let ready = !text.trim().is_empty();
+    if (ui.add_enabled(ready, egui::Button::new(action)).clicked() || entered) && ready {
+        commands.push(Command::Write(what, PathBuf::from(text.trim())));
+    }
+}

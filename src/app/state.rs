@@ -1,0 +1,321 @@
+//! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
+
+use super::shelf::{Addition, Found, Query, Shelf};
+use super::theme::ThemeChoice;
+use crate::compute::btdf::Dataset;
+use crate::compute::sky::{Outside, Sun};
+use crate::study::scene_file::{
+    ApertureKeys, ApertureReflectance, ComputeKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys,
+    SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+};
+use crate::study::sky::SkyKeyError;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The six tiles of the bench.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+pub enum Tile {
+    /// Incident and emergent hemisphere.
+    Btdf,
+    /// τ over the incident hemisphere.
+    Transmittance,
+    /// The dome.
+    Sky,
+    /// Polar diagram.
+    Lid,
+    /// Plan and section.
+    Room,
+    /// State against profile angle, and the year.
+    Control,
+}
+
+impl Tile {
+    /// In the order of the keys 1 … 6.
+    pub const ALL: [Self; 6] = [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control];
+
+    /// Title with its unit.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Btdf => "BTDF",
+            Self::Transmittance => "Transmittance",
+            Self::Sky => "Sky",
+            Self::Lid => "LID",
+            Self::Room => "Room",
+            Self::Control => "Control",
+        }
+    }
+
+    /// One sentence and its source.
+    pub const fn help(self) -> &'static str {
+        match self {
+            Self::Btdf => {
+                "Where light from one direction leaves, as luminance per illuminance (q in 1/sr). IEA SHC Task 31, eq 2."
+            }
+            Self::Transmittance => "The share of the light from each direction that enters the room. Task 31, eq 1.",
+            Self::Sky => "Luminance of sky, sun and ground as the façade sees them. CIE S 011 / ISO 15469.",
+            Self::Lid => "The window as a luminaire: luminous intensity into the room. Task 31, eq 5.",
+            Self::Room => "Illuminance on the sensor plane, direct and interreflected. Task 31, eq 17.",
+            Self::Control => "Which state control chooses against the sun's profile angle, today and over the year.",
+        }
+    }
+}
+
+/// Product and state: the window's one selection.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Selection {
+    /// Product key.
+    pub product: String,
+    /// Key of the state; empty for the first or only one.
+    pub state: String,
+}
+
+/// What undo and redo go over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    /// Product and state.
+    pub selection: Selection,
+    /// Place, time, sky, room, sensors.
+    pub scene: SceneFile,
+    /// Illuminances follow the sun's altitude instead of being typed.
+    pub daylight_follows: bool,
+    /// Numbers of the additions that are in the catalogue now; see [`State::additions`].
+    pub additions: Vec<usize>,
+}
+
+/// An addition of this session: kept so that undo can take it out and redo put it back.
+pub struct Added {
+    /// What was stored.
+    pub addition: Addition,
+    /// Under which key; `None` while it is not in the catalogue.
+    pub key: Option<String>,
+}
+
+/// Kept from one start to the next.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Light, dark or as the desktop.
+    pub theme: ThemeChoice,
+    /// Catalogue panel open?
+    pub catalogue_open: bool,
+    /// Scene panel open?
+    pub scene_open: bool,
+    /// The scene as it was left, in TOML.
+    pub last_scene: Option<String>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { theme: ThemeChoice::System, catalogue_open: true, scene_open: true, last_scene: None }
+    }
+}
+
+/// Where the catalogue stands.
+pub enum CatalogueState {
+    /// Being opened.
+    Opening,
+    /// Ready.
+    Ready(Arc<dyn Shelf>),
+    /// Could not be opened: why.
+    Failed(String),
+}
+
+/// A result with its age.
+pub struct Shown<T> {
+    /// The last good one.
+    pub value: Option<Arc<T>>,
+    /// Something that it depends on has changed since.
+    pub stale: bool,
+    /// Why there is no newer one.
+    pub error: Option<String>,
+}
+
+impl<T> Default for Shown<T> {
+    fn default() -> Self {
+        Self { value: None, stale: true, error: None }
+    }
+}
+
+impl<T> Shown<T> {
+    /// Takes a new result; a failure keeps the last good one, marked stale.
+    pub fn take(&mut self, result: Result<T, String>) {
+        match result {
+            Ok(value) => *self = Self { value: Some(Arc::new(value)), stale: false, error: None },
+            Err(error) => self.error = Some(error),
+        }
+    }
+}
+
+/// Sky and sun of the moment.
+pub struct Daylight {
+    /// Sky, ground, skyline.
+    pub outside: Outside,
+    /// Beam, if there is any.
+    pub sun: Option<Sun>,
+}
+
+/// Which files were read and are not stored yet.
+pub struct Import {
+    /// File names.
+    pub files: Vec<String>,
+    /// What was recognised, one a state.
+    pub datasets: Vec<Arc<Dataset>>,
+    /// Files that could not be read: file, place, what, what would be right.
+    pub failures: Vec<String>,
+    /// Fields for the user to fill in.
+    pub name: String,
+    /// Maker.
+    pub manufacturer: String,
+    /// Kind of system.
+    pub kind: String,
+    /// Words to find it by, separated by commas.
+    pub tags: String,
+}
+
+/// The sheet over the right edge of the bench.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sheet {
+    /// Files that were read.
+    Import,
+    /// What the dataset's checks say.
+    Findings,
+    /// All keys.
+    Keys,
+    /// A path to open or write.
+    Path(PathUse),
+}
+
+/// What a typed path is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PathUse {
+    /// Open datasets or a scene.
+    Open,
+    /// Save the scene.
+    SaveScene,
+    /// Write the LID as a luminaire file.
+    ExportLid,
+}
+
+/// Everything.
+pub struct State {
+    /// Under undo.
+    pub document: Document,
+    /// Kept.
+    pub settings: Settings,
+    /// The catalogue.
+    pub catalogue: CatalogueState,
+    /// What the search field and chips say.
+    pub query: Query,
+    /// The list.
+    pub found: Arc<Found>,
+    /// Why the search failed.
+    pub search_error: Option<String>,
+    /// The tile that fills the bench.
+    pub maximised: Option<Tile>,
+    /// The sheet that is open.
+    pub sheet: Option<Sheet>,
+    /// What a sheet's path field says.
+    pub path: String,
+    /// Files that were read.
+    pub import: Option<Import>,
+    /// Additions of this session.
+    pub additions: Vec<Added>,
+    /// Command palette: its words while open.
+    pub palette: Option<String>,
+    /// Focus the search field in the next frame.
+    pub focus_search: bool,
+    /// Dataset of the selection.
+    pub dataset: Shown<Dataset>,
+    /// Sky and sun.
+    pub daylight: Shown<Daylight>,
+    /// The scene's key that is wrong.
+    pub scene_error: Option<SkyKeyError>,
+    /// Where the scene was opened from or saved to; its relative paths start there.
+    pub scene_path: Option<PathBuf>,
+    /// Row that the keyboard is on.
+    pub row: usize,
+}
+
+/// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
+pub fn first_scene() -> SceneFile {
+    SceneFile {
+        room: RoomKeys {
+            width: 4.0,
+            depth: 6.0,
+            height: 3.0,
+            reflectance: ReflectanceKeys { floor: 0.2, walls: 0.5, ceiling: 0.7 },
+        },
+        aperture: vec![ApertureKeys {
+            surface: SurfaceKey::Facade,
+            origin: [0.5, 0.9],
+            size: [3.0, 1.8],
+            system: SystemKeys::Catalogue { key: String::new(), state: None },
+            reflectance: ApertureReflectance::default(),
+        }],
+        site: SiteKeys {
+            azimuth: 180.0,
+            latitude: Some(48.78),
+            longitude: Some(9.18),
+            utc_offset: Some(1.0),
+            ground_reflectance: 0.2,
+        },
+        sky: SkyKeys {
+            model: SkyModelKey::Cie,
+            cie_type: Some(12),
+            diffuse_horizontal: Some(13_000.0),
+            sun: SunKeys { altitude: None, azimuth: None, direct_normal: Some(90_000.0) },
+            time: Some(TimeKey::Text("2026-03-21T12:00".to_owned())),
+            direct_horizontal_irradiance: None,
+            diffuse_horizontal_irradiance: None,
+            file: None,
+            obstruction: None,
+        },
+        sensors: SensorKeys {
+            plane: Some(PlaneKeys { z: 0.85, nx: 16, ny: 24, normal: [0.0, 0.0, 1.0] }),
+            points: Vec::new(),
+            normal: None,
+        },
+        control: None,
+        compute: ComputeKeys::default(),
+    }
+}
+
+impl State {
+    /// At the start, before anything was read.
+    pub fn new(settings: Settings) -> Self {
+        let scene = settings.last_scene.as_deref().and_then(|text| toml::from_str(text).ok());
+        Self {
+            document: Document {
+                selection: Selection::default(),
+                scene: scene.unwrap_or_else(first_scene),
+                daylight_follows: true,
+                additions: Vec::new(),
+            },
+            settings,
+            catalogue: CatalogueState::Opening,
+            query: Query::default(),
+            found: Arc::default(),
+            search_error: None,
+            maximised: None,
+            sheet: None,
+            path: String::new(),
+            import: None,
+            additions: Vec::new(),
+            palette: None,
+            focus_search: false,
+            dataset: Shown::default(),
+            daylight: Shown::default(),
+            scene_error: None,
+            scene_path: None,
+            row: 0,
+        }
+    }
+
+    /// The catalogue, once it is ready.
+    pub fn shelf(&self) -> Option<Arc<dyn Shelf>> {
+        match &self.catalogue {
+            CatalogueState::Ready(shelf) => Some(shelf.clone()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Colours, gaps, strokes and type of the window: light and dark, each designed, not one turned into the other.
+
+use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
+use egui::{Color32, Context, CornerRadius, FontData, FontFamily, FontId, Margin, Stroke, TextStyle, Theme, Vec2};
+
+/// Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
+static FALLBACK: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
+
+/// Which theme the user wants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum ThemeChoice {
+    /// What the desktop says.
+    #[default]
+    System,
+    /// Light.
+    Light,
+    /// Dark.
+    Dark,
+}
+
+impl ThemeChoice {
+    /// All, in the order of the menu.
+    pub const ALL: [Self; 3] = [Self::System, Self::Light, Self::Dark];
+
+    /// In words.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::System => "as the desktop",
+            Self::Light => "light",
+            Self::Dark => "dark",
+        }
+    }
+
+    /// Tells egui.
+    pub fn apply(self, ctx: &Context) {
+        ctx.set_theme(match self {
+            Self::System => egui::ThemePreference::System,
+            Self::Light => egui::ThemePreference::Light,
+            Self::Dark => egui::ThemePreference::Dark,
+        });
+    }
+}
+
+/// The colours that a theme adds to egui's own.
+#[derive(Debug, Clone, Copy)]
+pub struct Palette {
+    /// Behind the bench.
+    pub ground: Color32,
+    /// A tile, a panel.
+    pub surface: Color32,
+    /// A field to type in, a raised chip.
+    pub raised: Color32,
+    /// Lines between things.
+    pub line: Color32,
+    /// Text.
+    pub text: Color32,
+    /// Secondary text.
+    pub weak: Color32,
+    /// What is chosen, and what acts.
+    pub accent: Color32,
+    /// Behind a chosen row.
+    pub chosen: Color32,
+    /// Worth a look.
+    pub warning: Color32,
+    /// Wrong.
+    pub error: Color32,
+    /// All is well.
+    pub good: Color32,
+    /// The sun, a star.
+    pub sun: Color32,
+}
+
+/// Warm paper and ink.
+pub const LIGHT: Palette = Palette {
+    ground: Color32::from_rgb(0xE9, 0xEA, 0xEC),
+    surface: Color32::from_rgb(0xFB, 0xFB, 0xFA),
+    raised: Color32::from_rgb(0xEF, 0xF0, 0xF2),
+    line: Color32::from_rgb(0xD3, 0xD6, 0xDB),
+    text: Color32::from_rgb(0x1C, 0x21, 0x28),
+    weak: Color32::from_rgb(0x5A, 0x63, 0x6E),
+    accent: Color32::from_rgb(0x0B, 0x5F, 0xA5),
+    chosen: Color32::from_rgb(0xD6, 0xE6, 0xF5),
+    warning: Color32::from_rgb(0x96, 0x5A, 0x00),
+    error: Color32::from_rgb(0xB3, 0x26, 0x1E),
+    good: Color32::from_rgb(0x1D, 0x74, 0x3C),
+    sun: Color32::from_rgb(0xC7, 0x7D, 0x00),
+};
+
+/// A dim instrument room.
+pub const DARK: Palette = Palette {
+    ground: Color32::from_rgb(0x12, 0x15, 0x19),
+    surface: Color32::from_rgb(0x1B, 0x1F, 0x25),
+    raised: Color32::from_rgb(0x28, 0x2E, 0x36),
+    line: Color32::from_rgb(0x36, 0x3D, 0x47),
+    text: Color32::from_rgb(0xE3, 0xE7, 0xEC),
+    weak: Color32::from_rgb(0x9C, 0xA7, 0xB4),
+    accent: Color32::from_rgb(0x6C, 0xB6, 0xFF),
+    chosen: Color32::from_rgb(0x1F, 0x3B, 0x57),
+    warning: Color32::from_rgb(0xF0, 0xB4, 0x4C),
+    error: Color32::from_rgb(0xFF, 0x8A, 0x80),
+    good: Color32::from_rgb(0x7B, 0xD8, 0x97),
+    sun: Color32::from_rgb(0xFF, 0xC9, 0x4D),
+};
+
+/// The palette in force.
+pub fn palette(ui: &egui::Ui) -> &'static Palette {
+    if ui.visuals().dark_mode { &DARK } else { &LIGHT }
+}
+
+/// Gap between tiles. [points]
+pub const TILE_GAP: f32 = 6.0;
+/// Height of a row of the catalogue. [points]
+pub const ROW_HEIGHT: f32 = 52.0;
+/// Opacity of what is out of date.
+pub const STALE_OPACITY: f32 = 0.45;
+
+/// A tile of the bench.
+pub fn tile_frame(ui: &egui::Ui) -> egui::Frame {
+    let palette = palette(ui);
+    egui::Frame::new()
+        .fill(palette.surface)
+        .stroke(Stroke::new(1.0, palette.line))
+        .corner_radius(CornerRadius::same(6))
+        .inner_margin(Margin::symmetric(8, 6))
+}
+
+/// A side panel or bar.
+pub fn panel_frame(ui: &egui::Ui) -> egui::Frame {
+    egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 8))
+}
+
+/// A bar of small height at the top or bottom.
+pub fn bar_frame(ui: &egui::Ui) -> egui::Frame {
+    egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 4))
+}
+
+/// Sets fonts, both themes and spacing. Once, at the start.
+pub fn install(ctx: &Context) {
+    let family = |family| InsertFontFamily { family, priority: FontPriority::Lowest };
+    ctx.add_font(FontInsert::new(
+        "fallback",
+        FontData::from_static(FALLBACK),
+        vec![family(FontFamily::Proportional), family(FontFamily::Monospace)],
+    ));
+    for (theme, palette) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {
+        ctx.style_mut_of(theme, |style| {
+            style.text_styles = [
+                (TextStyle::Small, FontId::proportional(13.0)),
+                (TextStyle::Body, FontId::proportional(13.5)),
+                (TextStyle::Button, FontId::proportional(13.5)),
+                (TextStyle::Heading, FontId::proportional(16.0)),
+                (TextStyle::Monospace, FontId::monospace(13.0)),
+            ]
+            .into();
+            style.spacing.item_spacing = Vec2::new(6.0, 4.0);
+            style.spacing.button_padding = Vec2::new(7.0, 3.0);
+            style.spacing.interact_size.y = 22.0;
+            style.spacing.indent = 12.0;
+            style.animation_time = 0.09;
+            visuals(&mut style.visuals, palette);
+        });
+    }
+}
+
+fn visuals(visuals: &mut egui::Visuals, palette: &Palette) {
+    visuals.panel_fill = palette.surface;
+    visuals.window_fill = palette.surface;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.extreme_bg_color = palette.raised;
+    visuals.faint_bg_color = palette.raised;
+    visuals.code_bg_color = palette.raised;
+    visuals.weak_text_color = Some(palette.weak);
+    visuals.hyperlink_color = palette.accent;
+    visuals.warn_fg_color = palette.warning;
+    visuals.error_fg_color = palette.error;
+    visuals.selection.bg_fill = palette.chosen;
+    visuals.selection.stroke = Stroke::new(1.0, palette.accent);
+    visuals.striped = false;
+    visuals.slider_trailing_fill = true;
+    visuals.indent_has_left_vline = false;
+    let widgets = &mut visuals.widgets;
+    for (widget, fill, line) in [
+        (&mut widgets.noninteractive, palette.surface, palette.line),
+        (&mut widgets.inactive, palette.raised, palette.raised),
+        (&mut widgets.hovered, palette.line, palette.weak),
+        (&mut widgets.active, palette.chosen, palette.accent),
+        (&mut widgets.open, palette.raised, palette.line),
+    ] {
+        widget.bg_fill = fill;
+        widget.weak_bg_fill = fill;
+        widget.bg_stroke = Stroke::new(1.0, line);
+        widget.fg_stroke = Stroke::new(1.0, palette.text);
+        widget.corner_radius = CornerRadius::same(4);
+        widget.expansion = 0.0;
+    }
+}

@@ -1,0 +1,377 @@
+//! The BTDF: left where light comes from, right where it goes, both seen from inside the room.
+
+use super::Cache;
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
+use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::ticks::{degrees, number};
+use crate::app::paint::tile::{self, Status, Words};
+use crate::compute::angle::wrap_two_pi;
+use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::btdf::{Btdf, Indicatrix};
+use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2};
+use std::sync::Arc;
+
+/// What the tile draws.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Transmission of light from outside; `None` while no product is chosen.
+    pub btdf: Option<&'a Btdf>,
+    /// Product and state in words.
+    pub name: &'a str,
+    /// The chosen direction of incidence.
+    pub incident: Incident,
+    /// Where the sun is, if it is before the façade.
+    pub sun: Option<Incident>,
+    /// The incidence is coupled to the sun; choosing another should end that.
+    pub follow_sun: bool,
+    /// Scale forced from outside (comparison), lowest and highest q.
+    pub range: Option<[f64; 2]>,
+    /// Changes with `btdf`.
+    pub revision: u64,
+    /// How far the content is to be trusted.
+    pub status: Status<'a>,
+}
+
+/// What the user did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// A cell of the incident hemisphere was chosen: its centre.
+    ChooseIncidence(Incident),
+    /// Couple the incidence to the sun, or not.
+    FollowSun(bool),
+}
+
+type Incidence = [u64; 3];
+
+fn bits(incident: Incident) -> Incidence {
+    incident.0.vector().to_array().map(f64::to_bits)
+}
+
+/// τ of every incident cell, and where its centre lies on the disk.
+#[derive(Debug, Clone)]
+struct Incidences {
+    basis: RingBasis,
+    tau: Vec<f64>,
+    points: Vec<[f64; 2]>,
+}
+
+/// The tile's own settings and pictures.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// How θ becomes a radius.
+    pub projection: Projection,
+    /// Logarithmic colours.
+    pub log: bool,
+    /// q·cosθ instead of q.
+    pub weighted: bool,
+    /// Grey by τ on the incident side.
+    pub shade_tau: bool,
+    incidences: Cache<(u64, Projection), Incidences>,
+    indicatrix: Cache<(u64, Incidence), Option<Indicatrix>>,
+    left: Cache<(u64, Disk, Projection, bool, bool), Arc<Mesh>>,
+    right: Cache<(u64, Incidence, Disk, Projection, bool, ColourScale), Arc<Mesh>>,
+    scale: Option<ColourScale>,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self {
+            projection: Projection::default(),
+            log: true,
+            weighted: false,
+            shade_tau: true,
+            incidences: Cache::default(),
+            indicatrix: Cache::default(),
+            left: Cache::default(),
+            right: Cache::default(),
+            scale: None,
+        }
+    }
+}
+
+const HELP: &str = "For one direction of incidence (left), the luminance coefficient q = L/E in every direction in which \
+light leaves (right). Both hemispheres are seen from inside: a source is drawn where it is seen, emergent light where \
+it goes. θ is counted from the façade's normal, φ from the right seen from outside towards up. Click a cell or use the \
+arrow keys.\nSource: IEA SHC Task 31 report (2005), eq 2; data as measured or computed for the product.";
+
+/// Draws the tile into all the space of `ui`.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
+    let mut actions = vec![];
+    let words = Words {
+        title: "BTDF",
+        subtitle: input.name,
+        help: HELP,
+        empty: input.btdf.is_none().then_some("Choose a product in the catalogue to see where its light goes."),
+        controls_width: 330.0,
+    };
+    // The toggles and the picture both write: settings are copied for the head and taken back after.
+    let mut settings = (state.projection, state.log, state.weighted, state.shade_tau);
+    let mut follow = input.follow_sun;
+    tile::show(
+        ui,
+        &words,
+        &input.status,
+        |ui| {
+            ui.checkbox(&mut follow, "Follow the sun");
+            ui.toggle_value(&mut settings.1, "log").on_hover_text("Logarithmic colours, three decades");
+            ui.toggle_value(&mut settings.2, "q·cosθ").on_hover_text("Times the cosine: what intensity is made of");
+            ui.toggle_value(&mut settings.3, "τ").on_hover_text("Grey by transmittance on the incident side");
+            let mut solid = settings.0 == Projection::SolidAngle;
+            ui.toggle_value(&mut solid, "Ω").on_hover_text(
+                "On: equal areas are equal solid angles (Lambert). Off: equal projected solid angles, r = sin θ",
+            );
+            settings.0 = if solid { Projection::SolidAngle } else { Projection::ProjectedSolidAngle };
+        },
+        |ui, rect| match input.btdf {
+            Some(btdf) => picture(ui, rect, btdf, input, state, &mut actions),
+            None => String::new(),
+        },
+    );
+    (state.projection, state.log, state.weighted, state.shade_tau) = settings;
+    if follow != input.follow_sun {
+        actions.push(Action::FollowSun(follow));
+    }
+    actions
+}
+
+fn picture(
+    ui: &mut Ui,
+    rect: Rect,
+    btdf: &Btdf,
+    input: &Input<'_>,
+    state: &mut State,
+    out: &mut Vec<Action>,
+) -> String {
+    let stacked = rect.height() > 1.25 * rect.width();
+    let (left, right) =
+        if stacked { rect.split_top_bottom_at_fraction(0.5) } else { rect.split_left_right_at_fraction(0.5) };
+    let incident = incident_side(ui, left, btdf, input, state, out);
+    let emergent = emergent_side(ui, right, btdf, input, state);
+    emergent.or(incident).unwrap_or_else(|| selection_text(btdf, input.incident))
+}
+
+/// "incidence θ 40°, φ 90° · τ 0.41 (scattered 0.35, regular 0.06)".
+fn selection_text(btdf: &Btdf, incident: Incident) -> String {
+    let tau = btdf.tau(incident);
+    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(incident.0.theta()));
+    let parts = if regular > 0.0 && btdf.scattered.is_some() {
+        format!(" (scattered {}, regular {})", number(tau - regular, 3), number(regular, 3))
+    } else {
+        String::new()
+    };
+    format!("incidence {} · τ {}{parts}", direction_text(incident.0), number(tau, 3))
+}
+
+fn direction_text(d: Dir<Facade>) -> String {
+    format!("θ {}, φ {}", degrees(d.theta()), degrees(wrap_two_pi(d.phi())))
+}
+
+/// The place of the disk and of the legend under it.
+fn places(rect: Rect) -> (Disk, Rect) {
+    let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
+    let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
+    (disk, legend)
+}
+
+fn disk_rect(disk: &Disk) -> Rect {
+    Rect::from_center_size(disk.centre, egui::Vec2::splat(2.0 * disk.radius))
+}
+
+fn incident_side(
+    ui: &mut Ui,
+    rect: Rect,
+    btdf: &Btdf,
+    input: &Input<'_>,
+    state: &mut State,
+    out: &mut Vec<Action>,
+) -> Option<String> {
+    let palette = Palette::of(ui.visuals());
+    let projection = state.projection;
+    let (disk, legend) = places(rect);
+    let response = ui.interact(disk_rect(&disk), ui.scope_id().with("incident"), Sense::click());
+    let cells = state.incidences.get((input.revision, projection), || {
+        let basis = btdf.incident_basis();
+        let tau = basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).collect();
+        let points = basis.cells().map(|cell| Side::Incident.disk(projection, cell.centre())).collect();
+        Incidences { basis, tau, points }
+    });
+    let scale = ColourScale {
+        map: ColourMap::Grey,
+        ..ColourScale::up_to(cells.tau.iter().copied().fold(0.0, f64::max).max(1e-3), false, 3, ColourMap::Grey)
+    };
+    let shade = state.shade_tau;
+    let dark = ui.visuals().dark_mode;
+    let mesh = state.left.get((input.revision, disk, projection, shade, dark), || {
+        Arc::new(disk.cells(projection, Side::Incident, &cells.basis, |i| {
+            if shade { scale.colour(cells.tau[i]) } else { palette.face }
+        }))
+    });
+    ui.painter().add(Shape::Mesh(mesh.clone()));
+    outline_all(ui, &disk, projection, &cells.basis, &palette);
+    disk.frame(ui.painter(), projection, "outside: where light comes from", &palette);
+    // The chosen cell: light under dark, so that it is seen on every grey.
+    let selected = cells.basis.index(input.incident.0);
+    if let Some(index) = selected {
+        let outline = outline(&disk, projection, Side::Incident, &cells.basis.cell(index));
+        ui.painter().add(Shape::closed_line(outline.clone(), Stroke::new(4.0, palette.face)));
+        ui.painter().add(Shape::closed_line(outline, Stroke::new(2.0, palette.first)));
+    }
+    if let Some(sun) = input.sun.filter(|sun| sun.0.vector().z > 0.0) {
+        let at = disk.screen(incident_disk(projection, sun));
+        ui.painter().circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
+    }
+    let mut choose = |index: usize| out.push(Action::ChooseIncidence(Incident(cells.basis.cell(index).centre())));
+    let cell_at = |at| Side::Incident.through_name(projection, disk.disk(at)).and_then(|d| cells.basis.index(d));
+    if response.clicked() {
+        response.request_focus();
+        if let Some(index) = response.interact_pointer_pos().and_then(cell_at) {
+            choose(index);
+        }
+    }
+    if response.has_focus() {
+        ui.painter().circle_stroke(disk.centre, disk.radius + 2.5, Stroke::new(1.0, palette.first));
+        let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        let keys = [
+            (Key::ArrowUp, [0.0, 1.0]),
+            (Key::ArrowDown, [0.0, -1.0]),
+            (Key::ArrowLeft, [-1.0, 0.0]),
+            (Key::ArrowRight, [1.0, 0.0]),
+        ];
+        for (key, towards) in keys {
+            let pressed = ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, key));
+            let from = selected.map_or([0.0, 0.0], |index| cells.points[index]);
+            if pressed && let Some(next) = neighbour(&cells.points, from, towards) {
+                choose(next);
+            }
+        }
+    }
+    tile::name(ui, &response, "Incident hemisphere", &selection_text(btdf, input.incident));
+    let pointed = response.hover_pos().and_then(cell_at);
+    if shade {
+        scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|i| cells.tau[i]), &palette);
+    }
+    pointed
+        .map(|i| format!("incidence {} · τ {}", direction_text(cells.basis.cell(i).centre()), number(cells.tau[i], 3)))
+}
+
+fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<egui::Pos2> {
+    cell_outline(projection, side, cell).into_iter().map(|p| disk.screen(p)).collect()
+}
+
+/// Hair lines between cells, while they are large enough to be told apart.
+fn outline_all(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, palette: &Palette) {
+    if basis.len() > 400 {
+        return;
+    }
+    let stroke = Stroke::new(0.6, palette.outline.gamma_multiply(0.6));
+    for cell in basis.cells() {
+        ui.painter().add(Shape::closed_line(outline(disk, projection, Side::Incident, &cell), stroke));
+    }
+}
+
+/// Value drawn for a cell: q, or q times the cell's mean cosine.
+fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
+    if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
+}
+
+fn emergent_side(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<String> {
+    let palette = Palette::of(ui.visuals());
+    let (projection, weighted) = (state.projection, state.weighted);
+    let (disk, legend) = places(rect);
+    let response = ui.interact(disk_rect(&disk), ui.scope_id().with("emergent"), Sense::hover());
+    let key = bits(input.incident);
+    let indicatrix = state.indicatrix.get((input.revision, key), || btdf.indicatrix(input.incident));
+    let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
+    let mut text = None;
+    ui.painter().circle_filled(disk.centre, disk.radius, palette.face);
+    if let Some(Indicatrix { basis, q }) = indicatrix {
+        let values = basis.cells().zip(q).map(|(cell, q)| drawn(*q, &cell, weighted));
+        let max = values.fold(0.0, f64::max);
+        let held = state.scale.clone().filter(|s| input.status.hold_scale && s.log == state.log);
+        let scale = match input.range {
+            Some([lo, hi]) => ColourScale {
+                lo: if state.log { lo.max(hi * 1e-6) } else { lo },
+                hi,
+                log: state.log,
+                map: ColourMap::Sequential,
+            },
+            None => held.unwrap_or_else(|| ColourScale::up_to(max, state.log, 3, ColourMap::Sequential)),
+        };
+        let mesh = state.right.get((input.revision, key, disk, projection, weighted, scale.clone()), || {
+            Arc::new(
+                disk.cells(projection, Side::Emergent, basis, |i| scale.colour(drawn(q[i], &basis.cell(i), weighted))),
+            )
+        });
+        ui.painter().add(Shape::Mesh(mesh.clone()));
+        let pointed = response
+            .hover_pos()
+            .and_then(|at| Side::Emergent.through_name(projection, disk.disk(at)))
+            .and_then(|d| basis.index(d));
+        if let Some(index) = pointed {
+            let cell = basis.cell(index);
+            let leaving = Emergent::from_through_name(cell.centre());
+            ui.painter().add(Shape::closed_line(
+                outline(&disk, projection, Side::Emergent, &cell),
+                Stroke::new(1.5, Color32::WHITE),
+            ));
+            let theta = cell.centre().theta();
+            text = Some(format!(
+                "leaving {} off the normal, φ {} · {} {} 1/sr",
+                degrees(theta),
+                degrees(leaving.0.phi()),
+                if weighted { "q·cosθ" } else { "q" },
+                number(drawn(q[index], &cell, weighted), 3)
+            ));
+        }
+        let value = pointed.map(|i| drawn(q[i], &basis.cell(i), weighted));
+        scale.paint_legend(ui.painter(), legend, unit, value, &palette);
+        state.scale = Some(scale);
+    } else {
+        let at = pos2(legend.center().x, legend.top() + 4.0);
+        tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
+    }
+    disk.frame(ui.painter(), projection, "inside: where light goes", &palette);
+    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(input.incident.0.theta()));
+    if regular > 0.0 && input.incident.0.vector().z > 0.0 {
+        let at = disk.screen(emergent_disk(projection, Emergent::from_through_name(input.incident.0)));
+        ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
+        let side = if at.x > disk.centre.x { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
+        let offset = if at.x > disk.centre.x { -9.0 } else { 9.0 };
+        let label = format!("regular τ {}", number(regular, 3));
+        let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
+        let place = side.anchor_size(at + egui::vec2(offset, 0.0), galley.size());
+        ui.painter().rect_filled(place.expand(2.0), 3, palette.halo);
+        ui.painter().galley(place.min, galley, palette.ink);
+    }
+    tile::name(ui, &response, "Emergent hemisphere", &selection_text(btdf, input.incident));
+    text
+}
+
+/// The indicatrix of the chosen incidence: direction in which light leaves (façade frame), q and solid angle.
+pub fn csv(input: &Input<'_>) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::new();
+    let Some(btdf) = input.btdf else { return out };
+    let theta = input.incident.0.theta();
+    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(theta));
+    let _ = writeln!(out, "# {}", input.name.replace(['\n', '\r'], " "));
+    let _ = writeln!(
+        out,
+        "# incidence theta_deg,{:.4},phi_deg,{:.4}",
+        theta.to_degrees(),
+        input.incident.0.phi().to_degrees()
+    );
+    let _ = writeln!(out, "# tau,{:.6},regular,{regular:.6}", btdf.tau(input.incident));
+    out.push_str("leaving_theta_deg,leaving_phi_deg,projected_solid_angle_sr,q_per_sr\n");
+    if let Some(Indicatrix { basis, q }) = btdf.indicatrix(input.incident) {
+        for (cell, q) in basis.cells().zip(q) {
+            let leaving = Emergent::from_through_name(cell.centre()).0;
+            let (theta, phi) = (leaving.theta().to_degrees(), leaving.phi().to_degrees());
+            let _ = writeln!(out, "{theta:.4},{phi:.4},{:.9},{q:.9}", cell.projected_solid_angle());
+        }
+    }
+    out
+}

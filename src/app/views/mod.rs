@@ -1,0 +1,30 @@
+//! The tiles. Each view is a file with its own [`State`](btdf::State) (what only the tile knows), `Input` (borrowed
+//! data), `Action` (what the user asked for), `show` and `csv`. Views change nothing but their own state; pictures are
+//! rebuilt only when the input's `revision` or the tile's own settings change.
+
+pub mod btdf;
+pub mod control;
+pub mod lid;
+pub mod room;
+pub mod sky;
+pub mod transmittance;
+
+/// A value kept until its key changes.
+#[derive(Debug, Clone)]
+pub struct Cache<K, V>(Option<(K, V)>);
+
+impl<K, V> Default for Cache<K, V> {
+    fn default() -> Self {
+        Self(None)
+    }
+}
+
+impl<K: PartialEq, V> Cache<K, V> {
+    /// The kept value, or a new one when the key is another.
+    pub fn get(&mut self, key: K, make: impl FnOnce() -> V) -> &V {
+        if self.0.as_ref().is_none_or(|(old, _)| *old != key) {
+            self.0 = None;
+        }
+        &self.0.get_or_insert_with(|| (key, make())).1
+    }
+}

@@ -1,0 +1,417 @@
+//! Illuminance on the sensor plane: plan in false colour with iso-lux lines, and a section along the depth.
+//!
+//! The plan is seen from above with the façade at the left, so that its depth axis is the section's.
+
+use super::Cache;
+use crate::app::paint::chart::{Axis, Chart, LEFT};
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::contour::{IsoLine, iso_lines};
+use crate::app::paint::palette::{ColourMap, Palette, contrast};
+use crate::app::paint::ticks::{logarithmic, nice_ceil, number, si, tick};
+use crate::app::paint::tile::{self, Status, Words};
+use crate::compute::direction::Surface;
+use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use std::sync::Arc;
+
+/// Result at one sensor. [lx]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CellValue {
+    /// Direct and interreflected together.
+    pub total: f64,
+    /// Estimated absolute error of `total`.
+    pub error: f64,
+    /// Straight from the apertures.
+    pub direct: f64,
+    /// By way of the room's surfaces.
+    pub inter: f64,
+}
+
+/// An aperture as a rectangle of its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Opening {
+    /// Façade or roof.
+    pub surface: Surface,
+    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. [m]
+    pub origin: [f64; 2],
+    /// Size in the same order. [m]
+    pub size: [f64; 2],
+}
+
+/// What the tile draws.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Width (x), depth (y), height (z). [m]
+    pub room: [f64; 3],
+    /// Windows and rooflights.
+    pub apertures: &'a [Opening],
+    /// Sensors along x.
+    pub nx: usize,
+    /// Sensors along y.
+    pub ny: usize,
+    /// Results at the centres of the cells, x running fastest; empty before the first result.
+    pub cells: &'a [CellValue],
+    /// Height of the sensor plane. [m]
+    pub plane_z: f64,
+    /// Product and moment in words.
+    pub name: &'a str,
+    /// Scale forced from outside (comparison). [lx]
+    pub range: Option<[f64; 2]>,
+    /// Changes with the results.
+    pub revision: u64,
+    /// How far the content is to be trusted.
+    pub status: Status<'a>,
+}
+
+/// What the user did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// The sensor plane should lie at this height. [m]
+    PlaneMoved(f64),
+}
+
+/// The tile's own settings and pictures.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    /// Logarithmic colours and section.
+    pub log: bool,
+    /// Row of sensors in the section, counted along x; the middle one while `None`.
+    pub row: Option<usize>,
+    scale: Option<ColourScale>,
+    lines: Cache<(u64, [usize; 2], ColourScale), Vec<(f64, Vec<IsoLine>)>>,
+    mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
+}
+
+const HELP: &str = "Illuminance on the sensor plane from above, façade at the left, with iso-lux lines; under it a \
+section along the depth through the row of the cursor (click to keep a row), with lines at 300 and 500 lx and the band \
+between the darkest and the brightest row.\nSource: direct part IEA SHC Task 31 report (2005), eq 17; interreflection \
+by radiosity; 300 and 500 lx as in EN 17037.";
+
+/// Draws the tile into all the space of `ui`.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
+    let mut actions = vec![];
+    let complete = input.nx > 0 && input.ny > 0 && input.cells.len() == input.nx * input.ny;
+    let words = Words {
+        title: "Room",
+        subtitle: input.name,
+        help: HELP,
+        empty: (!complete).then_some("No illuminances yet: choose a product and a plane of sensors."),
+        controls_width: 170.0,
+    };
+    let mut log = state.log;
+    tile::show(
+        ui,
+        &words,
+        &input.status,
+        |ui| {
+            ui.toggle_value(&mut log, "log").on_hover_text("Logarithmic colours and section");
+            let mut z = input.plane_z;
+            let drag = egui::DragValue::new(&mut z).range(0.0..=input.room[2]).speed(0.01).suffix(" m").max_decimals(2);
+            let label = ui.label("plane at");
+            if ui.add(drag).labelled_by(label.id).changed() {
+                actions.push(Action::PlaneMoved(z));
+            }
+        },
+        |ui, rect| picture(ui, rect, input, state),
+    );
+    state.log = log;
+    actions
+}
+
+/// The plan on the screen: depth to the right, x downwards (seen from above).
+#[derive(Debug, Clone, Copy)]
+struct Plan {
+    area: Rect,
+    scale: f32,
+}
+
+impl Plan {
+    fn within(rect: Rect, room: [f64; 3]) -> Self {
+        let [width, depth] = [room[0].max(1e-3) as f32, room[1].max(1e-3) as f32];
+        let scale = (rect.width() / depth).min(rect.height() / width).max(1e-3);
+        let size = vec2(depth, width) * scale;
+        Self { area: Rect::from_min_size(pos2(rect.left(), rect.center().y - 0.5 * size.y), size), scale }
+    }
+
+    fn screen(&self, x: f64, y: f64) -> Pos2 {
+        self.area.min + vec2(y as f32, x as f32) * self.scale
+    }
+
+    fn room(&self, at: Pos2) -> (f64, f64) {
+        let d = (at - self.area.min) / self.scale;
+        (f64::from(d.y), f64::from(d.x))
+    }
+}
+
+fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> String {
+    let palette = Palette::of(ui.visuals());
+    let max = input.cells.iter().map(|c| c.total).filter(|v| v.is_finite()).fold(0.0, f64::max).max(1.0);
+    let scale = match (input.range, &state.scale) {
+        (Some([lo, hi]), _) => {
+            let lo = if state.log { lo.max(hi * 1e-4) } else { lo };
+            ColourScale { lo, hi, log: state.log, map: ColourMap::Sequential }
+        }
+        (None, Some(held)) if input.status.hold_scale && held.log == state.log => held.clone(),
+        _ => ColourScale::up_to(max, state.log, 2, ColourMap::Sequential),
+    };
+    state.scale = Some(scale.clone());
+    let with_section = rect.height() > 230.0;
+    let section_height = if with_section { (0.4 * rect.height()).clamp(100.0, 220.0) } else { 0.0 };
+    let plan_rect = Rect::from_min_max(
+        pos2(rect.left() + LEFT, rect.top() + 2.0),
+        pos2(rect.right() - 10.0, rect.bottom() - section_height - LEGEND_HEIGHT - 6.0),
+    );
+    let plan = Plan::within(plan_rect, input.room);
+    let response = ui.interact(plan.area, ui.scope_id().with("plan"), Sense::click());
+    plan_ui(ui, &plan, input, state, &scale, &palette);
+    let cell = response.hover_pos().map(|at| {
+        let (x, y) = plan.room(at);
+        let index = |v: f64, size: f64, n: usize| ((v / size * n as f64) as usize).min(n - 1);
+        (index(x, input.room[0], input.nx), index(y, input.room[1], input.ny))
+    });
+    if response.clicked() {
+        state.row = cell.map(|(i, _)| i).filter(|i| state.row != Some(*i));
+    }
+    let value = cell.map(|(i, j)| input.cells[j * input.nx + i]);
+    let legend = Rect::from_min_size(
+        pos2(plan_rect.left() - 6.0, plan_rect.bottom() + 4.0),
+        vec2(plan_rect.width() + 10.0, LEGEND_HEIGHT),
+    );
+    scale.paint_legend(ui.painter(), legend, "lx", value.map(|v| v.total), &palette);
+    let row = cell.map(|(i, _)| i).or(state.row).unwrap_or(input.nx / 2).min(input.nx - 1);
+    let x = (row as f64 + 0.5) / input.nx as f64 * input.room[0];
+    let line = [plan.screen(x, 0.0), plan.screen(x, input.room[1])];
+    ui.painter().extend(Shape::dashed_line(&line, Stroke::new(1.2, Color32::WHITE), 4.0, 4.0));
+    let mut text = None;
+    if with_section {
+        let place = Rect::from_min_max(
+            pos2(rect.left(), rect.bottom() - section_height),
+            pos2(plan.area.right() + 10.0, rect.bottom()),
+        );
+        text = section_ui(ui, place, input, row, &scale, cell.map(|(_, j)| j), &palette);
+    }
+    let summary = summary(input);
+    tile::name(ui, &response, "Room plan", &summary);
+    value.map(|v| value_text(&v)).or(text).unwrap_or(summary)
+}
+
+fn value_text(v: &CellValue) -> String {
+    let error = if v.error > 0.0 { format!(" ± {}", number(v.error, 2)) } else { String::new() };
+    format!("{}{error} lx · direct {} · interreflected {}", number(v.total, 4), si(v.direct, "lx"), si(v.inter, "lx"))
+}
+
+fn summary(input: &Input<'_>) -> String {
+    let totals = || input.cells.iter().map(|c| c.total);
+    let mean = totals().sum::<f64>() / input.cells.len().max(1) as f64;
+    let (min, max) = (totals().fold(f64::INFINITY, f64::min), totals().fold(0.0, f64::max));
+    let error = input.cells.iter().map(|c| if c.total > 0.0 { c.error / c.total } else { 0.0 }).fold(0.0, f64::max);
+    format!(
+        "mean {} · min {} · max {} · error ≤ {} %",
+        si(mean, "lx"),
+        si(min, "lx"),
+        si(max, "lx"),
+        number(100.0 * error, 2)
+    )
+}
+
+fn plan_ui(ui: &Ui, plan: &Plan, input: &Input<'_>, state: &mut State, scale: &ColourScale, palette: &Palette) {
+    let (nx, ny) = (input.nx, input.ny);
+    let step = [input.room[0] / nx as f64, input.room[1] / ny as f64];
+    let painter = ui.painter();
+    let mesh = state.mesh.get((input.revision, plan.area, scale.clone()), || {
+        let mut mesh = Mesh::default();
+        for (k, cell) in input.cells.iter().enumerate() {
+            let (i, j) = ((k % nx) as f64, (k / nx) as f64);
+            let place = Rect::from_two_pos(
+                plan.screen(i * step[0], j * step[1]),
+                plan.screen((i + 1.0) * step[0], (j + 1.0) * step[1]),
+            );
+            mesh.add_colored_rect(place, scale.colour(cell.total));
+        }
+        Arc::new(mesh)
+    });
+    painter.add(Shape::Mesh(mesh.clone()));
+    let lines = state.lines.get((input.revision, [nx, ny], scale.clone()), || {
+        let totals: Vec<f64> = input.cells.iter().map(|c| c.total).collect();
+        levels(scale, &totals).into_iter().map(|level| (level, iso_lines(nx, ny, &totals, level))).collect()
+    });
+    // Nodes are cell centres.
+    let node = |p: &[f64; 2]| plan.screen((p[0] + 0.5) * step[0], (p[1] + 0.5) * step[1]);
+    let mut used: Vec<Rect> = vec![];
+    for (level, lines) in lines {
+        let colour = contrast(scale.colour(*level));
+        for line in lines {
+            let mut points: Vec<Pos2> = line.points.iter().map(node).collect();
+            if line.closed {
+                points.push(points[0]);
+            }
+            painter.add(Shape::line(points.clone(), Stroke::new(1.2, colour.gamma_multiply(0.85))));
+            label_line(ui, &points, *level, scale, plan.area, &mut used);
+        }
+    }
+    painter.rect_stroke(plan.area, 0, Stroke::new(1.5, palette.outline), StrokeKind::Outside);
+    for aperture in input.apertures {
+        let [o, s] = [aperture.origin, aperture.size];
+        match aperture.surface {
+            Surface::Facade => {
+                let ends = [plan.screen(o[0], 0.0), plan.screen(o[0] + s[0], 0.0)].map(|p| p - vec2(4.0, 0.0));
+                painter.line_segment(ends, Stroke::new(5.0, palette.first));
+            }
+            Surface::Roof => {
+                let place = Rect::from_two_pos(plan.screen(o[0], o[1]), plan.screen(o[0] + s[0], o[1] + s[1]));
+                painter.rect_stroke(place, 0, Stroke::new(2.0, palette.first), StrokeKind::Middle);
+            }
+        }
+    }
+    let galley = painter.layout_no_wrap("façade".to_owned(), FontId::proportional(13.0), palette.weak);
+    let at = pos2(plan.area.left() - 18.0, plan.area.center().y) - 0.5 * galley.size();
+    painter.add(
+        egui::epaint::TextShape::new(at, galley, palette.weak)
+            .with_angle_and_anchor(-std::f32::consts::FRAC_PI_2, Align2::CENTER_CENTER),
+    );
+}
+
+/// Round levels inside the range of the data, few enough to be told apart.
+fn levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
+    let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
+    if !(min < max) {
+        return vec![];
+    }
+    // Illuminances fall off steeply with depth: 1-2-5 steps even on a linear scale, with 300 lx among them.
+    let mut levels = logarithmic(min.max(scale.hi * 1e-3), max, 9);
+    if min < 300.0 && max > 300.0 && !levels.contains(&300.0) {
+        levels.push(300.0);
+    }
+    levels.retain(|level| *level > min && *level < max);
+    levels
+}
+
+fn label_line(ui: &Ui, points: &[Pos2], level: f64, scale: &ColourScale, area: Rect, used: &mut Vec<Rect>) {
+    if points.len() < 3 {
+        return;
+    }
+    let ground = scale.colour(level);
+    let galley = ui.painter().layout_no_wrap(tick(level), FontId::proportional(11.0), contrast(ground));
+    for share in [0.5, 0.3, 0.7, 0.15, 0.85] {
+        let at = points[((points.len() - 1) as f64 * share) as usize];
+        let place = Rect::from_center_size(at, galley.size() + vec2(6.0, 0.0));
+        if area.contains_rect(place) && used.iter().all(|r| !r.intersects(place.expand(2.0))) {
+            ui.painter().rect_filled(place, 3, ground);
+            ui.painter().galley(place.center() - 0.5 * galley.size(), galley, contrast(ground));
+            used.push(place);
+            return;
+        }
+    }
+}
+
+fn section_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    input: &Input<'_>,
+    row: usize,
+    scale: &ColourScale,
+    pointed: Option<usize>,
+    palette: &Palette,
+) -> Option<String> {
+    let (nx, ny) = (input.nx, input.ny);
+    let top = nice_ceil(scale.hi);
+    let (unit, y) = if scale.log {
+        ("E / lx (log)", Axis::log(scale.lo, top, "E / lx (log)"))
+    } else {
+        ("E / lx", Axis::linear(0.0, top, "E / lx"))
+    };
+    let depth = Axis::linear(0.0, input.room[1], "distance from the façade / m");
+    let chart = Chart::within(rect, depth, Axis { label: format!("{unit}, row {} of {nx}", row + 1), ..y });
+    let response = ui.interact(chart.area, ui.scope_id().with("section"), Sense::hover());
+    let at_depth = |j: usize| (j as f64 + 0.5) / ny as f64 * input.room[1];
+    let value = |i: usize, j: usize| input.cells[j * nx + i];
+    chart.paint(ui.painter(), palette);
+    let band = (0..ny).map(|j| {
+        let of_row = || (0..nx).map(|i| value(i, j).total);
+        (at_depth(j), of_row().fold(f64::INFINITY, f64::min), of_row().fold(0.0, f64::max))
+    });
+    let mut mesh = Mesh::default();
+    for (j, (y, lo, hi)) in band.enumerate() {
+        for v in [lo, hi] {
+            let p = chart.screen(y, v);
+            let p = pos2(p.x, p.y.clamp(chart.area.top(), chart.area.bottom()));
+            mesh.colored_vertex(p, palette.first.gamma_multiply(0.18));
+        }
+        if j > 0 {
+            let v = 2 * j as u32;
+            mesh.add_triangle(v - 2, v - 1, v);
+            mesh.add_triangle(v - 1, v, v + 1);
+        }
+    }
+    ui.painter().add(Shape::mesh(mesh));
+    for level in [300.0, 500.0] {
+        let y = chart.screen(0.0, level).y;
+        if chart.area.y_range().contains(y) {
+            let ends = [pos2(chart.area.left(), y), pos2(chart.area.right(), y)];
+            ui.painter().extend(Shape::dashed_line(&ends, Stroke::new(1.0, palette.second), 4.0, 3.0));
+            // Both names fit only when the lines are apart: then left of each other.
+            let x = chart.area.right() - if level == 300.0 { 4.0 } else { 52.0 };
+            let font = FontId::proportional(11.0);
+            ui.painter().text(pos2(x, y), Align2::RIGHT_BOTTOM, format!("{level:.0} lx"), font, palette.second);
+        }
+    }
+    chart.line(ui.painter(), (0..ny).map(|j| (at_depth(j), value(row, j).direct)), Stroke::new(1.2, palette.weak));
+    chart.line(ui.painter(), (0..ny).map(|j| (at_depth(j), value(row, j).total)), Stroke::new(2.2, palette.first));
+    let font = FontId::proportional(11.0);
+    let total = ui.painter().text(
+        chart.area.right_top() + vec2(-5.0, 4.0),
+        Align2::RIGHT_TOP,
+        "total",
+        font.clone(),
+        palette.first,
+    );
+    ui.painter().text(total.left_top() - vec2(8.0, 0.0), Align2::RIGHT_TOP, "direct", font, palette.weak);
+    tile::name(ui, &response, "Room section", "illuminance against depth");
+    let hovered = response
+        .hover_pos()
+        .and_then(|at| chart.value(at))
+        .map(|(y, _)| ((y / input.room[1] * ny as f64) as usize).min(ny - 1));
+    let j = hovered.or(pointed)?;
+    let v = value(row, j);
+    ui.painter().circle_filled(chart.screen(at_depth(j), v.total), 4.0, palette.first);
+    Some(format!("{} m deep · {}", number(at_depth(j), 3), value_text(&v)))
+}
+
+/// All sensors with position and parts.
+pub fn csv(input: &Input<'_>) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from("x_m,y_m,z_m,total_lx,error_lx,direct_lx,interreflected_lx\n");
+    for (k, c) in input.cells.iter().enumerate() {
+        let x = ((k % input.nx) as f64 + 0.5) / input.nx as f64 * input.room[0];
+        let y = ((k / input.nx) as f64 + 0.5) / input.ny as f64 * input.room[1];
+        let _ = writeln!(
+            out,
+            "{x:.4},{y:.4},{:.4},{:.4},{:.4},{:.4},{:.4}",
+            input.plane_z, c.total, c.error, c.direct, c.inter
+        );
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plan_and_room_are_inverse() {
+        let plan = Plan::within(Rect::from_min_size(pos2(50.0, 10.0), vec2(300.0, 150.0)), [4.0, 6.0, 3.0]);
+        let (x, y) = plan.room(plan.screen(1.25, 4.5));
+        assert!((x - 1.25).abs() < 1e-4 && (y - 4.5).abs() < 1e-4);
+        // Seen from above with the depth to the right, x runs down.
+        assert!(plan.screen(1.0, 0.0).y > plan.screen(0.0, 0.0).y);
+    }
+
+    #[test]
+    fn levels_lie_inside_the_data() {
+        let totals: Vec<f64> = (1..100).map(|k| 20.0 * f64::from(k)).collect();
+        let scale = ColourScale::up_to(2000.0, false, 2, ColourMap::Sequential);
+        let levels = levels(&scale, &totals);
+        assert!(levels.contains(&300.0) && levels.contains(&500.0));
+        assert!(levels.iter().all(|l| *l > 20.0 && *l < 1980.0));
+        assert!(super::levels(&scale, &[5.0, 5.0]).is_empty());
+    }
+}

@@ -1,0 +1,392 @@
+//! The sky from below, the sun that can be dragged, and the illuminances it gives.
+
+use super::Cache;
+use crate::app::paint::chart::{Axis, Chart};
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::hemisphere::{Disk, on_halo};
+use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::ticks::si;
+use crate::app::paint::tile::{self, Status, Words};
+use crate::compute::angle::wrap_two_pi;
+use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::fmt;
+use std::sync::Arc;
+
+/// Luminance of the sky by altitude and bearing. [rad → cd/m²]
+pub type Luminance<'a> = &'a dyn Fn(f64, f64) -> f64;
+
+/// A place in the sky. [rad]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Above the horizon.
+    pub altitude: f64,
+    /// Clockwise from north.
+    pub bearing: f64,
+}
+
+/// What the tile draws.
+#[derive(Clone, Copy)]
+pub struct Input<'a> {
+    /// The sky without the sun's disc; cheap to evaluate.
+    pub luminance: Option<Luminance<'a>>,
+    /// The model in words, e.g. "CIE type 12, clear".
+    pub name: &'a str,
+    /// The sun, also under the horizon.
+    pub sun: Option<Place>,
+    /// Bearing of the façade's outward normal. [rad]
+    pub facade_bearing: f64,
+    /// Altitude of a skyline all round, 0 = none. [rad]
+    pub skyline: f64,
+    /// Diffuse horizontal illuminance. [lx]
+    pub diffuse_horizontal: Option<f64>,
+    /// Direct horizontal illuminance. [lx]
+    pub direct_horizontal: Option<f64>,
+    /// Vertical illuminance on the façade from outside, all sources. [lx]
+    pub facade_vertical: Option<f64>,
+    /// Changes with the sky.
+    pub revision: u64,
+    /// How far the content is to be trusted.
+    pub status: Status<'a>,
+}
+
+impl fmt::Debug for Input<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Input").field("name", &self.name).field("sun", &self.sun).finish_non_exhaustive()
+    }
+}
+
+/// What the user did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// The sun was dragged to a place; date and time should follow, or with `free` (Alt held) the angles alone.
+    SunDragged {
+        /// Where to.
+        place: Place,
+        /// Angles independent of date and time.
+        free: bool,
+    },
+    /// The sun was let go: scales may move again.
+    SunReleased,
+}
+
+/// The tile's own settings and pictures.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    scale: Option<ColourScale>,
+    extent: Cache<u64, [f64; 2]>,
+    dome: Cache<(u64, Disk, ColourScale, u64, bool), Arc<Mesh>>,
+    section: Cache<(u64, u64), Vec<(f64, f64)>>,
+    dragging: bool,
+}
+
+const HELP: &str = "The sky as seen lying on one's back: north up, so east is left. Zenith in the middle, equal steps of \
+altitude. The half before the façade is bright. Drag the sun: date and time follow; with Alt its angles are free. Under \
+it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 or Perez et al. 1993, as chosen in the \
+scene.";
+
+/// Disk point (right, up) of a place: north up, east left.
+fn disk_point(place: Place) -> [f64; 2] {
+    let r = 1.0 - place.altitude / FRAC_PI_2;
+    [-r * place.bearing.sin(), r * place.bearing.cos()]
+}
+
+/// The place of a disk point; beyond the rim on the horizon.
+fn place_of([right, up]: [f64; 2]) -> Place {
+    let r = right.hypot(up).min(1.0);
+    Place { altitude: (1.0 - r) * FRAC_PI_2, bearing: wrap_two_pi((-right).atan2(up)) }
+}
+
+/// Draws the tile into all the space of `ui`.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
+    let mut actions = vec![];
+    let words = Words {
+        title: "Sky",
+        subtitle: input.name,
+        help: HELP,
+        empty: input.luminance.is_none().then_some("The scene has no sky yet."),
+        controls_width: 0.0,
+    };
+    tile::show(
+        ui,
+        &words,
+        &input.status,
+        |_| {},
+        |ui, rect| match input.luminance {
+            Some(luminance) => picture(ui, rect, luminance, input, state, &mut actions),
+            None => String::new(),
+        },
+    );
+    actions
+}
+
+fn picture(
+    ui: &mut Ui,
+    rect: Rect,
+    luminance: Luminance<'_>,
+    input: &Input<'_>,
+    state: &mut State,
+    out: &mut Vec<Action>,
+) -> String {
+    let palette = Palette::of(ui.visuals());
+    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 20.0));
+    figures_ui(ui, figures, input, &palette);
+    let rest = Rect::from_min_max(pos2(rect.left(), figures.bottom()), rect.max);
+    let beside = rest.width() > 1.6 * rest.height() && rest.width() > 380.0;
+    let (map, section) = if beside {
+        let (map, section) = rest.split_left_right_at_fraction(0.5);
+        (map, Some(section))
+    } else if rest.height() > 280.0 {
+        let (map, section) = rest.split_top_bottom_at_y(rest.bottom() - 120.0_f32.max(0.3 * rest.height()));
+        (map, Some(section))
+    } else {
+        (rest, None)
+    };
+    let [min, max] = *state.extent.get(input.revision, || extent(luminance));
+    let moving = input.status.hold_scale || state.dragging;
+    let scale = state
+        .scale
+        .clone()
+        .filter(|_| moving)
+        .unwrap_or_else(|| ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential));
+    state.scale = Some(scale.clone());
+    let text = dome(ui, map, luminance, input, state, &scale, out);
+    if let Some(place) = section {
+        section_ui(ui, place, luminance, input, state, &scale);
+    }
+    text
+}
+
+fn extent(luminance: Luminance<'_>) -> [f64; 2] {
+    let mut range = [f64::INFINITY, 0.0_f64];
+    for ring in 0..18 {
+        for sector in 0..36 {
+            let value = luminance((f64::from(ring) * 5.0 + 2.5).to_radians(), f64::from(sector) * 10_f64.to_radians());
+            if value.is_finite() && value > 0.0 {
+                range = [range[0].min(value), range[1].max(value)];
+            }
+        }
+    }
+    range
+}
+
+fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
+    let figures = [
+        ("E_h diffuse", input.diffuse_horizontal),
+        ("E_h direct", input.direct_horizontal),
+        ("E_v façade", input.facade_vertical),
+    ];
+    let short = ["dif", "dir", "façade"];
+    let width = rect.width() / 3.0;
+    for (k, (label, value)) in figures.into_iter().enumerate() {
+        let at = pos2(rect.left() + k as f32 * width, rect.center().y);
+        let name = if width > 145.0 { label } else { short[k] };
+        let value = value.map_or_else(|| "–".to_owned(), |v| format!("{:.1} klx", v / 1000.0));
+        let label = ui.painter().text(at, Align2::LEFT_CENTER, name, FontId::proportional(13.0), palette.weak);
+        ui.painter().text(
+            pos2(label.right() + 5.0, at.y),
+            Align2::LEFT_CENTER,
+            value,
+            FontId::proportional(13.0),
+            palette.ink,
+        );
+    }
+}
+
+fn dome(
+    ui: &mut Ui,
+    rect: Rect,
+    luminance: Luminance<'_>,
+    input: &Input<'_>,
+    state: &mut State,
+    scale: &ColourScale,
+    out: &mut Vec<Action>,
+) -> String {
+    let palette = Palette::of(ui.visuals());
+    let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
+    let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
+    let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * (disk.radius + 8.0));
+    let response = ui.interact(area, ui.scope_id().with("dome"), Sense::click_and_drag());
+    let (facade, dark) = (input.facade_bearing, ui.visuals().dark_mode);
+    let key = (input.revision, disk, scale.clone(), facade.to_bits(), dark);
+    let mesh = state.dome.get(key, || Arc::new(dome_mesh(&disk, luminance, scale, facade, &palette)));
+    ui.painter().add(Shape::Mesh(mesh.clone()));
+    compass(ui, &disk, input, &palette);
+    let sun_at = input.sun.filter(|sun| sun.altitude >= 0.0).map(|sun| disk.screen(disk_point(sun)));
+    if let Some(at) = sun_at {
+        let near = state.dragging || response.hover_pos().is_some_and(|p| p.distance(at) < 14.0);
+        ui.painter().circle(at, if near { 9.0 } else { 7.0 }, palette.sun, Stroke::new(1.5, Color32::BLACK));
+        if near {
+            ui.set_cursor_icon(if state.dragging { egui::CursorIcon::Grabbing } else { egui::CursorIcon::Grab });
+        }
+    }
+    let grabbed = |p: Pos2| sun_at.is_some_and(|at| p.distance(at) < 16.0);
+    if response.drag_started() && ui.input(|i| i.pointer.press_origin()).is_some_and(grabbed) {
+        state.dragging = true;
+    }
+    if state.dragging
+        && let Some(at) = response.interact_pointer_pos()
+    {
+        let free = ui.input(|i| i.modifiers.alt);
+        out.push(Action::SunDragged { place: place_of(disk.disk(at)), free });
+    }
+    if state.dragging && (response.drag_stopped() || !response.dragged() && !response.drag_started()) {
+        state.dragging = false;
+        out.push(Action::SunReleased);
+    }
+    let place = response.hover_pos().map(|at| disk.disk(at)).filter(|[x, y]| x.hypot(*y) <= 1.0).map(place_of);
+    let value = place.map(|p| luminance(p.altitude, p.bearing));
+    scale.paint_legend(ui.painter(), legend, "cd/m²", value, &palette);
+    let sun_text = match input.sun {
+        Some(sun) => place_text("sun", sun),
+        None => "no sun".to_owned(),
+    };
+    tile::name(ui, &response, "Sky dome", &sun_text);
+    match (place, value) {
+        (Some(p), Some(v)) => format!("{} · {}", place_text("sky", p), si(v, "cd/m²")),
+        _ => sun_text,
+    }
+}
+
+fn place_text(what: &str, place: Place) -> String {
+    format!(
+        "{what} altitude {:.1}°, bearing {:.0}°",
+        place.altitude.to_degrees(),
+        wrap_two_pi(place.bearing).to_degrees()
+    )
+}
+
+fn dome_mesh(disk: &Disk, luminance: Luminance<'_>, scale: &ColourScale, facade: f64, palette: &Palette) -> Mesh {
+    // The border between the halves must be sharp: each half is its own fan, turned so that it starts on the border.
+    const RINGS: u32 = 30;
+    const SECTORS: u32 = 36;
+    let mut mesh = Mesh::default();
+    for half in 0..2 {
+        let first = mesh.vertices.len() as u32;
+        for ring in 0..=RINGS {
+            for sector in 0..=SECTORS {
+                let turn = f64::from(sector) / f64::from(SECTORS) * 0.5 * TAU + f64::from(half) * 0.5 * TAU;
+                let place = Place {
+                    altitude: (1.0 - f64::from(ring) / f64::from(RINGS)) * FRAC_PI_2,
+                    bearing: wrap_two_pi(facade - FRAC_PI_2 + turn),
+                };
+                let full = scale.colour(luminance(place.altitude, place.bearing));
+                let colour = if half == 0 { full } else { mix(full, palette.face, 0.62) };
+                mesh.colored_vertex(disk.screen(disk_point(place)), colour);
+            }
+        }
+        let row = SECTORS + 1;
+        for ring in 0..RINGS {
+            for sector in 0..SECTORS {
+                let v = first + ring * row + sector;
+                mesh.add_triangle(v, v + 1, v + row);
+                mesh.add_triangle(v + 1, v + row, v + row + 1);
+            }
+        }
+    }
+    mesh
+}
+
+fn mix(a: Color32, b: Color32, t: f32) -> Color32 {
+    let m = |x: u8, y: u8| (f32::from(x) * (1.0 - t) + f32::from(y) * t) as u8;
+    Color32::from_rgb(m(a.r(), b.r()), m(a.g(), b.g()), m(a.b(), b.b()))
+}
+
+fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
+    let painter = ui.painter();
+    let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
+    for deg in [30.0_f32, 60.0] {
+        painter.circle_stroke(disk.centre, disk.radius * (1.0 - deg / 90.0), thin);
+        if disk.radius > 60.0 {
+            let r = disk.radius * (1.0 - deg / 90.0) * 0.7071;
+            on_halo(painter, disk.centre + vec2(r, r), &format!("{deg:.0}°"), palette);
+        }
+    }
+    if input.skyline > 0.0 {
+        let r = disk.radius * (1.0 - (input.skyline / FRAC_PI_2) as f32);
+        painter.circle_stroke(disk.centre, r, Stroke::new(2.0, palette.ink));
+    }
+    painter.circle_stroke(disk.centre, disk.radius, Stroke::new(1.5, palette.outline));
+    // The façade's plane, and a tick where its normal points.
+    let along = [-1.0, 1.0]
+        .map(|side| disk.screen(disk_point(Place { altitude: 0.0, bearing: input.facade_bearing + side * FRAC_PI_2 })));
+    painter.line_segment(along, Stroke::new(2.0, palette.ink));
+    for (word, deg) in [("N", 0.0_f64), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
+        let [x, y] = disk_point(Place { altitude: 0.0, bearing: deg.to_radians() });
+        let at = disk.centre + vec2(x as f32, -y as f32) * (disk.radius + 9.0);
+        painter.text(at, Align2::CENTER_CENTER, word, FontId::proportional(13.0), palette.ink);
+    }
+}
+
+fn section_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    luminance: Luminance<'_>,
+    input: &Input<'_>,
+    state: &mut State,
+    scale: &ColourScale,
+) {
+    let palette = Palette::of(ui.visuals());
+    let bearing = input.sun.map_or(input.facade_bearing, |sun| sun.bearing);
+    let points = state.section.get((input.revision, bearing.to_bits()), || {
+        (-90..=90)
+            .map(|deg: i32| {
+                // Negative: the side away from the sun.
+                let side = if deg < 0 { bearing + 0.5 * TAU } else { bearing };
+                let altitude = FRAC_PI_2 - f64::from(deg.abs()).to_radians();
+                (f64::from(deg), luminance(altitude, wrap_two_pi(side)))
+            })
+            .collect()
+    });
+    let marks = [(-90.0, "horizon"), (-45.0, "45°"), (0.0, "zenith"), (45.0, "45°"), (90.0, "sun's side")];
+    let x = Axis::linear(-90.0, 90.0, "altitude through sun and zenith")
+        .with_marks(marks.map(|(v, t)| (v, t.to_owned())).to_vec());
+    let chart = Chart::within(rect.shrink2(vec2(14.0, 0.0)), x, Axis::log(scale.lo, scale.hi, "L / (cd/m²), log"));
+    let response = ui.interact(chart.area, ui.scope_id().with("section"), Sense::hover());
+    chart.paint(ui.painter(), &palette);
+    chart.line(ui.painter(), points.iter().copied(), Stroke::new(2.0, palette.first));
+    if let Some(sun) = input.sun.filter(|sun| sun.altitude >= 0.0) {
+        let x = chart.screen(90.0 - sun.altitude.to_degrees(), scale.lo).x;
+        ui.painter().vline(x, chart.area.y_range(), Stroke::new(1.5, palette.sun));
+        ui.painter().circle_filled(pos2(x, chart.area.top() + 6.0), 4.0, palette.sun);
+    }
+    tile::name(ui, &response, "Sky section", "luminance along the sun's vertical circle");
+    let pointed = response.hover_pos().and_then(|at| chart.value(at));
+    if let Some((deg, _)) = pointed {
+        let index = (deg.round() as i64 + 90).clamp(0, 180) as usize;
+        let (x, value) = points[index];
+        let at = chart.screen(x, value);
+        ui.painter().circle_filled(at, 3.5, palette.first);
+        on_halo(ui.painter(), pos2(at.x, chart.area.top() + 9.0), &si(value, "cd/m²"), &palette);
+    }
+}
+
+/// The dome every 5° of altitude and 10° of bearing.
+pub fn csv(input: &Input<'_>) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from("altitude_deg,bearing_deg,luminance_cd_m2\n");
+    let Some(luminance) = input.luminance else { return out };
+    for altitude in (0..=90).step_by(5) {
+        for bearing in (0..360).step_by(10) {
+            let value = luminance(f64::from(altitude).to_radians(), f64::from(bearing).to_radians());
+            let _ = writeln!(out, "{altitude},{bearing},{value:.6}");
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn north_is_up_and_east_is_left() {
+        let north = disk_point(Place { altitude: 0.0, bearing: 0.0 });
+        let east = disk_point(Place { altitude: 0.0, bearing: FRAC_PI_2 });
+        assert!((north[1] - 1.0).abs() < 1e-12 && (east[0] + 1.0).abs() < 1e-12);
+        let place = Place { altitude: 0.6, bearing: 4.0 };
+        let back = place_of(disk_point(place));
+        assert!((back.altitude - 0.6).abs() < 1e-12 && (back.bearing - 4.0).abs() < 1e-12);
+        assert_eq!(place_of([0.0, 3.0]).altitude, 0.0);
+    }
+}

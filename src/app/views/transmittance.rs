@@ -1,0 +1,285 @@
+//! Transmittance over the incident hemisphere with the sun's paths, and where the transmitted light goes.
+
+use super::Cache;
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::hemisphere::{Disk, Projection, Side, incident_disk, on_halo};
+use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::ticks::{degrees, number};
+use crate::app::paint::tile::{self, Status, Words};
+use crate::compute::btdf::{Btdf, Scattered};
+use crate::compute::direction::Incident;
+use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use std::sync::Arc;
+
+/// Where the transmitted light goes, as shares of the light that arrives; their sum is τ of that situation.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FluxSplit {
+    /// Upwards, on the ceiling.
+    pub ceiling: f64,
+    /// On the work plane.
+    pub work_zone: f64,
+    /// At the height of the eyes.
+    pub eye_zone: f64,
+    /// Steeply down, on the floor near the façade.
+    pub floor: f64,
+}
+
+impl FluxSplit {
+    /// Sum of the shares.
+    pub fn total(&self) -> f64 {
+        self.parts().iter().map(|(_, share)| share).sum()
+    }
+
+    /// The zones from top to bottom with their names.
+    pub fn parts(&self) -> [(&'static str, f64); 4] {
+        [("ceiling", self.ceiling), ("eye zone", self.eye_zone), ("work zone", self.work_zone), ("floor", self.floor)]
+    }
+
+    /// "Of 41 % transmitted, 28 goes to the ceiling."
+    pub fn sentence(&self) -> String {
+        let percent = |share: f64| number(100.0 * share, 2);
+        if self.total() <= 0.0 {
+            return "Nothing is transmitted.".to_owned();
+        }
+        let (zone, share) =
+            self.parts().into_iter().fold(("", -1.0), |best, part| if part.1 > best.1 { part } else { best });
+        format!("Of {} % transmitted, {} goes to the {zone}.", percent(self.total()), percent(share))
+    }
+}
+
+/// What the tile draws.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Transmission of light from outside.
+    pub btdf: Option<&'a Btdf>,
+    /// Product and state in words.
+    pub name: &'a str,
+    /// The sun's path on the 21st of January … December: hour and direction. Directions behind the façade are left out
+    /// by the tile.
+    pub sun_paths: &'a [Vec<(f64, Incident)>],
+    /// The sun now.
+    pub moment: Option<Incident>,
+    /// Where the light goes now.
+    pub split: Option<FluxSplit>,
+    /// Changes with `btdf`.
+    pub revision: u64,
+    /// How far the content is to be trusted.
+    pub status: Status<'a>,
+}
+
+/// What the user did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// A direction was clicked: show its indicatrix.
+    ChooseIncidence(Incident),
+}
+
+/// The tile's own settings and pictures.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    /// Leave the sun's paths out.
+    pub hide_paths: bool,
+    max: Cache<u64, f64>,
+    mesh: Cache<(u64, Disk, ColourScale), Arc<Mesh>>,
+}
+
+const HELP: &str = "Directional-hemispherical transmittance τ for every direction of incidence, seen from inside, with \
+the sun's paths on the 21st of each month; beside it where the transmitted light goes.\nSource: IEA SHC Task 31 report \
+(2005), eq 1.";
+const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
+const PROJECTION: Projection = Projection::ProjectedSolidAngle;
+
+/// Draws the tile into all the space of `ui`.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
+    let mut actions = vec![];
+    let words = Words {
+        title: "Transmittance",
+        subtitle: input.name,
+        help: HELP,
+        empty: input
+            .btdf
+            .is_none()
+            .then_some("Choose a product in the catalogue to see how much light it lets through."),
+        controls_width: 90.0,
+    };
+    let mut paths = !state.hide_paths;
+    tile::show(
+        ui,
+        &words,
+        &input.status,
+        |ui| {
+            ui.checkbox(&mut paths, "Sun paths");
+        },
+        |ui, rect| match input.btdf {
+            Some(btdf) => picture(ui, rect, btdf, input, state, &mut actions),
+            None => String::new(),
+        },
+    );
+    state.hide_paths = !paths;
+    actions
+}
+
+fn picture(
+    ui: &mut Ui,
+    rect: Rect,
+    btdf: &Btdf,
+    input: &Input<'_>,
+    state: &mut State,
+    out: &mut Vec<Action>,
+) -> String {
+    let palette = Palette::of(ui.visuals());
+    let bar = input.split.map(|split| {
+        let width = 118.0_f32.min(0.42 * rect.width());
+        let place = Rect::from_min_max(pos2(rect.right() - width, rect.top()), rect.max);
+        split_bar(ui, place, &split, &palette);
+        width
+    });
+    let map = Rect::from_min_max(rect.min, pos2(rect.right() - bar.unwrap_or(0.0) - 4.0, rect.bottom()));
+    let legend = Rect::from_min_max(pos2(map.left() + 4.0, map.bottom() - LEGEND_HEIGHT), map.max);
+    let disk = Disk::within(Rect::from_min_max(map.min, pos2(map.right(), legend.top())));
+    let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
+    let response = ui.interact(area, ui.scope_id().with("map"), Sense::click());
+    let basis = btdf.incident_basis();
+    let max = *state
+        .max
+        .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
+    let scale = ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
+    let mesh = state.mesh.get((input.revision, disk, scale.clone()), || {
+        Arc::new(match &btdf.scattered {
+            Some(Scattered::Cells(_) | Scattered::Tree(_)) => disk.cells(PROJECTION, Side::Incident, &basis, |i| {
+                scale.colour(btdf.tau(Incident(basis.cell(i).centre())))
+            }),
+            _ => disk.smooth(|p| {
+                let d = Side::Incident.through_name(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
+                scale.colour(d.map_or(0.0, |d| btdf.tau(Incident(d))))
+            }),
+        })
+    });
+    ui.painter().add(Shape::Mesh(mesh.clone()));
+    disk.frame(ui.painter(), PROJECTION, "outside", &palette);
+    if !state.hide_paths {
+        sun_paths(ui, &disk, input.sun_paths, &palette);
+    }
+    if let Some(sun) = input.moment.filter(|sun| sun.0.vector().z > 0.0) {
+        let at = disk.screen(incident_disk(PROJECTION, sun));
+        ui.painter().circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
+    }
+    let direction = |at| Side::Incident.through_name(PROJECTION, disk.disk(at)).map(Incident);
+    if response.clicked()
+        && let Some(incident) = response.interact_pointer_pos().and_then(direction)
+    {
+        out.push(Action::ChooseIncidence(incident));
+    }
+    let pointed = response.hover_pos().and_then(direction);
+    scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|d| btdf.tau(d)), &palette);
+    let text = |label: &str, d: Incident| {
+        format!("{label} θ {}, φ {} · τ {}", degrees(d.0.theta()), degrees(d.0.phi()), number(btdf.tau(d), 3))
+    };
+    let rest = match input.moment.filter(|sun| sun.0.vector().z > 0.0) {
+        Some(sun) => text("sun", sun),
+        None => "the sun is not before the façade".to_owned(),
+    };
+    tile::name(ui, &response, "Transmittance map", &rest);
+    pointed.map_or(rest, |d| text("from", d))
+}
+
+fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Palette) {
+    let mut used: Vec<Rect> = vec![];
+    for (month, path) in paths.iter().enumerate() {
+        // The second half of the year repeats the first: drawn once, thinner.
+        let stroke = Stroke::new(if month <= 5 || month == 11 { 1.6 } else { 0.8 }, Color32::WHITE);
+        let under = Stroke::new(stroke.width + 1.6, Color32::from_black_alpha(110));
+        let mut run = vec![];
+        let mut runs = vec![];
+        for (_, incident) in path {
+            if incident.0.vector().z > 0.0 {
+                run.push(disk.screen(incident_disk(PROJECTION, *incident)));
+            } else {
+                runs.push(std::mem::take(&mut run));
+            }
+        }
+        runs.push(run);
+        for run in runs.iter().filter(|run| run.len() > 1) {
+            ui.painter().add(Shape::line(run.clone(), under));
+            ui.painter().add(Shape::line(run.clone(), stroke));
+        }
+        for (hour, incident) in path.iter().filter(|(hour, _)| (hour - hour.round()).abs() < 1e-6) {
+            if incident.0.vector().z <= 0.0 {
+                continue;
+            }
+            let at = disk.screen(incident_disk(PROJECTION, *incident));
+            ui.painter().circle(at, 1.8, Color32::WHITE, Stroke::new(0.6, Color32::BLACK));
+            let labelled = (month == 5 || month == 11) && (hour.round() as i64) % 3 == 0;
+            let place = at + vec2(0.0, if month == 5 { -9.0 } else { 9.0 });
+            let size = Rect::from_center_size(place, vec2(20.0, 13.0));
+            if labelled && disk.radius > 70.0 && used.iter().all(|r| !r.intersects(size)) {
+                used.push(on_halo(ui.painter(), place, &format!("{hour:.0}h"), palette));
+            }
+        }
+        let middle = runs.iter().max_by_key(|run| run.len()).filter(|run| run.len() > 3);
+        if let (Some(run), true) = (middle, [2, 5, 11].contains(&month) && disk.radius > 55.0) {
+            let at = run[run.len() / 4];
+            if used.iter().all(|r| !r.intersects(Rect::from_center_size(at, vec2(26.0, 13.0)))) {
+                used.push(on_halo(ui.painter(), at, MONTHS[month], palette));
+            }
+        }
+    }
+}
+
+fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
+    let total = split.total();
+    let response = ui
+        .interact(rect, ui.scope_id().with("split"), Sense::hover())
+        .on_hover_text("Zones by the height at which light leaves: shares of the light that arrives on the façade");
+    tile::name(ui, &response, "Flux split", &split.sentence());
+    let font = FontId::proportional(13.0);
+    let sentence = ui.painter().layout(split.sentence(), font.clone(), palette.ink, rect.width() - 6.0);
+    let column = Rect::from_min_max(
+        pos2(rect.left() + 6.0, rect.top() + 18.0),
+        pos2(rect.left() + 30.0, (rect.bottom() - sentence.size().y - 8.0).max(rect.top() + 30.0)),
+    );
+    ui.painter().galley(pos2(rect.left() + 4.0, column.bottom() + 6.0), sentence, palette.ink);
+    tile::caption(ui, pos2(rect.left() + 4.0, rect.top()), Align2::LEFT_TOP, "leaving to / %");
+    ui.painter().rect_filled(column, 0, palette.face);
+    let mut top = column.top();
+    let mut text_floor = column.top();
+    for (k, (zone, share)) in split.parts().into_iter().enumerate() {
+        let part = if total > 0.0 { (share / total) as f32 } else { 0.0 };
+        let bottom = top + part * column.height();
+        let place = Rect::from_min_max(pos2(column.left(), top), pos2(column.right(), bottom));
+        ui.painter().rect_filled(place, 0, ColourMap::Sequential.at(0.85 - 0.23 * k as f32));
+        // Labels keep a line's height between them and stay inside.
+        let latest = column.bottom() - 15.0 * (3 - k) as f32 - 7.0;
+        let y = (0.5 * (top + bottom)).max(text_floor + 7.0).min(latest.max(text_floor + 7.0));
+        text_floor = y + 8.0;
+        let label = format!("{zone} {}", number(100.0 * share, 2));
+        ui.painter().text(pos2(column.right() + 6.0, y), Align2::LEFT_CENTER, label, font.clone(), palette.ink);
+        top = bottom;
+    }
+    ui.painter().rect_stroke(column, 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
+}
+
+/// τ by incident cell.
+pub fn csv(input: &Input<'_>) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from("theta_deg,phi_deg,projected_solid_angle_sr,tau\n");
+    let Some(btdf) = input.btdf else { return out };
+    for cell in btdf.incident_basis().cells() {
+        let d = cell.centre();
+        let (theta, phi) = (d.theta().to_degrees(), d.phi().to_degrees());
+        let _ = writeln!(out, "{theta:.4},{phi:.4},{:.9},{:.9}", cell.projected_solid_angle(), btdf.tau(Incident(d)));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_sentence_about_the_split() {
+        let split = FluxSplit { ceiling: 0.28, work_zone: 0.06, eye_zone: 0.05, floor: 0.02 };
+        assert_eq!(split.sentence(), "Of 41 % transmitted, 28 goes to the ceiling.");
+        assert_eq!(FluxSplit::default().sentence(), "Nothing is transmitted.");
+    }
+}

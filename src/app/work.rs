@@ -1,0 +1,349 @@
+//! What runs in jobs, and what its results do to the window.
+
+use super::App;
+use super::engine::{Engine, LidFigures, Question, RoomFigures};
+use super::jobs::{JobState, Lane};
+use super::shelf::{Addition, Found, Shelf};
+use super::state::{CatalogueState, Daylight, Import, PathUse, Selection, Sheet};
+use crate::compute::btdf::Dataset;
+use crate::study::scene_file::SceneFile;
+use crate::study::sky::{SkyKeyError, outside_from_keys};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Reads the datasets of a file: name and bytes.
+pub type ReadDataset = fn(&str, &[u8]) -> Result<Vec<Dataset>, String>;
+
+/// Files beyond this are refused before they are read. [bytes]
+const LARGEST_FILE: u64 = 1 << 30;
+
+/// What jobs bring back.
+pub enum Outcome {
+    /// The catalogue is open.
+    Opened(Result<Arc<dyn Shelf>, String>),
+    /// A list.
+    Found(Result<Found, String>),
+    /// The dataset of the selection, and sky and sun.
+    Scene(Result<Arc<Dataset>, String>, Result<Daylight, SkyKeyError>),
+    /// The LID.
+    Lid(Result<LidFigures, String>),
+    /// The room.
+    Room(Result<RoomFigures, String>),
+    /// Files that the user chose.
+    Chosen(Result<Vec<PathBuf>, String>),
+    /// Where to write.
+    Target(PathUse, Result<Option<PathBuf>, String>),
+    /// Files were read.
+    Read(Box<Import>),
+    /// A scene was read.
+    ReadScene(PathBuf, Result<Box<SceneFile>, String>),
+    /// An addition is in the catalogue.
+    Added(usize, Result<String, String>),
+    /// Something else in the catalogue was changed.
+    Stored(Result<(), String>),
+    /// A file was written.
+    Written(PathUse, Result<PathBuf, String>),
+}
+
+/// Reads files: one scene, or datasets.
+pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
+    if let [path] = paths
+        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+        && !path.to_string_lossy().ends_with(".system.toml")
+    {
+        let scene = read_bytes(path).and_then(|bytes| {
+            let text = String::from_utf8(bytes).map_err(|e| {
+                format!(
+                    "{}: byte {} is not UTF-8; a scene is a text file",
+                    path.display(),
+                    e.utf8_error().valid_up_to()
+                )
+            })?;
+            SceneFile::parse(&text).map(Box::new).map_err(|error| format!("{}: {error}", path.display()))
+        });
+        return Outcome::ReadScene(path.clone(), scene);
+    }
+    let mut import = Import {
+        files: Vec::new(),
+        datasets: Vec::new(),
+        failures: Vec::new(),
+        name: String::new(),
+        manufacturer: String::new(),
+        kind: String::new(),
+        tags: String::new(),
+    };
+    for path in paths {
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
+        match read_bytes(path).and_then(|bytes| read(&name, &bytes).map_err(|error| format!("{name}: {error}"))) {
+            Ok(datasets) => import.datasets.extend(datasets.into_iter().map(Arc::new)),
+            Err(error) => import.failures.push(error),
+        }
+        import.files.push(name);
+    }
+    if let Some(first) = import.datasets.first() {
+        import.name.clone_from(&first.name);
+        import.manufacturer.clone_from(&first.manufacturer);
+    }
+    Outcome::Read(Box::new(import))
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
+    let told = |error: std::io::Error| format!("{}: cannot be read ({error}); check path and rights", path.display());
+    let size = std::fs::metadata(path).map_err(told)?.len();
+    if size > LARGEST_FILE {
+        return Err(format!("{}: {size} bytes are more than the 1 GiB that is read", path.display()));
+    }
+    std::fs::read(path).map_err(told)
+}
+
+/// Writes beside the target first, so that a failure leaves nothing half-written.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, String> {
+    let mut name = path
+        .file_name()
+        .map(std::ffi::OsStr::to_os_string)
+        .ok_or_else(|| format!("{}: names no file; give a path that ends in a file name", path.display()))?;
+    name.push(".part");
+    let part = path.with_file_name(name);
+    let told = |error: std::io::Error| format!("{}: cannot be written ({error})", path.display());
+    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
+    written.map_err(|error| {
+        // Best effort: the part may never have come to be.
+        drop(std::fs::remove_file(&part));
+        told(error)
+    })?;
+    Ok(path.to_path_buf())
+}
+
+/// Saves the scene.
+pub fn save_scene(path: &Path, text: Result<String, toml::ser::Error>) -> Outcome {
+    let written = text
+        .map_err(|error| format!("the scene cannot be written as text: {error}"))
+        .and_then(|text| write_whole(path, text.as_bytes()));
+    Outcome::Written(PathUse::SaveScene, written)
+}
+
+/// Writes the LID as a luminaire file.
+pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine) -> Outcome {
+    let written = lid
+        .ok_or_else(|| "the LID is not computed yet: wait for its tile, then export again".to_owned())
+        .and_then(|lid| engine.luminaire(lid, path))
+        .and_then(|bytes| write_whole(path, &bytes));
+    Outcome::Written(PathUse::ExportLid, written)
+}
+
+impl App {
+    /// Starts a job that wakes the window when it ends.
+    pub(super) fn start(&mut self, lane: Lane, work: impl FnOnce(&JobState) -> Outcome + Send + 'static) {
+        let ctx = self.ctx.clone();
+        self.jobs.start(lane, move || ctx.request_repaint(), work);
+    }
+
+    /// Looks the list up anew.
+    pub(super) fn search(&mut self) {
+        if let Some(shelf) = self.state.shelf() {
+            let query = self.state.query.clone();
+            self.start(Lane::Catalogue, move |_| Outcome::Found(shelf.search(&query)));
+        }
+    }
+
+    /// Changes the catalogue, one change after the other.
+    pub(super) fn store(&mut self, change: impl FnOnce(&dyn Shelf) -> Result<(), String> + Send + 'static) {
+        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Stored(change(shelf))));
+        self.start_pending_change();
+    }
+
+    /// Stores an addition of this session.
+    pub(super) fn store_addition(&mut self, number: usize, addition: Addition) {
+        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Added(number, shelf.add(&addition))));
+        self.start_pending_change();
+    }
+
+    /// Changes must all happen, so they wait for each other instead of replacing each other.
+    fn start_pending_change(&mut self) {
+        if self.jobs.busy(Lane::Store) {
+            return;
+        }
+        let Some(shelf) = self.state.shelf() else { return };
+        if let Some(change) = self.pending_changes.pop_front() {
+            self.start(Lane::Store, move |_| change(&*shelf));
+        }
+    }
+
+    /// Takes in what jobs brought back. Never waits.
+    pub fn poll(&mut self) {
+        for finished in self.jobs.poll() {
+            match finished.outcome {
+                Ok(outcome) => self.take(outcome),
+                Err(panic) => {
+                    let text = format!("{}: {panic}", finished.lane.word());
+                    self.toasts.error(text.clone());
+                    match finished.lane {
+                        Lane::Lid => self.results.lid.error = Some(text),
+                        Lane::Room => self.results.room.error = Some(text),
+                        Lane::Catalogue => self.state.search_error = Some(text),
+                        _ => {}
+                    }
+                }
+            }
+            if finished.lane == Lane::Store {
+                self.start_pending_change();
+            }
+        }
+    }
+
+    fn take(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Opened(Ok(shelf)) => {
+                self.state.catalogue = CatalogueState::Ready(shelf);
+                self.search();
+                self.asked = None;
+            }
+            Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error),
+            Outcome::Found(Ok(found)) => {
+                self.state.search_error = None;
+                self.state.found = Arc::new(found);
+                self.select_something();
+            }
+            Outcome::Found(Err(error)) => self.state.search_error = Some(error),
+            Outcome::Scene(dataset, daylight) => self.take_scene(dataset, daylight),
+            Outcome::Lid(result) => self.results.lid.take(result),
+            Outcome::Room(result) => self.results.room.take(result),
+            Outcome::Chosen(Ok(paths)) => self.apply(super::command::Command::OpenPaths(paths)),
+            // Without a dialog the sheet's path field is the way, and it is open already.
+            Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
+            Outcome::Target(what, Ok(Some(path))) => self.apply(super::command::Command::Write(what, path)),
+            Outcome::Read(import) => {
+                self.state.import = Some(*import);
+                self.state.sheet = Some(Sheet::Import);
+            }
+            Outcome::ReadScene(path, Ok(scene)) => {
+                self.undoer.add_undo(&self.state.document);
+                self.state.document.scene = *scene;
+                self.state.document.daylight_follows = false;
+                self.state.scene_path = Some(path);
+                self.adopt_selection();
+            }
+            Outcome::ReadScene(_, Err(error)) => {
+                self.toasts.error(error).duration(None);
+            }
+            Outcome::Added(number, result) => self.take_added(number, result),
+            Outcome::Stored(result) => {
+                if let Err(error) = result {
+                    self.toasts.error(error);
+                }
+                self.search();
+            }
+            Outcome::Written(what, Ok(path)) => {
+                self.toasts.success(format!("Written: {}", path.display()));
+                if what == PathUse::SaveScene {
+                    self.state.scene_path = Some(path);
+                }
+            }
+            Outcome::Written(_, Err(error)) => {
+                self.toasts.error(error).duration(None);
+            }
+        }
+    }
+
+    fn take_scene(&mut self, dataset: Result<Arc<Dataset>, String>, daylight: Result<Daylight, SkyKeyError>) {
+        self.results.revision += 1;
+        match dataset {
+            Ok(dataset) => {
+                self.state.dataset.value = Some(dataset);
+                self.state.dataset.stale = false;
+                self.state.dataset.error = None;
+            }
+            Err(error) => self.state.dataset.error = Some(error),
+        }
+        match daylight {
+            Ok(daylight) => {
+                self.state.scene_error = None;
+                self.state.daylight.take(Ok(daylight));
+            }
+            Err(error) => {
+                self.state.daylight.error = Some(error.to_string());
+                self.state.scene_error = Some(error);
+            }
+        }
+    }
+
+    fn take_added(&mut self, number: usize, result: Result<String, String>) {
+        match result {
+            // Undone while it was being stored.
+            Ok(key) if !self.state.document.additions.contains(&number) => self.store(move |shelf| shelf.remove(&key)),
+            Ok(key) => {
+                self.toasts.success("Added to the catalogue; Ctrl+Z takes it out again");
+                self.state.additions[number].key = Some(key.clone());
+                // The step that added it also shows it.
+                self.state.document.selection = Selection { product: key, state: String::new() };
+                super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
+                self.undoer.add_undo(&self.state.document);
+            }
+            Err(error) => {
+                self.state.document.additions.retain(|&other| other != number);
+                self.toasts.error(format!("Not added: {error}. The catalogue is unchanged.")).duration(None);
+            }
+        }
+        self.search();
+    }
+
+    /// After opening a scene the selection is what its first catalogue aperture holds.
+    fn adopt_selection(&mut self) {
+        use crate::study::scene_file::SystemKeys;
+        let keys = self.state.document.scene.aperture.iter().find_map(|aperture| match &aperture.system {
+            SystemKeys::Catalogue { key, state } => Some((key.clone(), state.clone())),
+            _ => None,
+        });
+        if let Some((product, state)) = keys {
+            self.state.document.selection = Selection { product, state: state.unwrap_or_default() };
+        }
+    }
+
+    /// A first start shows something alive: a light-guiding product if there is one, else the first.
+    fn select_something(&mut self) {
+        let document = &self.state.document;
+        if !document.selection.product.is_empty() || self.state.found.entries.is_empty() {
+            return;
+        }
+        const GOOD: [&str; 4] = ["laser", "venetian", "prism", "double"];
+        let entries = &self.state.found.entries;
+        let chosen = GOOD
+            .iter()
+            .find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)))
+            .unwrap_or(&entries[0]);
+        self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
+        super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
+        self.undoer = super::fresh_undoer(&self.state.document);
+    }
+
+    /// Asks for everything that the document's change since the last call affects.
+    pub fn refresh(&mut self) {
+        if self.state.document.daylight_follows {
+            super::daylight::follow(&mut self.state.document.scene);
+        }
+        let Some(shelf) = self.state.shelf() else { return };
+        let document = &self.state.document;
+        if document.selection.product.is_empty() || self.asked.as_ref() == Some(document) {
+            return;
+        }
+        self.asked = Some(document.clone());
+        let base = self.state.scene_path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
+        let question = Question { scene: document.scene.clone(), base, shelf: shelf.clone() };
+        let selection = document.selection.clone();
+        self.state.dataset.stale = true;
+        self.state.daylight.stale = true;
+        self.results.lid.stale = true;
+        self.results.room.stale = true;
+        let (scene, base) = (question.scene.clone(), question.base.clone());
+        self.start(Lane::Scene, move |_| {
+            let state = (!selection.state.is_empty()).then_some(selection.state.as_str());
+            let daylight =
+                outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
+            Outcome::Scene(shelf.load(&selection.product, state), daylight)
+        });
+        let (engine, asked) = (self.services.engine.clone(), question.clone());
+        self.start(Lane::Lid, move |job| Outcome::Lid(engine.lid(&asked, job)));
+        let engine = self.services.engine.clone();
+        self.start(Lane::Room, move |job| Outcome::Room(engine.room(&question, job)));
+    }
+}
