@@ -15,6 +15,7 @@ use std::path::PathBuf;
 
 Examples:
   cfs                                   the window
+  cfs --open blind.xml                  the window, with a dataset to import or a scene to show
   cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
   cfs room office.toml --out office.csv illuminance at every sensor
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
@@ -28,6 +29,9 @@ pub struct Arguments {
     /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
     #[arg(long, global = true, value_name = "FILE", env = "CFS_CATALOGUE")]
     pub catalogue: Option<PathBuf>,
+    /// Open the window with these datasets or this scene
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub open: Vec<PathBuf>,
     /// What to do; nothing opens the window
     #[command(subcommand)]
     pub command: Option<Command>,
