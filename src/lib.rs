@@ -1,4 +1,73 @@
-//! placeholder
+//! Complex fenestration systems: from a measured or computed BTDF to the light in a room.
+//!
+//! A complex fenestration system (blind, prismatic or laser-cut panel, diffuser, …) is described by its bidirectional
+//! transmittance distribution function. This library keeps such data, lets them be compared, and computes what they
+//! do: under a sky the system becomes a luminaire with a luminous-intensity distribution, and that luminaire lights a
+//! room. The binary `cfs` is a window and a command line over it. The method is that of the IEA SHC Task 31 report of
+//! 2005; equation numbers in the documentation are its own.
+//!
+//! # Bird's-eye view
+//!
+//! ```text
+//!  dataset files ──► formats ──► Dataset ──► catalogue (SQLite)
+//!                                   │             │
+//!  scene file ──► study::scene_file ──► scene ◄───┘
+//!                                         │
+//!                                  plan (what this scene needs)
+//!                                         │
+//!                                      session ──► compute: sky ► system's BTDF ► LID ► room
+//!                                         │
+//!                              cli (CSV, JSON, .ldt, .ies)   app (window)
+//! ```
+//!
+//! A study made in the window is a scene file; the command line runs the same file to the same numbers.
+//!
+//! # Layers
+//!
+//! Imports go one way: [`compute`] ← [`formats`] ← [`catalogue`] ← [`study`] ← {[`cli`], [`app`]} ← `main`.
+//! `tests/tidy.rs` enforces it.
+//!
+//! | module | owns | must not touch |
+//! | --- | --- | --- |
+//! | [`compute`] | physics and numerics: numbers in, numbers out | files, clocks, serde, SQL, egui, output |
+//! | [`formats`] | every byte layout of data, as `&[u8]` ↔ values | files and paths, SQL, egui |
+//! | [`catalogue`] | the SQLite file: schema, search, exchange of products | egui, scene files |
+//! | [`study`] | scene → what is needed → result, with progress and cancelling | SQL, egui, terminal |
+//! | [`cli`] | arguments, tables, JSON, exit codes | SQL, egui, the window |
+//! | [`app`] | state, commands, drawing, file dialogs | SQL, byte layouts, the command line |
+//!
+//! # Invariants
+//!
+//! - The façade frame is x to the right seen from outside, y up, z outward. Where a direction points is in its type:
+//!   [`Incident`](compute::direction::Incident) towards the source, [`Emergent`](compute::direction::Emergent) where
+//!   light goes. Emergent directions are stored by their through-name ω′ = −ω_a, which makes reciprocity a transpose.
+//! - Angles are radians and everything else is SI inside; degrees live at the borders (files, arguments, pictures).
+//! - Integrated numbers carry an estimate of their error ([`Estimate`](compute::estimate::Estimate)).
+//! - What was derived, repaired or approximated is told as a [`Finding`](compute::btdf::Finding); nothing is mended
+//!   in silence.
+//! - Bad input is an error that says what, where and what would be right; a panic is a bug. Nothing half-written
+//!   stays behind.
+//! - Sums run in a fixed order: results do not depend on the number of threads.
+//! - Released migrations are never edited.
+//!
+//! # Where do I change …
+//!
+//! | I want to … | edit |
+//! | --- | --- |
+//! | add a dataset format | a file in [`formats`], an arm of [`formats::Format`] and of its dispatch |
+//! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], its extension in [`study::luminaire_file`] |
+//! | add a sky model | a file in [`compute::sky`], its key in [`study::scene_file`] |
+//! | add a computed system | a file in [`compute::system`], a product of it in [`catalogue::builtin_products`] |
+//! | add a control rule | [`compute::control`], its key in [`study::scene_file`] |
+//! | change an angle convention | [`compute::direction`], nowhere else |
+//! | add a scene key | [`study::scene_file`], then [`study::scene`]; describe it in `examples/office.toml` |
+//! | skip work that a scene does not need | [`study::plan`] |
+//! | add a subcommand | a file in [`cli`] named like it |
+//! | add a menu entry or a shortcut | [`app::command`] |
+//! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
+//! | store something new | the next `migrations/NNNN_*.sql`, then [`catalogue`] |
+
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 
 pub mod app;
 pub mod catalogue;

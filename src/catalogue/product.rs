@@ -61,7 +61,7 @@ pub struct State {
     pub key: String,
     /// Text for people.
     pub label: String,
-    /// Angle [°] or another number of the state.
+    /// Angle \[°\] or another number of the state.
     pub value: Option<f64>,
     /// BLAKE3 hash of its dataset in compact form.
     pub dataset: String,
@@ -74,7 +74,7 @@ pub struct State {
 }
 
 /// Profile angles of [`State::tau_profile`] and [`super::ProductRow::tau_profile`], rising from light from below to light from
-/// above. [°]
+/// above. \[°\]
 pub const PROFILE_ANGLES: [f64; 13] =
     [-85.0, -75.0, -60.0, -45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0];
 
@@ -92,9 +92,9 @@ pub fn profile_transmittances(btdf: &Btdf) -> Vec<f64> {
 /// A point of a control curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
-    /// Profile angle of the sun. [°]
+    /// Profile angle of the sun. \[°\]
     pub profile_angle: f64,
-    /// Number of the state asked for, e.g. the slat angle. [°]
+    /// Number of the state asked for, e.g. the slat angle. \[°\]
     pub value: f64,
 }
 
@@ -145,7 +145,7 @@ pub struct Product {
 pub struct StateName {
     /// Text for people.
     pub label: String,
-    /// Angle [°] or another number.
+    /// Angle \[°\] or another number.
     pub value: Option<f64>,
 }
 

@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn numbers_keep_nine_digits() {
         assert_eq!(number(0.5), "0.5");
-        assert_eq!(number(1234.567_891_23), "1234.56789");
+        assert_eq!(number(1_234.567_891_23), "1234.56789");
         assert_eq!(number(0.0), "0");
         assert_eq!(number(1.0e-5), "0.00001");
     }

@@ -74,7 +74,7 @@ fn table(outside: &Outside) -> Vec<Row> {
         .collect()
 }
 
-/// Beam on the façade: the disc's share above horizon and skyline, centre in front of the plane. [lx]
+/// Beam on the façade: the disc's share above horizon and skyline, centre in front of the plane. \[lx\]
 fn facade_beam(outside: &Outside, sun: Option<&Sun>, facade: Dir<World>) -> f64 {
     sun.map_or(0.0, |sun| {
         sun.direct_normal * sun.direction.dot(facade).max(0.0) * sun.share_above(outside.skyline_altitude())

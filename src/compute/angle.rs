@@ -65,7 +65,7 @@ impl Bearing {
     }
 }
 
-/// Brings an azimuth into 0 ≤ φ < 2π. [rad]
+/// Brings an azimuth into 0 ≤ φ < 2π. \[rad\]
 pub fn wrap_two_pi(phi: f64) -> f64 {
     let wrapped = phi.rem_euclid(2.0 * PI);
     // rem_euclid of a tiny negative number rounds up to 2π itself.

@@ -51,7 +51,7 @@ impl<F> Dir<F> {
         Self { vector, frame: PhantomData }
     }
 
-    /// From the polar angle θ about +z and the azimuth φ from +x towards +y. [rad]
+    /// From the polar angle θ about +z and the azimuth φ from +x towards +y. \[rad\]
     pub fn from_theta_phi(theta: f64, phi: f64) -> Self {
         let (sin_theta, cos_theta) = theta.sin_cos();
         let (sin_phi, cos_phi) = phi.sin_cos();
@@ -63,12 +63,12 @@ impl<F> Dir<F> {
         self.vector
     }
 
-    /// Polar angle from +z, 0 … π. [rad] Exact near the axis, where `acos` is not.
+    /// Polar angle from +z, 0 … π. \[rad\] Exact near the axis, where `acos` is not.
     pub fn theta(self) -> f64 {
         self.vector.truncate().length().atan2(self.vector.z)
     }
 
-    /// Azimuth from +x towards +y, 0 ≤ φ < 2π; 0 on the axis. [rad]
+    /// Azimuth from +x towards +y, 0 ≤ φ < 2π; 0 on the axis. \[rad\]
     pub fn phi(self) -> f64 {
         wrap_two_pi(self.vector.y.atan2(self.vector.x))
     }
@@ -85,14 +85,14 @@ impl<F> Dir<F> {
 }
 
 impl Dir<World> {
-    /// From altitude above the horizon [rad] and compass bearing.
+    /// From altitude above the horizon \[rad\] and compass bearing.
     pub fn from_altitude_bearing(altitude: f64, bearing: Bearing) -> Self {
         let (sin_bearing, cos_bearing) = bearing.radians().sin_cos();
         let cos_altitude = altitude.cos();
         Self::from_unit(DVec3::new(sin_bearing * cos_altitude, cos_bearing * cos_altitude, altitude.sin()))
     }
 
-    /// Altitude above the horizon. [rad]
+    /// Altitude above the horizon. \[rad\]
     pub fn altitude(self) -> f64 {
         self.vector.z.atan2(self.vector.truncate().length())
     }

@@ -294,7 +294,8 @@ mod tests {
 
     #[test]
     fn errors_bound_the_truth_for_smooth_and_rough() {
-        let cases: [(fn(f64) -> f64, f64); 4] = [
+        type Case = (fn(f64) -> f64, f64);
+        let cases: [Case; 4] = [
             (|x| x.exp(), 1_f64.exp() - 1.0),
             (|x| x.sqrt(), 2.0 / 3.0),
             (|x| (x - 0.3).abs(), 0.5 * (0.09 + 0.49)),

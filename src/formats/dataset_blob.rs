@@ -1,4 +1,4 @@
-//! The compact binary form of a [`Dataset`], as the catalogue and exchange packages keep it.
+//! The compact binary form of a [`Dataset`](crate::compute::btdf::Dataset), as the catalogue and exchange packages keep it.
 //!
 //! `CFSD`, a version byte, then fields in a fixed order, little-endian; texts and lists carry their length. Values of
 //! cell matrices are rounded to f32 (relative 6e-8), split into their four byte planes and compressed with zstd.

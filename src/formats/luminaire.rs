@@ -39,7 +39,7 @@ pub struct Description {
     pub remarks: Vec<String>,
 }
 
-/// Size of the luminous opening. [m] Negative values, as LM-63 marks round shapes, are kept.
+/// Size of the luminous opening. \[m\] Negative values, as LM-63 marks round shapes, are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Opening {
     /// Along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT).
@@ -61,15 +61,15 @@ pub struct Luminaire {
     pub photometry: Photometry,
     /// Luminous opening.
     pub opening: Opening,
-    /// Planes, rising; for photometry C all of the turn (360° not repeated) or one plane for all. [°]
+    /// Planes, rising; for photometry C all of the turn (360° not repeated) or one plane for all. \[°\]
     pub c_deg: Vec<f64>,
-    /// Angles in a plane, rising. [°]
+    /// Angles in a plane, rising. \[°\]
     pub gamma_deg: Vec<f64>,
-    /// Plane by plane. [cd]
+    /// Plane by plane. \[cd\]
     pub intensity: Vec<f64>,
-    /// Rated flux of the lamps that the intensities belong to; `None` for absolute photometry. [lm]
+    /// Rated flux of the lamps that the intensities belong to; `None` for absolute photometry. \[lm\]
     pub lamp_flux: Option<f64>,
-    /// Electrical power. [W]
+    /// Electrical power. \[W\]
     pub power: f64,
     /// What a reader had to assume.
     pub findings: Vec<Finding>,
@@ -78,7 +78,7 @@ pub struct Luminaire {
 impl Luminaire {
     /// The luminaire of an aperture whose distribution was tabulated.
     ///
-    /// `size` is the aperture's along its own x and y [m]. Remarks on orientation, subdivision and quadrature are added
+    /// `size` is the aperture's along its own x and y \[m\]. Remarks on orientation, subdivision and quadrature are added
     /// to those of `text`, because a host that does not know them gets the near field or the direction wrong.
     pub fn from_table(table: &CGammaTable, size: [f64; 2], mut text: Description) -> Self {
         let [x, y] = size;
@@ -104,13 +104,13 @@ impl Luminaire {
         }
     }
 
-    /// Intensities of one plane. [cd]
+    /// Intensities of one plane. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.gamma_deg.len()..][..self.gamma_deg.len()]
     }
 
     /// Flux between the nadir and γ, by the zonal sum: a zone between two angles has the mean of their intensities, a
-    /// plane stands for half the way to its neighbours. Only for photometry C. [lm]
+    /// plane stands for half the way to its neighbours. Only for photometry C. \[lm\]
     pub fn flux_within(&self, gamma_deg: f64) -> f64 {
         let weights = self.plane_weights();
         let mut flux = 0.0;
@@ -130,12 +130,12 @@ impl Luminaire {
         flux
     }
 
-    /// Flux of the whole distribution. [lm]
+    /// Flux of the whole distribution. \[lm\]
     pub fn flux(&self) -> f64 {
         self.flux_within(180.0)
     }
 
-    /// Azimuth that each plane stands for. [rad]
+    /// Azimuth that each plane stands for. \[rad\]
     fn plane_weights(&self) -> Vec<f64> {
         let n = self.c_deg.len();
         (0..n)
@@ -147,7 +147,7 @@ impl Luminaire {
             .collect()
     }
 
-    /// Largest intensity. [cd]
+    /// Largest intensity. \[cd\]
     pub fn peak(&self) -> f64 {
         self.intensity.iter().copied().fold(0.0, f64::max)
     }

@@ -12,9 +12,9 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 /// Format word of the manifest.
 pub const FORMAT: &str = "cfs-package 1";
-/// Largest manifest. [bytes]
+/// Largest manifest. \[bytes\]
 const MOST_MANIFEST: u64 = 16 << 20;
-/// Largest dataset. [bytes]
+/// Largest dataset. \[bytes\]
 const MOST_DATASET: u64 = 256 << 20;
 /// Most bytes of all datasets together.
 const MOST_TOTAL: u64 = 1 << 30;
@@ -106,9 +106,9 @@ pub struct PackageState {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageCurvePoint {
-    /// Profile angle of the sun. [°]
+    /// Profile angle of the sun. \[°\]
     pub profile_angle: f64,
-    /// Number of the state, e.g. the slat angle. [°]
+    /// Number of the state, e.g. the slat angle. \[°\]
     pub value: f64,
 }
 

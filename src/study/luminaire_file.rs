@@ -56,11 +56,11 @@ impl LidFormat {
 pub struct LuminaireFile {
     /// The whole file.
     pub bytes: Vec<u8>,
-    /// Flux of the aperture. [lm]
+    /// Flux of the aperture. \[lm\]
     pub flux: Estimate,
     /// Relative correction that closed the table's flux.
     pub scaled_by: f64,
-    /// Largest intensity of the table. [cd]
+    /// Largest intensity of the table. \[cd\]
     pub peak: f64,
     /// Orientation used.
     pub aim: Aim,

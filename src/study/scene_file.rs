@@ -33,11 +33,11 @@ pub struct SceneFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoomKeys {
-    /// Along the façade. [m]
+    /// Along the façade. \[m\]
     pub width: f64,
-    /// Away from the façade. [m]
+    /// Away from the façade. \[m\]
     pub depth: f64,
-    /// Floor to ceiling. [m]
+    /// Floor to ceiling. \[m\]
     pub height: f64,
     /// Diffuse reflectances outside the apertures.
     pub reflectance: ReflectanceKeys,
@@ -71,9 +71,9 @@ pub enum SurfaceKey {
 pub struct ApertureKeys {
     /// Façade or roof.
     pub surface: SurfaceKey,
-    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. [m]
+    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
     pub origin: [f64; 2],
-    /// Along x, and along z (façade) or y (roof). [m]
+    /// Along x, and along z (façade) or y (roof). \[m\]
     pub size: [f64; 2],
     /// What fills it.
     pub system: SystemKeys,
@@ -225,12 +225,12 @@ pub enum IdealKind {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SiteKeys {
-    /// Bearing of the façade's outward normal. [°]
+    /// Bearing of the façade's outward normal. \[°\]
     pub azimuth: f64,
-    /// [°], north positive.
+    /// \[°\], north positive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub latitude: Option<f64>,
-    /// [°], east positive.
+    /// \[°\], east positive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub longitude: Option<f64>,
     /// Hours ahead of UTC.
@@ -269,7 +269,7 @@ pub struct SkyKeys {
     /// CIE type 1 … 16.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub cie_type: Option<u8>,
-    /// Diffuse horizontal illuminance. [lx]
+    /// Diffuse horizontal illuminance. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffuse_horizontal: Option<f64>,
     /// The sun by angles, and its beam.
@@ -316,13 +316,13 @@ impl TimeKey {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct SunKeys {
-    /// True altitude, no refraction. [°]
+    /// True altitude, no refraction. \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub altitude: Option<f64>,
-    /// Compass bearing. [°]
+    /// Compass bearing. \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth: Option<f64>,
-    /// Illuminance on a plane facing the sun, 0 = no disc. [lx]
+    /// Illuminance on a plane facing the sun, 0 = no disc. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direct_normal: Option<f64>,
 }
@@ -331,7 +331,7 @@ pub struct SunKeys {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstructionKeys {
-    /// Of the skyline. [°]
+    /// Of the skyline. \[°\]
     pub altitude: f64,
     /// Of what stands below it. [cd/m²]
     #[serde(default)]
@@ -345,7 +345,7 @@ pub struct SensorKeys {
     /// A grid over the floor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<PlaneKeys>,
-    /// Listed points (x, y, z). [m]
+    /// Listed points (x, y, z). \[m\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 3]>,
     /// Normal of the listed points.
@@ -357,7 +357,7 @@ pub struct SensorKeys {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneKeys {
-    /// Height above the floor. [m]
+    /// Height above the floor. \[m\]
     pub z: f64,
     /// Cells along x.
     pub nx: usize,

@@ -25,14 +25,14 @@ const PATCHES: [usize; 2] = [220, 900];
 pub struct SensorResult {
     /// Where.
     pub sensor: Sensor,
-    /// Straight from the apertures, sun included. [lx]
+    /// Straight from the apertures, sun included. \[lx\]
     pub direct: Estimate,
-    /// After at least one reflection. [lx]
+    /// After at least one reflection. \[lx\]
     pub interreflected: Estimate,
 }
 
 impl SensorResult {
-    /// Both together. [lx]
+    /// Both together. \[lx\]
     pub fn total(&self) -> Estimate {
         self.direct + self.interreflected
     }
@@ -43,7 +43,7 @@ impl SensorResult {
 pub struct RoomResult {
     /// In the order of the scene.
     pub sensors: Vec<SensorResult>,
-    /// Flux that enters through all apertures. [lm]
+    /// Flux that enters through all apertures. \[lm\]
     pub flux: Estimate,
     /// Largest relative gap between the flux that leaves an aperture and the flux found on the surfaces, before it
     /// was closed; 0 without interreflection.
@@ -57,9 +57,9 @@ pub struct RoomResult {
 pub struct LidResult {
     /// Its luminous-intensity distribution.
     pub lid: Lid,
-    /// Luminous flux into the room. [lm]
+    /// Luminous flux into the room. \[lm\]
     pub flux: Estimate,
-    /// Illuminance of the outside face: diffuse, and by the sun. [lx]
+    /// Illuminance of the outside face: diffuse, and by the sun. \[lx\]
     pub incident: (Estimate, f64),
 }
 

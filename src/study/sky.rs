@@ -161,7 +161,7 @@ fn measured(sky: &SkyKeys, base_dir: &Path) -> Result<Outside, SkyKeyError> {
     }
 }
 
-/// The sky, and the beam on a plane that faces the sun [lx]: as given, else by luminous efficacy.
+/// The sky, and the beam on a plane that faces the sun \[lx\]: as given, else by luminous efficacy.
 fn perez(sky: &SkyKeys, sun: Dir<World>) -> Result<(Outside, f64), SkyKeyError> {
     let need = |key, value: Option<f64>| {
         value.ok_or_else(|| wrong(key, "missing: model \"perez\" needs it, in W/m² on the horizontal plane"))

@@ -51,7 +51,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Latitude (north positive) and longitude (east positive) [°], hours that local standard time is ahead of UTC.
+    /// Latitude (north positive) and longitude (east positive) \[°\], hours that local standard time is ahead of UTC.
     pub fn new(latitude: f64, longitude: f64, utc_offset: f64) -> Result<Self, SunPositionError> {
         let within = |name, value: f64, min: f64, max: f64| {
             if (min..=max).contains(&value) { Ok(()) } else { Err(SunPositionError::Place { name, value, min, max }) }
@@ -70,18 +70,18 @@ impl Place {
 /// A day's rise and set in hours of local standard time; `None` where the sun does not cross the horizon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RiseSet {
-    /// First rise of the day. [h]
+    /// First rise of the day. \[h\]
     pub rise: Option<f64>,
-    /// Last set of the day. [h]
+    /// Last set of the day. \[h\]
     pub set: Option<f64>,
 }
 
 /// The sun at an hour of a day.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
-    /// Local standard time. [h]
+    /// Local standard time. \[h\]
     pub hour: f64,
-    /// True altitude. [rad]
+    /// True altitude. \[rad\]
     pub altitude: f64,
     /// Compass bearing.
     pub bearing: Bearing,
@@ -99,7 +99,7 @@ pub fn parse_local_time(text: &str) -> Result<DateTime, SunPositionError> {
     trimmed.parse().map_err(|_| wrong())
 }
 
-/// Altitude (true) [rad] and bearing of the sun at a local standard time.
+/// Altitude (true) \[rad\] and bearing of the sun at a local standard time.
 pub fn sun_position(place: &Place, time: DateTime) -> Result<(f64, Bearing), SunPositionError> {
     let hour = f64::from(time.hour())
         + f64::from(time.minute()) / 60.0
@@ -149,7 +149,7 @@ fn julian_midnight(date: Date) -> f64 {
     2_440_587.5 + days as f64
 }
 
-/// TT − UT1. [s]
+/// TT − UT1. \[s\]
 fn seconds_ahead(date: Date) -> Result<f64, SunPositionError> {
     delta_t::estimate(f64::from(date.year()) + f64::from(date.day_of_year()) / 365.25).map_err(algorithm)
 }

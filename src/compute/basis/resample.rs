@@ -59,7 +59,7 @@ fn span(a: f64, b: f64) -> f64 {
     (b - a).sin() * (b + a).sin()
 }
 
-/// Common width of two azimuth intervals given by centre and width, both at most a full turn. [rad]
+/// Common width of two azimuth intervals given by centre and width, both at most a full turn. \[rad\]
 fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
     let (a0, a1) = (a.0 - 0.5 * a.1, a.0 + 0.5 * a.1);
     [-4.0 * PI, -2.0 * PI, 0.0, 2.0 * PI, 4.0 * PI]

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 pub struct AzimuthMap {
     /// +1 or −1.
     pub sign: f64,
-    /// [rad]
+    /// \[rad\]
     pub offset: f64,
 }
 
@@ -25,54 +25,54 @@ impl AzimuthMap {
     /// The same for light from inside: φ_F = 180° − φ_Klems.
     pub const KLEMS_BACK: Self = Self { sign: -1.0, offset: PI };
 
-    /// Façade azimuth of an own azimuth. [rad]
+    /// Façade azimuth of an own azimuth. \[rad\]
     pub fn facade_phi(self, own: f64) -> f64 {
         wrap_two_pi(self.sign * own + self.offset)
     }
 
-    /// Own azimuth of a façade azimuth. [rad]
+    /// Own azimuth of a façade azimuth. \[rad\]
     pub fn own_phi(self, facade: f64) -> f64 {
         wrap_two_pi(self.sign * (facade - self.offset))
     }
 }
 
 /// One ring: θ from `theta_min` to `theta_max` in `sectors` equal parts, the first centred on own azimuth
-/// `first_phi`. [rad]
+/// `first_phi`. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
-    /// Inner polar angle. [rad]
+    /// Inner polar angle. \[rad\]
     pub theta_min: f64,
-    /// Outer polar angle. [rad]
+    /// Outer polar angle. \[rad\]
     pub theta_max: f64,
     /// Number of equal azimuth sectors, at least 1.
     pub sectors: usize,
-    /// Own azimuth of the first sector's centre. [rad]
+    /// Own azimuth of the first sector's centre. \[rad\]
     pub first_phi: f64,
 }
 
 /// One cell of a basis, in the basis's own azimuth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// Inner polar angle. [rad]
+    /// Inner polar angle. \[rad\]
     pub theta_min: f64,
-    /// Outer polar angle. [rad]
+    /// Outer polar angle. \[rad\]
     pub theta_max: f64,
-    /// Azimuth of the centre, own counting. [rad]
+    /// Azimuth of the centre, own counting. \[rad\]
     pub phi_own: f64,
-    /// Azimuth of the centre in the façade frame. [rad]
+    /// Azimuth of the centre in the façade frame. \[rad\]
     pub phi: f64,
-    /// Width in azimuth. [rad]
+    /// Width in azimuth. \[rad\]
     pub width: f64,
 }
 
 impl Cell {
-    /// Projected solid angle ∫cosθ dω. [sr]
+    /// Projected solid angle ∫cosθ dω. \[sr\]
     pub fn projected_solid_angle(&self) -> f64 {
         // sin²b − sin²a = sin(b−a)·sin(b+a), without cancellation for thin rings.
         0.5 * self.width * (self.theta_max - self.theta_min).sin() * (self.theta_max + self.theta_min).sin()
     }
 
-    /// Solid angle. [sr]
+    /// Solid angle. \[sr\]
     pub fn solid_angle(&self) -> f64 {
         // cos a − cos b = 2 sin((a+b)/2) sin((b−a)/2)
         2.0 * self.width
@@ -80,7 +80,7 @@ impl Cell {
             * (0.5 * (self.theta_max - self.theta_min)).sin()
     }
 
-    /// Polar angle that stands for the cell: 0 for a cap around the normal, else the middle of the ring. [rad]
+    /// Polar angle that stands for the cell: 0 for a cap around the normal, else the middle of the ring. \[rad\]
     pub fn theta(&self) -> f64 {
         if self.is_cap() { 0.0 } else { 0.5 * (self.theta_min + self.theta_max) }
     }
@@ -311,7 +311,7 @@ impl RingBasis {
         (0..self.len()).map(|index| self.cell(index))
     }
 
-    /// Projected solid angles of all cells, in order. [sr]
+    /// Projected solid angles of all cells, in order. \[sr\]
     pub fn projected_solid_angles(&self) -> Vec<f64> {
         self.cells().map(|cell| cell.projected_solid_angle()).collect()
     }

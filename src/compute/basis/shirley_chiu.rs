@@ -68,12 +68,12 @@ impl SquareGrid {
     }
 
     /// Number of cells, never 0.
-    #[allow(clippy::len_without_is_empty)]
+    #[allow(clippy::len_without_is_empty, reason = "it never is")]
     pub const fn len(self) -> usize {
         self.resolution() * self.resolution()
     }
 
-    /// ∫cosθ dω of every cell. [sr]
+    /// ∫cosθ dω of every cell. \[sr\]
     pub fn projected_solid_angle(self) -> f64 {
         PI / self.len() as f64
     }
@@ -202,7 +202,7 @@ impl SquareCell {
         ([self.ix as f64 * side, self.iy as f64 * side], side)
     }
 
-    /// ∫cosθ dω of the cell. [sr]
+    /// ∫cosθ dω of the cell. \[sr\]
     pub fn projected_solid_angle(self) -> f64 {
         PI / (self.resolution * self.resolution) as f64
     }

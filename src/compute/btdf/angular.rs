@@ -13,12 +13,12 @@ pub enum AngularTransmittance {
 }
 
 impl AngularTransmittance {
-    /// Samples a function of θ [rad] at `steps` + 1 angles. `steps` ≥ 1.
+    /// Samples a function of θ \[rad\] at `steps` + 1 angles. `steps` ≥ 1.
     pub fn sample(steps: usize, tau: impl Fn(f64) -> f64) -> Self {
         Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
     }
 
-    /// τ at a polar angle of incidence. [rad] Zero beyond 90°.
+    /// τ at a polar angle of incidence. \[rad\] Zero beyond 90°.
     pub fn at(&self, theta: f64) -> f64 {
         match self {
             Self::Constant(tau) => {

@@ -83,7 +83,7 @@ pub struct Dataset {
     pub description: String,
     /// Key of the state within a family; empty for a system without states.
     pub state: String,
-    /// Thickness of the system where it is known. [m]
+    /// Thickness of the system where it is known. \[m\]
     pub thickness: Option<f64>,
     /// The format it was read from, e.g. `bsdf-xml klems`; empty for closed forms.
     pub format: String,

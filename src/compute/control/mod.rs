@@ -3,7 +3,7 @@
 use crate::compute::direction::{Dir, Facade};
 
 /// Profile angle of a direction: the altitude of its projection on the vertical plane through the normal, atan2(y, z)
-/// in the façade frame. [rad] `None` for directions from behind.
+/// in the façade frame. \[rad\] `None` for directions from behind.
 pub fn profile_angle(d: Dir<Facade>) -> Option<f64> {
     let v = d.vector();
     (v.z > 0.0).then(|| v.y.atan2(v.z))

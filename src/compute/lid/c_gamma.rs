@@ -35,7 +35,7 @@ impl Aim {
         }
     }
 
-    /// Direction of propagation in the aperture's frame for C and γ. [rad]
+    /// Direction of propagation in the aperture's frame for C and γ. \[rad\]
     pub fn direction(self, c: f64, gamma: f64) -> Emergent {
         let (sin_c, cos_c) = c.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
@@ -45,7 +45,7 @@ impl Aim {
         }))
     }
 
-    /// C (0 ≤ C < 2π) and γ of a direction of propagation. [rad]
+    /// C (0 ≤ C < 2π) and γ of a direction of propagation. \[rad\]
     pub fn angles(self, emergent: Emergent) -> (f64, f64) {
         let v = emergent.0.vector();
         // Components along C0, along C90 and along the nadir.
@@ -68,7 +68,7 @@ pub struct Step {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("step {degrees}° does not divide 90° or lies outside 1° to 15° (try 5, 2.5 or 1)")]
 pub struct StepError {
-    /// What was asked for. [°]
+    /// What was asked for. \[°\]
     pub degrees: f64,
 }
 
@@ -101,7 +101,7 @@ impl Step {
         if narrow || lid.beam.is_some_and(|beam| beam.flux > 0.0) { Self::FINE } else { Self::NORMAL }
     }
 
-    /// [°]
+    /// \[°\]
     pub fn degrees(self) -> f64 {
         90.0 / self.per_quarter as f64
     }
@@ -118,14 +118,14 @@ pub struct CGammaTable {
     pub aim: Aim,
     /// Step in C and γ.
     pub step: Step,
-    /// Plane by plane, γ rising. [cd]
+    /// Plane by plane, γ rising. \[cd\]
     pub intensity: Vec<f64>,
-    /// Flux of the aperture: exact for uniform and cell data, integrated for functions. [lm]
+    /// Flux of the aperture: exact for uniform and cell data, integrated for functions. \[lm\]
     pub flux: Estimate,
     /// Factor by which the averages were multiplied to make the zonal sum of the table equal to `flux`: what the
     /// quadrature missed of a known flux, and the zonal sum's own constant (1/cos(step/2) for smooth light).
     pub scaled_by: f64,
-    /// Flux of the unscattered beam, spread over the four nodes round it. [lm]
+    /// Flux of the unscattered beam, spread over the four nodes round it. \[lm\]
     pub beam_flux: f64,
 }
 
@@ -191,12 +191,12 @@ impl CGammaTable {
         2 * self.step.per_quarter + 1
     }
 
-    /// Intensities of one plane, γ from 0 to 180°. [cd]
+    /// Intensities of one plane, γ from 0 to 180°. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.angles()..][..self.angles()]
     }
 
-    /// The flux that a reader finds: each zone between two γ with the mean of its two intensities. [lm]
+    /// The flux that a reader finds: each zone between two γ with the mean of its two intensities. \[lm\]
     pub fn zonal_flux(&self) -> f64 {
         let delta = self.step.radians();
         (0..self.planes())
@@ -239,7 +239,7 @@ struct Grid {
     step: Step,
 }
 
-/// A rectangle in C and γ. [rad]
+/// A rectangle in C and γ. \[rad\]
 #[derive(Clone, Copy)]
 struct Patch {
     c: [f64; 2],

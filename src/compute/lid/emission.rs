@@ -42,7 +42,7 @@ impl Facing<'_> {
         [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]
     }
 
-    /// Illuminance of the aperture's outside by the sun's disc. [lx]
+    /// Illuminance of the aperture's outside by the sun's disc. \[lx\]
     pub fn sun_illuminance(&self) -> f64 {
         match (self.sun, self.sun_direction()) {
             (Some(sun), Some(direction)) => {
@@ -77,9 +77,9 @@ pub struct Emission {
     pub regular: Option<AngularTransmittance>,
     /// Regular transmittance for the sun's direction; 0 without sun.
     pub beam_tau: f64,
-    /// Illuminance of the outside face by diffuse light. [lx]
+    /// Illuminance of the outside face by diffuse light. \[lx\]
     pub incident_diffuse: Estimate,
-    /// Illuminance of the outside face by the sun. [lx]
+    /// Illuminance of the outside face by the sun. \[lx\]
     pub incident_sun: f64,
 }
 
@@ -102,7 +102,7 @@ impl Emission {
         }
         match &btdf.scattered {
             None => {
-                emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum()
+                emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum();
             }
             Some(Scattered::Lambert(tau)) => {
                 // A constant needs the total alone; else rings of 2.5°, each with the τ of its own mean angle.
@@ -212,7 +212,7 @@ impl Emission {
 const TREE_CELL_ERROR: f64 = 5e-3;
 
 /// Illuminance through every finest incident cell of a tree, by midpoints of equal projected solid angle; and the
-/// error of the total, from half the density. [lx]
+/// error of the total, from half the density. \[lx\]
 fn tree_illuminances(tree: &TensorTree, facing: &Facing<'_>) -> (Vec<f64>, f64) {
     let grid = tree.incident_grid();
     let luminance =

@@ -59,7 +59,7 @@ impl EmergentLuminance {
 pub struct Beam {
     /// Where it goes.
     pub direction: Emergent,
-    /// Luminous flux of the whole aperture's beam. [lm]
+    /// Luminous flux of the whole aperture's beam. \[lm\]
     pub flux: f64,
 }
 
@@ -68,7 +68,7 @@ pub struct Beam {
 pub struct Lid {
     /// Where the aperture lies; fixes how the façade frame stands in the room.
     pub surface: Surface,
-    /// Size along x_F and along y_F. [m]
+    /// Size along x_F and along y_F. \[m\]
     pub size: [f64; 2],
     /// The parts of the emergent luminance.
     pub parts: Vec<EmergentLuminance>,
@@ -82,12 +82,12 @@ impl Lid {
         self.parts.iter().map(|part| part.at(emergent)).sum()
     }
 
-    /// Luminous intensity in an emergent direction, beam left out. [cd]
+    /// Luminous intensity in an emergent direction, beam left out. \[cd\]
     pub fn intensity(&self, emergent: Emergent) -> f64 {
         self.luminance(emergent) * self.area() * (-emergent.0.vector().z).max(0.0)
     }
 
-    /// Area of the aperture. [m²]
+    /// Area of the aperture. \[m²\]
     pub fn area(&self) -> f64 {
         self.size[0] * self.size[1]
     }

@@ -8,33 +8,33 @@ use glam::DVec3;
 pub struct Aperture {
     /// Where it lies.
     pub surface: Surface,
-    /// Lower-left corner, room frame. [m]
+    /// Lower-left corner, room frame. \[m\]
     pub corner: DVec3,
-    /// Size along x_F and along y_F. [m]
+    /// Size along x_F and along y_F. \[m\]
     pub size: [f64; 2],
 }
 
 /// The aperture as seen from a point: in gnomonic coordinates of the through-name, `x = d·tanθ cosφ`, the opening is the
-/// rectangle `x[0]…x[1]` × `y[0]…y[1]` at distance `distance` from the point, for every point. [m]
+/// rectangle `x[0]…x[1]` × `y[0]…y[1]` at distance `distance` from the point, for every point. \[m\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Limits along x_F, relative to the point. [m]
+    /// Limits along x_F, relative to the point. \[m\]
     pub x: [f64; 2],
-    /// Limits along y_F, relative to the point. [m]
+    /// Limits along y_F, relative to the point. \[m\]
     pub y: [f64; 2],
-    /// Distance of the point from the aperture's plane, positive inside the room. [m]
+    /// Distance of the point from the aperture's plane, positive inside the room. \[m\]
     pub distance: f64,
     /// The sensor's normal in the façade frame: cos of a through-name direction ω′ is normal·ω′.
     pub normal: DVec3,
 }
 
 impl Aperture {
-    /// Area. [m²]
+    /// Area. \[m²\]
     pub fn area(&self) -> f64 {
         self.size[0] * self.size[1]
     }
 
-    /// The four corners, counter-clockwise seen from outside, room frame. [m]
+    /// The four corners, counter-clockwise seen from outside, room frame. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         let u = self.surface.room_from_facade(DVec3::X) * self.size[0];
         let v = self.surface.room_from_facade(DVec3::Y) * self.size[1];
@@ -55,7 +55,7 @@ impl Aperture {
 }
 
 impl View {
-    /// The corners of the opening as vectors from the sensor, façade frame. [m]
+    /// The corners of the opening as vectors from the sensor, façade frame. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         [
             DVec3::new(self.x[0], self.y[0], self.distance),

@@ -13,7 +13,7 @@ use crate::compute::basis::{Ring, RingBasis};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Calls `visit(cell, weight)` for every cell that the sensor sees through the aperture; E = Σ L_cell · weight. [sr]
+/// Calls `visit(cell, weight)` for every cell that the sensor sees through the aperture; E = Σ L_cell · weight. \[sr\]
 /// A cell may be visited several times, in a fixed order.
 pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize, f64)) {
     let mut corners = Vec::with_capacity(6);
@@ -194,7 +194,7 @@ impl Polygon {
 }
 
 enum Bound {
-    /// A ring's limit. [rad]
+    /// A ring's limit. \[rad\]
     Circle(f64),
     /// An edge of the polygon; `None` is the pole itself.
     Edge(Option<usize>),

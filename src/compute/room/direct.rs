@@ -16,7 +16,7 @@ use glam::DVec3;
 /// A point that receives light from in front of its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
-    /// Room frame. [m]
+    /// Room frame. \[m\]
     pub position: DVec3,
     /// Unit vector.
     pub normal: DVec3,
@@ -25,9 +25,9 @@ pub struct Sensor {
 /// What a sensor receives from one aperture per luminance, from geometry alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reception {
-    /// Projected solid angle of the whole opening. [sr]
+    /// Projected solid angle of the whole opening. \[sr\]
     pub uniform: f64,
-    /// The same by emergent cell; empty where no cells are asked for. [sr]
+    /// The same by emergent cell; empty where no cells are asked for. \[sr\]
     pub cells: Vec<f64>,
 }
 
@@ -46,7 +46,7 @@ impl Reception {
     }
 }
 
-/// Illuminance at a sensor from one aperture, sun included. [lx]
+/// Illuminance at a sensor from one aperture, sun included. \[lx\]
 pub fn illuminance(
     sensor: &Sensor,
     aperture: &Aperture,
@@ -74,7 +74,7 @@ pub fn illuminance(
     Estimate::new(sum.value.max(0.0), sum.error + 1e-9 * sum.value.abs())
 }
 
-/// Unscattered sun at a sensor: the share of the disc seen through the opening. [lx]
+/// Unscattered sun at a sensor: the share of the disc seen through the opening. \[lx\]
 fn sun_through(sensor: &Sensor, aperture: &Aperture, emission: &Emission, facing: &Facing<'_>) -> f64 {
     let Some(sun) = facing.sun.filter(|_| emission.beam_tau > 0.0) else {
         return 0.0;

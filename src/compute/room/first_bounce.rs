@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Weights W with E_patch = Σ W_cell · L_cell, mean over each patch: geometry only, shared by all skies. [sr]
+/// Weights W with E_patch = Σ W_cell · L_cell, mean over each patch: geometry only, shared by all skies. \[sr\]
 pub struct PatchWeights {
     /// The cells.
     pub basis: Arc<RingBasis>,
@@ -22,7 +22,7 @@ pub struct PatchWeights {
     /// Flux that the room receives from each cell of luminance 1, over the flux that leaves through it. The mean is
     /// taken out of the weights; what remains here tells how well the patches' points sample the light.
     closure: Vec<f64>,
-    /// Σ over the patches of area · weight, by cell. [m²sr]
+    /// Σ over the patches of area · weight, by cell. \[m²sr\]
     received: Vec<f64>,
 }
 
@@ -96,7 +96,7 @@ pub fn through_basis() -> RingBasis {
     RingBasis::equal_area(10)
 }
 
-/// Mean direct illuminance of every patch from one aperture, and the relative error of its flux. [lx]
+/// Mean direct illuminance of every patch from one aperture, and the relative error of its flux. \[lx\]
 pub fn first_illuminance(
     radiosity: &Radiosity,
     index: usize,

@@ -31,13 +31,13 @@ pub fn perpendicular_corner(u: f64, x: f64, y: f64) -> f64 {
     (angular + 0.25 * (u * u - c2) * s.ln()) / (2.0 * PI)
 }
 
-/// A·F between two parallel rectangles `x` × `y` a distance z apart. [m²]
+/// A·F between two parallel rectangles `x` × `y` a distance z apart. \[m²\]
 pub fn parallel(x: [[f64; 2]; 2], y: [[f64; 2]; 2], z: f64) -> f64 {
     fourth_difference(|i, k, j, l| parallel_corner(x[0][i] - x[1][k], y[0][j] - y[1][l], z))
 }
 
 /// A·F between two perpendicular rectangles: `u` their extents along the common direction, `x` of the first and `y`
-/// of the second away from the line in which their planes meet. [m²]
+/// of the second away from the line in which their planes meet. \[m²\]
 pub fn perpendicular(u: [[f64; 2]; 2], x: [f64; 2], y: [f64; 2]) -> f64 {
     fourth_difference(|i, k, j, l| perpendicular_corner(u[0][i] - u[1][k], x[j], y[l]))
 }

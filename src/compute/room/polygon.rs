@@ -37,7 +37,7 @@ pub fn edge(p: DVec3, q: DVec3) -> DVec3 {
     cross * (length.atan2(p.dot(q)) / length)
 }
 
-/// ∫ max(0, n·ω) dω over a polygon of corners given as vectors from the point: illuminance per luminance. [sr]
+/// ∫ max(0, n·ω) dω over a polygon of corners given as vectors from the point: illuminance per luminance. \[sr\]
 pub fn projected_solid_angle(polygon: &[DVec3], normal: DVec3) -> f64 {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     clip(polygon, normal, &mut kept);

@@ -24,7 +24,7 @@ pub struct Radiosity {
     pub closure: f64,
 }
 
-/// A·F of all pairs of patches, row by row. [m²]
+/// A·F of all pairs of patches, row by row. \[m²\]
 struct Exchange {
     count: usize,
     values: Vec<f64>,
@@ -77,7 +77,7 @@ impl Radiosity {
         exitance
     }
 
-    /// Mean illuminance of every patch from patches of given exitance, no reflection. [lx]
+    /// Mean illuminance of every patch from patches of given exitance, no reflection. \[lx\]
     pub fn illuminance_from(&self, emitters: &[(usize, f64)]) -> Vec<f64> {
         let mut first = vec![0.0; self.mesh.patches.len()];
         for &(j, exitance) in emitters {

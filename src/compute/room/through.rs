@@ -34,7 +34,7 @@ impl Prospect<'_> {
 }
 
 /// Illuminance at a sensor from the outside seen through the opening, each direction weighted by `tau(θ)` of the
-/// system. [lx] `uniform_tau` is the transmittance if it does not depend on θ: parts of constant luminance then have
+/// system. \[lx\] `uniform_tau` is the transmittance if it does not depend on θ: parts of constant luminance then have
 /// a closed form.
 pub fn illuminance(
     view: &View,
@@ -85,9 +85,9 @@ pub fn illuminance(
 struct Region<'a> {
     polygon: &'a [DVec3],
     surface: Surface,
-    /// Azimuths at which the limits of the altitude have kinks. [rad]
+    /// Azimuths at which the limits of the altitude have kinks. \[rad\]
     azimuths: Vec<f64>,
-    /// Altitudes at which the luminance has kinks or jumps, with the ends. [rad]
+    /// Altitudes at which the luminance has kinks or jumps, with the ends. \[rad\]
     altitudes: Vec<f64>,
 }
 
@@ -142,7 +142,7 @@ impl<'a> Region<'a> {
         Self { polygon, surface, azimuths: inner, altitudes }
     }
 
-    /// Lowest and highest altitude of the polygon in a vertical half plane. [rad]
+    /// Lowest and highest altitude of the polygon in a vertical half plane. \[rad\]
     fn limits(&self, azimuth: f64) -> Option<(f64, f64)> {
         let (sin, cos) = azimuth.sin_cos();
         // Signed distance from the vertical plane; the half plane is where `along` is positive.

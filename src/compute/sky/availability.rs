@@ -15,11 +15,11 @@ pub enum Cover {
     Overcast,
 }
 
-/// Solar illuminance constant. [lx]
+/// Solar illuminance constant. \[lx\]
 const EXTRATERRESTRIAL: f64 = 127_500.0;
 
-/// Illuminance on a plane facing the sun and diffuse illuminance on a horizontal plane [lx], for the sun at an
-/// altitude. [rad] Both are zero with the sun below the horizon.
+/// Illuminance on a plane facing the sun and diffuse illuminance on a horizontal plane \[lx\], for the sun at an
+/// altitude. \[rad\] Both are zero with the sun below the horizon.
 pub fn typical_illuminances(cover: Cover, altitude: f64) -> (f64, f64) {
     if altitude <= 0.0 {
         return (0.0, 0.0);

@@ -1,5 +1,5 @@
 //! CIE standard general skies: ISO 15469:2004 / CIE S 011, types 1 to 15. Type 16, the traditional overcast sky, has
-//! its own closed form in [`super::distribution`].
+//! its own closed form in `distribution`.
 
 use super::distribution::Gradated;
 use std::f64::consts::FRAC_PI_2;

@@ -26,7 +26,7 @@ impl Gradated {
         if self.a == 0.0 || z <= 0.0 { 1.0 } else { (1.0 + self.a * (self.b / z).exp()).max(0.0) }
     }
 
-    /// Indicatrix factor at the angle χ from the sun. [rad]
+    /// Indicatrix factor at the angle χ from the sun. \[rad\]
     #[inline]
     pub fn indicatrix(&self, chi: f64) -> f64 {
         let cos = chi.cos();

@@ -31,7 +31,7 @@ pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
     }
 }
 
-/// Of a gradated sky with the sun at an altitude [rad].
+/// Of a gradated sky with the sun at an altitude \[rad\].
 ///
 /// Without a circumsolar part: 2π ∫ φ(z) z dz. With one, in polar coordinates about the sun, where its tip is no
 /// longer one: ∫ f(χ) sinχ [∫ φ(z) z dψ] dχ with z = cosχ sin h + sinχ cos h cosψ. Knots are where a circle about the
@@ -100,7 +100,7 @@ pub(super) fn gradation_zero(sky: &Gradated) -> Option<f64> {
     (z > 0.0 && z < 1.0).then_some(z)
 }
 
-/// Angles from the sun at which the indicatrix changes sign. [rad]
+/// Angles from the sun at which the indicatrix changes sign. \[rad\]
 pub(super) fn indicatrix_zeros(sky: &Gradated) -> Vec<f64> {
     let raw = |chi: f64| sky.base + sky.c * (sky.d * chi).exp() + sky.e * chi.cos().powi(2);
     const STEPS: usize = 180;

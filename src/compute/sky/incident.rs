@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// Relative accuracy asked of every cell.
 const RELATIVE: f64 = 1e-6;
 
-/// E_i = ∫_cell L cosθ dω for every cell of `basis`, in its order. [lx] Without the beam.
+/// E_i = ∫_cell L cosθ dω for every cell of `basis`, in its order. \[lx\] Without the beam.
 ///
 /// Every cell is computed by itself: the result does not depend on the number of threads.
 pub fn incident_illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame) -> Vec<Estimate> {

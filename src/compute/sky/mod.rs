@@ -71,7 +71,7 @@ pub struct Outside {
 }
 
 impl Outside {
-    /// A sky scaled so that the exact integral over the open hemisphere is `diffuse_horizontal` [lx], over black ground.
+    /// A sky scaled so that the exact integral over the open hemisphere is `diffuse_horizontal` \[lx\], over black ground.
     /// 0 lx is a black sky of any model.
     pub fn new(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
         if !(diffuse_horizontal >= 0.0 && diffuse_horizontal.is_finite()) {
@@ -114,7 +114,7 @@ impl Outside {
     }
 
     /// Endless, unobstructed, uniform ground: L = ρ·(E_dh + E_direct,h)/π.
-    /// `direct_horizontal`: the beam's illuminance on the open horizontal plane. [lx]
+    /// `direct_horizontal`: the beam's illuminance on the open horizontal plane. \[lx\]
     pub fn with_ground(mut self, reflectance: f64, direct_horizontal: f64) -> Result<Self, SkyError> {
         if !(0.0..=1.0).contains(&reflectance) {
             return Err(SkyError::Reflectance(reflectance));
@@ -126,7 +126,7 @@ impl Outside {
         Ok(self)
     }
 
-    /// A skyline that covers 0 ≤ altitude < `altitude` [rad] all round with a luminance of its own [cd/m²].
+    /// A skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a luminance of its own [cd/m²].
     /// The scale of the sky and the ground stay those of the open sky.
     pub fn with_skyline(mut self, altitude: f64, luminance: f64) -> Result<Self, SkyError> {
         if !((0.0..PI / 2.0).contains(&altitude) && luminance >= 0.0 && luminance.is_finite()) {
@@ -155,7 +155,7 @@ impl Outside {
         self.scale * self.distribution.relative(v)
     }
 
-    /// Illuminance of the open horizontal plane from the sky alone. [lx]
+    /// Illuminance of the open horizontal plane from the sky alone. \[lx\]
     pub fn diffuse_horizontal(&self) -> f64 {
         self.diffuse_horizontal
     }
@@ -168,7 +168,7 @@ impl Outside {
         }
     }
 
-    /// Altitude of the skyline, 0 without one. [rad]
+    /// Altitude of the skyline, 0 without one. \[rad\]
     pub fn skyline_altitude(&self) -> f64 {
         self.skyline_altitude
     }

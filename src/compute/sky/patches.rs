@@ -10,26 +10,26 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Patches per row, lowest row first.
 pub const ROWS: [usize; 8] = [30, 30, 24, 24, 18, 12, 6, 1];
-/// Height of a row: 12°. The last is a cap above 84°. [rad]
+/// Height of a row: 12°. The last is a cap above 84°. \[rad\]
 pub const ROW_HEIGHT: f64 = 12.0 * PI / 180.0;
 
 /// One patch: a band cell of the dome.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// Lower edge. [rad]
+    /// Lower edge. \[rad\]
     pub altitude_min: f64,
-    /// Upper edge. [rad]
+    /// Upper edge. \[rad\]
     pub altitude_max: f64,
-    /// Altitude of the centre; of the cap: 90°. [rad]
+    /// Altitude of the centre; of the cap: 90°. \[rad\]
     pub altitude: f64,
-    /// Bearing of the centre. [rad]
+    /// Bearing of the centre. \[rad\]
     pub bearing: f64,
-    /// Width in bearing. [rad]
+    /// Width in bearing. \[rad\]
     pub width: f64,
 }
 
 impl Patch {
-    /// Solid angle of the band cell. [sr]
+    /// Solid angle of the band cell. \[sr\]
     pub fn solid_angle(&self) -> f64 {
         self.width * (self.altitude_max.sin() - self.altitude_min.sin())
     }

@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_2;
 const SOLAR_CONSTANT: f64 = 1367.0;
 /// Lower borders of the clearness bins 2 … 8.
 const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
-/// Precipitable water where nothing is known of it. [cm]
+/// Precipitable water where nothing is known of it. \[cm\]
 const WATER: f64 = 2.0;
 
 /// a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin.
@@ -107,13 +107,13 @@ pub struct PerezState {
     pub brightness: f64,
     /// a, b, c, d, e of the relative luminance.
     pub coefficients: [f64; 5],
-    /// Zenith angle of the sun. [rad]
+    /// Zenith angle of the sun. \[rad\]
     zenith: f64,
     bin: usize,
 }
 
 impl PerezState {
-    /// From the sun's altitude (above the horizon) [rad], direct normal and diffuse horizontal irradiance [W/m²].
+    /// From the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal irradiance [W/m²].
     /// `None` where the model has no meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
     pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64) -> Option<Self> {
         let valid = altitude > 0.0

@@ -46,7 +46,7 @@ impl Frame {
         self.x * (sin_theta * cos_phi) + self.y * (sin_theta * sin_phi) + self.z * cos_theta
     }
 
-    /// (θ, φ) of a world direction. [rad]
+    /// (θ, φ) of a world direction. \[rad\]
     pub(super) fn angles(&self, v: DVec3) -> (f64, f64) {
         let (x, y, z) = (self.x.dot(v), self.y.dot(v), self.z.dot(v));
         (x.hypot(y).atan2(z), y.atan2(x))
@@ -82,7 +82,7 @@ impl Weight {
     }
 }
 
-/// θ₀ … θ₁ × φ₀ … φ₁ of a frame. [rad]
+/// θ₀ … θ₁ × φ₀ … φ₁ of a frame. \[rad\]
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
     pub frame: Frame,
@@ -272,7 +272,7 @@ fn tip(
     (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
 }
 
-/// Illuminance of an unobstructed plane from sky, skyline and ground, without the beam. [lx]
+/// Illuminance of an unobstructed plane from sky, skyline and ground, without the beam. \[lx\]
 pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     let frame = Frame::facing(normal);
     // Quarters: shorter pieces, and the knots of a façade's horizon among them.

@@ -3,10 +3,10 @@
 use crate::compute::direction::{Dir, World};
 use std::f64::consts::PI;
 
-/// Mean angular radius of the sun's disc: 0.2665°. [rad]
+/// Mean angular radius of the sun's disc: 0.2665°. \[rad\]
 pub const SUN_HALF_ANGLE: f64 = 0.2665 * PI / 180.0;
 
-/// Solid angle of the disc: 2π(1 − cos ρ) = 4π sin²(ρ/2) = 6.797e-5. [sr]
+/// Solid angle of the disc: 2π(1 − cos ρ) = 4π sin²(ρ/2) = 6.797e-5. \[sr\]
 pub fn sun_solid_angle() -> f64 {
     4.0 * PI * (0.5 * SUN_HALF_ANGLE).sin().powi(2)
 }
@@ -16,7 +16,7 @@ pub fn sun_solid_angle() -> f64 {
 pub struct Sun {
     /// Towards the centre of the disc.
     pub direction: Dir<World>,
-    /// Illuminance on a plane that faces the sun. [lx]
+    /// Illuminance on a plane that faces the sun. \[lx\]
     pub direct_normal: f64,
 }
 
@@ -26,12 +26,12 @@ impl Sun {
         self.direct_normal / (PI * SUN_HALF_ANGLE.sin().powi(2))
     }
 
-    /// Illuminance on the open horizontal plane; 0 with the centre below the horizon. [lx]
+    /// Illuminance on the open horizontal plane; 0 with the centre below the horizon. \[lx\]
     pub fn horizontal(&self) -> f64 {
         self.direct_normal * self.direction.vector().z.max(0.0)
     }
 
-    /// Share of the disc above a horizontal edge at an altitude [rad], 0 … 1: the edge is taken as a straight chord
+    /// Share of the disc above a horizontal edge at an altitude \[rad\], 0 … 1: the edge is taken as a straight chord
     /// of the disc, good to the square of the disc's radius (2e-5).
     pub fn share_above(&self, altitude: f64) -> f64 {
         let t = ((self.direction.altitude() - altitude) / SUN_HALF_ANGLE).clamp(-1.0, 1.0);

@@ -31,7 +31,7 @@ pub struct Spreading {
     pub regular: f64,
     /// Share that leaves in a lobe about the regular direction; the rest leaves diffusely.
     pub lobe: f64,
-    /// Standard deviation of the lobe along either direction cosine (near the normal: the angle). [rad]
+    /// Standard deviation of the lobe along either direction cosine (near the normal: the angle). \[rad\]
     pub spread: f64,
     /// Transmittance at normal incidence; τ(θ) follows the clear sheet of the index.
     pub transmittance: f64,

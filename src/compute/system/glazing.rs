@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 pub struct Pane {
     /// Refractive index, ≥ 1.
     pub index: f64,
-    /// Thickness. [m]
+    /// Thickness. \[m\]
     pub thickness: f64,
     /// Absorption coefficient. [1/m]
     pub absorption: f64,
@@ -29,7 +29,7 @@ pub struct Share {
 }
 
 /// Reflectance of one surface between air and `index` for both polarisations (perpendicular, parallel), and the
-/// cosine of the angle in the material. `theta` in the air. [rad] Fresnel's equations.
+/// cosine of the angle in the material. `theta` in the air. \[rad\] Fresnel's equations.
 pub fn fresnel(index: f64, theta: f64) -> ([f64; 2], f64) {
     let cos = theta.cos().max(0.0);
     let inner = (1.0 - (theta.sin() / index).powi(2)).max(0.0).sqrt();
@@ -39,7 +39,7 @@ pub fn fresnel(index: f64, theta: f64) -> ([f64; 2], f64) {
 }
 
 impl Pane {
-    /// Shares of one pane for both polarisations at a polar angle in air. [rad]
+    /// Shares of one pane for both polarisations at a polar angle in air. \[rad\]
     pub fn polarised(&self, theta: f64) -> [Share; 2] {
         let (surface, inner) = fresnel(self.index, theta);
         let passed = self.internal(inner);
@@ -75,7 +75,7 @@ impl Pane {
 }
 
 /// Shares of a stack of panes (outside first) with air between them, at a polar angle in air, for unpolarised
-/// light. [rad]
+/// light. \[rad\]
 pub fn stack(panes: &[Pane], theta: f64) -> Share {
     let mut mean = Share { transmitted: 0.0, reflected_front: 0.0, reflected_back: 0.0 };
     for polarisation in 0..2 {

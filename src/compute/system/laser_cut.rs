@@ -16,7 +16,7 @@ use crate::compute::direction::{Dir, Facade};
 pub struct LaserCutPanel {
     /// The sheet. Total reflection at the cuts for all incidence needs an index ≥ √2.
     pub sheet: Pane,
-    /// Distance between cuts. [m]
+    /// Distance between cuts. \[m\]
     pub spacing: f64,
 }
 

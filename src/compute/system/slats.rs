@@ -17,11 +17,11 @@ use std::f64::consts::PI;
 /// Flat slats that turn about the middle of their chord.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatSlats {
-    /// Chord. [m]
+    /// Chord. \[m\]
     pub width: f64,
-    /// Vertical pitch. [m]
+    /// Vertical pitch. \[m\]
     pub spacing: f64,
-    /// Tilt, > 0 = outer edge lowered, −80° … 80°. [rad]
+    /// Tilt, > 0 = outer edge lowered, −80° … 80°. \[rad\]
     pub tilt: f64,
     /// Diffuse reflectance of the upper face, 0 … 1.
     pub upper: f64,
@@ -34,12 +34,12 @@ const STRIPS: usize = 20;
 /// Directions along each side of a cell over which incidence and emission are averaged.
 const SUB: usize = 10;
 
-/// Profile angle of a direction of the façade frame with z > 0. [rad]
+/// Profile angle of a direction of the façade frame with z > 0. \[rad\]
 pub fn profile_angle(d: Dir<Facade>) -> f64 {
     d.vector().y.atan2(d.vector().z)
 }
 
-/// Tilt at which direct light of a profile angle is just cut off: asin((s/w) cosψ) − ψ. [rad]
+/// Tilt at which direct light of a profile angle is just cut off: asin((s/w) cosψ) − ψ. \[rad\]
 /// `None` when the slats are too narrow for it.
 pub fn cut_off_tilt(width: f64, spacing: f64, psi: f64) -> Option<f64> {
     let sine = spacing / width * psi.cos();
