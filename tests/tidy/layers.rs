@@ -1,0 +1,125 @@
+//! Which layer may use what.
+
+use crate::scan::{UsedPath, macros, paths};
+
+/// A folder of `src`: the folders below it, and what else it must not name.
+struct Layer {
+    name: &'static str,
+    below: &'static [&'static str],
+    forbidden: &'static [&'static str],
+    silent: bool,
+}
+
+const LAYERS: [Layer; 6] = [
+    Layer {
+        name: "compute",
+        below: &[],
+        forbidden: &[
+            "std::fs",
+            "std::net",
+            "std::env",
+            "std::time",
+            "std::path",
+            "std::process",
+            "std::io",
+            "serde",
+            "serde_json",
+            "toml",
+            "rusqlite",
+            "egui",
+            "eframe",
+            "egui_plot",
+            "image",
+            "csv",
+            "zip",
+            "clap",
+            "anyhow",
+            "jiff",
+        ],
+        silent: true,
+    },
+    Layer {
+        name: "formats",
+        below: &["compute"],
+        forbidden: &[
+            "std::fs",
+            "std::net",
+            "std::env",
+            "std::time",
+            "std::path",
+            "std::process",
+            "rusqlite",
+            "toml",
+            "egui",
+            "eframe",
+            "egui_plot",
+            "clap",
+            "anyhow",
+        ],
+        silent: true,
+    },
+    Layer {
+        name: "catalogue",
+        below: &["compute", "formats"],
+        forbidden: &["std::net", "std::process", "toml", "egui", "eframe", "egui_plot", "clap", "anyhow", "roxmltree"],
+        silent: true,
+    },
+    Layer {
+        name: "study",
+        below: &["compute", "formats", "catalogue"],
+        forbidden: &["std::net", "std::process", "rusqlite", "egui", "eframe", "egui_plot", "clap", "roxmltree"],
+        silent: true,
+    },
+    Layer {
+        name: "cli",
+        below: &["compute", "formats", "catalogue", "study"],
+        forbidden: &["rusqlite", "egui", "eframe", "egui_plot", "rfd", "roxmltree", "quick_xml"],
+        silent: false,
+    },
+    Layer {
+        name: "app",
+        below: &["compute", "formats", "catalogue", "study"],
+        forbidden: &["rusqlite", "clap", "roxmltree", "quick_xml", "csv", "zip", "zstd"],
+        silent: true,
+    },
+];
+
+/// The crate's folder that a path leads to, if it is seen to. `depth`: 1 for `src/x.rs` and `src/x/mod.rs`, and so on.
+fn target(path: &UsedPath, depth: usize) -> Option<&str> {
+    let word = |index: usize| path.words.get(index).map(String::as_str);
+    match word(0)? {
+        "crate" | "cfs" => word(1),
+        "self" | "super" => {
+            let ups = path.words.iter().filter(|word| *word == "super").count();
+            let rest = path.words.iter().find(|word| !matches!(word.as_str(), "self" | "super"))?;
+            (ups >= depth && LAYERS.iter().any(|layer| layer.name == rest)).then_some(rest.as_str())
+        }
+        _ => None,
+    }
+}
+
+/// What is wrong with the arrows of one file, given by its path under `src`.
+pub fn violations(file: &str, source: &str) -> Vec<String> {
+    let Some(layer) = LAYERS.iter().find(|layer| file.starts_with(&format!("{}/", layer.name))) else {
+        return vec![];
+    };
+    let depth = file.trim_end_matches("/mod.rs").matches('/').count() + 1;
+    let mut wrong = vec![];
+    for path in paths(source) {
+        let text = path.words.join("::");
+        if let Some(to) = target(&path, depth)
+            && to != layer.name
+            && !layer.below.contains(&to)
+        {
+            wrong.push(format!("src/{file}:{}: {} must not use {text}", path.line, layer.name));
+        }
+        if layer.forbidden.iter().any(|name| text == *name || text.starts_with(&format!("{name}::"))) {
+            wrong.push(format!("src/{file}:{}: {} must not use {text}", path.line, layer.name));
+        }
+    }
+    if layer.silent {
+        let spoken = macros(source).into_iter().filter(|(_, name)| matches!(name.as_str(), "println" | "print"));
+        wrong.extend(spoken.map(|(line, _)| format!("src/{file}:{line}: {} must not print results", layer.name)));
+    }
+    wrong
+}
