@@ -497,7 +497,7 @@ fn pictures_of_the_bench() {
     }
     let mut results = SnapshotResults::new();
     for (theme, name) in [(Theme::Light, "bench_light"), (Theme::Dark, "bench_dark")] {
-        let mut h = bench([780.0, 430.0], theme);
+        let mut h = bench([760.0, 410.0], theme);
         h.run();
         results.add(h.try_snapshot(name));
     }

@@ -147,7 +147,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let automatic = input.max.unwrap_or(curves.max * factor);
     let max = state.ring.filter(|_| input.status.hold_scale).unwrap_or(automatic);
     state.ring = Some(max);
-    let legend_height = if lid.beam.is_some() { 54.0 } else { 36.0 };
+    let legend_height = if lid.beam.is_some() && rect.width() > 300.0 { 54.0 } else { 36.0 };
     let (body, legend) = rect.split_top_bottom_at_y((rect.bottom() - legend_height).max(rect.top() + 60.0));
     let two = body.width() > 400.0 && body.width() > 1.35 * body.height();
     let (main, side) = if two {
