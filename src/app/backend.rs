@@ -7,6 +7,7 @@ use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::ies::IesEdition;
+use crate::study::control::pick_state;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::scene_file::{ControlMode, SystemKeys};
 use crate::study::{Library, Scene, Session, StudyError, System, SystemLibrary};
@@ -84,6 +85,11 @@ impl Shelf for CatalogueShelf {
         }
     }
 
+    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
+        let product = self.lock().product(product).map_err(|error| StudyError::Catalogue(error.to_string()))?;
+        pick_state(&product, mode, facing)
+    }
+
     fn add(&self, addition: &Addition) -> Result<String, String> {
         let datasets: Vec<Dataset> = addition.datasets.iter().map(|dataset| Dataset::clone(dataset)).collect();
         let meta = NewProduct {
@@ -119,7 +125,7 @@ impl SystemLibrary for WindowLibrary<'_> {
     }
 
     fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
-        self.files.controlled_state(product, mode, facing)
+        self.shelf.controlled_state(product, mode, facing)
     }
 }
 

@@ -2,6 +2,9 @@
 
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::direction::{Dir, Incident};
+use crate::compute::lid::Facing;
+use crate::study::StudyError;
+use crate::study::scene_file::ControlMode;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -71,6 +74,8 @@ pub trait Shelf: Send + Sync {
     fn search(&self, query: &Query) -> Result<Found, String>;
     /// The dataset of a state; without a key the first state's.
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, String>;
+    /// The state that a control picks for a product under the given outside.
+    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError>;
     /// Stores a product; its key.
     fn add(&self, addition: &Addition) -> Result<String, String>;
     /// Takes a product out.
@@ -190,6 +195,12 @@ impl Shelf for MemoryShelf {
             let keys: Vec<&str> = datasets.iter().map(|dataset| dataset.state.as_str()).collect();
             format!("{product} has no state \"{}\": its states are {}", state.unwrap_or_default(), keys.join(", "))
         })
+    }
+
+    fn controlled_state(&self, product: &str, _mode: ControlMode, _facing: &Facing<'_>) -> Result<String, StudyError> {
+        // Nothing in memory moves: the ideal systems have one state.
+        let first = self.load(product, None).map_err(StudyError::Catalogue)?;
+        Ok(first.state.clone())
     }
 
     fn add(&self, addition: &Addition) -> Result<String, String> {

@@ -21,8 +21,9 @@ const FRESNEL: &str = "Fresnel and Bouguer-Lambert, both polarisations through t
 const OPAL: &str = "Separable closed form q = t F(θe) F(θa)/(π F̄) with Fresnel's F of one surface";
 const LOBE: &str =
     "Gaussian lobe in direction cosines plus separable haze, balanced to the clear sheet's τ(θ) (symmetric Sinkhorn)";
-const EDMONDS: &str = "Closed form after Edmonds, Solar Energy Materials and Solar Cells 29 (1993), with Fresnel's faces";
-const SLATS: &str = "Strip radiosity with Hottel's crossed strings, 40 strips a face, and the exact direct share";
+const EDMONDS: &str =
+    "Closed form after Edmonds, Solar Energy Materials and Solar Cells 29 (1993), with Fresnel's faces";
+const SLATS: &str = "Strip radiosity with Hottel's crossed strings, 20 strips a face, and the exact direct share";
 
 /// A product to be built in.
 struct Recipe {
@@ -108,42 +109,119 @@ fn recipes() -> Vec<Recipe> {
         Make::Spreading(Spreading { index, regular, lobe, spread, transmittance, absorbed })
     };
     vec![
-        plain("open-aperture", "Open aperture", "ideal", "Definition", &["reference"],
-            "Nothing in the opening: all light goes straight on. Reference for every comparison.", Make::Band(open)),
-        plain("ideal-diffuser", "Ideal diffuser", "ideal", "Definition", &["reference", "diffusing"],
+        plain(
+            "open-aperture",
+            "Open aperture",
+            "ideal",
+            "Definition",
+            &["reference"],
+            "Nothing in the opening: all light goes straight on. Reference for every comparison.",
+            Make::Band(open),
+        ),
+        plain(
+            "ideal-diffuser",
+            "Ideal diffuser",
+            "ideal",
+            "Definition",
+            &["reference", "diffusing"],
             "Half of the light leaves with the same luminance in every direction, whatever its incidence; a third is \
-             thrown back the same way.", Make::Band(lambertian(0.5, 1.0 / 3.0))),
-        plain("clear-single", "Clear glass, single", "pane", FRESNEL, &["glass", "transparent"],
-            "One pane of clear float glass, 4 mm, n = 1.52, τ = 0.90 at normal incidence.", Make::Panes(vec![clear])),
-        plain("clear-double", "Clear glass, double", "pane", FRESNEL, &["glass", "transparent"],
-            "Two panes of clear float glass, 4 mm each, without coating.", Make::Panes(vec![clear; 2])),
-        plain("clear-triple", "Clear glass, triple", "pane", FRESNEL, &["glass", "transparent"],
-            "Three panes of clear float glass, 4 mm each, without coating.", Make::Panes(vec![clear; 3])),
-        plain("grey-single", "Grey tinted glass, single", "pane", FRESNEL, &["glass", "transparent", "solar control"],
+             thrown back the same way.",
+            Make::Band(lambertian(0.5, 1.0 / 3.0)),
+        ),
+        plain(
+            "clear-single",
+            "Clear glass, single",
+            "pane",
+            FRESNEL,
+            &["glass", "transparent"],
+            "One pane of clear float glass, 4 mm, n = 1.52, τ = 0.90 at normal incidence.",
+            Make::Panes(vec![clear]),
+        ),
+        plain(
+            "clear-double",
+            "Clear glass, double",
+            "pane",
+            FRESNEL,
+            &["glass", "transparent"],
+            "Two panes of clear float glass, 4 mm each, without coating.",
+            Make::Panes(vec![clear; 2]),
+        ),
+        plain(
+            "clear-triple",
+            "Clear glass, triple",
+            "pane",
+            FRESNEL,
+            &["glass", "transparent"],
+            "Three panes of clear float glass, 4 mm each, without coating.",
+            Make::Panes(vec![clear; 3]),
+        ),
+        plain(
+            "grey-single",
+            "Grey tinted glass, single",
+            "pane",
+            FRESNEL,
+            &["glass", "transparent", "solar control"],
             "One body-tinted pane, 6 mm, τ = 0.44 at normal incidence; absorption alone, no coating.",
-            Make::Panes(vec![pane(GLASS, 0.006, 0.44)])),
-        plain("opal-light", "Opal acrylic, light", "diffuser", OPAL, &["diffusing", "acrylic"],
+            Make::Panes(vec![pane(GLASS, 0.006, 0.44)]),
+        ),
+        plain(
+            "opal-light",
+            "Opal acrylic, light",
+            "diffuser",
+            OPAL,
+            &["diffusing", "acrylic"],
             "Translucent sheet with smooth surfaces, τ = 0.60 at normal incidence, diffuse reflectance 0.27.",
-            opal(0.60, 0.27)),
-        plain("opal-dense", "Opal acrylic, dense", "diffuser", OPAL, &["diffusing", "acrylic"],
+            opal(0.60, 0.27),
+        ),
+        plain(
+            "opal-dense",
+            "Opal acrylic, dense",
+            "diffuser",
+            OPAL,
+            &["diffusing", "acrylic"],
             "Translucent sheet with smooth surfaces, τ = 0.35 at normal incidence, diffuse reflectance 0.52.",
-            opal(0.35, 0.52)),
-        plain("acrylic-diffuser-clear", "Acrylic diffuser, lightly frosted", "diffuser", LOBE, &["diffusing", "acrylic"],
+            opal(0.35, 0.52),
+        ),
+        plain(
+            "acrylic-diffuser-clear",
+            "Acrylic diffuser, lightly frosted",
+            "diffuser",
+            LOBE,
+            &["diffusing", "acrylic"],
             "Sheet that keeps 15 % of its light straight and spreads 65 % in a lobe of σ = 8°; τ = 0.85.",
-            spreading(ACRYLIC, 0.15, 0.65, 8.0, 0.85, 0.2)),
-        plain("acrylic-diffuser-haze", "Acrylic diffuser, hazy", "diffuser", LOBE, &["diffusing", "acrylic"],
+            spreading(ACRYLIC, 0.15, 0.65, 8.0, 0.85, 0.2),
+        ),
+        plain(
+            "acrylic-diffuser-haze",
+            "Acrylic diffuser, hazy",
+            "diffuser",
+            LOBE,
+            &["diffusing", "acrylic"],
             "Sheet that spreads 55 % of its light in a lobe of σ = 20° and the rest evenly; τ = 0.70.",
-            spreading(ACRYLIC, 0.0, 0.55, 20.0, 0.70, 0.2)),
-        plain("satinated-glass", "Satinated glass", "diffuser", LOBE, &["diffusing", "glass"],
+            spreading(ACRYLIC, 0.0, 0.55, 20.0, 0.70, 0.2),
+        ),
+        plain(
+            "satinated-glass",
+            "Satinated glass",
+            "diffuser",
+            LOBE,
+            &["diffusing", "glass"],
             "Etched pane: 90 % of the light in a lobe of σ = 12°, the rest evenly; τ = 0.88.",
-            spreading(GLASS, 0.0, 0.90, 12.0, 0.88, 0.2)),
-        plain("laser-cut-panel", "Laser-cut panel", "laser-cut-panel", EDMONDS, &["redirecting", "acrylic"],
+            spreading(GLASS, 0.0, 0.90, 12.0, 0.88, 0.2),
+        ),
+        plain(
+            "laser-cut-panel",
+            "Laser-cut panel",
+            "laser-cut-panel",
+            EDMONDS,
+            &["redirecting", "acrylic"],
             "Acrylic sheet 6 mm with horizontal cuts every 4 mm, which turn light from above up to the ceiling. Losses \
              at the cuts (5 to 10 % in real panels) are left out.",
             Make::LaserCut(LaserCutPanel {
                 sheet: Pane { index: ACRYLIC, thickness: 0.006, absorption: 0.0 },
                 spacing: 0.004,
-            })),
+            }),
+        ),
         venetian(),
     ]
 }

@@ -3,9 +3,7 @@
 use super::store::{Removed, add, read_record};
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName, store};
 use crate::formats::dataset_blob::decode;
-use crate::formats::package::{
-    self, Package, PackageCurvePoint, PackageProduct, PackageProvenance, PackageState,
-};
+use crate::formats::package::{self, Package, PackageCurvePoint, PackageProduct, PackageProvenance, PackageState};
 
 impl Catalogue {
     /// The bytes of a package with these products.

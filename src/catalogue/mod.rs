@@ -25,8 +25,8 @@ pub use builtin::{BUILTIN_VERSION, builtin_products};
 pub use error::CatalogueError;
 pub use open::{Catalogue, default_path};
 pub use product::{
-    CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State,
-    StateName, profile_transmittances,
+    CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,
+    profile_transmittances,
 };
 pub use search::{Facet, Facets, ProductRow, Query};
 pub use store::Removed;

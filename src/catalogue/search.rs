@@ -156,8 +156,9 @@ impl Catalogue {
     pub fn facets(&self) -> Result<Facets, CatalogueError> {
         let list = |sql: &str| -> Result<Vec<Facet>, CatalogueError> {
             let mut statement = self.db.prepare_cached(sql)?;
-            let rows = statement
-                .query_map([], |row| Ok(Facet { value: row.get(0)?, count: row.get::<_, i64>(1)?.unsigned_abs() as usize }))?;
+            let rows = statement.query_map([], |row| {
+                Ok(Facet { value: row.get(0)?, count: row.get::<_, i64>(1)?.unsigned_abs() as usize })
+            })?;
             Ok(rows.collect::<Result<_, _>>()?)
         };
         let count = |sql: &str| -> Result<usize, CatalogueError> {

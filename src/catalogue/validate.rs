@@ -23,7 +23,10 @@ pub fn check(dataset: &Dataset) -> Vec<Finding> {
         {
             findings.push(Finding::warning(
                 "not-reciprocal",
-                format!("Transmission from outside and from inside ({name}) differ by {:.0} % on average.", 100.0 * error),
+                format!(
+                    "Transmission from outside and from inside ({name}) differ by {:.0} % on average.",
+                    100.0 * error
+                ),
             ));
         }
     }

@@ -1,6 +1,8 @@
 //! What can be typed.
 
-use super::{convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs};
+use super::{
+    catalogue::CatalogueArgs, convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+};
 use std::path::PathBuf;
 
 /// From a complex fenestration system's BTDF to the light in a room
@@ -13,11 +15,13 @@ use std::path::PathBuf;
 
 Examples:
   cfs                                   the window
+  cfs --open blind.xml                  the window, with a dataset to import or a scene to show
   cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
   cfs room office.toml --out office.csv illuminance at every sensor
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
+  cfs catalogue list --search blind     products, built in and your own
 
 On bad input every command ends with status 2 and one line that says what would be right."
 )]
@@ -25,6 +29,9 @@ pub struct Arguments {
     /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
     #[arg(long, global = true, value_name = "FILE", env = "CFS_CATALOGUE")]
     pub catalogue: Option<PathBuf>,
+    /// Open the window with these datasets or this scene
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub open: Vec<PathBuf>,
     /// What to do; nothing opens the window
     #[command(subcommand)]
     pub command: Option<Command>,
@@ -43,4 +50,6 @@ pub enum Command {
     Info(InfoArgs),
     /// A dataset in another format
     Convert(ConvertArgs),
+    /// List, show, import, export, validate products
+    Catalogue(CatalogueArgs),
 }

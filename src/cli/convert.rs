@@ -33,6 +33,10 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
             return Err(anyhow!("{}: no state '{state}'; expected one of {}", args.input.display(), keys.join(", ")));
         }
     }
-    let bytes = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
-    dataset_file::write(&args.output, &bytes)
+    let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    dataset_file::write(&args.output, &written.bytes)?;
+    for finding in datasets.iter().flat_map(|one| &one.findings).chain(&written.findings) {
+        eprintln!("{}: {}", finding.severity.word(), finding.message);
+    }
+    Ok(())
 }

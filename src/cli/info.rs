@@ -52,7 +52,10 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("incident_basis".into(), dataset.incident_basis.clone().into());
     object.insert("emergent_basis".into(), dataset.emergent_basis.clone().into());
     object.insert("resolution".into(), transmission.map(resolution).into());
-    object.insert("states".into(), all.iter().map(|one| one.state.clone()).collect::<Vec<_>>().into());
+    object.insert(
+        "states".into(),
+        all.iter().map(|one| one.state.clone()).filter(|key| !key.is_empty()).collect::<Vec<_>>().into(),
+    );
     object.insert("components".into(), dataset.visible.components().iter().map(key).collect::<Vec<_>>().into());
     object.insert("derived".into(), dataset.derived.iter().map(key).collect::<Vec<_>>().into());
     object.insert("solar".into(), dataset.solar.is_some().into());

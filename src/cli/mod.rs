@@ -1,6 +1,7 @@
 //! The command line: arguments in, files and tables out, no display needed.
 
 mod args;
+pub mod catalogue;
 pub mod convert;
 mod dataset_file;
 pub mod info;
@@ -18,13 +19,14 @@ use std::path::Path;
 ///
 /// # Errors
 /// One line that names the file, the place in it, what is wrong and what would be right.
-pub fn run(command: &Command, _catalogue: Option<&Path>) -> anyhow::Result<()> {
-    let library = Library::default();
+pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
+    let library = Library::with_catalogue(catalogue);
     match command {
         Command::Room(args) => room::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Catalogue(args) => catalogue::run(args, catalogue),
     }
 }

@@ -18,6 +18,7 @@
 pub mod angle;
 pub mod basis;
 pub mod btdf;
+pub mod control;
 pub mod direction;
 pub mod estimate;
 pub mod lid;

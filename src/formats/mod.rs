@@ -5,18 +5,18 @@
 
 pub mod bsdf_xml;
 pub mod dataset_blob;
-mod location;
-pub mod package;
 pub mod drawing;
 pub mod eulumdat;
 pub mod ies;
 pub mod lid_tables;
+mod location;
 pub mod luminaire;
+pub mod package;
 pub mod scan;
 
 pub use location::{FormatError, Location};
 
-use crate::compute::btdf::Dataset;
+use crate::compute::btdf::{Dataset, Finding};
 
 /// The dataset formats that are read and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -81,11 +81,20 @@ pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatErro
     }
 }
 
+/// A written file, and what got lost or changed on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// Resampling, derived blocks: whatever a reader of the new file would not see.
+    pub findings: Vec<Finding>,
+}
+
 /// The datasets as a file of the given format.
 ///
 /// # Errors
 /// More states than the format holds; or what the writer cannot express.
-pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Vec<u8>, FormatError> {
+pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Written, FormatError> {
     match (format, datasets) {
         (Format::BsdfXml, [one]) => bsdf_xml::write(one),
         (Format::BsdfXml, many) => Err(FormatError::new(

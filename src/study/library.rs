@@ -1,8 +1,10 @@
 //! The library that programs use: ideal systems, dataset files (kept as long as they do not change), the catalogue.
 
+use super::control::pick_state;
 use super::error::StudyError;
 use super::scene_file::{ControlMode, SystemKeys};
 use super::system::{System, SystemLibrary, ideal};
+use crate::catalogue::{Catalogue, CatalogueError};
 use crate::compute::lid::Facing;
 use crate::formats::read_dataset;
 use std::collections::HashMap;
@@ -13,21 +15,45 @@ use std::time::SystemTime;
 /// Largest dataset file that is read. Makers' largest are tens of megabytes.
 const LARGEST_FILE: u64 = 512 << 20;
 
-/// Files and closed forms.
+/// Files, closed forms and a catalogue that is opened when first asked.
 #[derive(Default)]
 pub struct Library {
-    files: Mutex<HashMap<PathBuf, (SystemTime, u64, Vec<Arc<System>>)>>,
+    files: Mutex<HashMap<PathBuf, Loaded>>,
+    catalogue_path: Option<PathBuf>,
+    catalogue: Mutex<Option<Catalogue>>,
 }
 
+/// A file's systems, valid as long as its time and length stay.
+type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
+
 impl Library {
+    /// With the catalogue of a file; `None`: the user's own.
+    pub fn with_catalogue(path: Option<&Path>) -> Self {
+        Self { catalogue_path: path.map(Path::to_owned), ..Self::default() }
+    }
+
+    fn in_catalogue<T>(&self, ask: impl FnOnce(&Catalogue) -> Result<T, CatalogueError>) -> Result<T, StudyError> {
+        let mut open = self.catalogue.lock().unwrap_or_else(PoisonError::into_inner);
+        let told = |error: CatalogueError| StudyError::Catalogue(error.to_string());
+        let catalogue = match open.take() {
+            Some(catalogue) => catalogue,
+            None => {
+                self.catalogue_path.as_deref().map_or_else(Catalogue::open_default, Catalogue::open).map_err(told)?
+            }
+        };
+        let answer = ask(&catalogue).map_err(told);
+        *open = Some(catalogue);
+        answer
+    }
+
     /// All states of a dataset file.
     pub fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let meta = std::fs::metadata(path).map_err(|e| error(format!("cannot be read: {e}")))?;
         let stamp = (meta.modified().unwrap_or(SystemTime::UNIX_EPOCH), meta.len());
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((time, length, systems)) = files.get(path)
-            && (*time, *length) == stamp
+        if let Some((then, systems)) = files.get(path)
+            && *then == stamp
         {
             return Ok(systems.clone());
         }
@@ -48,7 +74,7 @@ impl Library {
                 Arc::new(System { label, state: dataset.state.clone(), dataset: Arc::new(dataset) })
             })
             .collect();
-        files.insert(path.to_owned(), (stamp.0, stamp.1, systems.clone()));
+        files.insert(path.to_owned(), (stamp, systems.clone()));
         Ok(systems)
     }
 }
@@ -61,12 +87,16 @@ impl SystemLibrary for Library {
                 let systems = self.load_file(&base.join(path))?;
                 pick(&systems, state.as_deref(), &path.display().to_string())
             }
-            SystemKeys::Catalogue { key, .. } => Err(StudyError::Catalogue(format!("no product '{key}'"))),
+            SystemKeys::Catalogue { key, state } => self.in_catalogue(|catalogue| {
+                let dataset = catalogue.dataset(key, state.as_deref())?;
+                let label = catalogue.product(key)?.name;
+                Ok(Arc::new(System { label, state: dataset.state.clone(), dataset }))
+            }),
         }
     }
 
-    fn controlled_state(&self, product: &str, _mode: ControlMode, _facing: &Facing<'_>) -> Result<String, StudyError> {
-        Err(StudyError::Catalogue(format!("no product '{product}'")))
+    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
+        pick_state(&self.in_catalogue(|catalogue| catalogue.product(product))?, mode, facing)
     }
 }
 

@@ -80,8 +80,8 @@ impl Chart {
     /// Within a rectangle that also holds ticks and labels.
     pub fn within(rect: Rect, x: Axis, y: Axis) -> Self {
         let area = Rect::from_min_max(
-            pos2(rect.left() + LEFT, rect.top() + 18.0),
-            pos2((rect.right() - 10.0).max(rect.left() + LEFT + 10.0), (rect.bottom() - BELOW).max(rect.top() + 28.0)),
+            pos2(rect.left() + LEFT, rect.top() + 24.0),
+            pos2((rect.right() - 10.0).max(rect.left() + LEFT + 10.0), (rect.bottom() - BELOW).max(rect.top() + 34.0)),
         );
         Self { area, x, y }
     }
@@ -125,7 +125,7 @@ impl Chart {
             font.clone(),
             palette.weak,
         );
-        let at = pos2(self.area.left() - LEFT + 4.0, self.area.top() - 2.0);
+        let at = pos2(self.area.left() - LEFT + 4.0, self.area.top() - 7.0);
         painter.text(at, Align2::LEFT_BOTTOM, &self.y.label, font, palette.weak);
     }
 

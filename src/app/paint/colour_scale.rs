@@ -23,7 +23,7 @@ pub struct ColourScale {
 impl ColourScale {
     /// From zero (linear) or `decades` below the top (log) to a round number at or above `max`.
     pub fn up_to(max: f64, log: bool, decades: i32, map: ColourMap) -> Self {
-        let hi = ticks::nice_ceil(max);
+        let hi = if log { ticks::nice_ceil(max) } else { ticks::fine_ceil(max) };
         let lo = if log { hi * 10_f64.powi(-decades.max(1)) } else { 0.0 };
         Self { lo, hi, log, map }
     }
@@ -66,7 +66,7 @@ impl ColourScale {
         let words = if self.log { format!("{unit} (log)") } else { unit.to_owned() };
         let words = painter.layout_no_wrap(words, font.clone(), palette.weak);
         let bar = Rect::from_min_max(
-            pos2(rect.left() + 6.0, rect.top() + 3.0),
+            pos2(rect.left() + 14.0, rect.top() + 3.0),
             pos2((rect.right() - words.size().x - 12.0).max(rect.left() + 40.0), rect.top() + 12.0),
         );
         painter.galley(pos2(bar.right() + 8.0, bar.center().y - 0.5 * words.size().y), words, palette.weak);

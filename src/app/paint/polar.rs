@@ -20,7 +20,7 @@ impl PolarAxes {
     /// The largest diagram within a rectangle; `max` is rounded up.
     pub fn within(rect: Rect, max: f64) -> Self {
         let radius = (0.5 * rect.width().min(rect.height()) - 20.0).max(10.0);
-        Self { centre: rect.center(), radius, max: ticks::nice_ceil(max) }
+        Self { centre: rect.center(), radius, max: ticks::fine_ceil(max) }
     }
 
     /// Screen point of an angle counted from straight down towards the right [rad] and a value.

@@ -22,20 +22,31 @@ pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// Decades within lo … hi; with 2 and 5 between them when there is room (`count`).
+/// Like [`nice_ceil`] in finer steps (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8), so that a scale is well filled.
+pub fn fine_ceil(value: f64) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let decade = 10_f64.powf(value.log10().floor());
+    let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+    steps.into_iter().find(|m| value / decade <= m * (1.0 + 1e-9)).unwrap_or(10.0) * decade
+}
+
+/// Marks of a logarithmic axis within lo … hi, about `count`: 1-2-5 steps where they fit, else decades, else every
+/// second decade and so on; where there is less than two decades the 1-2-5 steps are thinned instead.
 pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
-    if !(lo > 0.0 && hi > lo && hi.is_finite()) {
+    if !(lo > 0.0 && hi > lo && hi.is_finite()) || count == 0 {
         return vec![];
     }
     let (first, last) = (lo.log10().floor() as i32, hi.log10().ceil() as i32);
-    let within = |v: &f64| *v >= lo * (1.0 - 1e-9) && *v <= hi * (1.0 + 1e-9);
-    let fine: Vec<f64> =
-        (first..=last).flat_map(|n| [1.0, 2.0, 5.0].map(|m| m * 10_f64.powi(n))).filter(within).collect();
-    if fine.len() <= count + 1 {
-        return fine;
-    }
-    let stride = ((last - first) as usize).div_ceil(count.max(1)).max(1);
-    (first..=last).step_by(stride).map(|n| 10_f64.powi(n)).filter(within).collect()
+    let list = |mantissas: &[f64]| -> Vec<f64> {
+        let all = (first..=last).flat_map(|n| mantissas.iter().map(move |m| m * 10_f64.powi(n)));
+        all.filter(|v| *v >= lo * (1.0 - 1e-9) && *v <= hi * (1.0 + 1e-9)).collect()
+    };
+    let (fine, decades) = (list(&[1.0, 2.0, 5.0]), list(&[1.0]));
+    let chosen = if fine.len() <= count + 1 || decades.len() < 2 { fine } else { decades };
+    let stride = chosen.len().div_ceil(count + 1).max(1);
+    chosen.into_iter().step_by(stride).collect()
 }
 
 /// A number to `digits` significant digits, without needless zeros: "0.0123", "412", "12 300".
@@ -96,20 +107,22 @@ pub fn si(value: f64, unit: &str) -> String {
     }
 }
 
-/// A tick's text: like [`number`] with few digits, thousands as "k".
+/// A tick's text: few digits, no trailing zeros, thousands as "k".
 pub fn tick(value: f64) -> String {
     let size = value.abs();
-    if size >= 1e6 {
-        format!("{}M", number(value * 1e-6, 3))
-    } else if size >= 1e4 {
-        format!("{}k", number(value * 1e-3, 3))
-    } else {
-        let text = number(value, 4);
+    let trimmed = |text: String| {
         if text.contains('.') && !text.contains('e') {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         } else {
             text
         }
+    };
+    if size >= 1e6 {
+        format!("{}M", trimmed(number(value * 1e-6, 3)))
+    } else if size >= 1e4 {
+        format!("{}k", trimmed(number(value * 1e-3, 3)))
+    } else {
+        trimmed(number(value, 4))
     }
 }
 
@@ -130,6 +143,8 @@ mod tests {
         assert_eq!(nice_ceil(0.0), 1.0);
         assert_eq!(linear(0.0, 1.0, 5), vec![0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
         assert_eq!(logarithmic(1.0, 1000.0, 4), vec![1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(logarithmic(0.02, 20.0, 3), vec![0.1, 1.0, 10.0]);
+        assert_eq!(fine_ceil(6280.0), 8000.0);
         assert!(linear(1.0, 1.0, 4).is_empty() && logarithmic(0.0, 1.0, 4).is_empty());
     }
 

@@ -343,7 +343,7 @@ fn emergent_side(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state:
         let label = format!("regular τ {}", number(regular, 3));
         let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
         let place = side.anchor_size(at + egui::vec2(offset, 0.0), galley.size());
-        ui.painter().rect_filled(place.expand(2.0), 3, palette.halo);
+        ui.painter().rect_filled(place.expand(2.0), 3, palette.face);
         ui.painter().galley(place.min, galley, palette.ink);
     }
     tile::name(ui, &response, "Emergent hemisphere", &selection_text(btdf, input.incident));

@@ -4,7 +4,7 @@ use super::Cache;
 use crate::app::paint::chart::{Axis, Chart, LEFT};
 use crate::app::paint::hemisphere::on_halo;
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::ticks::number;
+use crate::app::paint::ticks::{number, tick};
 use crate::app::paint::tile::{self, Status, Words};
 use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -122,7 +122,7 @@ fn state_text(input: &Input<'_>, index: usize) -> String {
         || "no state".to_owned(),
         |s| {
             let (quantity, unit) = input.quantity.split_once(" / ").unwrap_or((input.quantity, ""));
-            format!("state {} ({quantity} {}{unit})", s.key, number(s.value, 3))
+            format!("state {} ({quantity} {}{unit})", s.key, tick(s.value))
         },
     )
 }
@@ -140,12 +140,20 @@ fn state_colour(input: &Input<'_>, index: usize) -> Color32 {
     ColourMap::Sequential.at(index as f32 / (input.states.len().max(2) - 1) as f32)
 }
 
+/// Ticks at the states, thinned to what the height holds.
+fn state_marks(input: &Input<'_>, height: f32) -> Vec<(f64, String)> {
+    let room = ((height - 60.0) / 16.0).max(2.0) as usize;
+    let stride = input.states.len().div_ceil(room).max(1);
+    input.states.iter().step_by(stride).map(|s| (s.value, tick(s.value))).collect()
+}
+
 fn curve_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let (lo, hi) = extent(input);
     let x = Axis::linear(0.0, 90.0, "profile angle / °")
         .with_marks((0..=6).map(|k| (15.0 * f64::from(k), format!("{}", 15 * k))).collect());
-    let chart = Chart::within(rect, x, Axis::linear(lo, hi, input.quantity));
+    let y = Axis::linear(lo, hi, input.quantity).with_marks(state_marks(input, rect.height()));
+    let chart = Chart::within(rect, x, y);
     let response = ui.interact(chart.area, ui.scope_id().with("curve"), Sense::click());
     let painter = ui.painter();
     chart.paint(painter, &palette);
@@ -171,8 +179,8 @@ fn curve_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -
         }
     }
     for (k, s) in input.states.iter().enumerate() {
-        // The states as dots on the axis; the current one larger.
-        let at = chart.screen(0.0, s.value);
+        // The states as dots on the far axis, where no numbers stand; the current one larger.
+        let at = chart.screen(90.0, s.value);
         let radius = if k == input.current { 6.0 } else { 4.0 };
         painter.circle(at, radius, state_colour(input, k), Stroke::new(1.5, palette.ink));
     }
@@ -298,8 +306,7 @@ fn states_legend(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     for k in (0..n).step_by(stride) {
         let swatch = Rect::from_min_size(pos2(x, rect.center().y - 5.0), vec2(10.0, 10.0));
         ui.painter().rect(swatch, 1, state_colour(input, k), Stroke::new(1.0, palette.outline), StrokeKind::Middle);
-        let text = number(input.states[k].value, 2);
-        let text = text.strip_suffix(".0").unwrap_or(&text).to_owned();
+        let text = tick(input.states[k].value);
         let at = pos2(x + 14.0, rect.center().y);
         let label = ui.painter().text(at, Align2::LEFT_CENTER, text, FontId::proportional(11.0), palette.ink);
         x = label.right() + 9.0;

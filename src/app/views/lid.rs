@@ -149,9 +149,9 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     state.ring = Some(max);
     let legend_height = if lid.beam.is_some() { 54.0 } else { 36.0 };
     let (body, legend) = rect.split_top_bottom_at_y((rect.bottom() - legend_height).max(rect.top() + 60.0));
-    let two = body.width() > 400.0 && body.width() > 1.45 * body.height();
+    let two = body.width() > 400.0 && body.width() > 1.35 * body.height();
     let (main, side) = if two {
-        let (main, side) = body.split_left_right_at_fraction(0.56);
+        let (main, side) = body.split_left_right_at_fraction(0.57);
         (main, Some(side))
     } else {
         (body, None)
@@ -159,7 +159,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let scaled = |values: &[f64]| -> Vec<f64> { values.iter().map(|v| v * factor).collect() };
     let axes = PolarAxes::within(main, max);
     // The angle γ at both sides; values along the spoke where no light of a façade goes.
-    axes.paint(ui.painter(), |a| format!("{:.0}°", a.min(TAU - a).to_degrees()), -2.0 * PI / 3.0, &palette);
+    axes.paint(ui.painter(), |a| format!("{:.0}°", a.min(TAU - a).to_degrees()), -7.0 * PI / 12.0, &palette);
     let ideal = input.flux.filter(|flux| *flux > 0.0);
     let mut text = None;
     let vertical = [(Section::C90, &curves.c90, palette.second), (Section::C0, &curves.c0, palette.first)];
@@ -189,7 +189,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     }
     if let Some(side) = side {
         let axes = PolarAxes::within(side, max);
-        axes.paint(ui.painter(), |a| format!("C{:.0}", a.to_degrees()), 2.0 * PI / 3.0, &palette);
+        axes.paint(ui.painter(), |a| format!("C{:.0}", a.to_degrees()), 7.0 * PI / 12.0, &palette);
         if let Some(flux) = ideal {
             dashed(ui, &axes, lid.surface, flux * factor, Section::Horizontal, &palette);
         }

@@ -7,7 +7,7 @@ use crate::app::paint::chart::{Axis, Chart, LEFT};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::contour::{IsoLine, iso_lines};
 use crate::app::paint::palette::{ColourMap, Palette, contrast};
-use crate::app::paint::ticks::{logarithmic, nice_ceil, number, si, tick};
+use crate::app::paint::ticks::{logarithmic, number, si, tick};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::direction::Surface;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -155,7 +155,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     };
     state.scale = Some(scale.clone());
     let with_section = rect.height() > 230.0;
-    let section_height = if with_section { (0.4 * rect.height()).clamp(100.0, 220.0) } else { 0.0 };
+    let section_height = if with_section { (0.38 * rect.height()).clamp(110.0, 230.0) } else { 0.0 };
     let plan_rect = Rect::from_min_max(
         pos2(rect.left() + LEFT, rect.top() + 2.0),
         pos2(rect.right() - 10.0, rect.bottom() - section_height - LEGEND_HEIGHT - 6.0),
@@ -173,8 +173,8 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     }
     let value = cell.map(|(i, j)| input.cells[j * input.nx + i]);
     let legend = Rect::from_min_size(
-        pos2(plan_rect.left() - 6.0, plan_rect.bottom() + 4.0),
-        vec2(plan_rect.width() + 10.0, LEGEND_HEIGHT),
+        pos2(plan_rect.left() - 14.0, plan_rect.bottom() + 4.0),
+        vec2((plan.area.width() + 30.0).max(160.0).min(plan_rect.width() + 10.0), LEGEND_HEIGHT),
     );
     scale.paint_legend(ui.painter(), legend, "lx", value.map(|v| v.total), &palette);
     let row = cell.map(|(i, _)| i).or(state.row).unwrap_or(input.nx / 2).min(input.nx - 1);
@@ -313,7 +313,7 @@ fn section_ui(
     palette: &Palette,
 ) -> Option<String> {
     let (nx, ny) = (input.nx, input.ny);
-    let top = nice_ceil(scale.hi);
+    let top = scale.hi;
     let (unit, y) = if scale.log {
         ("E / lx (log)", Axis::log(scale.lo, top, "E / lx (log)"))
     } else {

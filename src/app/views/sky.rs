@@ -132,10 +132,11 @@ fn picture(
     let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 20.0));
     figures_ui(ui, figures, input, &palette);
     let rest = Rect::from_min_max(pos2(rect.left(), figures.bottom()), rect.max);
-    let beside = rest.width() > 1.6 * rest.height() && rest.width() > 380.0;
+    let beside = rest.width() > 1.05 * rest.height() && rest.width() > 380.0;
     let (map, section) = if beside {
-        let (map, section) = rest.split_left_right_at_fraction(0.5);
-        (map, Some(section))
+        let (map, section) = rest.split_left_right_at_fraction(0.55);
+        let height = section.height().min(240.0);
+        (map, Some(Rect::from_center_size(section.center(), vec2(section.width(), height))))
     } else if rest.height() > 280.0 {
         let (map, section) = rest.split_top_bottom_at_y(rest.bottom() - 120.0_f32.max(0.3 * rest.height()));
         (map, Some(section))
@@ -338,10 +339,10 @@ fn section_ui(
             })
             .collect()
     });
-    let marks = [(-90.0, "horizon"), (-45.0, "45°"), (0.0, "zenith"), (45.0, "45°"), (90.0, "sun's side")];
-    let x = Axis::linear(-90.0, 90.0, "altitude through sun and zenith")
+    let marks = [(-90.0, "horizon"), (0.0, "zenith"), (90.0, "sun's side")];
+    let x = Axis::linear(-90.0, 90.0, "along the sun's vertical circle")
         .with_marks(marks.map(|(v, t)| (v, t.to_owned())).to_vec());
-    let chart = Chart::within(rect.shrink2(vec2(14.0, 0.0)), x, Axis::log(scale.lo, scale.hi, "L / (cd/m²), log"));
+    let chart = Chart::within(rect.shrink2(vec2(12.0, 0.0)), x, Axis::log(scale.lo, scale.hi, "L / (cd/m²), log"));
     let response = ui.interact(chart.area, ui.scope_id().with("section"), Sense::hover());
     chart.paint(ui.painter(), &palette);
     chart.line(ui.painter(), points.iter().copied(), Stroke::new(2.0, palette.first));

@@ -37,7 +37,6 @@ impl FluxSplit {
 
     /// "Of 41 % transmitted, 28 goes to the ceiling."
     pub fn sentence(&self) -> String {
-        let percent = |share: f64| number(100.0 * share, 2);
         if self.total() <= 0.0 {
             return "Nothing is transmitted.".to_owned();
         }
@@ -45,6 +44,12 @@ impl FluxSplit {
             self.parts().into_iter().fold(("", -1.0), |best, part| if part.1 > best.1 { part } else { best });
         format!("Of {} % transmitted, {} goes to the {zone}.", percent(self.total()), percent(share))
     }
+}
+
+/// Whole percents; one decimal below 1 %.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    if value >= 1.0 || value <= 0.0 { format!("{value:.0}") } else { format!("{value:.1}") }
 }
 
 /// What the tile draws.
@@ -210,7 +215,10 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Pal
             let at = disk.screen(incident_disk(PROJECTION, *incident));
             ui.painter().circle(at, 1.8, Color32::WHITE, Stroke::new(0.6, Color32::BLACK));
             let labelled = (month == 5 || month == 11) && (hour.round() as i64) % 3 == 0;
-            let place = at + vec2(0.0, if month == 5 { -9.0 } else { 9.0 });
+            let above = at + vec2(0.0, -9.0);
+            // June's noon is near the rim, where 'up' stands: then under the path.
+            let inside = above.distance(disk.centre) < disk.radius - 8.0;
+            let place = if month == 5 && inside { above } else { at + vec2(0.0, 9.0) };
             let size = Rect::from_center_size(place, vec2(20.0, 13.0));
             if labelled && disk.radius > 70.0 && used.iter().all(|r| !r.intersects(size)) {
                 used.push(on_halo(ui.painter(), place, &format!("{hour:.0}h"), palette));
@@ -252,7 +260,7 @@ fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
         let latest = column.bottom() - 15.0 * (3 - k) as f32 - 7.0;
         let y = (0.5 * (top + bottom)).max(text_floor + 7.0).min(latest.max(text_floor + 7.0));
         text_floor = y + 8.0;
-        let label = format!("{zone} {}", number(100.0 * share, 2));
+        let label = format!("{zone} {}", percent(share));
         ui.painter().text(pos2(column.right() + 6.0, y), Align2::LEFT_CENTER, label, font.clone(), palette.ink);
         top = bottom;
     }

@@ -10,7 +10,9 @@ mod checks;
 mod dataset;
 mod finding;
 mod ideal;
+mod pyramid;
 mod tensor_emission;
+mod tensor_reversal;
 mod tensor_tree;
 
 pub use angular::AngularTransmittance;

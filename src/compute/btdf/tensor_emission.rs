@@ -1,7 +1,8 @@
 //! What a tensor tree sends out: luminances and indicatrices, summed over the tree without ever making it dense.
 
 use super::Indicatrix;
-use super::tensor_tree::{Pyramid, TensorTree, TreeNode, TreeRank};
+use super::pyramid::Pyramid;
+use super::tensor_tree::{TensorTree, TreeNode, TreeRank};
 use crate::compute::basis::{RingBasis, SquareGrid};
 use crate::compute::direction::Incident;
 use std::f64::consts::PI;
@@ -17,20 +18,30 @@ impl TensorTree {
         let grid = self.incident_grid();
         assert_eq!(illuminance.len(), grid.len(), "one illuminance an incident cell");
         let luminance = match self.rank() {
-            TreeRank::Four => {
-                let own = Pyramid::gather(grid.level(), self.turned(illuminance));
-                let mut out = Pyramid::new(grid.level());
-                self.for_each_leaf(&mut |level, corner, q| {
-                    let e = own.get(level, corner[0], corner[1]);
-                    if e != 0.0 && q != 0.0 {
-                        *out.at(level, corner[2], corner[3]) += q * e;
-                    }
-                });
-                grid.to_rings(&self.turned(&out.spread()))
-            }
+            TreeRank::Four => grid.to_rings(&self.luminance_anisotropic(illuminance)),
             TreeRank::Three => self.luminance_isotropic(&grid.to_rings(illuminance)),
         };
         (grid.rings(), luminance)
+    }
+
+    /// As [`TensorTree::luminance`], on the emergent grid itself (façade frame, row by row), where the tree has one
+    /// that does not turn with the light: rank 4 only.
+    pub fn luminance_on_grid(&self, illuminance: &[f64]) -> Option<Vec<f64>> {
+        assert_eq!(illuminance.len(), self.incident_grid().len(), "one illuminance an incident cell");
+        (self.rank() == TreeRank::Four).then(|| self.luminance_anisotropic(illuminance))
+    }
+
+    fn luminance_anisotropic(&self, illuminance: &[f64]) -> Vec<f64> {
+        let grid = self.incident_grid();
+        let own = Pyramid::gather(grid.level(), self.turned(illuminance));
+        let mut out = Pyramid::new(grid.level());
+        self.for_each_leaf(&mut |level, corner, q| {
+            let e = own.get(level, corner[0], corner[1]);
+            if e != 0.0 && q != 0.0 {
+                *out.at(level, corner[2], corner[3]) += q * e;
+            }
+        });
+        self.turned(&out.spread())
     }
 
     /// Emergent luminance [cd/m²] from light of one direction with the given illuminance [lx] on the element.

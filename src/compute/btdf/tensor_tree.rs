@@ -8,7 +8,8 @@
 //! Child k of a branch lies in the upper half of dimension d where bit d of k is set.
 //! Reference: Radiance `bsdf_t.c` (dimension order, rotation of rank 3, reciprocity).
 
-use crate::compute::basis::{AzimuthMap, MAX_LEVEL, RingBasis, SquareGrid, disk_from_square, square_from_disk};
+use super::pyramid::Pyramid;
+use crate::compute::basis::{AzimuthMap, MAX_LEVEL, RingBasis, SquareGrid, square_from_disk};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use std::f64::consts::PI;
 
@@ -236,116 +237,6 @@ impl TensorTree {
         RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
     }
 
-    /// The same function for light going the other way, by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
-    ///
-    /// Rank 4: an exchange of the two squares, exact. Rank 3: the exchanged function is no tree of the same cells; it
-    /// is averaged over them anew (27 points a leaf), with τ for uniform light kept exactly. A rotationally symmetric
-    /// system is taken as mirror-symmetric too, as all that are measured or built are.
-    pub fn reversed(&self) -> Self {
-        match self.rank {
-            TreeRank::Four => {
-                let mut nodes = vec![TreeNode::Leaf(0.0)];
-                self.exchange(0, 0, &mut nodes);
-                Self::new(self.rank, self.axes, nodes).expect("exchanged squares make a tree of the same depth")
-            }
-            TreeRank::Three => self.reversed_isotropic(),
-        }
-    }
-
-    fn exchange(&self, from: usize, to: usize, nodes: &mut Vec<TreeNode>) {
-        match self.nodes[from] {
-            leaf @ TreeNode::Leaf(_) => nodes[to] = leaf,
-            TreeNode::Branch(first) => {
-                let start = nodes.len();
-                nodes[to] = TreeNode::Branch(start as u32);
-                nodes.extend([TreeNode::Leaf(0.0); 16]);
-                for child in 0..16 {
-                    let exchanged = ((child & 3) << 2) | (child >> 2);
-                    self.exchange(first as usize + exchanged, start + child, nodes);
-                }
-            }
-        }
-    }
-
-    fn reversed_isotropic(&self) -> Self {
-        const POINTS: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
-        let resolution = self.grid.resolution();
-        let side = 1.0 / resolution as f64;
-        let mean = |corner: [usize; 3]| -> f64 {
-            let at = |d: usize, p: f64| (corner[d] as f64 + p) * side;
-            let mut sum = 0.0;
-            let mut weight = 0.0;
-            for p in POINTS {
-                let r_in = 1.0 - 2.0 * at(0, p);
-                for (u, v) in POINTS.iter().flat_map(|&u| POINTS.map(|v| (u, v))) {
-                    let twin = disk_from_square([at(1, u), at(2, v)]);
-                    // Incidence at r_in along the axis, emergence at `twin`; asked the other way round:
-                    // incidence at |twin|, emergence at r_in, turned back by the azimuth of `twin`, and mirrored,
-                    // which changes nothing but keeps straight light on its side of the border at azimuth 0.
-                    let r_out = twin[0].hypot(twin[1]);
-                    let [c, d] = square_from_disk(rotate([r_in, 0.0], twin[1].atan2(twin[0])));
-                    sum += r_in * self.leaf(&[radial_coordinate([r_out, 0.0]), c, d]);
-                    weight += r_in;
-                }
-            }
-            sum / weight
-        };
-        let mut nodes = vec![TreeNode::Leaf(0.0)];
-        build_isotropic(self.grid.level(), [0; 3], 0, resolution / 2, &mean, &mut nodes, 0);
-        let mut tree = Self::new(self.rank, self.axes, nodes).expect("means of leaves are finite and not negative");
-        let (want, got) = (self.tau_hemispherical(), tree.tau_hemispherical());
-        if got > 0.0 {
-            let scaled = tree.nodes.iter().map(|node| match *node {
-                TreeNode::Leaf(q) => TreeNode::Leaf(q * want / got),
-                branch @ TreeNode::Branch(_) => branch,
-            });
-            tree = Self::new(self.rank, self.axes, scaled.collect()).expect("scaling keeps a tree a tree");
-        }
-        tree
-    }
-
-    /// Weighted mean relative difference from another tree of the same rank, as in
-    /// [`super::reciprocity_error`]; `None` for different ranks.
-    pub(super) fn relative_difference(&self, other: &Self) -> Option<f64> {
-        if self.rank != other.rank {
-            return None;
-        }
-        // Front and back axes differ by a half turn of both squares; relative azimuths of rank 3 are not touched.
-        let flip = if self.axes != other.axes && self.rank == TreeRank::Four { 15 } else { 0 };
-        let mut total = (0.0, 0.0);
-        self.compare(0, other, 0, flip, (0, 1.0), &mut total);
-        Some(if total.1 > 0.0 { total.0 / total.1 } else { 0.0 })
-    }
-
-    fn compare(
-        &self,
-        here: usize,
-        other: &Self,
-        there: usize,
-        flip: usize,
-        (level, weight): (u32, f64),
-        total: &mut (f64, f64),
-    ) {
-        let below = (level + 1, weight / self.rank.children() as f64);
-        for child in 0..self.rank.children() {
-            // The upper half of the radial coordinate is not used.
-            if self.rank == TreeRank::Three && level == 0 && child & 1 == 1 {
-                continue;
-            }
-            let (a, b) = match (self.nodes[here], other.nodes[there]) {
-                (TreeNode::Leaf(p), TreeNode::Leaf(q)) => {
-                    total.0 += weight * (p - q).abs();
-                    total.1 += weight * 0.5 * (p + q);
-                    return;
-                }
-                (TreeNode::Branch(first), TreeNode::Leaf(_)) => (first as usize + child, there),
-                (TreeNode::Leaf(_), TreeNode::Branch(first)) => (here, first as usize + (child ^ flip)),
-                (TreeNode::Branch(p), TreeNode::Branch(q)) => (p as usize + child, q as usize + (child ^ flip)),
-            };
-            self.compare(a, other, b, flip, below, total);
-        }
-    }
-
     /// Disk coordinates in the tree's axes; `None` from behind.
     pub(super) fn disk(&self, d: Dir<Facade>) -> Option<[f64; 2]> {
         let v = d.vector();
@@ -361,7 +252,7 @@ impl TensorTree {
         rings - 1 - ((radial_coordinate(disk) * self.grid.resolution() as f64) as usize).min(rings - 1)
     }
 
-    fn leaf(&self, at: &[f64]) -> f64 {
+    pub(super) fn leaf(&self, at: &[f64]) -> f64 {
         let mut at = [at[0], at[1], at[2], at.get(3).copied().unwrap_or(0.0)];
         let mut index = 0;
         loop {
@@ -430,12 +321,12 @@ impl TensorTree {
 }
 
 /// Incident coordinate of rank 3; the small shift puts borders into the ring farther out, as Radiance does.
-fn radial_coordinate(disk: [f64; 2]) -> f64 {
+pub(super) fn radial_coordinate(disk: [f64; 2]) -> f64 {
     (0.5 - 1e-12 - 0.5 * disk[0].hypot(disk[1])).max(0.0)
 }
 
 /// A point turned counter-clockwise.
-fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+pub(super) fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [cos * x - sin * y, sin * x + cos * y]
 }
@@ -445,89 +336,6 @@ pub(super) fn frame_of([ix, iy]: [usize; 2], resolution: usize) -> usize {
     let half = resolution / 2;
     let from_centre = |i: usize| if i >= half { i - half } else { half - 1 - i };
     from_centre(ix).max(from_centre(iy))
-}
-
-/// A full tree of means, with equal children merged and the unused half left zero.
-fn build_isotropic(
-    levels_below: u32,
-    corner: [usize; 3],
-    place: usize,
-    used: usize,
-    mean: &impl Fn([usize; 3]) -> f64,
-    nodes: &mut Vec<TreeNode>,
-    level: u32,
-) {
-    if levels_below == 0 {
-        nodes[place] = TreeNode::Leaf(if corner[0] < used { mean(corner) } else { 0.0 });
-        return;
-    }
-    if corner[0] << levels_below >= used {
-        nodes[place] = TreeNode::Leaf(0.0);
-        return;
-    }
-    let start = nodes.len();
-    nodes[place] = TreeNode::Branch(start as u32);
-    nodes.extend([TreeNode::Leaf(0.0); 8]);
-    for child in 0..8 {
-        let below = std::array::from_fn(|d| 2 * corner[d] + (child >> d & 1));
-        build_isotropic(levels_below - 1, below, start + child, used, mean, nodes, level + 1);
-    }
-    let first = nodes[start];
-    if nodes.len() == start + 8 && matches!(first, TreeNode::Leaf(_)) && nodes[start..].iter().all(|n| *n == first) {
-        nodes.truncate(start);
-        nodes[place] = first;
-    }
-}
-
-/// Square grids of every resolution from 1 to the finest, one above the other.
-pub(super) struct Pyramid {
-    levels: Vec<Vec<f64>>,
-}
-
-impl Pyramid {
-    pub(super) fn new(finest: u32) -> Self {
-        Self { levels: (0..=finest).map(|level| vec![0.0; 1 << (2 * level)]).collect() }
-    }
-
-    /// From totals of the finest cells: every coarser cell holds the sum of its four.
-    pub(super) fn gather(finest: u32, totals: Vec<f64>) -> Self {
-        let mut pyramid = Self::new(finest);
-        pyramid.levels[finest as usize] = totals;
-        for level in (0..finest as usize).rev() {
-            let side = 1 << level;
-            let (coarse, fine) = pyramid.levels.split_at_mut(level + 1);
-            for iy in 0..side {
-                for ix in 0..side {
-                    let k = 4 * iy * side + 2 * ix;
-                    let fine = &fine[0];
-                    coarse[level][iy * side + ix] = fine[k] + fine[k + 1] + fine[k + 2 * side] + fine[k + 2 * side + 1];
-                }
-            }
-        }
-        pyramid
-    }
-
-    pub(super) fn at(&mut self, level: u32, ix: usize, iy: usize) -> &mut f64 {
-        &mut self.levels[level as usize][(iy << level) + ix]
-    }
-
-    pub(super) fn get(&self, level: u32, ix: usize, iy: usize) -> f64 {
-        self.levels[level as usize][(iy << level) + ix]
-    }
-
-    /// Every cell's value handed down to all finest cells below it, and summed there.
-    pub(super) fn spread(mut self) -> Vec<f64> {
-        for level in 1..self.levels.len() {
-            let side = 1 << level;
-            let (coarse, fine) = self.levels.split_at_mut(level);
-            for iy in 0..side {
-                for ix in 0..side {
-                    fine[0][iy * side + ix] += coarse[level - 1][(iy / 2) * (side / 2) + ix / 2];
-                }
-            }
-        }
-        self.levels.pop().unwrap_or_default()
-    }
 }
 
 #[cfg(test)]

@@ -77,7 +77,7 @@ impl LaserCutPanel {
         let (mut through, mut back) = (vec![0.0; n * n], vec![0.0; n * n]);
         for (i, cell) in basis.cells().enumerate() {
             let turned = turned_cell(&basis, i);
-            const SUB: usize = 10;
+            const SUB: usize = 8;
             for d in sub_directions(&cell, SUB) {
                 let shares = self.shares(d);
                 let scale = 1.0 / (SUB * SUB) as f64;

@@ -96,7 +96,11 @@ fn energy(band: &Band, name: &str, findings: &mut Vec<Finding>) -> Result<(), Fo
         if !largest.is_finite() || largest > limit {
             return Err(FormatError::new(
                 Location::file().in_element(block),
-                format!("a directional-hemispherical sum of {largest:.4}, which is not plausible"),
+                if largest < 1e4 {
+                    format!("a directional-hemispherical sum of {largest:.4}, which is not plausible")
+                } else {
+                    format!("a directional-hemispherical sum of {largest:.3e}, which is not plausible")
+                },
                 "sums of at most 1, values in 1/sr",
             ));
         }

@@ -8,6 +8,8 @@ use roxmltree::{Document, Node, ParsingOptions};
 const MAX_DEPTH: usize = 64;
 /// More elements than any dataset needs, few enough to stay small in memory.
 const MAX_NODES: u32 = 200_000;
+/// More attributes on one element than any file has; their names are compared pair by pair.
+const MAX_ATTRIBUTES: usize = 64;
 /// How far an XML declaration is looked for.
 const MAX_JUNK: usize = 65_536;
 
@@ -100,7 +102,21 @@ impl Source {
                 None
             };
             let end: &[u8] = skip_to.unwrap_or(b">");
-            let Some(length) = rest.windows(end.len()).position(|window| window == end) else {
+            let length = match skip_to {
+                Some(end) => rest.windows(end.len()).position(|window| window == end),
+                None => {
+                    let (end, attributes) = end_of_tag(rest);
+                    if attributes > MAX_ATTRIBUTES {
+                        return Err(FormatError::new(
+                            self.line_of(open),
+                            format!("an element with more than {MAX_ATTRIBUTES} attributes"),
+                            "the few attributes of a BSDF file",
+                        ));
+                    }
+                    end
+                }
+            };
+            let Some(length) = length else {
                 return Ok(()); // Unclosed: the parser says so with its place.
             };
             if skip_to.is_none() {
@@ -122,6 +138,25 @@ impl Source {
         }
         Ok(())
     }
+}
+
+/// Where a tag's '>' is, past quoted attribute values that may hold one, and how many values there are (no more are
+/// counted than needed to refuse them).
+fn end_of_tag(rest: &[u8]) -> (Option<usize>, usize) {
+    let (mut quote, mut attributes) = (None, 0);
+    let end = rest.iter().position(|&byte| {
+        match (quote, byte) {
+            (None, b'>') => return true,
+            (None, b'"' | b'\'') => {
+                quote = Some(byte);
+                attributes += 1;
+            }
+            (Some(open), _) if open == byte => quote = None,
+            _ => {}
+        }
+        attributes > MAX_ATTRIBUTES
+    });
+    (end, attributes)
 }
 
 fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, FormatError> {

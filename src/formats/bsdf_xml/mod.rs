@@ -334,7 +334,7 @@ impl Reader<'_> {
             return Ok(full);
         }
         let commas = text.bytes().filter(|byte| *byte == b',').count();
-        let hint = if values.len() > expected && commas * 2 + 8 >= values.len() {
+        let hint = if 2 * values.len() > 3 * expected && commas * 2 + 8 >= values.len() {
             " (decimal commas suspected: a comma separates numbers)"
         } else {
             ""

@@ -4,6 +4,9 @@ use crate::compute::basis::MAX_LEVEL;
 use crate::compute::btdf::{TreeNode, TreeRank};
 use crate::formats::location::{FormatError, Location, excerpt};
 
+/// More nodes than any measurement or simulation yields; bounds the memory of a tree to 128 MB.
+const MAX_TREE_NODES: usize = 8 << 20;
+
 /// Numbers separated by blanks, line breaks and commas. `expected` is the count that the bases ask for.
 pub(super) fn parse_list(text: &str, expected: usize, at: &Location) -> Result<Vec<f64>, FormatError> {
     let mut values = Vec::with_capacity(expected.min(text.len() / 2 + 1));
@@ -117,6 +120,13 @@ impl Parser<'_> {
                 value = 0.0;
             }
             values.push(value);
+            if self.tree.nodes.len() + values.len() > MAX_TREE_NODES {
+                return Err(FormatError::new(
+                    self.at.clone(),
+                    format!("a tensor tree of more than {MAX_TREE_NODES} nodes"),
+                    "a smaller tree (pruned, as rttree_reduce does)",
+                ));
+            }
         }
         let dimensions = self.rank.dimensions() as u32;
         let depth = values.len().checked_ilog2().unwrap_or(0) / dimensions;

@@ -5,9 +5,9 @@
 //! sampled cell by cell from their finest grid; light that goes straight on becomes the diagonal of its matrix,
 //! τ/PΩ in every cell. The Geometry element is empty.
 
-use crate::compute::basis::{AzimuthMap, Resampling, RingBasis, resample_matrix};
-use crate::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, TensorTree};
-use crate::compute::direction::Incident;
+use crate::compute::basis::{AzimuthMap, Resampling, RingBasis, SquareGrid, resample_matrix};
+use crate::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree};
+use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 ///
 /// # Errors
 /// A dataset without any visible function.
-pub fn write(dataset: &Dataset) -> Result<Vec<u8>, FormatError> {
+pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     if dataset.visible.components().is_empty() {
         return Err(FormatError::new(Location::file(), "a dataset without visible functions", "at least one to write"));
     }
@@ -27,7 +27,40 @@ pub fn write(dataset: &Dataset) -> Result<Vec<u8>, FormatError> {
         band(&mut xml, solar, "Solar", &basis);
     }
     xml.push_str("\t\t</Layer>\n\t</Optical>\n</WindowElement>\n");
-    Ok(xml.into_bytes())
+    Ok(Written { bytes: xml.into_bytes(), findings: changes(dataset, &basis) })
+}
+
+fn changes(dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let mut tell = |code, text: String| findings.push(Finding::info(code, text));
+    for component in dataset.visible.components() {
+        let Some(btdf) = dataset.visible.get(component) else { continue };
+        let name = component.key().replace('_', " ");
+        let from = match &btdf.scattered {
+            Some(Scattered::Tree(_)) => Some("tensor tree"),
+            Some(Scattered::Lambert(_)) => Some("diffuse function"),
+            Some(Scattered::Cells(matrix)) if matrix.incident().rings() != basis.rings() => {
+                Some("matrix on other cells")
+            }
+            Some(Scattered::Cells(matrix)) if matrix.emergent().rings() != basis.rings() => {
+                Some("matrix on other cells")
+            }
+            Some(Scattered::Cells(_)) | None => None,
+        };
+        if let Some(from) = from {
+            tell("resampled", format!("{name}: a {from}, averaged over the cells of {}.", basis.name()));
+        }
+        if btdf.regular.is_some() {
+            tell("regular-in-cells", format!("{name}: light that goes straight on now fills its own cell."));
+        }
+        if dataset.derived.contains(&component) {
+            tell("derived-written", format!("{name}: derived, written like a block of the source."));
+        }
+    }
+    if !dataset.state.is_empty() {
+        tell("state-not-written", format!("The state key '{}' has no place in the format.", dataset.state));
+    }
+    findings
 }
 
 /// The dataset's own rings where the format can say them, else Klems full.
@@ -155,32 +188,57 @@ fn ring_mean((from, to): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
     (0..STEPS).map(|k| f(theta(k))).sum::<f64>() / STEPS as f64
 }
 
-/// Mean emergent distribution of every cell under uniform luminance of that cell.
+/// Mean emergent distribution of every cell under uniform luminance of that cell. The shares of tree cells in ring
+/// cells are counted on a million directions of equal weight; every distribution is then scaled to its exact flux.
 fn tree_on(tree: &TensorTree, basis: &RingBasis) -> Vec<f64> {
-    const SAMPLES: usize = 8;
     let grid = tree.incident_grid();
-    let mut light = vec![Vec::new(); basis.len()];
+    let shares = grid_shares(grid, basis);
+    let weights = basis.projected_solid_angles();
+    let from_rings = Resampling::new(&grid.rings(), basis);
+    let tau = tree.tau_by_cell();
+    let mut values = Vec::with_capacity(basis.len() * basis.len());
+    for incident in &shares {
+        let mut illuminance = vec![0.0; grid.len()];
+        for &(cell, share) in incident {
+            illuminance[cell] = share;
+        }
+        let mut row: Vec<f64> = match tree.luminance_on_grid(&illuminance) {
+            Some(luminance) => {
+                shares.iter().map(|cell| cell.iter().map(|&(k, share)| share * luminance[k]).sum()).collect()
+            }
+            None => from_rings.apply(&tree.luminance(&illuminance).1),
+        };
+        let flux: f64 = incident.iter().map(|&(cell, share)| share * tau[cell]).sum();
+        let got: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
+        if got > 0.0 {
+            row.iter_mut().for_each(|q| *q *= flux / got);
+        }
+        values.extend(row);
+    }
+    values
+}
+
+/// For every cell of the basis the grid cells that fill it, with their shares (sum 1).
+fn grid_shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
+    const SIDE: usize = 1024;
+    let per_side = SIDE / grid.resolution();
+    let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); basis.len()];
     for (k, cell) in grid.cells().enumerate() {
-        for direction in cell.samples(SAMPLES) {
-            if let Some(place) = basis.index(Incident(direction).0) {
-                light[place].push(k);
+        for direction in cell.samples(per_side) {
+            let Some(place) = basis.index(direction) else { continue };
+            match counts[place].last_mut() {
+                Some(last) if last.0 == k => last.1 += 1.0,
+                _ => counts[place].push((k, 1.0)),
             }
         }
     }
-    let outward = Resampling::new(&grid.rings(), basis);
-    let mut values = Vec::with_capacity(basis.len() * basis.len());
-    for (place, cells) in light.iter().enumerate() {
-        let mut illuminance = vec![0.0; grid.len()];
-        for &cell in cells {
-            illuminance[cell] += 1.0 / cells.len() as f64;
-        }
-        if cells.is_empty() {
+    for (place, list) in counts.iter_mut().enumerate() {
+        if list.is_empty() {
             // A cell finer than the samples: its centre stands for it.
-            let centre = Incident(basis.cell(place).centre());
-            values.extend(outward.apply(&tree.indicatrix(centre).q));
-        } else {
-            values.extend(outward.apply(&tree.luminance(&illuminance).1));
+            list.extend(grid.index(basis.cell(place).centre()).map(|k| (k, 1.0)));
         }
+        let total: f64 = list.iter().map(|entry| entry.1).sum();
+        list.iter_mut().for_each(|entry| entry.1 /= total);
     }
-    values
+    counts
 }

@@ -2,7 +2,10 @@
 
 use super::{BlobError, MAGIC, VERSION, join_planes};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
-use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered};
+use crate::compute::btdf::{
+    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes,
+    TreeNode, TreeRank,
+};
 use std::collections::HashSet;
 use std::io::Read;
 use std::sync::{Mutex, OnceLock};
@@ -138,6 +141,7 @@ impl<'a> Reader<'a> {
             0 => None,
             1 => Some(Scattered::Lambert(self.angular()?)),
             2 => Some(Scattered::Cells(Box::new(self.cells()?))),
+            3 => Some(Scattered::Tree(Box::new(self.tree()?))),
             other => return self.invalid(format!("kind {other} of scattering, which this version does not know")),
         };
         Ok(Btdf { regular, scattered })
@@ -189,6 +193,35 @@ impl<'a> Reader<'a> {
             return self.invalid("a value that is not finite");
         }
         CellMatrix::new(incident, emergent, values).map_or_else(|| self.invalid("values do not fit the cells"), Ok)
+    }
+
+    fn tree(&mut self) -> Result<TensorTree, BlobError> {
+        let rank = match self.byte()? {
+            3 => TreeRank::Three,
+            4 => TreeRank::Four,
+            other => return self.invalid(format!("a tree of rank {other}")),
+        };
+        let axes = if self.flag()? { TreeAxes::Back } else { TreeAxes::Front };
+        let (count, branches) = (self.count(0)?, self.count(0)?);
+        if count > MOST_VALUES || branches > count {
+            return self
+                .invalid(format!("a tree of {count} nodes, {branches} of them branches (at most {MOST_VALUES})"));
+        }
+        let packed = self.count(1)?;
+        let packed = self.take(packed)?;
+        let plain = self.unpack(packed, 5 * count)?;
+        let (kinds, rest) = plain.split_at(count);
+        let (firsts, leaves) = rest.split_at(4 * branches);
+        if kinds.iter().filter(|kind| **kind != 0).count() != branches {
+            return self.invalid("a tree that has not as many branches as it says");
+        }
+        let mut firsts = firsts.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        let mut leaves = join_planes(leaves).into_iter();
+        let nodes = kinds.iter().map_while(|kind| {
+            if *kind == 0 { leaves.next().map(TreeNode::Leaf) } else { firsts.next().map(TreeNode::Branch) }
+        });
+        let nodes = nodes.collect();
+        TensorTree::new(rank, axes, nodes).or_else(|error| self.invalid(error.to_string()))
     }
 
     /// Decompresses exactly `size` bytes; memory grows only as bytes really come.

@@ -3,7 +3,8 @@
 use super::{MAGIC, VERSION, split_planes};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{
-    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, Severity,
+    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, Severity, TensorTree,
+    TreeAxes, TreeNode, TreeRank,
 };
 
 /// Bytes of a dataset. The same dataset always gives the same bytes.
@@ -134,7 +135,30 @@ impl Writer {
         self.0.extend(packed);
     }
 
-    fn tree(&mut self, _tree: &crate::compute::btdf::TensorTree) {}
+    /// One byte a node for its kind, the first children of branches, then the leaves' values; compressed together.
+    fn tree(&mut self, tree: &TensorTree) {
+        self.byte(if tree.rank() == TreeRank::Three { 3 } else { 4 });
+        self.byte(u8::from(tree.axes() == TreeAxes::Back));
+        let mut plain: Vec<u8> =
+            tree.nodes().iter().map(|node| u8::from(matches!(node, TreeNode::Branch(_)))).collect();
+        let mut leaves = Vec::new();
+        let mut branches = 0;
+        for node in tree.nodes() {
+            match node {
+                TreeNode::Leaf(q) => leaves.push(*q),
+                TreeNode::Branch(first) => {
+                    plain.extend(first.to_le_bytes());
+                    branches += 1;
+                }
+            }
+        }
+        plain.extend(split_planes(&leaves));
+        let packed = zstd::bulk::compress(&plain, 1).expect("compression into memory does not fail");
+        self.count(tree.nodes().len());
+        self.count(branches);
+        self.count(packed.len());
+        self.0.extend(packed);
+    }
 
     fn findings(&mut self, findings: &[Finding]) {
         self.count(findings.len());
@@ -156,9 +180,11 @@ fn is_front_turned(front: &Btdf, back: &Btdf) -> bool {
         return false;
     };
     let same_cells = f.incident() == b.emergent() && f.emergent() == b.incident();
+    // As stored: what is read back is written the same again.
+    let same = |a: f64, b: f64| (a as f32).to_bits() == (b as f32).to_bits();
     let turned = |f: &CellMatrix, b: &CellMatrix| {
         let (n, m) = (f.incident().len(), f.emergent().len());
-        (0..n).all(|i| (0..m).all(|o| f.values()[i * m + o].to_bits() == b.values()[o * n + i].to_bits()))
+        (0..n).all(|i| (0..m).all(|o| same(f.values()[i * m + o], b.values()[o * n + i])))
     };
     front.regular == back.regular && same_cells && turned(f, b)
 }

@@ -1,6 +1,8 @@
 //! Trees against closed forms: constants, single leaves, energy, reciprocity, rotation.
 
+use super::super::tensor_reversal::build_isotropic;
 use super::*;
+use crate::compute::basis::disk_from_square;
 
 fn random(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -142,7 +144,7 @@ fn reversing_a_rank_3_tree_keeps_smooth_functions() {
         q(1.0 - 2.0 * at(0), x.hypot(y), y.atan2(x))
     };
     let mut nodes = vec![TreeNode::Leaf(0.0)];
-    build_isotropic(5, [0; 3], 0, 16, &mean, &mut nodes, 0);
+    build_isotropic(5, [0; 3], 0, 16, &mean, &mut nodes);
     let tree = TensorTree::new(TreeRank::Three, TreeAxes::Back, nodes).unwrap();
     let front = tree.reversed();
     assert!((front.tau_hemispherical() - tree.tau_hemispherical()).abs() < 1e-12);

@@ -1,0 +1,350 @@
+//! `cfs catalogue`: list, show, import, export and validate products.
+
+use crate::catalogue::{Catalogue, NewProduct, Origin, Product, ProductFinding, Provenance, Query, check};
+use crate::cli::dataset_file;
+use crate::compute::btdf::{Dataset, Severity};
+use crate::formats::package::looks_like_package;
+use anyhow::{Context, anyhow, bail};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `cfs catalogue`.
+#[derive(Debug, clap::Args)]
+pub struct CatalogueArgs {
+    /// What to do.
+    #[command(subcommand)]
+    pub action: Action,
+}
+
+/// What `cfs catalogue` can do.
+#[derive(Debug, clap::Subcommand)]
+pub enum Action {
+    /// List products.
+    List(ListArgs),
+    /// Everything about one product.
+    Show(ShowArgs),
+    /// Add dataset files (as states of one product) or packages.
+    Import(ImportArgs),
+    /// Write products into a package.
+    Export(ExportArgs),
+    /// Check stored products or dataset files: energy, reciprocity, integrity.
+    Validate(ValidateArgs),
+}
+
+/// Arguments of `cfs catalogue list`.
+#[derive(Debug, clap::Args)]
+pub struct ListArgs {
+    /// Words that must begin words of name, maker, kind, description or tags.
+    #[arg(long, default_value = "")]
+    pub search: String,
+    /// Products of this kind alone.
+    #[arg(long)]
+    pub kind: Option<String>,
+    /// A JSON array instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `cfs catalogue show`.
+#[derive(Debug, clap::Args)]
+pub struct ShowArgs {
+    /// Key of the product.
+    pub key: String,
+    /// A JSON object instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `cfs catalogue import`.
+#[derive(Debug, clap::Args)]
+pub struct ImportArgs {
+    /// Dataset files, or packages (.cfsp).
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Name of the product; the file's own by default.
+    #[arg(long, default_value = "")]
+    pub name: String,
+    /// Maker; the file's own by default.
+    #[arg(long, default_value = "")]
+    pub manufacturer: String,
+    /// Kind, e.g. venetian.
+    #[arg(long, default_value = "")]
+    pub kind: String,
+    /// Word to find it by; may be given several times.
+    #[arg(long = "tag")]
+    pub tags: Vec<String>,
+}
+
+/// Arguments of `cfs catalogue export`.
+#[derive(Debug, clap::Args)]
+pub struct ExportArgs {
+    /// Keys of the products.
+    #[arg(required = true)]
+    pub keys: Vec<String>,
+    /// The package to write.
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+/// Arguments of `cfs catalogue validate`.
+#[derive(Debug, clap::Args)]
+pub struct ValidateArgs {
+    /// Dataset files or keys of products; all products by default.
+    pub items: Vec<String>,
+    /// A JSON array instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Does what the arguments say with the catalogue of a file, or with the user's own.
+///
+/// # Errors
+/// One line that names the product or the file. `validate` fails when anything is not fit for use.
+pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()> {
+    let mut catalogue = catalogue.map_or_else(Catalogue::open_default, Catalogue::open)?;
+    match &args.action {
+        Action::List(args) => list(&catalogue, args),
+        Action::Show(args) => show(&catalogue, args),
+        Action::Import(args) => import(&mut catalogue, args),
+        Action::Export(args) => dataset_file::write(&args.out, &catalogue.export_package(&args.keys)?),
+        Action::Validate(args) => validate(&catalogue, args),
+    }
+}
+
+/// Prints; a reader that has seen enough (`| head`) is no error.
+fn print(text: &str) -> anyhow::Result<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}
+
+fn figure(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
+}
+
+fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
+    let kinds = args.kind.iter().cloned().collect();
+    let rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
+    if args.json {
+        let rows = rows.iter().map(|row| {
+            json!({
+                "key": row.key, "name": row.name, "manufacturer": row.manufacturer, "kind": row.kind,
+                "origin": row.origin.word(), "tau_normal_hemispherical": row.tau_normal,
+                "tau_hemispherical_hemispherical": row.tau_hemispherical, "states": row.states,
+                "favourite": row.favourite, "builtin": row.builtin,
+            })
+        });
+        return print(&(serde_json::to_string_pretty(&rows.collect::<Vec<_>>())? + "\n"));
+    }
+    let width = rows.iter().map(|row| row.key.chars().count()).max().unwrap_or(0).max(3);
+    let kind = rows.iter().map(|row| row.kind.chars().count()).max().unwrap_or(0).max(4);
+    let mut text = format!("{:width$}  {:kind$}  τ normal  τ hemi  states  name\n", "key", "kind");
+    for row in rows {
+        let (normal, hemispherical) = (figure(row.tau_normal), figure(row.tau_hemispherical));
+        let star = if row.favourite { " ★" } else { "" };
+        writeln!(
+            text,
+            "{:width$}  {:kind$}  {normal:>8}  {hemispherical:>6}  {:>6}  {}{star}",
+            row.key, row.kind, row.states, row.name
+        )?;
+    }
+    print(&text)
+}
+
+fn finding_json(finding: &ProductFinding) -> Value {
+    json!({
+        "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,
+    })
+}
+
+fn product_json(product: &Product) -> Value {
+    let from = &product.provenance;
+    let states = product.states.iter().map(|s| {
+        json!({
+            "key": s.key, "label": s.label, "value": s.value, "dataset": s.dataset,
+            "tau_normal_hemispherical": s.tau_normal, "tau_hemispherical_hemispherical": s.tau_hemispherical,
+        })
+    });
+    let curve = product.control_curve.iter().map(|p| json!({"profile_angle": p.profile_angle, "value": p.value}));
+    json!({
+        "key": product.key, "name": product.name, "manufacturer": product.manufacturer, "kind": product.kind,
+        "description": product.description, "tags": product.tags, "favourite": product.favourite,
+        "builtin": product.builtin,
+        "provenance": {
+            "origin": from.origin.word(), "author": from.author, "method": from.method, "date": from.date,
+            "source_file": from.source_file, "source_hash": from.source_hash, "inside_face": from.inside_face,
+        },
+        "states": states.collect::<Vec<_>>(),
+        "control_curve": curve.collect::<Vec<_>>(),
+        "findings": product.findings.iter().map(finding_json).collect::<Vec<_>>(),
+    })
+}
+
+fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
+    let product = catalogue.product(&args.key)?;
+    if args.json {
+        return print(&(serde_json::to_string_pretty(&product_json(&product))? + "\n"));
+    }
+    let from = &product.provenance;
+    let mut text = format!("{} ({})\n", product.name, product.key);
+    let tags = product.tags.join(", ");
+    for (label, value) in [
+        ("kind", product.kind.as_str()),
+        ("maker", &product.manufacturer),
+        ("about", &product.description),
+        ("tags", &tags),
+        ("origin", from.origin.word()),
+        ("by", &from.author),
+        ("method", &from.method),
+        ("date", &from.date),
+        ("source", &from.source_file),
+        ("inside face", &from.inside_face),
+    ] {
+        if !value.is_empty() {
+            writeln!(text, "  {label}: {value}")?;
+        }
+    }
+    writeln!(text, "  {:8}  τ normal  τ hemi  dataset", "state")?;
+    for state in &product.states {
+        let key = if state.key.is_empty() { "-" } else { &state.key };
+        let (normal, hemispherical) = (figure(state.tau_normal), figure(state.tau_hemispherical));
+        writeln!(text, "  {key:8}  {normal:>8}  {hemispherical:>6}  {}", state.dataset.get(..12).unwrap_or_default())?;
+    }
+    if !product.control_curve.is_empty() {
+        writeln!(text, "  control curve (profile angle → state)")?;
+        for point in &product.control_curve {
+            writeln!(text, "    {:>6.1}°  {:>6.1}", point.profile_angle, point.value)?;
+        }
+    }
+    for finding in &product.findings {
+        writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
+    }
+    print(&text)
+}
+
+/// Method and origin as far as the datasets' own texts tell them.
+fn provenance(files: &[(String, String)]) -> Provenance {
+    Provenance {
+        origin: Origin::Unknown,
+        source_file: files.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "),
+        // Of several files the hash of their hashes, which changes with each.
+        source_hash: match files {
+            [(_, hash)] => hash.clone(),
+            several => {
+                let all: Vec<&str> = several.iter().map(|(_, hash)| hash.as_str()).collect();
+                blake3::hash(all.join("\n").as_bytes()).to_hex().to_string()
+            }
+        },
+        ..Provenance::default()
+    }
+}
+
+fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
+    let mut datasets: Vec<Dataset> = Vec::new();
+    let mut sources = Vec::new();
+    let mut packages = Vec::new();
+    // Everything is read before anything is stored.
+    for path in &args.files {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cfsp")) {
+            let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+            if !looks_like_package(&bytes) {
+                bail!("{}: not a package; expected a zip file written by export", path.display());
+            }
+            packages.push((path, bytes));
+        } else {
+            let mut read = dataset_file::read(path)?;
+            let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+            // Files without states make one family when given together; their names tell the states apart.
+            if args.files.len() > 1 && read.len() == 1 && read[0].state.is_empty() {
+                read[0].state = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            }
+            datasets.extend(read);
+            sources.push((name, blake3::hash(&bytes).to_hex().to_string()));
+        }
+    }
+    if packages.len() > 1 || (!packages.is_empty() && !datasets.is_empty()) {
+        bail!("one package at a time, without dataset files beside it, so that an import is one step");
+    }
+    let imported = if let Some((path, bytes)) = packages.first() {
+        catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
+    } else {
+        let meta = NewProduct {
+            name: args.name.clone(),
+            manufacturer: args.manufacturer.clone(),
+            kind: args.kind.clone(),
+            tags: args.tags.clone(),
+            provenance: provenance(&sources),
+            ..NewProduct::default()
+        };
+        vec![catalogue.import(&datasets, meta)?]
+    };
+    let mut text = String::new();
+    for product in imported {
+        writeln!(text, "{}", product.key)?;
+        if !product.same_content_as.is_empty() {
+            eprintln!("note: the same data are already in {}", product.same_content_as.join(", "));
+        }
+        for finding in catalogue.product(&product.key)?.findings {
+            eprintln!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
+        }
+    }
+    print(&text)
+}
+
+fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Result<()> {
+    let all = catalogue.search(&Query::default())?;
+    let items =
+        if args.items.is_empty() { all.iter().map(|row| row.key.clone()).collect() } else { args.items.clone() };
+    let mut results = Vec::new();
+    for item in items {
+        let findings = if all.iter().any(|row| row.key == item) {
+            catalogue.validate(&item)?
+        } else if Path::new(&item).exists() {
+            of_file(Path::new(&item))?
+        } else {
+            bail!("{item}: neither a product of the catalogue nor a file");
+        };
+        results.push((item, findings));
+    }
+    let bad = results.iter().filter(|(_, f)| f.iter().any(|f| f.severity == Severity::Error)).count();
+    if args.json {
+        let list = results.iter().map(|(item, findings)| {
+            let valid = findings.iter().all(|finding| finding.severity != Severity::Error);
+            json!({"item": item, "valid": valid, "findings": findings.iter().map(finding_json).collect::<Vec<_>>()})
+        });
+        print(&(serde_json::to_string_pretty(&list.collect::<Vec<_>>())? + "\n"))?;
+    } else {
+        let mut text = String::new();
+        for (item, findings) in &results {
+            let worst = findings.iter().map(|finding| finding.severity).max();
+            writeln!(text, "{item}: {}", worst.map_or("ok", Severity::word))?;
+            for finding in findings {
+                writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
+            }
+        }
+        print(&text)?;
+    }
+    if bad > 0 {
+        bail!("{bad} of {} not fit for use", results.len());
+    }
+    Ok(())
+}
+
+/// What reader and checks say about a file.
+fn of_file(path: &Path) -> anyhow::Result<Vec<ProductFinding>> {
+    let mut findings = Vec::new();
+    for dataset in dataset_file::read(path)? {
+        let own = check(&dataset).into_iter().filter(|finding| !dataset.findings.contains(finding));
+        findings.extend(dataset.findings.iter().cloned().chain(own).map(|finding| ProductFinding {
+            state: dataset.state.clone(),
+            severity: finding.severity,
+            code: finding.code.to_owned(),
+            message: finding.message,
+        }));
+    }
+    Ok(findings)
+}
