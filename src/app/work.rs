@@ -304,9 +304,8 @@ impl App {
         const GUIDES: [&str; 3] = ["laser", "prism", "double"];
         let entries = &self.state.found.entries;
         let moving = entries.iter().find(|entry| entry.states.len() > 1);
-        let guiding = || {
-            GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)))
-        };
+        let guiding =
+            || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
         let chosen = moving.or_else(guiding).unwrap_or(&entries[0]);
         self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
         super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);

@@ -103,18 +103,13 @@ fn rows(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
             area = area.vertical_scroll_offset((row as f32 - 1.0).max(0.0) * step);
         }
     }
-    let output = area.show_rows(
-        ui,
-        theme::ROW_HEIGHT,
-        entries.len(),
-        |ui, range| {
-            for entry in &entries[range] {
-                row(ui, entry, entry.key == state.document.selection.product, commands);
-            }
-        },
-    );
+    let output = area.show_rows(ui, theme::ROW_HEIGHT, entries.len(), |ui, range| {
+        for entry in &entries[range] {
+            row(ui, entry, entry.key == state.document.selection.product, commands);
+        }
+    });
     let key = offset_key(ui);
-    ui.data_mut(|data| data.insert_temp(key, output.state.offset.y));
+    ui.data_mut(|data| data.insert_temp(key, output.state.clamped_offset().y));
 }
 
 fn offset_key(ui: &Ui) -> egui::Id {
