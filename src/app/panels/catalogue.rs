@@ -87,19 +87,41 @@ fn chips(ui: &mut Ui, state: &State, query: &mut Query) {
     });
 }
 
-fn rows(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let entries = &state.found.entries;
+fn rows(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+    let found = state.found.clone();
+    let entries = &found.entries;
     let height = (ui.available_height() - 54.0).max(80.0);
-    ScrollArea::vertical().id_salt("rows").max_height(height).auto_shrink([false, false]).show_rows(
-        ui,
-        theme::ROW_HEIGHT,
-        entries.len(),
-        |ui, range| {
-            for entry in &entries[range] {
-                row(ui, entry, entry.key == state.document.selection.product, commands);
-            }
-        },
-    );
+    let mut area = ScrollArea::vertical().id_salt("rows").max_height(height).auto_shrink([false, false]);
+    let product = &state.document.selection.product;
+    if state.scrolled_to != *product
+        && let Some(row) = entries.iter().position(|entry| entry.key == *product)
+    {
+        // Bring a new selection into view, with a row above it for context.
+        state.scrolled_to.clone_from(product);
+        let step = theme::ROW_HEIGHT + ui.spacing().item_spacing.y;
+        if area_hides(ui, row, height, step) {
+            area = area.vertical_scroll_offset((row as f32 - 1.0).max(0.0) * step);
+        }
+    }
+    let output = area.show_rows(ui, theme::ROW_HEIGHT, entries.len(), |ui, range| {
+        for entry in &entries[range] {
+            row(ui, entry, entry.key == state.document.selection.product, commands);
+        }
+    });
+    let key = offset_key(ui);
+    ui.data_mut(|data| data.insert_temp(key, output.state.clamped_offset().y));
+}
+
+fn offset_key(ui: &Ui) -> egui::Id {
+    ui.scope_id().with("rows-offset")
+}
+
+/// Is a row out of sight, as the list stood in the last frame?
+fn area_hides(ui: &Ui, row: usize, height: f32, step: f32) -> bool {
+    let key = offset_key(ui);
+    let offset = ui.data(|data| data.get_temp::<f32>(key)).unwrap_or(0.0);
+    let top = row as f32 * step;
+    top < offset || top + step > offset + height
 }
 
 fn figure(value: Option<f64>) -> String {

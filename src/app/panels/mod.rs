@@ -22,14 +22,14 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     if app.state.settings.catalogue_open {
         egui::Panel::left("catalogue")
             .frame(side)
-            .default_size(290.0)
+            .default_size(250.0)
             .size_range(240.0..=380.0)
             .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut commands));
     }
     if app.state.settings.scene_open {
         egui::Panel::right("scene")
             .frame(side)
-            .default_size(270.0)
+            .default_size(250.0)
             .size_range(250.0..=340.0)
             .show(ui, |ui| scene::show(ui, &app.state, &mut commands));
     }

@@ -107,16 +107,18 @@ fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, start
 
 fn place(ui: &mut Ui, scene: &mut SceneFile) {
     let shown = title::place(scene);
-    ComboBox::from_id_salt("city").selected_text(shown).width(ui.available_width() - 8.0).show_ui(ui, |ui| {
-        for (name, latitude, longitude, offset) in CITIES {
-            let here = scene.site.latitude == Some(latitude) && scene.site.longitude == Some(longitude);
-            if ui.selectable_label(here, name).clicked() {
-                scene.site.latitude = Some(latitude);
-                scene.site.longitude = Some(longitude);
-                scene.site.utc_offset = Some(offset);
+    let city =
+        ComboBox::from_id_salt("city").selected_text(shown).width(ui.available_width() - 8.0).show_ui(ui, |ui| {
+            for (name, latitude, longitude, offset) in CITIES {
+                let here = scene.site.latitude == Some(latitude) && scene.site.longitude == Some(longitude);
+                if ui.selectable_label(here, name).clicked() {
+                    scene.site.latitude = Some(latitude);
+                    scene.site.longitude = Some(longitude);
+                    scene.site.utc_offset = Some(offset);
+                }
             }
-        }
-    });
+        });
+    city.response.accessible_name("City");
     if scene.sky.time.is_none() && scene.site.latitude.is_none() {
         ui.weak("Not needed while the sun is given by angles.");
         return;
@@ -246,23 +248,26 @@ fn sky(ui: &mut Ui, scene: &mut SceneFile, follows: &mut bool) {
     ];
     let shown = words.iter().find(|(model, _)| *model == sky.model).map_or("", |(_, word)| word);
     let width = ui.available_width() - 8.0;
-    ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
         for (model, word) in words {
             if ui.selectable_label(sky.model == model, word).clicked() && sky.model != model {
                 choose_model(sky, model);
             }
         }
     });
+    combo.response.accessible_name("Sky model");
     match sky.model {
         SkyModelKey::Cie => {
             let kind = usize::from(sky.cie_type.unwrap_or(16)).clamp(1, 16);
-            ComboBox::from_id_salt("cie").selected_text(CIE[kind - 1]).width(width).truncate().show_ui(ui, |ui| {
-                for (i, word) in CIE.iter().enumerate() {
-                    if ui.selectable_label(i + 1 == kind, *word).clicked() {
-                        sky.cie_type = Some(i as u8 + 1);
+            let combo =
+                ComboBox::from_id_salt("cie").selected_text(CIE[kind - 1]).width(width).truncate().show_ui(ui, |ui| {
+                    for (i, word) in CIE.iter().enumerate() {
+                        if ui.selectable_label(i + 1 == kind, *word).clicked() {
+                            sky.cie_type = Some(i as u8 + 1);
+                        }
                     }
-                }
-            });
+                });
+            combo.response.accessible_name("CIE sky type");
         }
         SkyModelKey::Perez => {
             optional(ui, "Direct horizontal", " W/m²", &mut sky.direct_horizontal_irradiance, 300.0, 0.0..=1100.0);

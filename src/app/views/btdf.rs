@@ -45,6 +45,9 @@ pub enum Action {
 
 type Incidence = [u64; 3];
 
+/// What the picture of the emergent side depends on.
+type EmergentKey = (u64, Incidence, Disk, Projection, bool, ColourScale);
+
 fn bits(incident: Incident) -> Incidence {
     incident.0.vector().to_array().map(f64::to_bits)
 }
@@ -71,7 +74,7 @@ pub struct State {
     incidences: Cache<(u64, Projection), Incidences>,
     indicatrix: Cache<(u64, Incidence), Option<Indicatrix>>,
     left: Cache<(u64, Disk, Projection, bool, bool), Arc<Mesh>>,
-    right: Cache<(u64, Incidence, Disk, Projection, bool, ColourScale), Arc<Mesh>>,
+    right: Cache<EmergentKey, Arc<Mesh>>,
     scale: Option<ColourScale>,
 }
 
@@ -175,6 +178,11 @@ fn places(rect: Rect) -> (Disk, Rect) {
     (disk, legend)
 }
 
+/// The long caption where it fits.
+fn caption(rect: Rect, [long, short]: [&str; 2]) -> &str {
+    if rect.width() > 195.0 { long } else { short }
+}
+
 fn disk_rect(disk: &Disk) -> Rect {
     Rect::from_center_size(disk.centre, egui::Vec2::splat(2.0 * disk.radius))
 }
@@ -210,7 +218,7 @@ fn incident_side(
     });
     ui.painter().add(Shape::Mesh(mesh.clone()));
     outline_all(ui, &disk, projection, &cells.basis, &palette);
-    disk.frame(ui.painter(), projection, "outside: where light comes from", &palette);
+    disk.frame(ui.painter(), projection, caption(rect, ["outside: where light comes from", "outside"]), &palette);
     // The chosen cell: light under dark, so that it is seen on every grey.
     let selected = cells.basis.index(input.incident.0);
     if let Some(index) = selected {
@@ -333,16 +341,19 @@ fn emergent_side(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state:
         let at = pos2(legend.center().x, legend.top() + 4.0);
         tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
     }
-    disk.frame(ui.painter(), projection, "inside: where light goes", &palette);
+    disk.frame(ui.painter(), projection, caption(rect, ["inside: where light goes", "inside"]), &palette);
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(input.incident.0.theta()));
     if regular > 0.0 && input.incident.0.vector().z > 0.0 {
         let at = disk.screen(emergent_disk(projection, Emergent::from_through_name(input.incident.0)));
         ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
-        let side = if at.x > disk.centre.x { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
-        let offset = if at.x > disk.centre.x { -9.0 } else { 9.0 };
         let label = format!("regular τ {}", number(regular, 3));
         let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
-        let place = side.anchor_size(at + egui::vec2(offset, 0.0), galley.size());
+        // Beside the dot where there is room, else over it.
+        let right = Align2::LEFT_CENTER.anchor_size(at + egui::vec2(9.0, 0.0), galley.size());
+        let left = Align2::RIGHT_CENTER.anchor_size(at - egui::vec2(9.0, 0.0), galley.size());
+        let over = Align2::CENTER_BOTTOM.anchor_size(at - egui::vec2(0.0, 9.0), galley.size());
+        let fits = |place: &Rect| place.left() >= rect.left() + 2.0 && place.right() <= rect.right() - 2.0;
+        let place = [right, left].into_iter().find(fits).unwrap_or(over);
         ui.painter().rect_filled(place.expand(2.0), 3, palette.face);
         ui.painter().galley(place.min, galley, palette.ink);
     }

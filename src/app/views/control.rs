@@ -181,7 +181,8 @@ fn curve_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -
     for (k, s) in input.states.iter().enumerate() {
         // The states as dots on the far axis, where no numbers stand; the current one larger.
         let at = chart.screen(90.0, s.value);
-        let radius = if k == input.current { 6.0 } else { 4.0 };
+        let spacing = chart.area.height() / input.states.len() as f32;
+        let radius = if k == input.current { 6.0 } else { (0.45 * spacing).clamp(1.5, 4.0) };
         painter.circle(at, radius, state_colour(input, k), Stroke::new(1.5, palette.ink));
     }
     if let Some(psi) = input.profile_angle.filter(|psi| (0.0..=90.0).contains(psi)) {

@@ -57,8 +57,8 @@ impl Section {
 
     const fn label(self) -> &'static str {
         match self {
-            Self::C0 => "C 0° – C 180°",
-            Self::C90 => "C 90° – C 270°",
+            Self::C0 => "C0–C180",
+            Self::C90 => "C90–C270",
             Self::Horizontal => "γ = 90° (horizontal)",
         }
     }
@@ -147,7 +147,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let automatic = input.max.unwrap_or(curves.max * factor);
     let max = state.ring.filter(|_| input.status.hold_scale).unwrap_or(automatic);
     state.ring = Some(max);
-    let legend_height = if lid.beam.is_some() { 54.0 } else { 36.0 };
+    let legend_height = if lid.beam.is_some() && rect.width() > 300.0 { 54.0 } else { 36.0 };
     let (body, legend) = rect.split_top_bottom_at_y((rect.bottom() - legend_height).max(rect.top() + 60.0));
     let two = body.width() > 400.0 && body.width() > 1.35 * body.height();
     let (main, side) = if two {
@@ -255,15 +255,17 @@ fn legend_ui(ui: &Ui, rect: Rect, lid: &Lid, input: &Input<'_>, unit: &str, beam
         ui.painter().galley(pos2(at.x + 23.0, at.y - 0.5 * size.y), galley, palette.ink);
         at.x += size.x + 38.0;
     };
+    let narrow = rect.width() < 300.0;
     entry(format!("{}, {unit}", Section::C0.label()), palette.first, None);
-    let own_plane = if lid.surface == Surface::Facade { " (0: façade's plane)" } else { "" };
+    let own_plane = if lid.surface == Surface::Facade && !narrow { " (0: façade's plane)" } else { "" };
     entry(format!("{}{own_plane}", Section::C90.label()), palette.second, None);
     if input.flux.is_some() {
-        entry("ideal diffuser, same flux".to_owned(), palette.weak, Some(4.0));
+        entry(if narrow { "diffuser" } else { "ideal diffuser, same flux" }.to_owned(), palette.weak, Some(4.0));
     }
     if let (true, Some(beam)) = (beam, lid.beam) {
         let (gamma, c) = c_gamma(lid.surface.room_dir(beam.direction.0));
         let text = format!("sun unscattered {} to γ {gamma:.0}°, C {c:.0}° (not to scale)", si(beam.flux, "lm"));
+        let text = if narrow { format!("sun {}", si(beam.flux, "lm")) } else { text };
         entry(text, palette.beam, Some(2.0));
     }
 }

@@ -69,6 +69,9 @@ pub enum Action {
     PlaneMoved(f64),
 }
 
+/// An illuminance and its lines.
+type Level = (f64, Vec<IsoLine>);
+
 /// The tile's own settings and pictures.
 #[derive(Debug, Clone, Default)]
 pub struct State {
@@ -77,7 +80,7 @@ pub struct State {
     /// Row of sensors in the section, counted along x; the middle one while `None`.
     pub row: Option<usize>,
     scale: Option<ColourScale>,
-    lines: Cache<(u64, [usize; 2], ColourScale), Vec<(f64, Vec<IsoLine>)>>,
+    lines: Cache<(u64, [usize; 2], ColourScale), Vec<Level>>,
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
 }
 
@@ -273,7 +276,7 @@ fn plan_ui(ui: &Ui, plan: &Plan, input: &Input<'_>, state: &mut State, scale: &C
 /// Round levels inside the range of the data, few enough to be told apart.
 fn levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
     let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
-    if !(min < max) {
+    if min >= max || totals.is_empty() {
         return vec![];
     }
     // Illuminances fall off steeply with depth: 1-2-5 steps even on a linear scale, with 300 lx among them.

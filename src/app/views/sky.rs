@@ -177,12 +177,15 @@ fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
         ("E_h direct", input.direct_horizontal),
         ("E_v façade", input.facade_vertical),
     ];
-    let short = ["dif", "dir", "façade"];
+    let short = ["dif", "dir", "E_v"];
     let width = rect.width() / 3.0;
     for (k, (label, value)) in figures.into_iter().enumerate() {
         let at = pos2(rect.left() + k as f32 * width, rect.center().y);
         let name = if width > 145.0 { label } else { short[k] };
-        let value = value.map_or_else(|| "–".to_owned(), |v| format!("{:.1} klx", v / 1000.0));
+        let value = value.map_or_else(
+            || "–".to_owned(),
+            |v| if width > 95.0 { format!("{:.1} klx", v / 1000.0) } else { format!("{:.0} klx", v / 1000.0) },
+        );
         let label = ui.painter().text(at, Align2::LEFT_CENTER, name, FontId::proportional(13.0), palette.weak);
         ui.painter().text(
             pos2(label.right() + 5.0, at.y),
@@ -299,7 +302,7 @@ fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     for deg in [30.0_f32, 60.0] {
         painter.circle_stroke(disk.centre, disk.radius * (1.0 - deg / 90.0), thin);
         if disk.radius > 60.0 {
-            let r = disk.radius * (1.0 - deg / 90.0) * 0.7071;
+            let r = disk.radius * (1.0 - deg / 90.0) * std::f32::consts::FRAC_1_SQRT_2;
             on_halo(painter, disk.centre + vec2(r, r), &format!("{deg:.0}°"), palette);
         }
     }

@@ -134,7 +134,7 @@ fn picture(
 ) -> String {
     let palette = Palette::of(ui.visuals());
     let bar = input.split.map(|split| {
-        let width = 118.0_f32.min(0.42 * rect.width());
+        let width = 124.0_f32.min(0.5 * rect.width());
         let place = Rect::from_min_max(pos2(rect.right() - width, rect.top()), rect.max);
         split_bar(ui, place, &split, &palette);
         width
@@ -190,7 +190,12 @@ fn picture(
 
 fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Palette) {
     let mut used: Vec<Rect> = vec![];
+    // On a small disk the solstices and March say it all.
+    let small = disk.radius < 80.0;
     for (month, path) in paths.iter().enumerate() {
+        if small && ![2, 5, 11].contains(&month) {
+            continue;
+        }
         // The second half of the year repeats the first: drawn once, thinner.
         let stroke = Stroke::new(if month <= 5 || month == 11 { 1.6 } else { 0.8 }, Color32::WHITE);
         let under = Stroke::new(stroke.width + 1.6, Color32::from_black_alpha(110));
@@ -209,7 +214,7 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Pal
             ui.painter().add(Shape::line(run.clone(), stroke));
         }
         for (hour, incident) in path.iter().filter(|(hour, _)| (hour - hour.round()).abs() < 1e-6) {
-            if incident.0.vector().z <= 0.0 {
+            if small || incident.0.vector().z <= 0.0 {
                 continue;
             }
             let at = disk.screen(incident_disk(PROJECTION, *incident));

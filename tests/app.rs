@@ -1,0 +1,301 @@
+//! The window without a display: driven by labels, keys and scripted services, checked by what it then knows and says.
+
+use cfs::app::App;
+use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::state::{Sheet, Tile};
+use cfs::compute::estimate::{Estimate, Progress};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Answers at once, or runs until withdrawn when the scene's floor reflectance is 0.13.
+#[derive(Default)]
+struct Scripted {
+    started: AtomicUsize,
+    withdrawn: AtomicUsize,
+}
+
+const SLOW: f64 = 0.13;
+
+impl Engine for Scripted {
+    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, String> {
+        self.started.fetch_add(1, Ordering::SeqCst);
+        if question.scene.room.reflectance.floor == SLOW {
+            let start = Instant::now();
+            while !progress.cancelled() && start.elapsed() < Duration::from_secs(20) {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            self.withdrawn.fetch_add(1, Ordering::SeqCst);
+            return Err("withdrawn".to_owned());
+        }
+        if question.scene.room.reflectance.ceiling == SLOW {
+            panic!("a fault on purpose");
+        }
+        let sensors = vec![[2.0, 3.0, 0.85]];
+        let estimate = vec![Estimate::new(500.0, 2.0)];
+        let grid = Some([1, 1]);
+        Ok(RoomFigures { positions: sensors, direct: estimate.clone(), interreflected: estimate, grid, seconds: 0.001 })
+    }
+
+    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, String> {
+        Err("no LID in this test".to_owned())
+    }
+
+    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, String> {
+        Err("no luminaire in this test".to_owned())
+    }
+}
+
+fn window() -> (Harness<'static, App>, Arc<Scripted>) {
+    let engine = Arc::new(Scripted::default());
+    let app = App::for_test(engine.clone());
+    let mut harness =
+        Harness::builder().with_size([1280.0, 720.0]).with_theme(egui::Theme::Dark).with_max_steps(200).build_ui_state(
+            |ui, app: &mut App| {
+                let ctx = ui.ctx().clone();
+                app.logic(&ctx);
+                app.draw(ui);
+            },
+            app,
+        );
+    settle(&mut harness);
+    (harness, engine)
+}
+
+/// Steps until no job is left, then a few frames more.
+fn settle(harness: &mut Harness<'_, App>) {
+    let start = Instant::now();
+    harness.run_steps(2);
+    while harness.state().busy() && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    assert!(!harness.state().busy(), "jobs end");
+    harness.run_steps(3);
+}
+
+fn title(harness: &Harness<'_, App>) -> String {
+    cfs::app::title::title(&harness.state().state)
+}
+
+#[test]
+fn a_first_start_shows_six_tiles_of_a_product_at_a_place_and_time() {
+    let (harness, _) = window();
+    for tile in Tile::ALL {
+        assert!(harness.query_by_label(&format!("Tile {}", tile.title())).is_some(), "{tile:?}");
+    }
+    let title = title(&harness);
+    for word in ["Stuttgart", "south", "21 Mar 12:00", "clear"] {
+        assert!(title.contains(word), "{title}");
+    }
+    let app = harness.state();
+    assert!(app.results.room.value.is_some() && !app.results.room.stale);
+    assert!(app.state.daylight.value.is_some() && app.state.dataset.value.is_some());
+}
+
+#[test]
+fn typing_in_the_search_field_filters_the_list() {
+    let (mut harness, _) = window();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::TextInput, "Search").type_text("diffus");
+    settle(&mut harness);
+    assert!(harness.query_by_role_and_label(Role::ListBoxOption, "Ideal diffuser").is_some());
+    assert!(harness.query_by_role_and_label(Role::ListBoxOption, "Clear opening").is_none());
+    // Digits typed there are text, not "maximise".
+    harness.get_by_role_and_label(Role::TextInput, "Search").type_text("1");
+    harness.key_press(Key::Num1);
+    settle(&mut harness);
+    assert_eq!(harness.state().state.maximised, None);
+    assert!(harness.query_by_label("Nothing has all these words.").is_some());
+}
+
+#[test]
+fn selecting_a_product_changes_title_dataset_and_aperture_and_undo_takes_it_back() {
+    let (mut harness, _) = window();
+    let before = harness.state().state.document.clone();
+    assert!(title(&harness).contains("Clear opening"));
+    harness.get_by_label("Ideal diffuser").click();
+    settle(&mut harness);
+    assert!(title(&harness).contains("Ideal diffuser"), "{}", title(&harness));
+    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    assert!((dataset.transmission().unwrap().tau_normal() - 0.6).abs() < 1e-12);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut harness);
+    assert_eq!(harness.state().state.document, before);
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    settle(&mut harness);
+    assert!(title(&harness).contains("Ideal diffuser"));
+}
+
+#[test]
+fn keys_maximise_tiles_and_move_the_clock() {
+    let (mut harness, _) = window();
+    harness.key_press(Key::Num3);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state.maximised, Some(Tile::Sky));
+    assert!(harness.query_by_label("Tile Room").is_none());
+    harness.key_press(Key::Num0);
+    harness.key_press(Key::ArrowRight);
+    harness.key_press(Key::ArrowUp);
+    settle(&mut harness);
+    assert_eq!(harness.state().state.maximised, None);
+    assert!(title(&harness).contains("22 Mar 13:00"), "{}", title(&harness));
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
+    settle(&mut harness);
+    assert!(title(&harness).contains("22 Mar 10:00"), "{}", title(&harness));
+}
+
+#[test]
+fn a_later_hour_gives_another_sky_and_another_room_job() {
+    let (mut harness, engine) = window();
+    let before = engine.started.load(Ordering::SeqCst);
+    let sky = harness.state().state.daylight.value.clone().unwrap();
+    harness.key_press(Key::ArrowRight);
+    settle(&mut harness);
+    assert!(engine.started.load(Ordering::SeqCst) > before);
+    let later = harness.state().state.daylight.value.clone().unwrap();
+    assert!(later.outside.diffuse_horizontal() != sky.outside.diffuse_horizontal());
+}
+
+#[test]
+fn a_slow_job_never_holds_a_frame_and_is_withdrawn_by_the_next_change() {
+    let (mut harness, engine) = window();
+    harness.state_mut().state.document.scene.room.reflectance.floor = SLOW;
+    harness.run_steps(2);
+    assert!(harness.state().busy() && harness.state().results.room.stale);
+    let start = Instant::now();
+    let ctx = harness.ctx.clone();
+    harness.state_mut().logic(&ctx);
+    assert!(start.elapsed() < Duration::from_millis(100), "{:?}", start.elapsed());
+    harness.state_mut().state.document.scene.room.reflectance.floor = 0.3;
+    settle(&mut harness);
+    assert_eq!(engine.withdrawn.load(Ordering::SeqCst), 1);
+    assert!(!harness.state().results.room.stale);
+}
+
+#[test]
+fn a_fault_in_a_job_is_told_and_the_window_lives_on() {
+    let (mut harness, _) = window();
+    harness.state_mut().state.document.scene.room.reflectance.ceiling = SLOW;
+    settle(&mut harness);
+    assert!(harness.state().results.room.error.as_deref().unwrap().contains("a fault on purpose"));
+    harness.state_mut().state.document.scene.room.reflectance.ceiling = 0.8;
+    settle(&mut harness);
+    assert!(harness.state().results.room.error.is_none() && !harness.state().results.room.stale);
+}
+
+fn products(harness: &Harness<'_, App>) -> usize {
+    harness.state().state.found.total
+}
+
+fn open(harness: &mut Harness<'_, App>, path: &Path) {
+    use cfs::app::command::Command;
+    harness.state_mut().apply(Command::OpenPaths(vec![path.to_owned()]));
+    settle(harness);
+}
+
+#[test]
+fn a_damaged_file_is_told_and_leaves_the_catalogue_as_it_was() {
+    let (mut harness, _) = window();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("damaged.xml");
+    std::fs::write(&path, "<WindowElement><Optical>").unwrap();
+    open(&mut harness, &path);
+    assert_eq!(harness.state().state.sheet, Some(Sheet::Import));
+    let failure = harness.state().state.import.as_ref().unwrap().failures[0].clone();
+    assert!(failure.starts_with("damaged.xml: "), "{failure}");
+    assert!(harness.query_by_label(&failure).is_some());
+    assert!(harness.query_by_label("Add to catalogue").is_none());
+    harness.get_by_label("Discard").click();
+    settle(&mut harness);
+    assert_eq!(products(&harness), 2);
+    assert!(harness.state().state.import.is_none());
+}
+
+/// A file with a basis of its own: three rings, and the same 0.15 1/sr from everywhere to everywhere.
+fn small_dataset() -> String {
+    let limits = [(0.0, 30.0, 1), (30.0, 60.0, 2), (60.0, 90.0, 2)];
+    let mut rows = String::new();
+    for (low, high, n) in limits {
+        rows += &format!(
+            "<AngleBasisBlock><Theta>{}</Theta><nPhis>{n}</nPhis><ThetaBounds><LowerTheta>{low}</LowerTheta>\
+             <UpperTheta>{high}</UpperTheta></ThetaBounds></AngleBasisBlock>",
+            0.5 * (low + high)
+        );
+    }
+    let values = vec!["0.15"; 25].join(" ");
+    format!(
+        "<?xml version=\"1.0\"?><WindowElement xmlns=\"http://windows.lbl.gov\"><Optical><Layer><Material>\
+         <Name>Test screen</Name><Manufacturer>Nobody</Manufacturer></Material><DataDefinition>\
+         <IncidentDataStructure>Columns</IncidentDataStructure><AngleBasis><AngleBasisName>Coarse</AngleBasisName>{rows}\
+         </AngleBasis></DataDefinition><WavelengthData><LayerNumber>System</LayerNumber>\
+         <Wavelength unit=\"Integral\">Visible</Wavelength><WavelengthDataBlock>\
+         <WavelengthDataDirection>Transmission Front</WavelengthDataDirection>\
+         <ColumnAngleBasis>Coarse</ColumnAngleBasis><RowAngleBasis>Coarse</RowAngleBasis>\
+         <ScatteringDataType>BTDF</ScatteringDataType><ScatteringData>{values}</ScatteringData></WavelengthDataBlock>\
+         </WavelengthData></Layer></Optical></WindowElement>"
+    )
+}
+
+#[test]
+fn an_import_is_stored_on_request_alone_and_undo_takes_it_out_and_redo_puts_it_back() {
+    let (mut harness, _) = window();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("screen.xml");
+    std::fs::write(&path, small_dataset()).unwrap();
+    open(&mut harness, &path);
+    let import = harness.state().state.import.as_ref().unwrap();
+    assert!(import.failures.is_empty(), "{:?}", import.failures);
+    assert_eq!((import.name.as_str(), import.manufacturer.as_str()), ("Test screen", "Nobody"));
+    assert_eq!(products(&harness), 2);
+    harness.get_by_label("Add to catalogue").click();
+    settle(&mut harness);
+    assert_eq!(products(&harness), 3);
+    assert!(title(&harness).contains("Test screen"), "{}", title(&harness));
+    for _ in 0..3 {
+        if products(&harness) == 3 {
+            harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+            settle(&mut harness);
+        }
+    }
+    assert_eq!(products(&harness), 2);
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    settle(&mut harness);
+    assert_eq!(products(&harness), 3);
+}
+
+#[test]
+fn a_scene_is_saved_and_read_back_as_it_was() {
+    use cfs::app::command::Command;
+    use cfs::app::state::PathUse;
+    let (mut harness, _) = window();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.toml");
+    harness.state_mut().apply(Command::Write(PathUse::SaveScene, path.clone()));
+    settle(&mut harness);
+    let scene = harness.state().state.document.scene.clone();
+    harness.key_press(Key::ArrowRight);
+    settle(&mut harness);
+    assert_ne!(harness.state().state.document.scene, scene);
+    open(&mut harness, &path);
+    assert_eq!(harness.state().state.document.scene, scene);
+}
+
+#[test]
+fn the_palette_finds_a_command_by_its_words() {
+    let (mut harness, _) = window();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::TextInput, "Command").type_text("maximise lid");
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state.maximised, Some(Tile::Lid));
+    assert!(harness.state().state.palette.is_none());
+}
