@@ -1,3 +1,5 @@
+//! The photometric web of planes: symmetry, step and interpolation against closed forms.
+
 use super::*;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::lid::Beam;

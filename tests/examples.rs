@@ -1,0 +1,111 @@
+//! The scenes in `examples` and the commands of the README run as printed.
+
+use cfs::study::SceneFile;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the program in the package's folder with a catalogue of its own, so that the user's stays out of it.
+fn cfs(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_cfs"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .env("CFS_CATALOGUE", folder.join("catalogue.sqlite"))
+        .output()
+        .unwrap()
+}
+
+fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let output = cfs(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// (y, E, E_direct, E_interreflected) of each row.
+fn rows(table: &str) -> Vec<[f64; 4]> {
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx"));
+    lines
+        .map(|line| {
+            let numbers: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
+            [numbers[1], numbers[6], numbers[7], numbers[8]]
+        })
+        .collect()
+}
+
+#[test]
+fn office_scales_with_its_glass() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = rows(&succeed(folder.path(), &["room", "examples/office.toml"]));
+    assert_eq!(whole.len(), 8 * 12);
+
+    // An ideal window reflects nothing into the room, so everything in it is proportional to the transmittance.
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/office.toml")).unwrap();
+    assert!(text.contains("\"transparent\", transmittance = 0.8"));
+    let half = folder.path().join("half.toml");
+    std::fs::write(&half, text.replace("\"transparent\", transmittance = 0.8", "\"transparent\", transmittance = 0.4"))
+        .unwrap();
+    let half = rows(&succeed(folder.path(), &["room", half.to_str().unwrap()]));
+    for (a, b) in whole.iter().zip(&half) {
+        for k in 1..4 {
+            assert!(a[k] > 0.0 && (b[k] / a[k] - 0.5).abs() < 1e-6, "{a:?} {b:?}");
+        }
+        assert!((a[2] + a[3] - a[1]).abs() < 1e-6 * a[1], "{a:?}");
+    }
+    // Less than what the open ground gets, and less in the depth than at the window.
+    assert!(whole.iter().all(|row| row[1] < 10_000.0));
+    assert!(whole[..16].iter().all(|front| whole[80..].iter().all(|back| front[1] > back[1])));
+}
+
+#[test]
+fn blind_keeps_the_sun_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let shaded = rows(&succeed(folder.path(), &["room", "examples/blind.toml"]));
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/blind.toml")).unwrap();
+    let open = folder.path().join("open.toml");
+    let system = "system = { catalogue = \"venetian-80-72\", state = \"controlled\" }";
+    assert!(text.contains(system));
+    std::fs::write(&open, text.replace(system, "system = { ideal = \"transparent\", transmittance = 1.0 }")).unwrap();
+    let open = rows(&succeed(folder.path(), &["room", open.to_str().unwrap()]));
+    let most = |rows: &[[f64; 4]]| rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    // Sun of 70 klx at about 41° brings more than 40 klx to the floor; of a blind's scattered light less than half.
+    assert!(most(&open) > 40_000.0, "{}", most(&open));
+    assert!(most(&shaded) > 100.0 && most(&shaded) < 0.5 * most(&open), "{}", most(&shaded));
+}
+
+#[test]
+fn other_commands_of_the_readme_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    succeed(folder.path(), &["room", "examples/office.toml", "--out", &at("office.csv")]);
+    succeed(folder.path(), &["lid", "examples/office.toml", "--out", &at("office.ldt")]);
+    for name in ["office.csv", "office.ldt"] {
+        assert!(std::fs::metadata(at(name)).unwrap().len() > 1000, "{name}");
+    }
+    assert_eq!(succeed(folder.path(), &["sky", "examples/office.toml"]).lines().count(), 146);
+    assert!(succeed(folder.path(), &["catalogue", "list", "--search", "blind"]).contains("venetian-80-72"));
+}
+
+#[test]
+fn commented_keys_of_the_office_are_keys() {
+    // Take the comment sign off every line "# key = value" one at a time: no reader may call the key unknown.
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/office.toml")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let is_key = |line: &str| {
+        let word = line.strip_prefix("# ").and_then(|rest| rest.split(" = ").next());
+        line.contains(" = ") && word.is_some_and(|word| word.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
+    };
+    let mut tried = 0;
+    for (index, line) in lines.iter().enumerate().filter(|(_, line)| is_key(line)) {
+        if line.starts_with("# mode") {
+            continue; // belongs to the commented table above it; examples/blind.toml has both
+        }
+        let mut changed = lines.clone();
+        changed[index] = &line[2..];
+        if let Err(error) = SceneFile::parse(&changed.join("\n")) {
+            assert!(!error.to_string().contains("unknown"), "{line}: {error}");
+        }
+        tried += 1;
+    }
+    assert!(tried >= 10, "{tried} keys only");
+    assert!(SceneFile::parse(&text.replace("# longitude", "longtude")).unwrap_err().to_string().contains("longtude"));
+}
