@@ -43,9 +43,9 @@ pub enum Command {
     Palette,
     /// Fill the bench with a tile, or show all.
     Maximise(Option<Tile>),
-    /// Move the scene's clock. [h]
+    /// Move the scene's clock. \[h\]
     Hour(i32),
-    /// Move the scene's date. [d]
+    /// Move the scene's date. \[d\]
     Day(i32),
     /// To the next (+1) or previous (−1) state.
     NextState(i32),

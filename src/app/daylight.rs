@@ -4,7 +4,7 @@ use super::moment;
 use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 
-/// Least diffuse illuminance that is set: below it (night) pictures would have nothing to scale by. [lx]
+/// Least diffuse illuminance that is set: below it (night) pictures would have nothing to scale by. \[lx\]
 const LEAST_DIFFUSE: f64 = 1.0;
 
 /// The cover that a CIE type stands for: 1–5 overcast, 6–10 partly cloudy, 11–15 clear, 16 overcast.

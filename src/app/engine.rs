@@ -11,20 +11,20 @@ use std::sync::Arc;
 /// Illuminances in the room.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RoomFigures {
-    /// Positions of the sensors. [m]
+    /// Positions of the sensors. \[m\]
     pub positions: Vec<[f64; 3]>,
-    /// Straight from the apertures. [lx]
+    /// Straight from the apertures. \[lx\]
     pub direct: Vec<Estimate>,
-    /// From the room's surfaces. [lx]
+    /// From the room's surfaces. \[lx\]
     pub interreflected: Vec<Estimate>,
     /// Columns and rows when the sensors are a grid.
     pub grid: Option<[usize; 2]>,
-    /// Wall-clock time that it took. [s]
+    /// Wall-clock time that it took. \[s\]
     pub seconds: f64,
 }
 
 impl RoomFigures {
-    /// Illuminance at a sensor. [lx]
+    /// Illuminance at a sensor. \[lx\]
     pub fn total(&self, sensor: usize) -> Estimate {
         self.direct[sensor] + self.interreflected[sensor]
     }
@@ -46,13 +46,13 @@ impl RoomFigures {
 pub struct LidFigures {
     /// The distribution.
     pub lid: Lid,
-    /// All its flux. [lm]
+    /// All its flux. \[lm\]
     pub flux: Estimate,
-    /// Illuminance of the aperture's outside face, sun included. [lx]
+    /// Illuminance of the aperture's outside face, sun included. \[lx\]
     pub incident: Option<f64>,
     /// Header of a luminaire file.
     pub description: Description,
-    /// Wall-clock time that it took. [s]
+    /// Wall-clock time that it took. \[s\]
     pub seconds: f64,
 }
 

@@ -39,7 +39,7 @@ pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
     rise_set(&place(scene)?, time.year(), time.month(), time.day()).ok()
 }
 
-/// Altitude [rad] and bearing [°] of the sun at the scene's moment.
+/// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment.
 pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
     match (of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
         (Some(time), _, _) => {
@@ -50,7 +50,7 @@ pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
     }
 }
 
-/// Moves date and time to where the sun of the year comes nearest to a place in the sky [rad], in steps of 5 minutes;
+/// Moves date and time to where the sun of the year comes nearest to a place in the sky \[rad\], in steps of 5 minutes;
 /// false without a place and a date to start from. Of the two days that fit, the one nearer to the present one.
 pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64) -> bool {
     let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };

@@ -107,9 +107,9 @@ pub fn palette(ui: &egui::Ui) -> &'static Palette {
     if ui.visuals().dark_mode { &DARK } else { &LIGHT }
 }
 
-/// Gap between tiles. [points]
+/// Gap between tiles. \[points\]
 pub const TILE_GAP: f32 = 6.0;
-/// Height of a row of the catalogue. [points]
+/// Height of a row of the catalogue. \[points\]
 pub const ROW_HEIGHT: f32 = 52.0;
 /// Opacity of what is out of date.
 pub const STALE_OPACITY: f32 = 0.45;

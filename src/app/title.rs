@@ -4,7 +4,7 @@ use super::moment;
 use super::state::State;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 
-/// Cities of the short list: name, latitude, longitude [°], hours ahead of UTC (standard time).
+/// Cities of the short list: name, latitude, longitude \[°\], hours ahead of UTC (standard time).
 pub const CITIES: [(&str, f64, f64, f64); 14] = [
     ("Stuttgart", 48.78, 9.18, 1.0),
     ("Freiburg", 48.0, 7.85, 1.0),

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Reads the datasets of a file: name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<Vec<Dataset>, String>;
 
-/// Files beyond this are refused before they are read. [bytes]
+/// Files beyond this are refused before they are read. \[bytes\]
 const LARGEST_FILE: u64 = 1 << 30;
 
 /// What jobs bring back.

@@ -71,9 +71,9 @@ pub struct Chart {
     pub y: Axis,
 }
 
-/// Space left of the plotting area. [points]
+/// Space left of the plotting area. \[points\]
 pub const LEFT: f32 = 44.0;
-/// Space under the plotting area. [points]
+/// Space under the plotting area. \[points\]
 pub const BELOW: f32 = 32.0;
 
 impl Chart {

@@ -4,7 +4,7 @@ use super::palette::{ColourMap, Palette};
 use super::ticks;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
-/// Height that a legend needs. [points]
+/// Height that a legend needs. \[points\]
 pub const LEGEND_HEIGHT: f32 = 30.0;
 
 /// A colour scale over lo … hi.

@@ -23,7 +23,7 @@ pub enum Projection {
 }
 
 impl Projection {
-    /// Radius of a polar angle. [rad]
+    /// Radius of a polar angle. \[rad\]
     pub fn radius(self, theta: f64) -> f64 {
         match self {
             Self::ProjectedSolidAngle => theta.sin(),
@@ -31,7 +31,7 @@ impl Projection {
         }
     }
 
-    /// Polar angle of a radius, 0 … 1. [rad]
+    /// Polar angle of a radius, 0 … 1. \[rad\]
     pub fn theta(self, radius: f64) -> f64 {
         match self {
             Self::ProjectedSolidAngle => radius.clamp(0.0, 1.0).asin(),
@@ -113,7 +113,7 @@ pub fn cell_outline(projection: Projection, side: Side, cell: &Cell) -> Vec<[f64
 pub struct Disk {
     /// Centre.
     pub centre: Pos2,
-    /// Radius of the rim. [points]
+    /// Radius of the rim. \[points\]
     pub radius: f32,
 }
 

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 pub struct PolarAxes {
     /// The pole.
     pub centre: Pos2,
-    /// Radius of the outermost ring. [points]
+    /// Radius of the outermost ring. \[points\]
     pub radius: f32,
     /// Value of the outermost ring.
     pub max: f64,
@@ -23,13 +23,13 @@ impl PolarAxes {
         Self { centre: rect.center(), radius, max: ticks::fine_ceil(max) }
     }
 
-    /// Screen point of an angle counted from straight down towards the right [rad] and a value.
+    /// Screen point of an angle counted from straight down towards the right \[rad\] and a value.
     pub fn screen(&self, angle: f64, value: f64) -> Pos2 {
         let r = (value / self.max).clamp(0.0, 1.05) as f32 * self.radius;
         self.centre + egui::vec2(angle.sin() as f32, angle.cos() as f32) * r
     }
 
-    /// Angle from straight down towards the right, −π … π [rad], and value of a screen point.
+    /// Angle from straight down towards the right, −π … π \[rad\], and value of a screen point.
     pub fn value(&self, at: Pos2) -> (f64, f64) {
         let d = at - self.centre;
         (f64::from(d.x).atan2(f64::from(d.y)), f64::from(d.length() / self.radius) * self.max)

@@ -28,13 +28,13 @@ pub struct Words<'a> {
     pub help: &'a str,
     /// Shown instead of the picture while there is nothing to draw.
     pub empty: Option<&'a str>,
-    /// Width that the toggles need side by side; below it they go into a menu. [points]
+    /// Width that the toggles need side by side; below it they go into a menu. \[points\]
     pub controls_width: f32,
 }
 
-/// Height of the head. [points]
+/// Height of the head. \[points\]
 const HEAD: f32 = 26.0;
-/// Height of the line under the picture. [points]
+/// Height of the line under the picture. \[points\]
 const FOOT: f32 = 20.0;
 
 /// Lays out a tile over all the space there is. `body` draws into its rectangle and returns the text of the line

@@ -16,6 +16,7 @@ use egui::{Rect, Sense, Ui, UiBuilder, vec2};
 use std::sync::Arc;
 
 /// What the tiles remember, and what is derived for them once per change.
+#[derive(Default)]
 pub struct BenchState {
     btdf: btdf::State,
     transmittance: transmittance::State,
@@ -25,30 +26,14 @@ pub struct BenchState {
     control: control::State,
     /// The incidence that the user chose; the sun's while `None` and the sun is before the façade.
     incident: Option<Incident>,
-    paths: Option<(PathKey, Vec<Vec<(f64, Incident)>>)>,
+    paths: Option<(PathKey, SunPaths)>,
     today: Option<(TodayKey, Vec<control::TracePoint>)>,
     cells: Option<(usize, Vec<room::CellValue>)>,
     revisions: Revisions,
 }
 
-impl Default for BenchState {
-    fn default() -> Self {
-        Self {
-            btdf: btdf::State::default(),
-            transmittance: transmittance::State::default(),
-            sky: sky::State::default(),
-            lid: lid::State::default(),
-            room: room::State::default(),
-            control: control::State::default(),
-            incident: None,
-            paths: None,
-            today: None,
-            cells: None,
-            revisions: Revisions::default(),
-        }
-    }
-}
-
+/// Hour and direction along each path.
+type SunPaths = Vec<Vec<(f64, Incident)>>;
 /// Place and bearing that sun paths hang on.
 type PathKey = (i16, [u64; 4]);
 /// … and the day and state that today's trace hangs on.
@@ -323,7 +308,7 @@ fn room_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>
     }
 }
 
-/// Profile angle of a direction before the façade. [°]
+/// Profile angle of a direction before the façade. \[°\]
 fn profile_angle(incident: Incident) -> f64 {
     let v = incident.0.vector();
     v.y.atan2(v.z).to_degrees()

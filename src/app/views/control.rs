@@ -23,7 +23,7 @@ pub struct StatePoint {
 pub struct TracePoint {
     /// Hour of the day.
     pub hour: f64,
-    /// Profile angle on the façade [°]; `None` while the sun is not before it.
+    /// Profile angle on the façade \[°\]; `None` while the sun is not before it.
     pub profile_angle: Option<f64>,
     /// Index of the state that control chose.
     pub state: usize,
@@ -36,13 +36,13 @@ pub struct Input<'a> {
     pub states: &'a [StatePoint],
     /// What a state sets, with unit, e.g. "slat angle / °".
     pub quantity: &'a str,
-    /// The rule: value [unit of the states] over profile angle [°], rising angle.
+    /// The rule: value [unit of the states] over profile angle \[°\], rising angle.
     pub curve: &'a [[f64; 2]],
     /// Product and rule in words.
     pub name: &'a str,
     /// Today.
     pub today: &'a [TracePoint],
-    /// The profile angle now. [°]
+    /// The profile angle now. \[°\]
     pub profile_angle: Option<f64>,
     /// The state now, index into `states`.
     pub current: usize,

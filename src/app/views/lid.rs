@@ -18,7 +18,7 @@ pub struct Input<'a> {
     pub lid: Option<&'a Lid>,
     /// Product, state and moment in words.
     pub name: &'a str,
-    /// Luminous flux into the room, the unscattered sun left out. [lm]
+    /// Luminous flux into the room, the unscattered sun left out. \[lm\]
     pub flux: Option<f64>,
     /// Outermost ring forced from outside (comparison), in the unit shown.
     pub max: Option<f64>,
@@ -66,7 +66,7 @@ impl Section {
 
 const SAMPLES: usize = 720;
 
-/// Sampled cuts of a distribution. [cd]
+/// Sampled cuts of a distribution. \[cd\]
 #[derive(Debug, Clone)]
 struct Curves {
     c0: Vec<f64>,
@@ -90,7 +90,7 @@ pub fn c_gamma(d: Dir<Room>) -> (f64, f64) {
     (v.x.hypot(v.y).atan2(-v.z).to_degrees(), (-v.x).atan2(v.y).to_degrees().rem_euclid(360.0))
 }
 
-/// Intensity in a direction of the room. [cd]
+/// Intensity in a direction of the room. \[cd\]
 fn intensity(lid: &Lid, d: Dir<Room>) -> f64 {
     lid.intensity(Emergent(lid.surface.facade_dir(d))).max(0.0)
 }
@@ -104,7 +104,7 @@ fn sample(lid: &Lid) -> Curves {
     Curves { c0, c90, horizontal, max }
 }
 
-/// Intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. [cd]
+/// Intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. \[cd\]
 fn diffuser(surface: Surface, flux: f64, d: Dir<Room>) -> f64 {
     flux / PI * (-surface.facade_dir(d).vector().z).max(0.0)
 }
@@ -270,7 +270,7 @@ fn legend_ui(ui: &Ui, rect: Rect, lid: &Lid, input: &Input<'_>, unit: &str, beam
     }
 }
 
-/// Intensities every 5° of C and γ. [cd]
+/// Intensities every 5° of C and γ. \[cd\]
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("c_deg,gamma_deg,intensity_cd\n");

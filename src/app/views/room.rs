@@ -13,7 +13,7 @@ use crate::compute::direction::Surface;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
-/// Result at one sensor. [lx]
+/// Result at one sensor. \[lx\]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CellValue {
     /// Direct and interreflected together.
@@ -31,16 +31,16 @@ pub struct CellValue {
 pub struct Opening {
     /// Façade or roof.
     pub surface: Surface,
-    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. [m]
+    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
     pub origin: [f64; 2],
-    /// Size in the same order. [m]
+    /// Size in the same order. \[m\]
     pub size: [f64; 2],
 }
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Width (x), depth (y), height (z). [m]
+    /// Width (x), depth (y), height (z). \[m\]
     pub room: [f64; 3],
     /// Windows and rooflights.
     pub apertures: &'a [Opening],
@@ -50,11 +50,11 @@ pub struct Input<'a> {
     pub ny: usize,
     /// Results at the centres of the cells, x running fastest; empty before the first result.
     pub cells: &'a [CellValue],
-    /// Height of the sensor plane. [m]
+    /// Height of the sensor plane. \[m\]
     pub plane_z: f64,
     /// Product and moment in words.
     pub name: &'a str,
-    /// Scale forced from outside (comparison). [lx]
+    /// Scale forced from outside (comparison). \[lx\]
     pub range: Option<[f64; 2]>,
     /// Changes with the results.
     pub revision: u64,
@@ -65,7 +65,7 @@ pub struct Input<'a> {
 /// What the user did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// The sensor plane should lie at this height. [m]
+    /// The sensor plane should lie at this height. \[m\]
     PlaneMoved(f64),
 }
 

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Luminance of the sky by altitude and bearing. [rad → cd/m²]
 pub type Luminance<'a> = &'a dyn Fn(f64, f64) -> f64;
 
-/// A place in the sky. [rad]
+/// A place in the sky. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Above the horizon.
@@ -34,15 +34,15 @@ pub struct Input<'a> {
     pub name: &'a str,
     /// The sun, also under the horizon.
     pub sun: Option<Place>,
-    /// Bearing of the façade's outward normal. [rad]
+    /// Bearing of the façade's outward normal. \[rad\]
     pub facade_bearing: f64,
-    /// Altitude of a skyline all round, 0 = none. [rad]
+    /// Altitude of a skyline all round, 0 = none. \[rad\]
     pub skyline: f64,
-    /// Diffuse horizontal illuminance. [lx]
+    /// Diffuse horizontal illuminance. \[lx\]
     pub diffuse_horizontal: Option<f64>,
-    /// Direct horizontal illuminance. [lx]
+    /// Direct horizontal illuminance. \[lx\]
     pub direct_horizontal: Option<f64>,
-    /// Vertical illuminance on the façade from outside, all sources. [lx]
+    /// Vertical illuminance on the façade from outside, all sources. \[lx\]
     pub facade_vertical: Option<f64>,
     /// Changes with the sky.
     pub revision: u64,

@@ -1,4 +1,4 @@
-//! The photometric web of planes: symmetry, step and interpolation against closed forms.
+//! The table of planes and angles: angles and directions, flux, interpolation, against closed forms.
 
 use super::*;
 use crate::compute::basis::{AzimuthMap, RingBasis};
