@@ -72,10 +72,7 @@ fn room_writes_the_table_of_the_contract() {
     let output = folder.cfs(&["room", "a.toml", "--out", "a.csv"]);
     assert!(output.status.success() && output.stdout.is_empty(), "{}", text(&output.stderr));
     let table = std::fs::read_to_string(folder.path("a.csv")).unwrap();
-    assert_eq!(
-        table.lines().next().unwrap(),
-        "x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx"
-    );
+    assert_eq!(table.lines().next().unwrap(), "x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx");
     let rows = csv_rows(&table);
     assert_eq!(rows.len(), 24);
     // x runs fastest, cell centres.
@@ -137,8 +134,19 @@ fn info_as_json_has_the_keys_of_the_contract() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     let value: Value = serde_json::from_slice(&output.stdout).unwrap();
     let keys = [
-        "format", "name", "manufacturer", "incident_basis", "emergent_basis", "states", "components", "derived",
-        "tau_normal_hemispherical", "tau_hemispherical_hemispherical", "tau_dir_hem", "reciprocity_error", "findings",
+        "format",
+        "name",
+        "manufacturer",
+        "incident_basis",
+        "emergent_basis",
+        "states",
+        "components",
+        "derived",
+        "tau_normal_hemispherical",
+        "tau_hemispherical_hemispherical",
+        "tau_dir_hem",
+        "reciprocity_error",
+        "findings",
     ];
     for key in keys {
         assert!(value.get(key).is_some(), "{key} is missing");
@@ -205,8 +213,8 @@ fn a_wrong_key_is_named_with_what_would_be_right() {
         ("error target", "[compute]", "[compute]\nerror_target = 2.0", &["compute.error_target", "2"]),
         ("interpolation", "[compute]", "[compute]\ninterpolation = \"wild\"", &["wild", "patch"]),
         ("control word", "[compute]", "[control]\nmode = \"open\"\n[compute]", &["open", "cut-off"]),
-        ("missing file", TRANSPARENT, "{ file = \"none.xml\" }", &["none.xml"]),
-        ("missing product", TRANSPARENT, "{ catalogue = \"no-such\" }", &["no-such"]),
+        ("missing file", TRANSPARENT, "{ file = \"none.xml\" }", &["aperture[1].system", "none.xml"]),
+        ("missing product", TRANSPARENT, "{ catalogue = \"no-such\" }", &["aperture[1].system", "no-such"]),
         ("two systems", TRANSPARENT, "{ file = \"a.xml\", catalogue = \"b\" }", &["exactly one of"]),
     ];
     let folder = Folder::new();
@@ -225,7 +233,10 @@ fn sensors_outside_the_room_are_named() {
     let folder = Folder::new();
     for point in [[5.0, 1.0, 1.0], [1.0, -0.1, 1.0], [1.0, 1.0, 3.1], [1.0, f64::NAN, 1.0]] {
         let list = [[1.0, 1.0, 1.0], point];
-        folder.write("a.toml", &Text { sensors: points(&list, [0.0, 0.0, 1.0]).replace("NaN", "nan"), ..Text::default() }.toml());
+        folder.write(
+            "a.toml",
+            &Text { sensors: points(&list, [0.0, 0.0, 1.0]).replace("NaN", "nan"), ..Text::default() }.toml(),
+        );
         refused("outside", &folder.cfs(&["room", "a.toml"]), &["a.toml", "sensors.points[2]", "room"]);
     }
     folder.write("a.toml", &Text { sensors: points(&[[1.0; 3]], [0.0; 3]), ..Text::default() }.toml());

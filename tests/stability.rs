@@ -11,9 +11,7 @@ use rooms::*;
 /// Finite, not negative, with a finite error; returns the illuminances.
 fn sane(what: &str, result: &RoomResult) -> Vec<f64> {
     for row in &result.sensors {
-        for (part, e) in
-            [("direct", row.direct), ("interreflected", row.interreflected), ("total", row.total())]
-        {
+        for (part, e) in [("direct", row.direct), ("interreflected", row.interreflected), ("total", row.total())] {
             assert!(e.value.is_finite() && e.value >= 0.0, "{what}: {part} {e:?} at {}", row.sensor.position);
             assert!(e.error.is_finite() && e.error >= 0.0, "{what}: {part} {e:?} at {}", row.sensor.position);
         }
@@ -69,12 +67,7 @@ fn sensors_a_millimetre_from_the_sill_follow_the_near_limit() {
     // Horizontal, at sill height in the middle of a window, distance → 0: the upper quarter of the uniform
     // outside, E = L ∫ over the quarter sphere = πL/2, but for the sky that the head and the jambs cut off.
     let list = [[2.0, 1e-3, 1.0], [2.0, 1e-5, 1.0], [2.0, 1e-3, 1.0 - 1e-3], [2.0, 1e-3, 1.0 + 1e-3]];
-    let text = Text {
-        sky: UNIFORM.into(),
-        ground: 1.0,
-        sensors: points(&list, [0.0, 0.0, 1.0]),
-        ..Text::default()
-    };
+    let text = Text { sky: UNIFORM.into(), ground: 1.0, sensors: points(&list, [0.0, 0.0, 1.0]), ..Text::default() };
     for values in with_every_system("sill", &text, |s| facade([0.5, 1.0], [3.0, 1.5], s)).iter().take(2) {
         assert!((values[1] / 5_000.0 - 1.0).abs() < 2e-4, "{values:?}");
         assert!((values[0] / 5_000.0 - 1.0).abs() < 2e-2, "{values:?}");
@@ -153,7 +146,10 @@ fn the_disc_rises_and_turns_past_the_facade_without_a_jump() {
                 assert!(flux - last < 80_000.0 * 4.5 * 5e-4, "{azimuth}°: {flux} after {last}");
             } else {
                 // Normal incidence: what grows is the visible share.
-                assert!(flux >= last - 1e-6 * flux && flux - last < 80_000.0 * 4.5 * 0.06, "{altitude}°: {last} {flux}");
+                assert!(
+                    flux >= last - 1e-5 * flux && flux - last < 80_000.0 * 4.5 * 0.06,
+                    "{altitude}°: {last} {flux}"
+                );
             }
             last = flux;
         }
@@ -204,7 +200,8 @@ fn rooms_a_thousand_times_as_long_as_wide() {
         ([1.0, 1.0, 1000.0], [[0.1, 100.0], [0.8, 300.0]]),
     ] {
         let sensors = format!("plane = {{ z = {:?}, nx = 3, ny = 5 }}", 0.4 * room[2]);
-        let text = Text { room, reflectance: [0.8, 0.8, 0.8], sky: clear(35.0, 190.0, 60_000.0), sensors, ..Text::default() };
+        let text =
+            Text { room, reflectance: [0.8, 0.8, 0.8], sky: clear(35.0, 190.0, 60_000.0), sensors, ..Text::default() };
         with_every_system(&format!("{room:?}"), &text, |s| facade(window[0], window[1], s));
     }
 }
@@ -237,8 +234,7 @@ fn a_small_window_is_a_point_source() {
     let r2 = to_window.length_squared();
     let want = 10_000.0 / std::f64::consts::PI * 1e-6 * (2.0 / r2.sqrt()) * (1.15 / r2.sqrt()) / r2;
     for values in SYSTEMS.map(|s| {
-        let text =
-            Text { apertures: vec![facade([2.0 - 5e-4, 2.0 - 5e-4], [1e-3, 1e-3], s)], ..text.clone() };
+        let text = Text { apertures: vec![facade([2.0 - 5e-4, 2.0 - 5e-4], [1e-3, 1e-3], s)], ..text.clone() };
         totals(&compute(&text.scene_with(straight_cells())))
     }) {
         assert!((values[0] / want - 1.0).abs() < 1e-6, "{} {want}", values[0]);
@@ -285,7 +281,8 @@ fn darkness_of_every_kind_is_zero() {
             assert!(values.iter().all(|e| *e == 0.0), "{values:?}");
         }
     }
-    let shut = ["{ ideal = \"transparent\", transmittance = 0.0 }", "{ ideal = \"diffuse\", transmittance = 0.0 }", MADE];
+    let shut =
+        ["{ ideal = \"transparent\", transmittance = 0.0 }", "{ ideal = \"diffuse\", transmittance = 0.0 }", MADE];
     for system in shut {
         let apertures = vec![facade([0.5, 1.0], [3.0, 1.5], system)];
         let text = Text { reflectance: GREY, sky: clear(35.0, 190.0, 60_000.0), apertures, ..Text::default() };
@@ -334,6 +331,24 @@ fn many_apertures_are_one() {
 }
 
 #[test]
+fn more_apertures_than_can_be_balanced_are_refused_in_words() {
+    // 50 × 50 small windows that line up nowhere: each border is a row of patches of its own.
+    let mut text = Text { reflectance: GREY, room: [100.0, 100.0, 100.0], apertures: Vec::new(), ..Text::default() };
+    for i in 0..50 {
+        for j in 0..50 {
+            let (i, j) = (f64::from(i), f64::from(j));
+            text.apertures.push(facade([2.0 * i + 0.011 * j, 2.0 * j + 0.013 * i], [0.5, 0.5], DIFFUSE));
+        }
+    }
+    match Session::new().room(&text.scene(), &Silent) {
+        Err(error @ StudyError::Patches(_)) => assert!(error.to_string().contains("2500 apertures"), "{error}"),
+        other => panic!("{:?}", other.map(|result| result.flux)),
+    }
+    text.compute = "interreflection = false".into();
+    sane("2500 apertures", &text.result());
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
     for system in SYSTEMS {
         let text = Text {
@@ -346,7 +361,7 @@ fn the_number_of_threads_changes_no_bit() {
         let scene = text.scene_with(klems(rough));
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| compute(&scene))
+            pool.install(|| Session::new().room(&scene, &Silent).unwrap())
         };
         let one = run(1);
         for threads in [2, 3, 16] {

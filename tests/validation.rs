@@ -39,7 +39,8 @@ fn overcast_sky_through_an_unglazed_window_follows_the_closed_form() {
         let gradient = 2.0 / 3.0 * ((s / c).asin() - s / (c * c * (c * c - s * s).sqrt()));
         3.0 / (7.0 * PI) * (uniform + gradient)
     };
-    for ([w, h, d], printed) in [([1.0, 1.0, 1.0], Some(0.045_251)), ([2.0, 1.5, 3.0], Some(0.011_472)), ([0.7, 2.1, 0.4], None)]
+    for ([w, h, d], printed) in
+        [([1.0, 1.0, 1.0], Some(0.045_251)), ([2.0, 1.5, 3.0], Some(0.011_472)), ([0.7, 2.1, 0.4], None)]
     {
         if let Some(printed) = printed {
             assert!((closed(w, h, d) - printed).abs() < 6e-7, "{}", closed(w, h, d));
@@ -55,7 +56,7 @@ fn overcast_sky_through_an_unglazed_window_follows_the_closed_form() {
         }
     }
     // Low at the foot of an endless wall of sky: a quarter and the gradient's share, both known.
-    assert!((closed(1e6, 1e6, 1e-3) - 0.25).abs() < 1e-3);
+    assert!((closed(1e3, 1e3, 0.1) - 0.25).abs() < 1e-3);
 }
 
 #[test]
@@ -355,7 +356,14 @@ fn a_sun_patch_is_where_geometry_puts_it() {
         apertures: vec![facade([1.0, 1.0], [2.0, 1.0], "{ ideal = \"transparent\", transmittance = 0.8 }")],
         sky: sun_alone(45.0, 180.0),
         sensors: points(
-            &[[2.0, 0.98, 0.0], [2.0, 1.02, 0.0], [2.0, 1.97, 0.0], [2.0, 2.04, 0.0], [0.99, 1.5, 0.0], [1.02, 1.5, 0.0]],
+            &[
+                [2.0, 0.98, 0.0],
+                [2.0, 1.02, 0.0],
+                [2.0, 1.97, 0.0],
+                [2.0, 2.04, 0.0],
+                [0.99, 1.5, 0.0],
+                [1.02, 1.5, 0.0],
+            ],
             [0.0, 0.0, 1.0],
         ),
         ..Text::default()
