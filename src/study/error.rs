@@ -1,6 +1,7 @@
 //! Why a study cannot be made: one sentence each, naming the key or the file and what would be right.
 
 use crate::compute::estimate::Cancelled;
+use crate::compute::room::mesh::TooManyPatches;
 use crate::compute::room::radiosity::NothingAbsorbs;
 use std::path::PathBuf;
 
@@ -38,10 +39,26 @@ pub enum StudyError {
     Catalogue(String),
     /// The room has no solution.
     #[error("room.reflectance: {0}")]
-    Room(#[from] NothingAbsorbs),
+    Room(NothingAbsorbs),
+    /// More apertures than interreflection can be computed with.
+    #[error("aperture: {0}")]
+    Patches(TooManyPatches),
     /// Withdrawn.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+// Not as sources: the message is already part of the sentence, and a chain of causes would say it twice.
+impl From<NothingAbsorbs> for StudyError {
+    fn from(error: NothingAbsorbs) -> Self {
+        Self::Room(error)
+    }
+}
+
+impl From<TooManyPatches> for StudyError {
+    fn from(error: TooManyPatches) -> Self {
+        Self::Patches(error)
+    }
 }
 
 impl StudyError {

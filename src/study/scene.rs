@@ -137,9 +137,15 @@ impl Scene {
     }
 }
 
+/// The error with the place in the scene that led to it.
 fn in_aperture(index: usize, error: StudyError) -> StudyError {
+    let place = |key: &str| format!("aperture[{}].{key}", index + 1);
     match error {
-        StudyError::Key { key, message } => StudyError::Key { key: format!("aperture[{}].{key}", index + 1), message },
+        StudyError::Key { key, message } => StudyError::Key { key: place(&key), message },
+        StudyError::File { path, message } => {
+            StudyError::Key { key: place("system.file"), message: format!("{}: {message}", path.display()) }
+        }
+        StudyError::Catalogue(message) => StudyError::Key { key: place("system.catalogue"), message },
         other => other,
     }
 }

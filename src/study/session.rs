@@ -218,8 +218,8 @@ impl Session {
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.reflectance).collect();
         let radiosity = self.rooms.get(room_key.clone(), || {
-            let step = Mesh::step_for(&scene.room, count);
-            Radiosity::new(Mesh::new(&scene.room, &geometry, &reflectances, step)).map_err(StudyError::from)
+            let mesh = Mesh::with_about(&scene.room, &geometry, &reflectances, count)?;
+            Radiosity::new(mesh).map_err(StudyError::from)
         })?;
         check(progress)?;
         let mut gather_key = room_key.clone();

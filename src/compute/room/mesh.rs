@@ -58,6 +58,22 @@ pub struct Mesh {
     pub patches: Vec<Patch>,
 }
 
+/// Most patches of a room: two dense matrices of their number are kept, 0.6 GB at this limit.
+pub const MOST_PATCHES: usize = 6000;
+
+/// The borders of the apertures cut the walls into more patches than can be balanced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the borders of {apertures} apertures cut the room into {patches} patches (allowed: {MOST_PATCHES}); line the \
+     apertures up, join neighbours, or leave interreflection out"
+)]
+pub struct TooManyPatches {
+    /// Number of apertures.
+    pub apertures: usize,
+    /// Patches that their borders alone make.
+    pub patches: usize,
+}
+
 impl Wall {
     /// A point of the wall from its two coordinates.
     pub fn point(&self, a: f64, b: f64) -> DVec3 {
@@ -78,19 +94,35 @@ impl Patch {
 }
 
 impl Mesh {
+    /// About `count` patches; `aperture_reflectance` of the room side of each aperture.
+    ///
+    /// The borders of apertures are lines on all walls that share the axis. Where they alone cut a long room into
+    /// rows of many more patches than asked for, the step grows until there are at most 2.5 `count`.
+    pub fn with_about(
+        room: &BoxRoom,
+        apertures: &[Aperture],
+        aperture_reflectance: &[f64],
+        count: usize,
+    ) -> Result<Self, TooManyPatches> {
+        let mut step = Self::step_for(room, count);
+        let number = |step: f64| {
+            let [x, y, z] = lines(room, apertures, step).map(|lines| lines.len() - 1);
+            2 * (x * y + y * z + z * x)
+        };
+        let coarsest = number(f64::INFINITY);
+        if coarsest > MOST_PATCHES {
+            return Err(TooManyPatches { apertures: apertures.len(), patches: coarsest });
+        }
+        let allowed = (5 * count / 2).max(coarsest);
+        while number(step) > allowed {
+            step *= 1.1;
+        }
+        Ok(Self::new(room, apertures, aperture_reflectance, step))
+    }
+
     /// Patches of about `step` \[m\] in both directions; `aperture_reflectance` of the room side of each aperture.
     pub fn new(room: &BoxRoom, apertures: &[Aperture], aperture_reflectance: &[f64], step: f64) -> Self {
-        // Every aperture border is a grid line on all walls that share the axis.
-        let mut cuts: [Vec<f64>; 3] = Default::default();
-        for aperture in apertures {
-            let corners = aperture.corners();
-            for (axis, cuts) in cuts.iter_mut().enumerate() {
-                if (corners[2][axis] - corners[0][axis]).abs() > 0.0 {
-                    cuts.extend([corners[0][axis], corners[2][axis]]);
-                }
-            }
-        }
-        let lines: Vec<Vec<f64>> = (0..3).map(|axis| grid_lines(room.size[axis], step, &mut cuts[axis])).collect();
+        let lines = lines(room, apertures, step);
         let sides = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
         let mut mesh = Self { walls: Vec::with_capacity(6), patches: Vec::new() };
         for (number, (axis, high)) in sides.into_iter().enumerate() {
@@ -143,6 +175,20 @@ impl Mesh {
         let s = room.size;
         (2.0 * (s.x * s.y + s.y * s.z + s.z * s.x) / count as f64).sqrt()
     }
+}
+
+/// Grid lines along x, y and z.
+fn lines(room: &BoxRoom, apertures: &[Aperture], step: f64) -> [Vec<f64>; 3] {
+    let mut cuts: [Vec<f64>; 3] = Default::default();
+    for aperture in apertures {
+        let corners = aperture.corners();
+        for (axis, cuts) in cuts.iter_mut().enumerate() {
+            if (corners[2][axis] - corners[0][axis]).abs() > 0.0 {
+                cuts.extend([corners[0][axis], corners[2][axis]]);
+            }
+        }
+    }
+    [0, 1, 2].map(|axis| grid_lines(room.size[axis], step, &mut cuts[axis]))
 }
 
 fn grid_lines(length: f64, step: f64, cuts: &mut Vec<f64>) -> Vec<f64> {

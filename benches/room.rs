@@ -1,0 +1,141 @@
+//! Run time of the room beside its error: one view of 96 sensors in a room of three reflectances, behind a blind of
+//! the built-in products. What the window does when the sky, the sun or the room changes.
+//!
+//! `cargo bench --bench room`. Before the times each bench prints how far its result lies from a finer computation.
+
+use cfs::compute::estimate::Silent;
+use cfs::study::{Library, RoomResult, Scene, SceneFile, Session};
+use divan::Bencher;
+use std::path::Path;
+
+fn main() {
+    errors();
+    divan::main();
+}
+
+const BLIND: &str = "{ catalogue = \"venetian-80-72\", state = \"30\" }";
+const OPEN: &str = "{ ideal = \"transparent\", transmittance = 0.8 }";
+
+fn text(system: &str, sky: &str, compute: &str) -> String {
+    format!(
+        "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\n\
+         reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
+         [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\nsystem = {system}\n\
+         [site]\nazimuth = 170.0\nground_reflectance = 0.2\n[sky]\n{sky}\n\
+         [sensors]\nplane = {{ z = 0.85, nx = 8, ny = 12 }}\n[compute]\n{compute}\n"
+    )
+}
+
+/// A clear sky with the sun at a bearing.
+fn sunny(bearing: f64) -> String {
+    format!(
+        "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 15000.0\n\
+         sun = {{ altitude = 35.0, azimuth = {bearing:?}, direct_normal = 60000.0 }}"
+    )
+}
+
+fn overcast(illuminance: f64) -> String {
+    format!("model = \"cie\"\ntype = 16\ndiffuse_horizontal = {illuminance:?}")
+}
+
+/// Resolves scenes with a catalogue that lives as long as the benches.
+struct Bench {
+    library: Library,
+    _folder: Folder,
+}
+
+/// A folder of its own, removed at the end.
+struct Folder(std::path::PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        std::fs::remove_dir_all(&self.0).ok();
+    }
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder =
+            std::env::temp_dir().join(format!("cfs-bench-{}-{:?}", std::process::id(), std::thread::current().id()));
+        std::fs::create_dir_all(&folder).expect("the system has a folder for temporary files");
+        Self { library: Library::with_catalogue(Some(&folder.join("catalogue.cfsdb"))), _folder: Folder(folder) }
+    }
+
+    fn scene(&self, system: &str, sky: &str, compute: &str) -> Scene {
+        let file = SceneFile::parse(&text(system, sky, compute)).expect("the text above is a scene");
+        Scene::resolve(&file, Path::new("."), &self.library).expect("the scene above can be resolved")
+    }
+}
+
+fn room(session: &Session, scene: &Scene) -> RoomResult {
+    session.room(scene, &Silent).expect("nothing in these scenes is out of range")
+}
+
+/// Largest deviation of the ordinary result from one with an error target of 1e-6, relative to the mean, beside the
+/// error that the result itself states.
+fn errors() {
+    let bench = Bench::new();
+    for (name, system, sky) in [
+        ("blind, overcast", BLIND, overcast(10_000.0)),
+        ("blind, sun", BLIND, sunny(200.0)),
+        ("open, overcast", OPEN, overcast(10_000.0)),
+        ("open, sun", OPEN, sunny(200.0)),
+    ] {
+        let ordinary = room(&Session::new(), &bench.scene(system, &sky, ""));
+        let fine = room(&Session::new(), &bench.scene(system, &sky, "error_target = 1e-6"));
+        let mean = fine.sensors.iter().map(|s| s.total().value).sum::<f64>() / fine.sensors.len() as f64;
+        let pairs = || ordinary.sensors.iter().zip(&fine.sensors);
+        let worst = pairs().map(|(a, b)| (a.total().value - b.total().value).abs()).fold(0.0, f64::max) / mean;
+        let stated = ordinary.sensors.iter().map(|s| s.total().error).fold(0.0, f64::max) / mean;
+        println!(
+            "{name:<16} mean {mean:8.1} lx   against the finer computation {worst:.1e}   stated {stated:.1e}   flux \
+             before closing {:.1e}",
+            ordinary.flux_gap
+        );
+    }
+}
+
+/// A new sky over a room that is already there.
+#[divan::bench(args = [BLIND, OPEN])]
+fn sky_change(bencher: Bencher<'_, '_>, system: &str) {
+    let bench = Bench::new();
+    let session = Session::new();
+    let scenes: Vec<Scene> = [10_000.0, 12_000.0].map(|e| bench.scene(system, &overcast(e), "")).into_iter().collect();
+    room(&session, &scenes[0]);
+    let mut turn = 0;
+    bencher.bench_local(|| {
+        turn += 1;
+        room(&session, &scenes[turn % 2])
+    });
+}
+
+/// The sun moves.
+#[divan::bench(args = [BLIND, OPEN])]
+fn sun_change(bencher: Bencher<'_, '_>, system: &str) {
+    let bench = Bench::new();
+    let session = Session::new();
+    let scenes: Vec<Scene> = (0..12).map(|k| bench.scene(system, &sunny(150.0 + 5.0 * f64::from(k)), "")).collect();
+    room(&session, &scenes[0]);
+    let mut turn = 0;
+    bencher.bench_local(|| {
+        turn += 1;
+        room(&session, &scenes[turn % 12])
+    });
+}
+
+/// The first answer for a room: meshing, exchange, factorisation, near field of all sensors and patches.
+#[divan::bench(args = [BLIND, OPEN], sample_count = 10)]
+fn cold(bencher: Bencher<'_, '_>, system: &str) {
+    let bench = Bench::new();
+    let scene = bench.scene(system, &sunny(200.0), "");
+    bencher.bench_local(|| room(&Session::new(), &scene));
+}
+
+/// The aperture's light alone: sky integrals over the incident cells and the matrix.
+#[divan::bench(args = [BLIND, OPEN])]
+fn emission(bencher: Bencher<'_, '_>, system: &str) {
+    let bench = Bench::new();
+    let scene = bench.scene(system, &sunny(200.0), "");
+    let session = Session::new();
+    bencher.bench_local(|| session.lid(&scene, 0, &Silent).expect("the scene has an aperture"));
+}
