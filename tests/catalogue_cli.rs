@@ -43,7 +43,7 @@ fn products_go_out_and_in_again() {
     let package = folder.path().join("x.cfsp");
     let keys = vec!["laser-cut-panel".to_owned(), "venetian-80-72".to_owned()];
     run(&CatalogueArgs { action: Action::Export(ExportArgs { keys, out: package.clone() }) }, Some(&file)).unwrap();
-    run(&import(&[package.clone()]), Some(&other)).unwrap();
+    run(&import(std::slice::from_ref(&package)), Some(&other)).unwrap();
     for json in [false, true] {
         let show = ShowArgs { key: "laser-cut-panel-2".into(), json };
         run(&CatalogueArgs { action: Action::Show(show) }, Some(&other)).unwrap();
