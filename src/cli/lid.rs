@@ -1,7 +1,7 @@
 //! `cfs lid`: the luminous-intensity distribution of an aperture as a luminaire file, table or diagram.
 
 use super::output::{print, write_file};
-use crate::compute::estimate::Silent;
+use super::progress::TerminalProgress;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::ies::IesEdition;
@@ -68,7 +68,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let date = jiff::Zoned::now().date().to_string();
         let text = describe(&name, &read_scene_file(path)?, index, &date);
-        Ok((Session::new().lid(&scene, index, &Silent)?.lid, text))
+        Ok((Session::new().lid(&scene, index, &TerminalProgress::new())?.lid, text))
     })
 }
 

@@ -7,6 +7,7 @@ mod dataset_file;
 pub mod info;
 pub mod lid;
 mod output;
+mod progress;
 pub mod room;
 pub mod sky;
 

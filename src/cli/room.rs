@@ -1,7 +1,7 @@
 //! `cfs room`: illuminance at every sensor of a scene.
 
 use super::output::{number, print, write_file};
-use crate::compute::estimate::Silent;
+use super::progress::TerminalProgress;
 use crate::study::{RoomResult, Session, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
@@ -29,7 +29,8 @@ pub struct RoomArgs {
 /// Runs the command.
 pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     let scene = load_scene(&args.scene, library)?;
-    let result = Session::new().room(&scene, &Silent).with_context(|| args.scene.display().to_string())?;
+    let result =
+        Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
     let mut csv = String::from("x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx\n");
     for row in &result.sensors {
         let total = row.total();

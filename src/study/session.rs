@@ -20,6 +20,9 @@ use std::time::Instant;
 /// Numbers of patches of the two meshes whose results are extrapolated.
 const PATCHES: [usize; 2] = [220, 900];
 
+/// Steps that a room reports: emission, direct light, two meshes.
+const STEPS: usize = 4;
+
 /// What one sensor gets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorResult {
@@ -108,10 +111,12 @@ impl Session {
             .sum();
         plan.spend("emission", clock.elapsed());
         check(progress)?;
+        progress.advance("direct light", 1, STEPS);
 
         let clock = Instant::now();
         let direct = self.direct(scene, &emissions, progress)?;
         plan.spend("direct", clock.elapsed());
+        progress.advance("interreflection", 2, STEPS);
 
         let clock = Instant::now();
         let (interreflected, flux_gap) = if plan.runs("interreflection") {
@@ -188,6 +193,7 @@ impl Session {
             let (illuminances, level_gap) = self.level(scene, emissions, count, 3 - level, progress)?;
             levels.push(illuminances);
             gap = gap.max(level_gap);
+            progress.advance("interreflection", 3 + level, STEPS);
         }
         let estimates = levels[0]
             .iter()
