@@ -203,16 +203,15 @@ fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, Stu
             SurfaceKey::Facade => (Surface::Facade, "façade", [room.size.x, room.size.z]),
             SurfaceKey::Roof => (Surface::Roof, "roof", [room.size.x, room.size.y]),
         };
-        for axis in 0..2 {
-            let (from, size) = (keys.origin[axis], keys.size[axis]);
+        for ((from, size), limit) in keys.origin.into_iter().zip(keys.size).zip(limits) {
             if !(size > 0.0 && size.is_finite()) {
                 return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
             }
-            let slack = 1e-9 * limits[axis];
-            if !(from >= -slack && from + size <= limits[axis] + slack) {
+            let slack = 1e-9 * limit;
+            if !(from >= -slack && from + size <= limit + slack) {
                 return Err(StudyError::key(
-                    name(if from >= -slack && from <= limits[axis] { "size" } else { "origin" }),
-                    format!("{from} m to {} m lies beyond the {wall}, 0 to {} m", from + size, limits[axis]),
+                    name(if from >= -slack && from <= limit { "size" } else { "origin" }),
+                    format!("{from} m to {} m lies beyond the {wall}, 0 to {} m", from + size, limit),
                 ));
             }
         }

@@ -151,11 +151,10 @@ impl Mesh {
                 for b in wall.lines[1].windows(2) {
                     let centre = wall.point(0.5 * (a[0] + a[1]), 0.5 * (b[0] + b[1]));
                     let aperture = apertures.iter().position(|aperture| {
-                        let inside = surface == Some(aperture.surface) && {
-                            let offset = aperture.surface.facade_from_room(centre - aperture.corner);
-                            (0.0..aperture.size[0]).contains(&offset.x) && (0.0..aperture.size[1]).contains(&offset.y)
-                        };
-                        inside
+                        let offset = aperture.surface.facade_from_room(centre - aperture.corner);
+                        surface == Some(aperture.surface)
+                            && (0.0..aperture.size[0]).contains(&offset.x)
+                            && (0.0..aperture.size[1]).contains(&offset.y)
                     });
                     mesh.patches.push(Patch {
                         wall: number,
