@@ -209,7 +209,8 @@ impl Session {
             .zip(&levels[1])
             .map(|(coarse, fine)| {
                 let value = (fine + (fine - coarse) / 3.0).max(0.0);
-                Estimate::new(value, (fine - coarse).abs() / 3.0 + (rest + 0.2 * gap) * value)
+                // More than what was added: near the opening the first order is not yet all of the error.
+                Estimate::new(value, (fine - coarse).abs() / 2.0 + (rest + 0.2 * gap) * value)
             })
             .collect();
         Ok((estimates, gap))
