@@ -422,3 +422,27 @@ fn a_sensor_counts_light_from_in_front_of_it_alone() {
     let n = DVec3::new(0.48, -0.6, 0.64);
     close(net(n), x * n.x + y * n.y + z * n.z, 1e-4, "net vector");
 }
+
+#[test]
+fn a_tighter_error_target_is_kept() {
+    for system in [TRANSPARENT, MADE] {
+        let text = Text {
+            reflectance: [0.2, 0.5, 0.7],
+            apertures: vec![facade([0.5, 1.0], [3.0, 1.5], system)],
+            sky: clear(35.0, 200.0, 0.0),
+            ..Text::default()
+        };
+        let tight = Text { compute: "error_target = 0.002".into(), ..text.clone() };
+        let [ordinary, tight] = [text, tight].map(|text| compute(&text.scene_with(klems(rough))));
+        let sum = |f: fn(&cfs::study::SensorResult) -> f64, list: &[cfs::study::SensorResult]| -> f64 {
+            list.iter().map(f).sum()
+        };
+        let stated = [&ordinary, &tight].map(|r| sum(|s| s.interreflected.error, &r.sensors));
+        assert!(stated[1] < 0.7 * stated[0], "{stated:?}");
+        for (a, b) in ordinary.sensors.iter().zip(&tight.sensors) {
+            let (a, b) = (a.total(), b.total());
+            assert!((a.value - b.value).abs() <= a.error + b.error, "{system}: {a:?} {b:?}");
+            assert!(b.error > 0.0 && b.error < 0.02 * b.value, "{b:?}");
+        }
+    }
+}

@@ -5,10 +5,10 @@ use super::beam::lit_shares;
 use super::direct::{Reception, Sensor};
 use super::mesh::Mesh;
 use super::radiosity::Radiosity;
-use crate::compute::basis::RingBasis;
+use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::compute::lid::{Emission, Facing};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::{Frame, incident_illuminances};
+use crate::compute::sky::{Frame, incident_illuminances_within};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -90,10 +90,26 @@ impl PatchWeights {
     }
 }
 
-/// The cells in which the outside seen straight through is handed to the patches: 400 of equal projected solid
-/// angle; their borders hold the façade's horizon. Sensors see it unquantised.
+/// Relative accuracy of the light of [`through_basis`]'s cells; their size costs more.
+const THROUGH_ACCURACY: f64 = 1e-4;
+
+/// The cells in which the outside seen straight through is handed to the patches: about 400, of equal projected solid
+/// angle but for finer ones around the normal, where the far end of a deep room looks; their borders hold the façade's
+/// horizon. Sensors see the outside unquantised.
 pub fn through_basis() -> RingBasis {
-    RingBasis::equal_area(10)
+    let limits = [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
+    let sectors = [4, 8, 12, 12, 20, 28, 36, 44, 52, 60, 68, 76];
+    let rings = limits
+        .windows(2)
+        .zip(sectors)
+        .map(|(sine, sectors)| Ring {
+            theta_min: sine[0].asin(),
+            theta_max: sine[1].asin(),
+            sectors,
+            first_phi: PI / sectors as f64,
+        })
+        .collect();
+    RingBasis::new("through", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
 }
 
 /// Mean direct illuminance of every patch from one aperture, and the relative error of its flux. \[lx\]
@@ -128,7 +144,7 @@ pub fn first_illuminance(
     if let Some(tau) = &emission.regular {
         let basis = Arc::new(through_basis());
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
-        let luminance: Vec<f64> = incident_illuminances(facing.outside, &basis, &frame)
+        let luminance: Vec<f64> = incident_illuminances_within(facing.outside, &basis, &frame, THROUGH_ACCURACY)
             .into_iter()
             .zip(basis.cells())
             .map(|(e, cell)| {

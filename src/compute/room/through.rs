@@ -70,13 +70,15 @@ pub fn illuminance(
     }
     let sun = outside.sun_direction().map(|sun| prospect.orientation.room_from_world(sun).vector());
     let region = Region::new(&above, prospect.surface, sun, outside.skyline_altitude());
-    let integrand = |azimuth: f64, altitude: f64| {
+    let integrand = |(sin_a, cos_a): (f64, f64), altitude: f64| {
         let (sin_h, cos_h) = altitude.sin_cos();
-        let (sin_a, cos_a) = azimuth.sin_cos();
         let d = DVec3::new(cos_h * cos_a, cos_h * sin_a, sin_h);
-        let local = prospect.surface.facade_from_room(d);
         let luminance = outside.luminance(prospect.orientation.world_from_room(Dir::from_unit(d)));
-        luminance * tau(local.z.clamp(-1.0, 1.0).acos()) * normal.dot(d).max(0.0) * cos_h
+        let tau = uniform_tau.unwrap_or_else(|| {
+            let cosine = prospect.surface.facade_from_room(d).z;
+            tau(cosine.clamp(-1.0, 1.0).acos())
+        });
+        luminance * tau * normal.dot(d).max(0.0) * cos_h
     };
     sum + region.integrate(integrand, tolerance)
 }
@@ -172,7 +174,8 @@ impl<'a> Region<'a> {
         (seen > 0 && high > low).then_some((low, high))
     }
 
-    fn integrate(&self, integrand: impl Fn(f64, f64) -> f64, tolerance: Tolerance) -> Estimate {
+    /// `integrand` of sine and cosine of the azimuth, and of the altitude.
+    fn integrate(&self, integrand: impl Fn((f64, f64), f64) -> f64, tolerance: Tolerance) -> Estimate {
         // Pieces lie on a strip: x runs through the azimuth intervals one after the other, y through the bands of
         // altitude; the band's own limits are clamped to the polygon's.
         let bands = self.altitudes.len() - 1;
@@ -196,24 +199,42 @@ impl<'a> Region<'a> {
                 }
             }
         }
+        // The rules ask for several altitudes in each azimuth: what belongs to the azimuth is kept from one to the next.
+        let mut meridian = Meridian { x: f64::NAN, limits: None, sin_cos: (0.0, 1.0), width: 0.0 };
         integrate_rectangles(
             |x, y| {
-                let i = (x as usize).min(intervals - 1);
-                let k = (y as usize).min(bands - 1);
-                let (a, b) = (self.azimuths[i], self.azimuths[i + 1]);
-                let azimuth = a + (b - a) * (x - i as f64);
-                let Some((low, high)) = self.limits(azimuth) else {
+                if x != meridian.x {
+                    let i = (x as usize).min(intervals - 1);
+                    let (a, b) = (self.azimuths[i], self.azimuths[i + 1]);
+                    let azimuth = a + (b - a) * (x - i as f64);
+                    let (limits, sin_cos) = (self.limits(azimuth), azimuth.sin_cos());
+                    meridian = Meridian { x, limits, sin_cos, width: b - a };
+                }
+                let Some((low, high)) = meridian.limits else {
                     return 0.0;
                 };
+                let k = (y as usize).min(bands - 1);
                 let from = low.clamp(self.altitudes[k], self.altitudes[k + 1]);
                 let to = high.clamp(self.altitudes[k], self.altitudes[k + 1]);
                 let altitude = from + (to - from) * (y - k as f64);
-                if to <= from { 0.0 } else { integrand(azimuth, altitude) * (to - from) * (b - a) }
+                if to <= from { 0.0 } else { integrand(meridian.sin_cos, altitude) * (to - from) * meridian.width }
             },
             &pieces,
             tolerance,
         )
     }
+}
+
+/// What all altitudes of one azimuth share.
+struct Meridian {
+    /// The strip's own coordinate.
+    x: f64,
+    /// Lowest and highest altitude. [rad]
+    limits: Option<(f64, f64)>,
+    /// Of the azimuth.
+    sin_cos: (f64, f64),
+    /// Of the interval of azimuths. [rad]
+    width: f64,
 }
 
 /// An azimuth, by whole turns as near to the reference as can be.

@@ -15,6 +15,16 @@ const RELATIVE: f64 = 1e-6;
 ///
 /// Every cell is computed by itself: the result does not depend on the number of threads.
 pub fn incident_illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame) -> Vec<Estimate> {
+    incident_illuminances_within(outside, basis, frame, RELATIVE)
+}
+
+/// [`incident_illuminances`] to a relative accuracy of one's own.
+pub fn incident_illuminances_within(
+    outside: &Outside,
+    basis: &RingBasis,
+    frame: &Frame,
+    relative: f64,
+) -> Vec<Estimate> {
     (0..basis.len())
         .into_par_iter()
         .map(|index| {
@@ -24,8 +34,8 @@ pub fn incident_illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
             let step = cell.width / pieces;
             let tolerance = Tolerance {
-                relative: RELATIVE,
-                ..Tolerance::absolute(0.1 * RELATIVE * outside.diffuse_horizontal * share / pieces)
+                relative,
+                ..Tolerance::absolute(0.1 * relative * outside.diffuse_horizontal * share / pieces)
             };
             (0..pieces as usize)
                 .map(|piece| {

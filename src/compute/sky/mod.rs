@@ -25,7 +25,7 @@ mod scan_region;
 mod sun;
 
 pub use distribution::Distribution;
-pub use incident::incident_illuminances;
+pub use incident::{incident_illuminances, incident_illuminances_within};
 pub use region::{Frame, irradiance};
 pub use scan::Scan;
 pub use sun::{SUN_HALF_ANGLE, Sun, sun_solid_angle};
