@@ -2,17 +2,21 @@
 
 use super::App;
 use super::command::{Command, ImportFields};
+use super::control::CONTROLLED;
 use super::jobs::Lane;
 use super::moment;
 use super::shelf::Addition;
 use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
 use super::work;
-use crate::study::scene_file::{SceneFile, SystemKeys};
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
 use std::path::PathBuf;
 
 /// Puts a product into every aperture that is filled from the catalogue; into the first one if none is.
 pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     let state = (!selection.state.is_empty()).then(|| selection.state.clone());
+    if selection.state != CONTROLLED {
+        scene.control = None;
+    }
     let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
     let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
     if !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)) {
@@ -34,6 +38,9 @@ impl App {
             Command::Open => self.ask_paths(),
             Command::SaveScene => self.ask_target(PathUse::SaveScene),
             Command::ExportLid => self.ask_target(PathUse::ExportLid),
+            Command::ExportTile(tile) => self.ask_target(PathUse::ExportTile(tile)),
+            Command::CopyTile(tile) => self.copy_tile(tile),
+            Command::Control(mode) => self.control(mode),
             Command::Quit => self.ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Command::Undo => self.step_history(false),
             Command::Redo => self.step_history(true),
@@ -119,10 +126,42 @@ impl App {
         }
     }
 
+    /// Gives the state to a rule, or takes it back into the hand where it is.
+    fn control(&mut self, mode: ControlMode) {
+        let product = self.state.document.selection.product.clone();
+        if mode == ControlMode::Fixed {
+            if self.state.control_mode() != ControlMode::Fixed {
+                self.select(Selection { product, state: self.state.shown_state.clone() });
+            }
+            return;
+        }
+        let problem = self.state.product.as_deref().and_then(|known| {
+            if known.states.len() < 2 {
+                Some("This product does not move: it has one state")
+            } else if mode != ControlMode::Din5034 && known.control_curve.is_empty() {
+                Some("This product has no control curve: choose DIN 5034, or set the state by hand")
+            } else {
+                None
+            }
+        });
+        if let Some(problem) = problem {
+            self.toasts.info(problem);
+            return;
+        }
+        let document = &mut self.state.document;
+        self.undoer.add_undo(document);
+        document.selection = Selection { product, state: CONTROLLED.to_owned() };
+        document.scene.control = Some(ControlKeys { mode });
+        fill(&mut document.scene, &document.selection);
+        self.undoer.add_undo(document);
+    }
+
     fn step_state(&mut self, step: i32) {
         let selection = &self.state.document.selection;
         let Some(entry) = self.state.found.entries.iter().find(|entry| entry.key == selection.product) else { return };
-        let here = entry.states.iter().position(|key| *key == selection.state).unwrap_or(0);
+        // From where control has put it, if it does: stepping by hand takes over.
+        let from = if selection.state == CONTROLLED { &self.state.shown_state } else { &selection.state };
+        let here = entry.states.iter().position(|key| key == from).unwrap_or(0);
         let next = here.saturating_add_signed(step as isize).min(entry.states.len().saturating_sub(1));
         if let Some(state) = entry.states.get(next) {
             let (product, state) = (selection.product.clone(), state.clone());
@@ -189,6 +228,7 @@ impl App {
         self.state.path = match (what, &self.state.scene_path) {
             (PathUse::SaveScene, Some(path)) => path.display().to_string(),
             (PathUse::ExportLid, _) => "window.ldt".to_owned(),
+            (PathUse::ExportTile(tile), _) => super::export::file_name(tile),
             _ => "scene.toml".to_owned(),
         };
         self.state.sheet = Some(Sheet::Path(what));
@@ -213,6 +253,7 @@ impl App {
                 let text = toml::to_string_pretty(&self.state.document.scene);
                 self.start(Lane::Export, move |_| work::save_scene(&path, text));
             }
+            PathUse::ExportTile(tile) => self.export_tile(tile, path),
             PathUse::ExportLid => {
                 let (engine, lid) = (self.services.engine.clone(), self.results.lid.value.clone());
                 self.start(Lane::Export, move |_| work::export_lid(&path, lid.as_deref(), &*engine));

@@ -2,8 +2,8 @@
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, NewProduct};
-use crate::compute::btdf::Dataset;
+use crate::catalogue::{self, Catalogue, NewProduct, Product};
+use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::ies::IesEdition;
@@ -28,6 +28,25 @@ pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, String> {
 pub fn memory_shelf() -> Result<Arc<dyn Shelf>, String> {
     let catalogue = Catalogue::in_memory().map_err(|error| error.to_string())?;
     Ok(Arc::new(CatalogueShelf(Mutex::new(catalogue))))
+}
+
+/// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
+pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, String> {
+    let catalogue = Catalogue::empty_in_memory().map_err(told)?;
+    let shelf = CatalogueShelf(Mutex::new(catalogue));
+    for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
+    {
+        let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
+        dataset.visible.transmission_front = Some(btdf);
+        shelf.add(&Addition {
+            datasets: vec![Arc::new(dataset)],
+            name: name.to_owned(),
+            manufacturer: String::new(),
+            kind: "ideal".to_owned(),
+            tags: Vec::new(),
+        })?;
+    }
+    Ok(Arc::new(shelf))
 }
 
 impl CatalogueShelf {
@@ -56,13 +75,12 @@ impl Shelf for CatalogueShelf {
             if !query.kinds.is_empty() && !query.kinds.contains(&row.kind) {
                 continue;
             }
-            let states = catalogue.product(&row.key).map_err(told)?.states.into_iter().map(|state| state.key).collect();
             found.entries.push(Entry {
                 key: row.key,
                 name: row.name,
                 manufacturer: row.manufacturer,
                 kind: row.kind,
-                states,
+                states: row.state_keys,
                 tau_normal: row.tau_normal,
                 tau_hemispherical: row.tau_hemispherical,
                 profile: row.tau_profile.iter().map(|&tau| tau as f32).collect(),
@@ -83,6 +101,10 @@ impl Shelf for CatalogueShelf {
                 catalogue.dataset(product, Some(&first.key)).map_err(told)
             }
         }
+    }
+
+    fn product(&self, product: &str) -> Result<Arc<Product>, String> {
+        self.lock().product(product).map(Arc::new).map_err(told)
     }
 
     fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {

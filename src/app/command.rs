@@ -5,7 +5,7 @@ use super::jobs::Lane;
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
 use super::theme::ThemeChoice;
-use crate::study::scene_file::SceneFile;
+use crate::study::scene_file::{ControlMode, SceneFile};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
 
@@ -31,6 +31,12 @@ pub enum Command {
     SaveScene,
     /// Ask where to write the LID.
     ExportLid,
+    /// Ask where to write a tile, as numbers or as a picture.
+    ExportTile(Tile),
+    /// A tile's numbers into the clipboard.
+    CopyTile(Tile),
+    /// The rule that picks the state.
+    Control(ControlMode),
     /// Close the window.
     Quit,
     /// Back one step.
@@ -124,7 +130,10 @@ impl Command {
         list.extend(Tile::ALL.map(|tile| Maximise(Some(tile))));
         list.extend([Maximise(None), Hour(1), Hour(-1), Hour(3), Hour(-3)]);
         list.extend([Day(1), Day(-1), Day(30), Day(-30), NextState(1), NextState(-1)]);
+        list.extend([ControlMode::Fixed, ControlMode::Curve, ControlMode::Din5034].map(Control));
         list.extend([ToggleCatalogue, ToggleScene]);
+        list.extend(Tile::ALL.map(ExportTile));
+        list.extend(Tile::ALL.map(CopyTile));
         list.extend(ThemeChoice::ALL.map(Theme));
         list.extend([ResetScene, Sheet(Some(super::state::Sheet::Findings))]);
         list.extend([Sheet(Some(super::state::Sheet::Keys)), Quit]);
@@ -139,6 +148,25 @@ impl Command {
             Self::ExportLid => {
                 ("Export LID…".into(), "Write the window as a luminaire (.ldt, .ies) for other programs", ctrl(Key::E))
             }
+            Self::ExportTile(tile) => {
+                (format!("Export {}…", tile.title()), "Write this tile as numbers (.csv) or as a picture (.png)", None)
+            }
+            Self::CopyTile(tile) => {
+                (format!("Copy {} as CSV", tile.title()), "This tile's numbers into the clipboard", None)
+            }
+            Self::Control(ControlMode::Fixed) => {
+                ("State: by hand".into(), "The state stays where [ and ] put it", None)
+            }
+            Self::Control(ControlMode::Din5034) => (
+                "State: closed in sun (DIN 5034)".into(),
+                "The most closed state while the sun is on the façade, else the most open",
+                None,
+            ),
+            Self::Control(_) => (
+                "State: follow the curve".into(),
+                "The state that the product's curve (cut-off) asks for at the sun's profile angle",
+                None,
+            ),
             Self::Quit => ("Quit".into(), "Close the window", ctrl(Key::Q)),
             Self::Undo => ("Undo".into(), "Take the last change back", ctrl(Key::Z)),
             Self::Redo => (

@@ -25,7 +25,13 @@ impl FileDialogs for NativeDialogs {
             PathUse::ExportLid => rfd::FileDialog::new()
                 .set_title("Export the LID")
                 .set_file_name("window.ldt")
-                .add_filter("Luminaire files", &["ldt", "ies"]),
+                .add_filter("Luminaire files", &["ldt", "ies"])
+                .add_filter("Table or diagram", &["csv", "svg", "png"]),
+            PathUse::ExportTile(tile) => rfd::FileDialog::new()
+                .set_title(format!("Export {}", tile.title()))
+                .set_file_name(super::export::file_name(tile))
+                .add_filter("Numbers", &["csv"])
+                .add_filter("Picture", &["png"]),
             PathUse::SaveScene | PathUse::Open => rfd::FileDialog::new()
                 .set_title("Save the scene")
                 .set_file_name("scene.toml")

@@ -6,14 +6,17 @@
 pub mod apply;
 pub mod backend;
 pub mod command;
+pub mod control;
 pub mod daylight;
 pub mod dialogs;
 pub mod engine;
+pub mod export;
 pub mod jobs;
 pub mod moment;
 pub mod paint;
 pub mod panels;
 pub mod shelf;
+pub mod split;
 pub mod state;
 pub mod theme;
 pub mod title;
@@ -25,7 +28,7 @@ use dialogs::{FileDialogs, NativeDialogs, NoDialogs};
 use egui::util::undoer::Undoer;
 use engine::{Engine, LidFigures, RoomFigures};
 use jobs::Jobs;
-use shelf::{MemoryShelf, Shelf};
+use shelf::Shelf;
 use state::{Document, Settings, Shown, State};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -54,6 +57,8 @@ pub struct Results {
     pub lid: Shown<LidFigures>,
     /// The room.
     pub room: Shown<RoomFigures>,
+    /// What control does over the year.
+    pub year: Shown<control::Year>,
     /// Counts what the pictures depend on.
     pub revision: u64,
 }
@@ -72,6 +77,8 @@ pub struct App {
     pending_changes: VecDeque<Change>,
     undoer: Undoer<Document>,
     asked: Option<Document>,
+    asked_year: Option<control::YearKey>,
+    export: export::Exports,
     toasts: egui_notify::Toasts,
     bench: panels::bench::BenchState,
     ctx: egui::Context,
@@ -97,6 +104,8 @@ impl App {
             jobs: Jobs::default(),
             pending_changes: VecDeque::new(),
             asked: None,
+            asked_year: None,
+            export: export::Exports::default(),
             toasts: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
             bench: panels::bench::BenchState::default(),
             ctx: egui::Context::default(),
@@ -107,14 +116,13 @@ impl App {
 
     /// With a catalogue in memory and no file dialogs; nothing on disk is touched.
     pub fn for_test(engine: Arc<dyn Engine>) -> Self {
-        let shelf: Arc<dyn Shelf> = Arc::new(MemoryShelf::with_ideals());
+        Self::with_shelf(engine, backend::ideals_shelf)
+    }
+
+    /// With a catalogue that `open` gives, and no file dialogs.
+    pub fn with_shelf(engine: Arc<dyn Engine>, open: fn() -> Result<Arc<dyn Shelf>, String>) -> Self {
         Self::new(
-            Services {
-                open_catalogue: Arc::new(move || Ok(shelf.clone())),
-                read: read_dataset,
-                dialogs: Arc::new(NoDialogs),
-                engine,
-            },
+            Services { open_catalogue: Arc::new(open), read: read_dataset, dialogs: Arc::new(NoDialogs), engine },
             Settings::default(),
         )
     }
@@ -129,6 +137,7 @@ impl App {
             self.open_catalogue();
         }
         self.poll();
+        self.write_exports();
         for command in command::pressed(ctx) {
             self.apply(command);
         }

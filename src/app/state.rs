@@ -2,11 +2,12 @@
 
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
+use crate::catalogue::Product;
 use crate::compute::btdf::Dataset;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys,
-    SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
+    SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
 };
 use crate::study::sky::SkyKeyError;
 use std::path::PathBuf;
@@ -65,7 +66,7 @@ impl Tile {
 pub struct Selection {
     /// Product key.
     pub product: String,
-    /// Key of the state; empty for the first or only one.
+    /// Key of the state; empty for the first or only one; `controlled` when the scene's control picks it.
     pub state: String,
 }
 
@@ -194,6 +195,8 @@ pub enum PathUse {
     SaveScene,
     /// Write the LID as a luminaire file.
     ExportLid,
+    /// Write a tile as numbers (.csv) or as a picture (.png).
+    ExportTile(Tile),
 }
 
 /// Everything.
@@ -226,6 +229,10 @@ pub struct State {
     pub focus_search: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
+    /// The selected product: states with their numbers, control curve.
+    pub product: Option<Arc<Product>>,
+    /// Key of the state that is shown: as set by hand, or as control picked it.
+    pub shown_state: String,
     /// Sky and sun.
     pub daylight: Shown<Daylight>,
     /// The scene's key that is wrong.
@@ -317,12 +324,21 @@ impl State {
             palette: None,
             focus_search: false,
             dataset: Shown::default(),
+            product: None,
+            shown_state: String::new(),
             daylight: Shown::default(),
             scene_error: None,
             scene_path: None,
             row: 0,
             scrolled_to: String::new(),
         }
+    }
+
+    /// The rule that picks the state.
+    pub fn control_mode(&self) -> ControlMode {
+        let document = &self.document;
+        let controlled = document.selection.state == super::control::CONTROLLED;
+        document.scene.control.as_ref().filter(|_| controlled).map_or(ControlMode::Fixed, |control| control.mode)
     }
 
     /// The catalogue, once it is ready.

@@ -1,5 +1,6 @@
 //! The window's title: what is selected, where and when, in words.
 
+use super::control::CONTROLLED;
 use super::moment;
 use super::state::State;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
@@ -74,10 +75,11 @@ pub fn selection(state: &State) -> String {
         let name = state.dataset.value.as_deref().map_or("", |dataset| dataset.name.as_str());
         return if name.is_empty() { selection.product.clone() } else { name.to_owned() };
     };
-    let key = if selection.state.is_empty() {
-        entry.states.first().map_or("", String::as_str)
-    } else {
-        selection.state.as_str()
+    let key = match selection.state.as_str() {
+        "" => entry.states.first().map_or("", String::as_str),
+        CONTROLLED if state.shown_state.is_empty() => CONTROLLED,
+        CONTROLLED => state.shown_state.as_str(),
+        key => key,
     };
     if key.is_empty() { entry.name.clone() } else { format!("{}, {key}", entry.name) }
 }

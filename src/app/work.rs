@@ -1,12 +1,17 @@
 //! What runs in jobs, and what its results do to the window.
 
 use super::App;
+use super::control::{CONTROLLED, Year, YearKey};
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::jobs::{JobState, Lane};
 use super::shelf::{Addition, Found, Shelf};
 use super::state::{CatalogueState, Daylight, Import, PathUse, Selection, Sheet};
+use crate::catalogue::Product;
+use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
-use crate::study::scene_file::SceneFile;
+use crate::compute::direction::Orientation;
+use crate::compute::lid::Facing;
+use crate::study::scene_file::{ControlMode, SceneFile};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,8 +28,10 @@ pub enum Outcome {
     Opened(Result<Arc<dyn Shelf>, String>),
     /// A list.
     Found(Result<Found, String>),
-    /// The dataset of the selection, and sky and sun.
-    Scene(Result<Arc<Dataset>, String>, Result<Daylight, SkyKeyError>),
+    /// Product, state and dataset of the selection, and sky and sun.
+    Scene(Result<Shelved, String>, Result<Daylight, SkyKeyError>),
+    /// What control does over the year.
+    Year(Result<Year, String>),
     /// The LID.
     Lid(Result<LidFigures, String>),
     /// The room.
@@ -43,6 +50,43 @@ pub enum Outcome {
     Stored(Result<(), String>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, String>),
+}
+
+/// What the catalogue holds of the selection.
+pub struct Shelved {
+    /// Product.
+    pub product: Arc<Product>,
+    /// Key of the state, picked by the scene's control where it is left to it.
+    pub state: String,
+    /// Its dataset.
+    pub dataset: Arc<Dataset>,
+}
+
+/// The selection's product, state and dataset.
+fn take_from_shelf(
+    shelf: &dyn Shelf,
+    selection: &Selection,
+    scene: &SceneFile,
+    daylight: Option<&Daylight>,
+) -> Result<Shelved, String> {
+    let product = shelf.product(&selection.product)?;
+    let state = if selection.state == CONTROLLED {
+        let mode = scene.control.as_ref().map_or(ControlMode::Fixed, |control| control.mode);
+        let daylight = daylight.ok_or_else(|| "no state is picked until sky and sun are right".to_owned())?;
+        let facing = Facing {
+            outside: &daylight.outside,
+            sun: daylight.sun.as_ref(),
+            orientation: Orientation::new(Bearing::from_degrees(scene.site.azimuth)),
+            surface: super::control::surface(scene),
+        };
+        shelf.controlled_state(&selection.product, mode, &facing).map_err(|error| error.to_string())?
+    } else if selection.state.is_empty() {
+        product.states.first().map(|state| state.key.clone()).unwrap_or_default()
+    } else {
+        selection.state.clone()
+    };
+    let dataset = shelf.load(&selection.product, Some(&state))?;
+    Ok(Shelved { product, state, dataset })
 }
 
 /// Reads files: one scene, or datasets.
@@ -97,7 +141,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
 }
 
 /// Writes beside the target first, so that a failure leaves nothing half-written.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, String> {
+pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, String> {
     let mut name = path
         .file_name()
         .map(std::ffi::OsStr::to_os_string)
@@ -180,6 +224,7 @@ impl App {
                     match finished.lane {
                         Lane::Lid => self.results.lid.error = Some(text),
                         Lane::Room => self.results.room.error = Some(text),
+                        Lane::Year => self.results.year.error = Some(text),
                         Lane::Catalogue => self.state.search_error = Some(text),
                         _ => {}
                     }
@@ -205,7 +250,8 @@ impl App {
                 self.select_something();
             }
             Outcome::Found(Err(error)) => self.state.search_error = Some(error),
-            Outcome::Scene(dataset, daylight) => self.take_scene(dataset, daylight),
+            Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
+            Outcome::Year(result) => self.results.year.take(result),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Room(result) => self.results.room.take(result),
             Outcome::Chosen(Ok(paths)) => self.apply(super::command::Command::OpenPaths(paths)),
@@ -245,13 +291,16 @@ impl App {
         }
     }
 
-    fn take_scene(&mut self, dataset: Result<Arc<Dataset>, String>, daylight: Result<Daylight, SkyKeyError>) {
+    fn take_scene(&mut self, shelved: Result<Shelved, String>, daylight: Result<Daylight, SkyKeyError>) {
         self.results.revision += 1;
-        match dataset {
-            Ok(dataset) => {
+        match shelved {
+            Ok(Shelved { product, state, dataset }) => {
+                self.state.product = Some(product);
+                self.state.shown_state = state;
                 self.state.dataset.value = Some(dataset);
                 self.state.dataset.stale = false;
                 self.state.dataset.error = None;
+                self.ask_year();
             }
             Err(error) => self.state.dataset.error = Some(error),
         }
@@ -312,6 +361,25 @@ impl App {
         self.undoer = super::fresh_undoer(&self.state.document);
     }
 
+    /// Asks for the year of control anew when something that it hangs on has changed.
+    fn ask_year(&mut self) {
+        let state = &self.state;
+        let Some(product) = state.product.clone() else { return };
+        let key = YearKey::new(&state.document.scene, &product.key, state.control_mode(), &state.shown_state);
+        if key == self.asked_year {
+            return;
+        }
+        self.asked_year.clone_from(&key);
+        self.results.year.stale = true;
+        match key.filter(|_| product.states.len() > 1) {
+            Some(key) => self.start(Lane::Year, move |job| Outcome::Year(super::control::year(&product, key, job))),
+            None => {
+                self.jobs.cancel(Lane::Year);
+                self.results.year = super::state::Shown::default();
+            }
+        }
+    }
+
     /// Asks for everything that the document's change since the last call affects.
     pub fn refresh(&mut self) {
         if self.state.document.daylight_follows {
@@ -332,10 +400,9 @@ impl App {
         self.results.room.stale = true;
         let (scene, base) = (question.scene.clone(), question.base.clone());
         self.start(Lane::Scene, move |_| {
-            let state = (!selection.state.is_empty()).then_some(selection.state.as_str());
             let daylight =
                 outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
-            Outcome::Scene(shelf.load(&selection.product, state), daylight)
+            Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok()), daylight)
         });
         let (engine, asked) = (self.services.engine.clone(), question.clone());
         self.start(Lane::Lid, move |job| Outcome::Lid(engine.lid(&asked, job)));

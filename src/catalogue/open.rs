@@ -63,7 +63,18 @@ impl Catalogue {
         Self::prepare(Connection::open_in_memory()?)
     }
 
+    /// The same without any product.
+    pub fn empty_in_memory() -> Result<Self, CatalogueError> {
+        Self::laid_out(Connection::open_in_memory()?)
+    }
+
     fn prepare(db: Connection) -> Result<Self, CatalogueError> {
+        let mut catalogue = Self::laid_out(db)?;
+        builtin::renew(&mut catalogue)?;
+        Ok(catalogue)
+    }
+
+    fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
         db.busy_timeout(PATIENCE)?;
         db.pragma_update(None, "foreign_keys", true)?;
         let mut catalogue = Self { db, recent: RefCell::default() };
@@ -71,7 +82,6 @@ impl Catalogue {
         catalogue.judge()?;
         catalogue.write_ahead()?;
         catalogue.migrate(MIGRATIONS)?;
-        builtin::renew(&mut catalogue)?;
         Ok(catalogue)
     }
 

@@ -41,8 +41,8 @@ pub struct ProductRow {
     pub tau_hemispherical: Option<f64>,
     /// The same at the profile angles [`super::PROFILE_ANGLES`]; empty when unknown.
     pub tau_profile: Vec<f64>,
-    /// Number of states.
-    pub states: usize,
+    /// Keys of the states in order.
+    pub state_keys: Vec<String>,
     /// Marked by the user.
     pub favourite: bool,
     /// Comes with the program.
@@ -96,7 +96,7 @@ impl Catalogue {
     pub fn search(&self, query: &Query) -> Result<Vec<ProductRow>, CatalogueError> {
         let mut sql = String::from(
             "SELECT p.key, p.name, p.manufacturer, p.kind, p.origin, s.tau_normal, s.tau_hemispherical, s.tau_profile,
-                    (SELECT count(*) FROM state WHERE product = p.id),
+                    (SELECT json_group_array(key) FROM (SELECT key FROM state WHERE product = p.id ORDER BY position)),
                     EXISTS (SELECT 1 FROM favourite WHERE product_key = p.key), p.builtin
              FROM product p JOIN state s ON s.product = p.id AND s.position = 0",
         );
@@ -143,8 +143,8 @@ impl Catalogue {
                 origin: Origin::from_word(&row.get::<_, String>(4)?),
                 tau_normal: row.get(5)?,
                 tau_hemispherical: row.get(6)?,
-                tau_profile: profile(&row.get::<_, String>(7)?),
-                states: row.get::<_, i64>(8)?.unsigned_abs() as usize,
+                tau_profile: list(&row.get::<_, String>(7)?),
+                state_keys: list(&row.get::<_, String>(8)?),
                 favourite: row.get(9)?,
                 builtin: row.get(10)?,
             })
@@ -181,8 +181,8 @@ impl Catalogue {
     }
 }
 
-/// The stored list of transmittances; empty when it is none.
-pub(super) fn profile(text: &str) -> Vec<f64> {
+/// A stored list, e.g. of transmittances; empty when it is none.
+pub(super) fn list<T: serde::de::DeserializeOwned>(text: &str) -> Vec<T> {
     serde_json::from_str(text).unwrap_or_default()
 }
 

@@ -1,7 +1,7 @@
 //! Products in and out of the tables. Every change is one transaction.
 
 use super::product::slug;
-use super::search::profile;
+use super::search::list;
 use super::{
     Catalogue, CatalogueError, CurvePoint, Imported, NewProduct, Origin, Product, ProductFinding, Provenance, State,
     check, profile_transmittances,
@@ -291,7 +291,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
                 dataset: row.get(3)?,
                 tau_normal: row.get(4)?,
                 tau_hemispherical: row.get(5)?,
-                tau_profile: profile(&row.get::<_, String>(6)?),
+                tau_profile: list(&row.get::<_, String>(6)?),
             })
         })?
         .collect::<Result<_, _>>()?;

@@ -133,7 +133,7 @@ fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
             json!({
                 "key": row.key, "name": row.name, "manufacturer": row.manufacturer, "kind": row.kind,
                 "origin": row.origin.word(), "tau_normal_hemispherical": row.tau_normal,
-                "tau_hemispherical_hemispherical": row.tau_hemispherical, "states": row.states,
+                "tau_hemispherical_hemispherical": row.tau_hemispherical, "states": row.state_keys.len(),
                 "favourite": row.favourite, "builtin": row.builtin,
             })
         });
@@ -148,7 +148,10 @@ fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
         writeln!(
             text,
             "{:width$}  {:kind$}  {normal:>8}  {hemispherical:>6}  {:>6}  {}{star}",
-            row.key, row.kind, row.states, row.name
+            row.key,
+            row.kind,
+            row.state_keys.len(),
+            row.name
         )?;
     }
     print(&text)

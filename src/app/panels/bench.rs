@@ -2,15 +2,18 @@
 
 use crate::app::App;
 use crate::app::command::Command;
+use crate::app::control as rules;
 use crate::app::moment;
 use crate::app::paint::tile::Status;
+use crate::app::split;
 use crate::app::state::{State, Tile};
 use crate::app::theme::{self, TILE_GAP};
 use crate::app::title;
 use crate::app::views::{btdf, control, lid, room, sky, transmittance};
 use crate::compute::angle::Bearing;
+use crate::compute::control::profile_angle;
 use crate::compute::direction::{Dir, Facade, Incident, Orientation, Surface, World};
-use crate::study::scene_file::{SceneFile, SurfaceKey};
+use crate::study::scene_file::{ControlMode, SceneFile, SurfaceKey};
 use crate::study::sun_position::sun_path;
 use egui::{Rect, Sense, Ui, UiBuilder, vec2};
 use std::sync::Arc;
@@ -26,24 +29,27 @@ pub struct BenchState {
     control: control::State,
     /// The incidence that the user chose; the sun's while `None` and the sun is before the façade.
     incident: Option<Incident>,
-    paths: Option<(PathKey, SunPaths)>,
+    paths: Option<(PathKey, Vec<SunPath>)>,
     today: Option<(TodayKey, Vec<control::TracePoint>)>,
+    split: Option<(SplitKey, transmittance::FluxSplit)>,
     cells: Option<(usize, Vec<room::CellValue>)>,
     revisions: Revisions,
 }
 
-/// Hour and direction along each path.
-type SunPaths = Vec<Vec<(f64, Incident)>>;
+/// Hours of a day and where the sun is.
+type SunPath = Vec<(f64, Incident)>;
 /// Place and bearing that sun paths hang on.
 type PathKey = (i16, [u64; 4]);
-/// … and the day and state that today's trace hangs on.
-type TodayKey = (PathKey, i16, usize);
+/// Rule and day that today's trace hangs on.
+type TodayKey = (rules::YearKey, i16);
+/// Dataset, direction and surface that the flux split hangs on.
+type SplitKey = (u64, Incident, bool);
 
 /// Counts changes of results by the address of what is shown.
 #[derive(Default)]
 struct Revisions {
-    seen: [usize; 3],
-    count: [u64; 3],
+    seen: [usize; 4],
+    count: [u64; 4],
 }
 
 impl Revisions {
@@ -78,10 +84,21 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     ui.painter().rect(rect, 6, palette.surface, egui::Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
     let head = Rect::from_min_size(rect.min, vec2((rect.width() * 0.5).min(120.0), 26.0));
     let response = ui.interact(head, ui.scope_id().with(("tile", tile)), Sense::click());
-    let response = response.on_hover_text("Double click: fill the bench, or show all tiles (keys 1–6 and 0)");
+    let response = response
+        .on_hover_text("Double click: fill the bench, or show all tiles (keys 1–6 and 0). Right click: export, copy");
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Tile {}", tile.title()))
     });
+    response.context_menu(|ui| {
+        for command in [Command::ExportTile(tile), Command::CopyTile(tile)] {
+            let info = command.info();
+            if ui.button(info.text).on_hover_text(info.tip).clicked() {
+                commands.push(command);
+                ui.close();
+            }
+        }
+    });
+    app.export.picture(ui.ctx(), tile, rect);
     if response.double_clicked() {
         commands.push(Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) }));
     }
@@ -104,7 +121,8 @@ fn content(ui: &mut Ui, tile: Tile, app: &mut App, commands: &mut Vec<Command>) 
 /// A world direction as the façade sees it.
 fn incident(scene: &SceneFile, altitude: f64, bearing: Bearing) -> Dir<Facade> {
     let orientation = Orientation::new(Bearing::from_degrees(scene.site.azimuth));
-    Surface::Facade.facade_dir(orientation.room_from_world(Dir::<World>::from_altitude_bearing(altitude, bearing)))
+    rules::surface(scene)
+        .facade_dir(orientation.room_from_world(Dir::<World>::from_altitude_bearing(altitude, bearing)))
 }
 
 /// The sun, if it is up and before the façade.
@@ -137,6 +155,9 @@ fn btdf_tile(ui: &mut Ui, app: &mut App, held: bool) {
         revision: app.bench.revisions.of(0, dataset.value.as_ref()),
         status: status(dataset.stale, held, dataset.error.as_deref()),
     };
+    if app.export.wants_numbers(Tile::Btdf) {
+        app.export.numbers(ui.ctx(), btdf::csv(&input));
+    }
     for action in btdf::show(ui, &input, &mut app.bench.btdf) {
         app.bench.incident = match action {
             btdf::Action::ChooseIncidence(chosen) => Some(chosen),
@@ -154,7 +175,7 @@ fn path_key(scene: &SceneFile) -> PathKey {
 }
 
 /// The sun before the façade on the 21st of each month, by hours.
-fn sun_paths(scene: &SceneFile) -> Vec<Vec<(f64, Incident)>> {
+fn sun_paths(scene: &SceneFile) -> Vec<SunPath> {
     let Some(place) = moment::place(scene) else { return Vec::new() };
     let year = path_key(scene).0;
     (1..=12)
@@ -178,16 +199,38 @@ fn transmittance_tile(ui: &mut Ui, app: &mut App, held: bool) {
         app.bench.paths = Some((key, sun_paths(scene)));
     }
     let dataset = &state.dataset;
-    let name = title::selection(state);
+    let revision = app.bench.revisions.of(0, dataset.value.as_ref());
+    let surface = rules::surface(scene);
+    // The light that the BTDF tile shows: the sun's, unless another direction was chosen.
+    let incident = app.bench.incident.or(sun_incident(scene));
+    let btdf = dataset.value.as_deref().and_then(|dataset| dataset.transmission());
+    let split = btdf.zip(incident).map(|(btdf, incident)| {
+        let key = (revision, incident, surface == Surface::Roof);
+        match &app.bench.split {
+            Some((old, split)) if *old == key => *split,
+            _ => {
+                let split = split::split(btdf, incident, surface);
+                app.bench.split = Some((key, split));
+                split
+            }
+        }
+    });
+    let mut name = title::selection(state);
+    if app.bench.incident.is_some() {
+        name.push_str(" · flux split for the chosen direction");
+    }
     let input = transmittance::Input {
         btdf: dataset.value.as_deref().and_then(|dataset| dataset.transmission()),
         name: &name,
         sun_paths: app.bench.paths.as_ref().map_or(&[], |(_, paths)| paths.as_slice()),
         moment: sun_incident(scene),
-        split: None,
-        revision: app.bench.revisions.of(0, dataset.value.as_ref()).wrapping_add(key.1[3]),
+        split,
+        revision: revision.wrapping_add(key.1[3]),
         status: status(dataset.stale, held, dataset.error.as_deref()),
     };
+    if app.export.wants_numbers(Tile::Transmittance) {
+        app.export.numbers(ui.ctx(), transmittance::csv(&input));
+    }
     for action in transmittance::show(ui, &input, &mut app.bench.transmittance) {
         match action {
             transmittance::Action::ChooseIncidence(chosen) => app.bench.incident = Some(chosen),
@@ -218,6 +261,9 @@ fn sky_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>)
         revision: app.bench.revisions.of(1, state.daylight.value.as_ref()),
         status: status(state.daylight.stale, held, state.daylight.error.as_deref()),
     };
+    if app.export.wants_numbers(Tile::Sky) {
+        app.export.numbers(ui.ctx(), sky::csv(&input));
+    }
     let actions = sky::show(ui, &input, &mut app.bench.sky);
     for action in actions {
         if let sky::Action::SunDragged { place, free } = action {
@@ -249,6 +295,9 @@ fn lid_tile(ui: &mut Ui, app: &mut App, held: bool) {
         revision: app.bench.revisions.of(2, shown.value.as_ref()),
         status: status(shown.stale, held, error),
     };
+    if app.export.wants_numbers(Tile::Lid) {
+        app.export.numbers(ui.ctx(), lid::csv(&input));
+    }
     lid::show(ui, &input, &mut app.bench.lid);
 }
 
@@ -298,6 +347,9 @@ fn room_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>
         revision: address as u64,
         status: status(shown.stale, held, error),
     };
+    if app.export.wants_numbers(Tile::Room) {
+        app.export.numbers(ui.ctx(), room::csv(&input));
+    }
     for action in room::show(ui, &input, &mut app.bench.room) {
         let room::Action::PlaneMoved(z) = action;
         let mut scene = app.state.document.scene.clone();
@@ -308,70 +360,122 @@ fn room_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>
     }
 }
 
-/// Profile angle of a direction before the façade. \[°\]
-fn profile_angle(incident: Incident) -> f64 {
-    let v = incident.0.vector();
-    v.y.atan2(v.z).to_degrees()
-}
-
-/// Today's sun against the façade; the state stays where it is set.
-fn trace(scene: &SceneFile, state: usize) -> Vec<control::TracePoint> {
-    let (Some(place), Some(time)) = (moment::place(scene), moment::of(scene)) else { return Vec::new() };
-    let points = sun_path(&place, time.year(), time.month(), time.day(), 0.5).unwrap_or_default();
+/// Today's sun against the façade, and the state that each half hour of it asks for.
+fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
+    let Some(product) = state.product.as_ref() else { return Vec::new() };
+    // A rule that cannot be followed is told where the state is picked; here its trace is missing.
+    let points = rules::today(product, key, &state.document.scene).unwrap_or_default();
+    let mut last = 0;
     points
         .into_iter()
-        .map(|point| {
-            let direction = incident(scene, point.altitude, point.bearing);
-            let before = point.altitude > 0.0 && direction.vector().z > 0.0;
-            let angle = before.then(|| profile_angle(Incident(direction)));
-            control::TracePoint { hour: point.hour, profile_angle: angle, state }
+        .map(|(hour, point)| {
+            last = point.map_or(last, |(_, state)| usize::from(state));
+            control::TracePoint { hour, profile_angle: point.map(|(angle, _)| angle), state: last }
         })
         .collect()
+}
+
+/// What the numbers of a product's states are.
+fn quantity(product: &crate::catalogue::Product) -> &'static str {
+    let numeric = product.states.iter().all(|state| state.value.is_some());
+    match (numeric, product.kind.as_str()) {
+        (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
+        (true, _) => "state / °",
+        (false, _) => "state",
+    }
+}
+
+/// The rule by which the state is picked, under the tile.
+fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let mode = state.control_mode();
+    let curve = state.product.as_deref().is_some_and(|product| !product.control_curve.is_empty());
+    ui.horizontal_centered(|ui| {
+        ui.add_space(6.0);
+        for (rule, text) in [
+            (ControlMode::Fixed, "By hand"),
+            (ControlMode::Curve, "Follow the curve"),
+            (ControlMode::Din5034, "DIN 5034"),
+        ] {
+            let chosen = mode == rule || (rule == ControlMode::Curve && mode == ControlMode::CutOff);
+            let button = egui::Button::selectable(chosen, text);
+            let response = ui.add_enabled(rule != ControlMode::Curve || curve, button);
+            let response = response
+                .on_hover_text(Command::Control(rule).info().tip)
+                .on_disabled_hover_text("This product has no control curve");
+            if response.clicked() && !chosen {
+                commands.push(Command::Control(rule));
+            }
+        }
+    });
 }
 
 fn control_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>) {
     let state = &app.state;
     let scene = &state.document.scene;
-    let selection = &state.document.selection;
-    let entry = state.found.entries.iter().find(|entry| entry.key == selection.product);
-    let mut states: Vec<control::StatePoint> = entry.map_or_else(Vec::new, |entry| {
-        entry
-            .states
-            .iter()
-            .enumerate()
-            .map(|(i, key)| control::StatePoint { key: key.clone(), value: key.parse().unwrap_or(i as f64) })
-            .collect()
+    let product = state.product.clone();
+    let states: Vec<control::StatePoint> = product.as_deref().map_or_else(Vec::new, |product| {
+        let list = rules::ordered_states(product);
+        list.into_iter().map(|(key, value)| control::StatePoint { key, value }).collect()
     });
-    states.sort_by(|a, b| a.value.total_cmp(&b.value));
-    let first = entry.and_then(|entry| entry.states.first()).map_or("", String::as_str);
-    let wanted = if selection.state.is_empty() { first } else { &selection.state };
-    let current = states.iter().position(|state| state.key == wanted).unwrap_or(0);
+    let current = states.iter().position(|point| point.key == state.shown_state).unwrap_or(0);
+    let mode = state.control_mode();
     let day = moment::of(scene).map_or(0, |time| time.day_of_year());
-    let key = (path_key(scene), day, current);
-    if app.bench.today.as_ref().is_none_or(|(old, _)| *old != key) {
-        app.bench.today = Some((key, trace(scene, current)));
+    let key = rules::YearKey::new(scene, &state.document.selection.product, mode, &state.shown_state);
+    let key = key.filter(|key| product.as_deref().is_some_and(|product| product.key == key.product));
+    match &key {
+        Some(key) if app.bench.today.as_ref().is_none_or(|(old, _)| (&old.0, old.1) != (key, day)) => {
+            app.bench.today = Some(((key.clone(), day), trace(state, key)));
+        }
+        Some(_) => {}
+        None => app.bench.today = None,
     }
-    let name = format!("{} · fixed by hand", title::selection(state));
-    let numeric = entry.is_some_and(|entry| entry.states.iter().all(|key| key.parse::<f64>().is_ok()));
+    let curve: Vec<[f64; 2]> = product.as_deref().map_or_else(Vec::new, |product| {
+        product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect()
+    });
+    let shown = &app.results.year;
+    // A map of another product's states would be drawn with this one's: rather none.
+    let year = shown.value.as_ref().filter(|year| {
+        year.states.iter().eq(states.iter().map(|point| &point.key))
+            && key.as_ref().is_some_and(|key| key.product == year.key.product)
+    });
+    let name = format!("{} · {}", title::selection(state), rules::word(mode));
+    let moving = states.len() > 1;
+    let sun = sun_incident(scene);
     let input = control::Input {
         states: &states,
-        quantity: if numeric { "state / °" } else { "state" },
-        curve: &[],
+        quantity: product.as_deref().map_or("state", quantity),
+        curve: &curve,
         name: &name,
         today: app.bench.today.as_ref().map_or(&[], |(_, today)| today.as_slice()),
-        profile_angle: sun_incident(scene).map(profile_angle),
+        profile_angle: sun.and_then(|sun| profile_angle(sun.0)).map(f64::to_degrees),
         current,
-        year: &[],
+        year: year.map_or(&[], |year| year.hours.as_slice()),
         moment: moment::of(scene).map(|time| {
             (
                 usize::try_from(time.day_of_year() - 1).unwrap_or(0),
                 f64::from(time.hour()) + f64::from(time.minute()) / 60.0,
             )
         }),
-        revision: u64::from(day.unsigned_abs()) ^ key.0.1[3] ^ (current as u64) << 32,
-        status: status(false, held, None),
+        revision: app.bench.revisions.of(3, year),
+        status: status(
+            moving && (shown.stale || state.dataset.stale),
+            held,
+            shown.error.as_deref().or(state.dataset.error.as_deref()).filter(|_| moving && year.is_none()),
+        ),
     };
-    for action in control::show(ui, &input, &mut app.bench.control) {
+    if app.export.wants_numbers(Tile::Control) {
+        app.export.numbers(ui.ctx(), control::csv(&input));
+    }
+    let (upper, strip) = {
+        let whole = ui.available_rect_before_wrap();
+        whole.split_top_bottom_at_y(whole.bottom() - if moving { RULES_HEIGHT } else { 0.0 })
+    };
+    if moving {
+        ui.scope_builder(UiBuilder::new().max_rect(strip).id_salt("rules"), |ui| rules_strip(ui, state, commands));
+    }
+    let builder = UiBuilder::new().max_rect(upper).id_salt("control");
+    let actions = ui.scope_builder(builder, |ui| control::show(ui, &input, &mut app.bench.control)).inner;
+    for action in actions {
         match action {
             control::Action::ChooseState(index) => {
                 if let Some(state) = states.get(index) {
@@ -390,3 +494,6 @@ fn control_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Comma
         }
     }
 }
+
+/// Height of the strip of rules. [points]
+const RULES_HEIGHT: f32 = 26.0;

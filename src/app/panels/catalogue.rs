@@ -1,6 +1,7 @@
 //! What is there: search field, chips, list.
 
 use crate::app::command::Command;
+use crate::app::control::CONTROLLED;
 use crate::app::shelf::{Entry, Query};
 use crate::app::state::{CatalogueState, State};
 use crate::app::theme;
@@ -210,7 +211,11 @@ fn states(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         ScrollArea::horizontal().id_salt("states").show(ui, |ui| {
             ui.horizontal(|ui| {
                 for (i, key) in entry.states.iter().enumerate() {
-                    let chosen = *key == selection.state || (selection.state.is_empty() && i == 0);
+                    let chosen = match selection.state.as_str() {
+                        "" => i == 0,
+                        CONTROLLED => *key == state.shown_state,
+                        fixed => *key == fixed,
+                    };
                     if ui.selectable_label(chosen, RichText::new(key)).clicked() {
                         commands.push(Command::SelectState(key.clone()));
                     }

@@ -29,6 +29,11 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             for command in [Command::SaveScene, Command::ExportLid] {
                 entry(ui, command, commands);
             }
+            ui.menu_button("Export tile", |ui| {
+                for tile in Tile::ALL {
+                    entry(ui, Command::ExportTile(tile), commands);
+                }
+            });
             ui.separator();
             entry(ui, Command::Quit, commands);
         });

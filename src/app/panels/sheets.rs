@@ -16,6 +16,7 @@ pub fn show(ui: &mut Ui, state: &State, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Path(PathUse::Open) => "Open",
         Sheet::Path(PathUse::SaveScene) => "Save the scene",
         Sheet::Path(PathUse::ExportLid) => "Export the LID",
+        Sheet::Path(PathUse::ExportTile(_)) => "Export a tile",
     };
     ui.horizontal(|ui| {
         ui.heading(title);
@@ -156,6 +157,7 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
         PathUse::Open => ("Dataset (.xml) or scene (.toml); or drop the file on the window.", "Open"),
         PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
         PathUse::ExportLid => ("Luminaire file: .ldt (EULUMDAT) or .ies (LM-63); the ending decides.", "Export"),
+        PathUse::ExportTile(_) => ("Numbers (.csv) or a picture (.png); the ending decides.", "Export"),
     };
     ui.add(egui::Label::new(hint).wrap());
     let mut text = state.path.clone();

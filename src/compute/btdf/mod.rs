@@ -14,6 +14,7 @@ mod pyramid;
 mod tensor_emission;
 mod tensor_reversal;
 mod tensor_tree;
+mod zones;
 
 pub use angular::AngularTransmittance;
 pub use cell_matrix::CellMatrix;
@@ -21,6 +22,7 @@ pub use checks::{reciprocity_error, tau_max};
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
+pub use zones::zone_shares;
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};

@@ -1,0 +1,164 @@
+//! Tiles as files: the numbers a tile shows (.csv), or its picture as it stands in the window (.png).
+//!
+//! Both need the tile to be drawn once more: its numbers are known to its drawing alone, its picture to the screen.
+
+use super::App;
+use super::jobs::Lane;
+use super::state::{PathUse, Tile};
+use super::work::{Outcome, write_whole};
+use egui::{ColorImage, Rect};
+use image::ImageEncoder;
+use image::codecs::png::PngEncoder;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Where a tile's numbers go.
+enum Target {
+    Clipboard,
+    File(PathBuf),
+}
+
+/// What is asked of tiles, and what they gave.
+#[derive(Default)]
+pub struct Exports {
+    numbers: Option<(Tile, Target)>,
+    picture: Option<(Tile, PathBuf)>,
+    /// Filled by the screen, whenever it gets to it.
+    taken: Arc<Mutex<Vec<(Tile, PathBuf, ColorImage)>>>,
+    done: Vec<(Tile, PathBuf, String)>,
+}
+
+/// A name to start from.
+pub fn file_name(tile: Tile) -> String {
+    format!("{}.csv", tile.title().to_lowercase())
+}
+
+impl Exports {
+    /// True when this tile's numbers are asked for.
+    pub fn wants_numbers(&self, tile: Tile) -> bool {
+        self.numbers.as_ref().is_some_and(|(wanted, _)| *wanted == tile)
+    }
+
+    /// Takes the numbers of the tile that was asked.
+    pub fn numbers(&mut self, ctx: &egui::Context, text: String) {
+        match self.numbers.take() {
+            Some((_, Target::Clipboard)) => ctx.copy_text(text),
+            Some((tile, Target::File(path))) => {
+                self.done.push((tile, path, text));
+                ctx.request_repaint();
+            }
+            None => {}
+        }
+    }
+
+    /// Asks the screen for a tile's picture if it is wanted; the tile stands at `rect`.
+    pub fn picture(&mut self, ctx: &egui::Context, tile: Tile, rect: Rect) {
+        let Some((_, path)) = self.picture.take_if(|(wanted, _)| *wanted == tile) else { return };
+        let (taken, scale, waker) = (self.taken.clone(), ctx.pixels_per_point(), ctx.clone());
+        ctx.request_screenshot(move |screen| {
+            let picture = crop(&screen, rect, scale);
+            taken.lock().unwrap_or_else(PoisonError::into_inner).push((tile, path, picture));
+            waker.request_repaint();
+        });
+    }
+}
+
+/// The part of the screen under a rectangle [points], as far as it is on the screen.
+fn crop(screen: &ColorImage, rect: Rect, scale: f32) -> ColorImage {
+    let [width, height] = screen.size;
+    let pixel = |points: f32, limit: usize| ((points * scale).round().max(0.0) as usize).min(limit);
+    let (left, right) = (pixel(rect.left(), width), pixel(rect.right(), width));
+    let (top, bottom) = (pixel(rect.top(), height), pixel(rect.bottom(), height));
+    screen.region_by_pixels([left, top], [right - left, bottom - top])
+}
+
+/// A picture as PNG.
+fn png(picture: &ColorImage) -> Result<Vec<u8>, String> {
+    let told = |error: &dyn std::fmt::Display| format!("the picture cannot be encoded: {error}");
+    let pixels: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
+    let size = picture.size.map(u32::try_from);
+    let [Ok(width), Ok(height)] = size else { return Err(told(&"it is too large")) };
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes)
+        .write_image(&pixels, width, height, image::ExtendedColorType::Rgba8)
+        .map_err(|error| told(&error))?;
+    Ok(bytes)
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+impl App {
+    /// Asks a tile for its numbers or its picture, by the path's ending.
+    pub(super) fn export_tile(&mut self, tile: Tile, path: PathBuf) {
+        match extension(&path).as_str() {
+            "csv" => self.export.numbers = Some((tile, Target::File(path))),
+            "png" => self.export.picture = Some((tile, path)),
+            other => {
+                let text = format!(
+                    "{}: the ending \"{other}\" is none that a tile is written as: use .csv for numbers, .png for a picture",
+                    path.display()
+                );
+                self.toasts.error(text).duration(None);
+                return;
+            }
+        }
+        self.bring_up(tile);
+    }
+
+    /// Asks a tile for its numbers, for the clipboard.
+    pub(super) fn copy_tile(&mut self, tile: Tile) {
+        self.export.numbers = Some((tile, Target::Clipboard));
+        self.bring_up(tile);
+    }
+
+    /// A hidden tile is not drawn and so knows nothing.
+    fn bring_up(&mut self, tile: Tile) {
+        if self.state.maximised.is_some_and(|shown| shown != tile) {
+            self.state.maximised = Some(tile);
+        }
+    }
+
+    /// Writes what tiles and screen gave since the last frame.
+    pub(super) fn write_exports(&mut self) {
+        if self.jobs.busy(Lane::Export) {
+            return;
+        }
+        if let Some((tile, path, text)) = self.export.done.pop() {
+            self.start(Lane::Export, move |_| {
+                Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes()))
+            });
+            return;
+        }
+        let taken = self.export.taken.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        if let Some((tile, path, picture)) = taken {
+            self.start(Lane::Export, move |_| {
+                let written = png(&picture).and_then(|bytes| write_whole(&path, &bytes));
+                Outcome::Written(PathUse::ExportTile(tile), written)
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Color32, pos2};
+
+    #[test]
+    fn the_picture_is_the_tiles_part_of_the_screen() {
+        let mut screen = ColorImage::filled([40, 20], Color32::BLACK);
+        for y in 4..8 {
+            for x in 10..30 {
+                screen.pixels[y * 40 + x] = Color32::RED;
+            }
+        }
+        // At two pixels a point; half of the rectangle is below the screen.
+        let picture = crop(&screen, Rect::from_min_max(pos2(5.0, 2.0), pos2(15.0, 20.0)), 2.0);
+        assert_eq!(picture.size, [20, 16]);
+        let read = image::load_from_memory(&png(&picture).unwrap()).unwrap().to_rgba8();
+        assert_eq!(read.get_pixel(19, 3).0, [255, 0, 0, 255]);
+        assert_eq!(read.get_pixel(0, 4).0, [0, 0, 0, 255]);
+    }
+}
