@@ -157,6 +157,9 @@ pub fn install(ctx: &Context) {
             style.spacing.interact_size.y = 22.0;
             style.spacing.indent = 12.0;
             style.animation_time = 0.09;
+            // A tip is for who waits for it: not while the pointer passes, nor at once over the next thing.
+            style.interaction.tooltip_delay = 0.8;
+            style.interaction.tooltip_grace_time = 0.0;
             visuals(&mut style.visuals, palette);
         });
     }
@@ -193,4 +196,17 @@ fn visuals(visuals: &mut egui::Visuals, palette: &Palette) {
         widget.corner_radius = CornerRadius::same(4);
         widget.expansion = 0.0;
     }
+}
+
+/// One line of text, cut with '…' where it is wider than `width`.
+pub fn one_line(
+    painter: &egui::Painter,
+    text: &str,
+    font: FontId,
+    colour: Color32,
+    width: f32,
+) -> std::sync::Arc<egui::Galley> {
+    let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(0.0));
+    painter.layout_job(job)
 }

@@ -185,8 +185,8 @@ impl Disk {
         mesh
     }
 
-    /// Rim, faint rings at θ 30° and 60° with their labels, horizon, and the words at the rim.
-    pub fn frame(&self, painter: &Painter, projection: Projection, corner: &str, palette: &Palette) {
+    /// Rim, faint rings at θ 30° and 60° with their labels, and which way is up.
+    pub fn rim(&self, painter: &Painter, projection: Projection, palette: &Palette) {
         let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
         for deg in [30_f64, 60.0] {
             let r = projection.radius(deg.to_radians()) as f32 * self.radius;
@@ -197,9 +197,15 @@ impl Disk {
             }
         }
         painter.circle_stroke(self.centre, self.radius, Stroke::new(1.5, palette.outline));
+        let top = pos2(self.centre.x, self.centre.y - self.radius - 1.0);
+        painter.text(top, Align2::CENTER_BOTTOM, "up", FontId::proportional(13.0), palette.weak);
+    }
+
+    /// [`Self::rim`], the words at the sides, and a caption under the disk.
+    pub fn frame(&self, painter: &Painter, projection: Projection, corner: &str, palette: &Palette) {
+        self.rim(painter, projection, palette);
         let font = FontId::proportional(13.0);
         let (c, r) = (self.centre, self.radius);
-        painter.text(pos2(c.x, c.y - r - 1.0), Align2::CENTER_BOTTOM, "up", font.clone(), palette.weak);
         for (word, x, angle) in [("left", c.x - r - 9.0, -FRAC_PI_2 as f32), ("right", c.x + r + 9.0, FRAC_PI_2 as f32)]
         {
             let galley = painter.layout_no_wrap(word.to_owned(), font.clone(), palette.weak);

@@ -129,11 +129,28 @@ fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2}"))
 }
 
+/// What a row says under the name, most important first: the end may be cut.
+fn figures(entry: &Entry) -> String {
+    let mut text = format!("τ {} · {}", figure(entry.tau_normal), figure(entry.tau_hemispherical));
+    if entry.states.len() > 1 {
+        text += &format!(" · {} states", entry.states.len());
+    }
+    let kind = if entry.kind.is_empty() { &entry.manufacturer } else { &entry.kind };
+    if !kind.is_empty() {
+        text += &format!(" · {}", kind.replace('-', " "));
+    }
+    text
+}
+
 fn row(ui: &mut Ui, entry: &Entry, chosen: bool, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let size = vec2(ui.available_width(), theme::ROW_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let response = response.on_hover_text("τ at normal incidence and under uniform light; number of states");
+    let response = response.on_hover_text(format!(
+        "{}\n{}\nτ at normal incidence · under uniform light",
+        entry.name,
+        figures(entry)
+    ));
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, true, chosen, &entry.name));
     if response.clicked() {
@@ -150,23 +167,14 @@ fn row(ui: &mut Ui, entry: &Entry, chosen: bool, commands: &mut Vec<Command>) {
     painter.rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4, fill);
     let picture = Rect::from_min_size(rect.min + vec2(5.0, 7.0), Vec2::splat(theme::ROW_HEIGHT - 14.0));
     thumbnail(&painter, picture, entry, palette);
-    let left = picture.right() + 9.0;
+    let left = picture.right() + 8.0;
     let text = Rect::from_min_max(pos2(left, rect.top()), pos2(rect.right() - 26.0, rect.bottom()));
-    let clipped = painter.with_clip_rect(text.intersect(ui.clip_rect()));
-    clipped.text(
-        pos2(left, rect.top() + 15.0),
-        Align2::LEFT_CENTER,
-        &entry.name,
-        FontId::proportional(13.5),
-        palette.text,
-    );
-    let kind = if entry.kind.is_empty() { &entry.manufacturer } else { &entry.kind };
-    let states = match entry.states.len() {
-        0 | 1 => "1 state".to_owned(),
-        n => format!("{n} states"),
+    let line = |y: f32, words: &str, size: f32, colour| {
+        let galley = theme::one_line(&painter, words, FontId::proportional(size), colour, text.width());
+        painter.galley(pos2(left, rect.top() + y - 0.5 * galley.size().y), galley, colour);
     };
-    let figures = format!("{kind}  τ {} · {} · {states}", figure(entry.tau_normal), figure(entry.tau_hemispherical));
-    clipped.text(pos2(left, rect.top() + 36.0), Align2::LEFT_CENTER, figures, FontId::proportional(13.0), palette.weak);
+    line(16.0, &entry.name, 13.5, palette.text);
+    line(36.0, &figures(entry), 13.0, palette.weak);
     star(ui, rect, entry, commands);
 }
 

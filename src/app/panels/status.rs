@@ -12,6 +12,11 @@ fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{:.1} ms", 1000.0 * seconds) } else { format!("{seconds:.1} s") }
 }
 
+/// An error in percent, honest about what two decimals cannot say.
+fn percent(error: f64) -> String {
+    if error < 0.005 { "< 0.01 %".to_owned() } else { format!("±{error:.2} %") }
+}
+
 /// Draws the line.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
@@ -19,12 +24,13 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         if let Some(room) = &app.results.room.value {
             let tag = if app.results.room.stale { ", updating" } else { "" };
             let error = 100.0 * room.relative_error();
-            ui.label(format!("room: ±{error:.2} %, {}{tag}", duration(room.seconds)))
+            ui.label(format!("room: {}, {}{tag}", percent(error), duration(room.seconds)))
                 .on_hover_text("Greatest error estimate over the greatest illuminance, and the time it took");
         }
         if let Some(lid) = &app.results.lid.value {
             let relative = if lid.flux.value > 0.0 { 100.0 * lid.flux.error / lid.flux.value } else { 0.0 };
-            ui.label(format!("LID: ±{relative:.2} %, {}", duration(lid.seconds)))
+            ui.separator();
+            ui.label(format!("LID: {}, {}", percent(relative), duration(lid.seconds)))
                 .on_hover_text("Error estimate of the flux, and the time it took");
         }
         for job in app.jobs.views() {

@@ -10,7 +10,7 @@ use crate::compute::angle::wrap_two_pi;
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
-use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2};
+use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use std::sync::Arc;
 
 /// What the tile draws.
@@ -147,11 +147,9 @@ fn picture(
     state: &mut State,
     out: &mut Vec<Action>,
 ) -> String {
-    let stacked = rect.height() > 1.25 * rect.width();
-    let (left, right) =
-        if stacked { rect.split_top_bottom_at_fraction(0.5) } else { rect.split_left_right_at_fraction(0.5) };
-    let incident = incident_side(ui, left, btdf, input, state, out);
-    let emergent = emergent_side(ui, right, btdf, input, state);
+    let [outside, inside] = places(rect);
+    let incident = incident_side(ui, &outside, btdf, input, state, out);
+    let emergent = emergent_side(ui, &inside, btdf, input, state);
     emergent.or(incident).unwrap_or_else(|| selection_text(btdf, input.incident))
 }
 
@@ -171,16 +169,79 @@ fn direction_text(d: Dir<Facade>) -> String {
     format!("θ {}, φ {}", degrees(d.theta()), degrees(wrap_two_pi(d.phi())))
 }
 
-/// The place of the disk and of the legend under it.
-fn places(rect: Rect) -> (Disk, Rect) {
-    let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
-    let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
-    (disk, legend)
+/// Where one of the two hemispheres is drawn.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// All that may be written on.
+    rect: Rect,
+    disk: Disk,
+    /// Its legend, where it has one of its own.
+    legend: Option<Rect>,
+    /// A corner for the caption; without one it goes under the disk.
+    corner: Option<(Rect, Align2)>,
 }
 
-/// The long caption where it fits.
-fn caption(rect: Rect, [long, short]: [&str; 2]) -> &str {
-    if rect.width() > 195.0 { long } else { short }
+/// The incident and the emergent hemisphere: side by side in a wide tile, else on a diagonal, where two disks of one
+/// tile are largest and the free corners hold the captions.
+fn places(rect: Rect) -> [Place; 2] {
+    if rect.width() > 1.6 * rect.height() || rect.width() > 440.0 {
+        let (left, right) = rect.split_left_right_at_fraction(0.5);
+        return [left, right].map(|rect| {
+            let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
+            let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
+            Place { rect, disk, legend: Some(legend), corner: None }
+        });
+    }
+    const UP: f32 = 16.0;
+    const GAP: f32 = 8.0;
+    let legend = Rect::from_min_max(pos2(rect.left() + 2.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
+    let area = Rect::from_min_max(
+        pos2(rect.left() + 3.0, rect.top() + UP),
+        pos2(rect.right() - 3.0, (legend.top() - 4.0).max(rect.top() + UP + 20.0)),
+    );
+    // The centres, in opposite corners, are two radii and a gap apart: (w − 2r)² + (h − 2r)² = (2r + gap)².
+    let (w, h) = (area.width(), area.height());
+    let b = 4.0 * (w + h + GAP);
+    let r = (b - (b * b - 16.0 * (w * w + h * h - GAP * GAP)).max(0.0).sqrt()) / 8.0;
+    let radius = r.clamp(8.0, (0.5 * w.min(h)).max(8.0));
+    let corner = vec2(w - 2.0 * radius - 2.0, h - 2.0 * radius - UP);
+    let top = Rect::from_min_size(pos2(area.right() - corner.x, rect.top()), corner);
+    let bottom = Rect::from_min_size(area.left_bottom() - vec2(0.0, corner.y), corner);
+    [
+        Place {
+            rect,
+            disk: Disk { centre: area.min + vec2(radius, radius), radius },
+            legend: None,
+            corner: Some((top, Align2::RIGHT_TOP)),
+        },
+        Place {
+            rect,
+            disk: Disk { centre: area.max - vec2(radius, radius), radius },
+            legend: Some(legend),
+            corner: Some((bottom, Align2::LEFT_BOTTOM)),
+        },
+    ]
+}
+
+/// Rim and caption: the long one where it fits.
+fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2], palette: &Palette) {
+    let Some((corner, align)) = place.corner else {
+        let long = format!("{side}: {what}");
+        let caption = if place.rect.width() > 195.0 { &long } else { side };
+        place.disk.frame(ui.painter(), projection, caption, palette);
+        return;
+    };
+    place.disk.rim(ui.painter(), projection, palette);
+    let text =
+        if corner.width() > 76.0 && corner.height() > 44.0 { format!("{side}:\n{what}") } else { side.to_owned() };
+    let mut job =
+        egui::text::LayoutJob::simple(text, egui::FontId::proportional(12.5), palette.weak, corner.width().max(50.0));
+    job.halign = align.x();
+    let galley = ui.painter().layout_job(job);
+    let height = galley.size().y;
+    let y = if align == Align2::RIGHT_TOP { corner.top() } else { corner.bottom() - height };
+    let x = if align == Align2::RIGHT_TOP { corner.right() } else { corner.left() };
+    ui.painter().galley(pos2(x, y), galley, palette.weak);
 }
 
 fn disk_rect(disk: &Disk) -> Rect {
@@ -189,7 +250,7 @@ fn disk_rect(disk: &Disk) -> Rect {
 
 fn incident_side(
     ui: &mut Ui,
-    rect: Rect,
+    place: &Place,
     btdf: &Btdf,
     input: &Input<'_>,
     state: &mut State,
@@ -197,7 +258,7 @@ fn incident_side(
 ) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let projection = state.projection;
-    let (disk, legend) = places(rect);
+    let disk = place.disk;
     let response = ui.interact(disk_rect(&disk), ui.scope_id().with("incident"), Sense::click());
     let cells = state.incidences.get((input.revision, projection), || {
         let basis = btdf.incident_basis();
@@ -218,7 +279,11 @@ fn incident_side(
     });
     ui.painter().add(Shape::Mesh(mesh.clone()));
     outline_all(ui, &disk, projection, &cells.basis, &palette);
-    disk.frame(ui.painter(), projection, caption(rect, ["outside: where light comes from", "outside"]), &palette);
+    let from = match place.legend {
+        None if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
+        _ => "where light comes from".to_owned(),
+    };
+    frame(ui, place, projection, ["outside", &from], &palette);
     // The chosen cell: light under dark, so that it is seen on every grey.
     let selected = cells.basis.index(input.incident.0);
     if let Some(index) = selected {
@@ -258,7 +323,7 @@ fn incident_side(
     }
     tile::name(ui, &response, "Incident hemisphere", &selection_text(btdf, input.incident));
     let pointed = response.hover_pos().and_then(cell_at);
-    if shade {
+    if let (true, Some(legend)) = (shade, place.legend) {
         scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|i| cells.tau[i]), &palette);
     }
     pointed
@@ -285,10 +350,11 @@ fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
     if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
 }
 
-fn emergent_side(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<String> {
+fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let (projection, weighted) = (state.projection, state.weighted);
-    let (disk, legend) = places(rect);
+    let (rect, disk) = (place.rect, place.disk);
+    let legend = place.legend.unwrap_or(rect);
     let response = ui.interact(disk_rect(&disk), ui.scope_id().with("emergent"), Sense::hover());
     let key = bits(input.incident);
     let indicatrix = state.indicatrix.get((input.revision, key), || btdf.indicatrix(input.incident));
@@ -341,7 +407,7 @@ fn emergent_side(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state:
         let at = pos2(legend.center().x, legend.top() + 4.0);
         tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
     }
-    disk.frame(ui.painter(), projection, caption(rect, ["inside: where light goes", "inside"]), &palette);
+    frame(ui, place, projection, ["inside", "where light goes"], &palette);
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(input.incident.0.theta()));
     if regular > 0.0 && input.incident.0.vector().z > 0.0 {
         let at = disk.screen(emergent_disk(projection, Emergent::from_through_name(input.incident.0)));

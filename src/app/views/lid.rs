@@ -205,14 +205,18 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
             text = Some(format!("γ 90°, C {c:.0}° · {}", si(curves.horizontal[index] * factor, unit)));
         }
     }
-    let rest = summary(lid, input, &curves, factor, unit);
+    let rest = summary(lid, input, &curves, factor, unit, rect.width() < 380.0);
     tile::name(ui, &response, "LID polar diagram", &rest);
     legend_ui(ui, legend, lid, input, unit, beam_at, &palette);
     text.unwrap_or(rest)
 }
 
-fn summary(lid: &Lid, input: &Input<'_>, curves: &Curves, factor: f64, unit: &str) -> String {
+fn summary(lid: &Lid, input: &Input<'_>, curves: &Curves, factor: f64, unit: &str, short: bool) -> String {
     let flux = input.flux.map_or_else(String::new, |flux| format!("flux {} · ", si(flux, "lm")));
+    if short {
+        let flux = input.flux.map_or_else(String::new, |flux| format!("{} · ", si(flux, "lm")));
+        return format!("{flux}peak {}", si(curves.max * factor, unit));
+    }
     let size = format!("aperture {} × {} m", number(lid.size[0], 3), number(lid.size[1], 3));
     format!("{flux}largest drawn {} · {size}", si(curves.max * factor, unit))
 }

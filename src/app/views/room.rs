@@ -165,7 +165,6 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     );
     let plan = Plan::within(plan_rect, input.room);
     let response = ui.interact(plan.area, ui.scope_id().with("plan"), Sense::click());
-    plan_ui(ui, &plan, input, state, &scale, &palette);
     let cell = response.hover_pos().map(|at| {
         let (x, y) = plan.room(at);
         let index = |v: f64, size: f64, n: usize| ((v / size * n as f64) as usize).min(n - 1);
@@ -175,15 +174,13 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
         state.row = cell.map(|(i, _)| i).filter(|i| state.row != Some(*i));
     }
     let value = cell.map(|(i, j)| input.cells[j * input.nx + i]);
+    let row = cell.map(|(i, _)| i).or(state.row).unwrap_or(input.nx / 2).min(input.nx - 1);
+    plan_ui(ui, &plan, input, row, state, &scale, &palette);
     let legend = Rect::from_min_size(
         pos2(plan_rect.left() - 14.0, plan_rect.bottom() + 4.0),
         vec2((plan.area.width() + 30.0).max(160.0).min(plan_rect.width() + 10.0), LEGEND_HEIGHT),
     );
     scale.paint_legend(ui.painter(), legend, "lx", value.map(|v| v.total), &palette);
-    let row = cell.map(|(i, _)| i).or(state.row).unwrap_or(input.nx / 2).min(input.nx - 1);
-    let x = (row as f64 + 0.5) / input.nx as f64 * input.room[0];
-    let line = [plan.screen(x, 0.0), plan.screen(x, input.room[1])];
-    ui.painter().extend(Shape::dashed_line(&line, Stroke::new(1.2, Color32::WHITE), 4.0, 4.0));
     let mut text = None;
     if with_section {
         let place = Rect::from_min_max(
@@ -192,7 +189,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
         );
         text = section_ui(ui, place, input, row, &scale, cell.map(|(_, j)| j), &palette);
     }
-    let summary = summary(input);
+    let summary = summary(input, rect.width() < 380.0);
     tile::name(ui, &response, "Room plan", &summary);
     value.map(|v| value_text(&v)).or(text).unwrap_or(summary)
 }
@@ -202,11 +199,14 @@ fn value_text(v: &CellValue) -> String {
     format!("{}{error} lx · direct {} · interreflected {}", number(v.total, 4), si(v.direct, "lx"), si(v.inter, "lx"))
 }
 
-fn summary(input: &Input<'_>) -> String {
+fn summary(input: &Input<'_>, short: bool) -> String {
     let totals = || input.cells.iter().map(|c| c.total);
     let mean = totals().sum::<f64>() / input.cells.len().max(1) as f64;
     let (min, max) = (totals().fold(f64::INFINITY, f64::min), totals().fold(0.0, f64::max));
     let error = input.cells.iter().map(|c| if c.total > 0.0 { c.error / c.total } else { 0.0 }).fold(0.0, f64::max);
+    if short {
+        return format!("mean {} · {} to {}", si(mean, "lx"), number(min, 3), si(max, "lx"));
+    }
     format!(
         "mean {} · min {} · max {} · error ≤ {} %",
         si(mean, "lx"),
@@ -216,7 +216,15 @@ fn summary(input: &Input<'_>) -> String {
     )
 }
 
-fn plan_ui(ui: &Ui, plan: &Plan, input: &Input<'_>, state: &mut State, scale: &ColourScale, palette: &Palette) {
+fn plan_ui(
+    ui: &Ui,
+    plan: &Plan,
+    input: &Input<'_>,
+    row: usize,
+    state: &mut State,
+    scale: &ColourScale,
+    palette: &Palette,
+) {
     let (nx, ny) = (input.nx, input.ny);
     let step = [input.room[0] / nx as f64, input.room[1] / ny as f64];
     let painter = ui.painter();
@@ -239,7 +247,11 @@ fn plan_ui(ui: &Ui, plan: &Plan, input: &Input<'_>, state: &mut State, scale: &C
     });
     // Nodes are cell centres.
     let node = |p: &[f64; 2]| plan.screen((p[0] + 0.5) * step[0], (p[1] + 0.5) * step[1]);
-    let mut used: Vec<Rect> = vec![];
+    // The row of the section; labels of the lines keep off it.
+    let x = (row as f64 + 0.5) * step[0];
+    let dashes = [plan.screen(x, 0.0), plan.screen(x, input.room[1])];
+    painter.extend(Shape::dashed_line(&dashes, Stroke::new(1.2, Color32::WHITE), 4.0, 4.0));
+    let mut used: Vec<Rect> = vec![Rect::from_two_pos(dashes[0], dashes[1]).expand(1.0)];
     for (level, lines) in lines {
         let colour = contrast(scale.colour(*level));
         for line in lines {
@@ -346,15 +358,19 @@ fn section_ui(
         }
     }
     ui.painter().add(Shape::mesh(mesh));
+    let apart = chart.screen(0.0, 300.0).y - chart.screen(0.0, 500.0).y;
+    let high = chart.area.bottom() - chart.screen(0.0, 300.0).y;
     for level in [300.0, 500.0] {
         let y = chart.screen(0.0, level).y;
         if chart.area.y_range().contains(y) {
             let ends = [pos2(chart.area.left(), y), pos2(chart.area.right(), y)];
             ui.painter().extend(Shape::dashed_line(&ends, Stroke::new(1.0, palette.second), 4.0, 3.0));
-            // Both names fit only when the lines are apart: then left of each other.
-            let x = chart.area.right() - if level == 300.0 { 4.0 } else { 52.0 };
-            let font = FontId::proportional(11.0);
-            ui.painter().text(pos2(x, y), Align2::RIGHT_BOTTOM, format!("{level:.0} lx"), font, palette.second);
+            // On a scale that squeezes both lines on to the axis their names would only be in the way.
+            if apart > 4.0 && high > 8.0 {
+                let x = chart.area.right() - if level == 300.0 { 4.0 } else { 52.0 };
+                let font = FontId::proportional(11.0);
+                ui.painter().text(pos2(x, y), Align2::RIGHT_BOTTOM, format!("{level:.0} lx"), font, palette.second);
+            }
         }
     }
     chart.line(ui.painter(), (0..ny).map(|j| (at_depth(j), value(row, j).direct)), Stroke::new(1.2, palette.weak));

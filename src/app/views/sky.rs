@@ -85,6 +85,9 @@ altitude. The half before the façade is bright. Drag the sun: date and time fol
 it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 or Perez et al. 1993, as chosen in the \
 scene.";
 
+/// Width from which the three illuminances stand in one line. [points]
+const WIDE_FIGURES: f32 = 440.0;
+
 /// Disk point (right, up) of a place: north up, east left.
 fn disk_point(place: Place) -> [f64; 2] {
     let r = 1.0 - place.altitude / FRAC_PI_2;
@@ -129,7 +132,8 @@ fn picture(
     out: &mut Vec<Action>,
 ) -> String {
     let palette = Palette::of(ui.visuals());
-    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 20.0));
+    let lines = if rect.width() < WIDE_FIGURES { 2.0 } else { 1.0 };
+    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + 17.0 * lines));
     figures_ui(ui, figures, input, &palette);
     let rest = Rect::from_min_max(pos2(rect.left(), figures.bottom()), rect.max);
     let beside = rest.width() > 1.05 * rest.height() && rest.width() > 380.0;
@@ -177,23 +181,18 @@ fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
         ("E_h direct", input.direct_horizontal),
         ("E_v façade", input.facade_vertical),
     ];
-    let short = ["dif", "dir", "E_v"];
+    // Narrow: name over value, in the same three columns.
+    let short = ["diffuse", "direct", "façade"];
+    let narrow = rect.width() < WIDE_FIGURES;
     let width = rect.width() / 3.0;
+    let font = FontId::proportional(13.0);
     for (k, (label, value)) in figures.into_iter().enumerate() {
-        let at = pos2(rect.left() + k as f32 * width, rect.center().y);
-        let name = if width > 145.0 { label } else { short[k] };
-        let value = value.map_or_else(
-            || "–".to_owned(),
-            |v| if width > 95.0 { format!("{:.1} klx", v / 1000.0) } else { format!("{:.0} klx", v / 1000.0) },
-        );
-        let label = ui.painter().text(at, Align2::LEFT_CENTER, name, FontId::proportional(13.0), palette.weak);
-        ui.painter().text(
-            pos2(label.right() + 5.0, at.y),
-            Align2::LEFT_CENTER,
-            value,
-            FontId::proportional(13.0),
-            palette.ink,
-        );
+        let value = value.map_or_else(|| "–".to_owned(), |v| format!("{:.1} klx", v / 1000.0));
+        let at = pos2(rect.left() + 2.0 + k as f32 * width, rect.top() + 9.0);
+        let name = if narrow { short[k] } else { label };
+        let label = ui.painter().text(at, Align2::LEFT_CENTER, name, font.clone(), palette.weak);
+        let place = if narrow { at + vec2(0.0, 16.0) } else { pos2(label.right() + 5.0, at.y) };
+        ui.painter().text(place, Align2::LEFT_CENTER, value, font.clone(), palette.ink);
     }
 }
 

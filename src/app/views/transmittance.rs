@@ -163,7 +163,9 @@ fn picture(
     ui.painter().add(Shape::Mesh(mesh.clone()));
     disk.frame(ui.painter(), PROJECTION, "outside", &palette);
     if !state.hide_paths {
-        sun_paths(ui, &disk, input.sun_paths, &palette);
+        let sun =
+            input.moment.filter(|sun| sun.0.vector().z > 0.0).map(|sun| disk.screen(incident_disk(PROJECTION, sun)));
+        sun_paths(ui, &disk, input.sun_paths, sun, &palette);
     }
     if let Some(sun) = input.moment.filter(|sun| sun.0.vector().z > 0.0) {
         let at = disk.screen(incident_disk(PROJECTION, sun));
@@ -188,8 +190,16 @@ fn picture(
     pointed.map_or(rest, |d| text("from", d))
 }
 
-fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Palette) {
-    let mut used: Vec<Rect> = vec![];
+fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<egui::Pos2>, palette: &Palette) {
+    // Names are written last, over all lines, where neither another name nor the sun is.
+    let mut names: Vec<(Rect, egui::Pos2, String)> = vec![];
+    let mut name = |place: egui::Pos2, text: String| {
+        let size = Rect::from_center_size(place, vec2(8.0 + 6.5 * text.chars().count() as f32, 15.0));
+        let free = sun.is_none_or(|at| size.distance_to_pos(at) > 8.0);
+        if free && names.iter().all(|(other, ..)| !other.intersects(size)) {
+            names.push((size, place, text));
+        }
+    };
     // On a small disk the solstices and March say it all.
     let small = disk.radius < 80.0;
     for (month, path) in paths.iter().enumerate() {
@@ -219,23 +229,23 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], palette: &Pal
             }
             let at = disk.screen(incident_disk(PROJECTION, *incident));
             ui.painter().circle(at, 1.8, Color32::WHITE, Stroke::new(0.6, Color32::BLACK));
-            let labelled = (month == 5 || month == 11) && (hour.round() as i64) % 3 == 0;
+            // Where the paths are close together the winter's hours stand for all.
+            let labelled = (month == 11 || month == 5 && disk.radius > 130.0) && (hour.round() as i64) % 3 == 0;
             let above = at + vec2(0.0, -9.0);
             // June's noon is near the rim, where 'up' stands: then under the path.
             let inside = above.distance(disk.centre) < disk.radius - 8.0;
             let place = if month == 5 && inside { above } else { at + vec2(0.0, 9.0) };
-            let size = Rect::from_center_size(place, vec2(20.0, 13.0));
-            if labelled && disk.radius > 70.0 && used.iter().all(|r| !r.intersects(size)) {
-                used.push(on_halo(ui.painter(), place, &format!("{hour:.0}h"), palette));
+            if labelled {
+                name(place, format!("{hour:.0}h"));
             }
         }
         let middle = runs.iter().max_by_key(|run| run.len()).filter(|run| run.len() > 3);
         if let (Some(run), true) = (middle, [2, 5, 11].contains(&month) && disk.radius > 55.0) {
-            let at = run[run.len() / 4];
-            if used.iter().all(|r| !r.intersects(Rect::from_center_size(at, vec2(26.0, 13.0)))) {
-                used.push(on_halo(ui.painter(), at, MONTHS[month], palette));
-            }
+            name(run[run.len() / 4], MONTHS[month].to_owned());
         }
+    }
+    for (_, place, text) in &names {
+        on_halo(ui.painter(), *place, text, palette);
     }
 }
 
