@@ -148,11 +148,13 @@ impl Command {
             Self::ExportLid => {
                 ("Export LID…".into(), "Write the window as a luminaire (.ldt, .ies) for other programs", ctrl(Key::E))
             }
-            Self::ExportTile(tile) => {
-                (format!("Export {}…", tile.title()), "Write this tile as numbers (.csv) or as a picture (.png)", None)
-            }
+            Self::ExportTile(tile) => (
+                format!("Export tile {}…", tile.title()),
+                "Write this tile as numbers (.csv) or as a picture (.png)",
+                None,
+            ),
             Self::CopyTile(tile) => {
-                (format!("Copy {} as CSV", tile.title()), "This tile's numbers into the clipboard", None)
+                (format!("Copy tile {} as CSV", tile.title()), "This tile's numbers into the clipboard", None)
             }
             Self::Control(ControlMode::Fixed) => {
                 ("State: by hand".into(), "The state stays where [ and ] put it", None)

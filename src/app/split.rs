@@ -6,7 +6,8 @@ use crate::compute::direction::{Incident, Surface};
 use glam::DVec3;
 
 /// The zones by the elevation at which light leaves, in words.
-pub const ZONES: &str = "Zones by the elevation at which light leaves: ceiling above +10°, eyes −10…+10°, work plane −45…−10°, floor below −45°.";
+pub const ZONES: &str = "Shares of the light that arrives, by the elevation at which it leaves: ceiling above +10°, \
+eye zone −10…+10°, work zone −45…−10°, floor below −45°.";
 
 /// Elevations between the zones from top to bottom. [°]
 const LIMITS: [f64; 3] = [10.0, -10.0, -45.0];

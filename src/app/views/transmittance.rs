@@ -251,9 +251,8 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
 
 fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
     let total = split.total();
-    let response = ui
-        .interact(rect, ui.scope_id().with("split"), Sense::hover())
-        .on_hover_text("Zones by the height at which light leaves: shares of the light that arrives on the façade");
+    let response =
+        ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(crate::app::split::ZONES);
     tile::name(ui, &response, "Flux split", &split.sentence());
     let font = FontId::proportional(13.0);
     let sentence = ui.painter().layout(split.sentence(), font.clone(), palette.ink, rect.width() - 6.0);
