@@ -1,11 +1,13 @@
 //! Where and when: sections that fold and then show their essence. What is wrong is said where it is typed.
 
+mod apertures;
+
 use crate::app::command::Command;
 use crate::app::moment;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::title::{self, CITIES};
-use crate::study::scene_file::{ObstructionKeys, SceneFile, SkyModelKey, SurfaceKey};
+use crate::study::scene_file::{ObstructionKeys, SceneFile, SkyModelKey};
 use egui::{CollapsingHeader, ComboBox, DragValue, RichText, ScrollArea, Sense, Slider, Stroke, Ui, Vec2, vec2};
 use std::ops::RangeInclusive;
 
@@ -35,31 +37,35 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let mut scene = state.document.scene.clone();
     let mut follows = state.document.daylight_follows;
     ScrollArea::vertical().id_salt("scene").auto_shrink([false, false]).show(ui, |ui| {
-        section(ui, "Place", &title::place(&scene), true, |ui| place(ui, &mut scene));
+        let wrong = |title: &str| {
+            let error = state.scene_error.as_ref().filter(|error| section_of(error.key) == title)?;
+            Some(error.to_string())
+        };
+        section(ui, "Place", &title::place(&scene), wrong("Place"), false, |ui| place(ui, &mut scene));
         let facing = format!("{}, {:.0}°", moment::bearing_word(scene.site.azimuth), scene.site.azimuth);
-        section(ui, "Façade", &facing, true, |ui| facade(ui, &mut scene));
-        section(ui, "Date and time", &title::time(&scene), true, |ui| date_and_time(ui, &mut scene));
-        section(ui, "Sky", &title::sky(&scene), true, |ui| sky(ui, &mut scene, &mut follows));
-        let ground = format!("reflectance {:.2}", scene.site.ground_reflectance);
-        section(ui, "Ground and skyline", &ground, false, |ui| ground_and_skyline(ui, &mut scene));
+        section(ui, "Façade", &facing, wrong("Façade"), true, |ui| facade(ui, &mut scene));
+        section(ui, "Date and time", &title::time(&scene), wrong("Date and time"), true, |ui| {
+            date_and_time(ui, &mut scene)
+        });
+        section(ui, "Sky", &title::sky(&scene), wrong("Sky"), true, |ui| sky(ui, &mut scene, &mut follows));
+        let ground = format!("ρ {:.2}", scene.site.ground_reflectance);
+        section(ui, "Ground and skyline", &ground, wrong("Ground and skyline"), false, |ui| {
+            ground_and_skyline(ui, &mut scene)
+        });
         let count = scene.aperture.len();
-        let apertures = scene.aperture.first().map_or_else(
+        let essence = scene.aperture.first().map_or_else(
             || "none".to_owned(),
-            |a| format!("{:.1} × {:.1} m{}", a.size[0], a.size[1], if count > 1 { ", …" } else { "" }),
+            |a| if count > 1 { format!("{count}") } else { format!("{:.1} × {:.1} m", a.size[0], a.size[1]) },
         );
-        section(ui, "Aperture", &apertures, false, |ui| aperture(ui, &mut scene));
+        let clash = apertures::problem(&scene);
+        section(ui, "Apertures", &essence, clash, false, |ui| apertures::show(ui, &mut scene));
         let room = format!("{:.1} × {:.1} × {:.1} m", scene.room.width, scene.room.depth, scene.room.height);
-        section(ui, "Room", &room, false, |ui| room_ui(ui, &mut scene));
+        section(ui, "Room", &room, wrong("Room"), false, |ui| room_ui(ui, &mut scene));
         let plane = scene.sensors.plane.map_or_else(
             || format!("{} points", scene.sensors.points.len()),
             |plane| format!("{} × {} at {:.2} m", plane.nx, plane.ny, plane.z),
         );
-        section(ui, "Sensors", &plane, false, |ui| sensors(ui, &mut scene));
-        let wrong = state.scene_error.as_ref().map(ToString::to_string);
-        if let Some(text) = wrong {
-            ui.add_space(6.0);
-            ui.add(egui::Label::new(RichText::new(text).color(theme::palette(ui).error)).wrap());
-        }
+        section(ui, "Sensors", &plane, wrong("Sensors"), false, |ui| sensors(ui, &mut scene));
     });
     if follows != state.document.daylight_follows {
         commands.push(Command::DaylightFollows(follows));
@@ -69,17 +75,34 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-fn section(ui: &mut Ui, title: &str, essence: &str, open: bool, body: impl FnOnce(&mut Ui)) {
+/// The section in which a key of the scene file is edited.
+fn section_of(key: &str) -> &'static str {
+    match key {
+        "site.azimuth" => "Façade",
+        "site.ground_reflectance" => "Ground and skyline",
+        "sky.time" => "Date and time",
+        _ if key.starts_with("site.") => "Place",
+        _ if key.starts_with("sky.sun.a") => "Date and time",
+        _ if key.starts_with("sky.obstruction") => "Ground and skyline",
+        _ if key.starts_with("room") => "Room",
+        _ if key.starts_with("sensors") => "Sensors",
+        _ => "Sky",
+    }
+}
+
+/// A section that folds; folded it shows its essence. What is wrong in it is said in either case.
+fn section(ui: &mut Ui, title: &str, essence: &str, wrong: Option<String>, open: bool, body: impl FnOnce(&mut Ui)) {
     let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(title).default_open(open).show(ui, body);
+    if let Some(text) = wrong {
+        ui.add(egui::Label::new(RichText::new(text).color(theme::palette(ui).error)).wrap());
+    }
     if header.fully_closed() {
         let at = header.header_response.rect.right_center() + vec2(8.0, 0.0);
         let colour = theme::palette(ui).weak;
         let right = ui.max_rect().right();
-        let painter = ui.painter().with_clip_rect(egui::Rect::from_min_max(
-            egui::pos2(at.x, header.header_response.rect.top()),
-            egui::pos2(right, header.header_response.rect.bottom()),
-        ));
-        painter.text(at, egui::Align2::LEFT_CENTER, essence, egui::FontId::proportional(13.0), colour);
+        let font = egui::FontId::proportional(13.0);
+        let galley = theme::one_line(ui.painter(), essence, font, colour, right - at.x);
+        ui.painter().galley(at - vec2(0.0, 0.5 * galley.size().y), galley, colour);
     }
 }
 
@@ -214,11 +237,11 @@ fn date_and_time(ui: &mut Ui, scene: &mut SceneFile) {
     if let Some(hours) = moment::sun_hours(scene) {
         let text = match (hours.rise, hours.set) {
             (Some(rise), Some(set)) => format!("Sun {}–{}", moment::clock(rise), moment::clock(set)),
-            _ => "The sun does not cross the horizon".to_owned(),
+            _ => "No sunrise or sunset".to_owned(),
         };
-        let position = moment::sun(scene).map_or_else(String::new, |(altitude, bearing)| {
-            format!(", now {:.0}° high at {bearing:.0}°", altitude.to_degrees())
-        });
+        // The bearing is on the dial above and in the sky's tile.
+        let position = moment::sun(scene)
+            .map_or_else(String::new, |(altitude, _)| format!(" · {:.0}° high", altitude.to_degrees()));
         ui.weak(format!("{text}{position}"));
     }
     if (day, minutes) != before {
@@ -330,39 +353,6 @@ fn ground_and_skyline(ui: &mut Ui, scene: &mut SceneFile) {
     number(ui, "Skyline luminance", " cd/m²", &mut skyline.luminance, 0.0..=20_000.0, 0);
     if skyline != before {
         scene.sky.obstruction = Some(skyline);
-    }
-}
-
-fn aperture(ui: &mut Ui, scene: &mut SceneFile) {
-    let room = scene.room;
-    for (index, aperture) in scene.aperture.iter_mut().enumerate() {
-        ui.push_id(index, |ui| {
-            let (word, across) = match aperture.surface {
-                SurfaceKey::Facade => ("façade", room.height),
-                SurfaceKey::Roof => ("roof", room.depth),
-            };
-            ui.weak(format!("{}: in the {word}", index + 1));
-            let ApertureEdges { left, low } = ApertureEdges::of(aperture.surface);
-            number(ui, left, " m", &mut aperture.origin[0], 0.0..=(room.width - aperture.size[0]).max(0.0), 2);
-            number(ui, low, " m", &mut aperture.origin[1], 0.0..=(across - aperture.size[1]).max(0.0), 2);
-            number(ui, "Width", " m", &mut aperture.size[0], 0.05..=(room.width - aperture.origin[0]).max(0.05), 2);
-            number(ui, "Height", " m", &mut aperture.size[1], 0.05..=(across - aperture.origin[1]).max(0.05), 2);
-        });
-    }
-}
-
-/// What the two offsets of an aperture are called.
-struct ApertureEdges {
-    left: &'static str,
-    low: &'static str,
-}
-
-impl ApertureEdges {
-    const fn of(surface: SurfaceKey) -> Self {
-        match surface {
-            SurfaceKey::Facade => Self { left: "From the left", low: "Sill" },
-            SurfaceKey::Roof => Self { left: "From the left", low: "From the façade" },
-        }
     }
 }
 

@@ -3,8 +3,10 @@
 use crate::app::command::{Command, ImportFields};
 use crate::app::state::{Import, PathUse, Sheet, State};
 use crate::app::theme;
-use crate::compute::btdf::{Finding, Severity};
+use crate::compute::btdf::{Btdf, Finding, Indicatrix, Severity};
+use crate::compute::direction::{Dir, Emergent, Incident};
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::path::PathBuf;
 
 /// Draws the sheet that is open.
@@ -95,6 +97,34 @@ fn import(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
+/// Where the light of a sun 45° above in front goes: the user knows the product and sees whether up is up.
+fn orientation(btdf: &Btdf) -> Option<String> {
+    let incident = Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2));
+    let total = btdf.tau(incident);
+    if total <= 0.0 {
+        return None;
+    }
+    // What passes unscattered keeps its way: down.
+    let mut down = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(FRAC_PI_4));
+    let mut sum = down;
+    if let Some(Indicatrix { basis, q }) = btdf.indicatrix(incident) {
+        for (cell, q) in basis.cells().zip(q) {
+            let flux = q * cell.projected_solid_angle();
+            let rise = Emergent::from_through_name(cell.centre()).0.vector().y;
+            sum += flux;
+            // A cell on the horizon, as the one about the normal, is half above and half below.
+            down += flux * if rise.abs() < 1e-9 { 0.5 } else { f64::from(u8::from(rise < 0.0)) };
+        }
+    }
+    let share = 100.0 * down / sum;
+    let text = match share {
+        0.0..=45.0 => format!("{:.0} % of the transmitted light goes up.", 100.0 - share),
+        45.0..=55.0 => "the transmitted light goes up and down alike.".to_owned(),
+        _ => format!("{share:.0} % of the transmitted light goes down."),
+    };
+    Some(format!("With the sun 45° above in front, {text}"))
+}
+
 fn recognised(ui: &mut Ui, import: &Import) {
     ui.add_space(4.0);
     ui.strong("Recognised");
@@ -107,6 +137,10 @@ fn recognised(ui: &mut Ui, import: &Import) {
         ));
         if let Some(btdf) = dataset.transmission() {
             ui.weak(format!("τ {:.3} normal, {:.3} hemispherical", btdf.tau_normal(), btdf.tau_hemispherical()));
+            if let Some(text) = orientation(btdf) {
+                ui.add(egui::Label::new(text).wrap())
+                    .on_hover_text("If this is not so, the file has outside and inside or up and down exchanged");
+            }
         }
         findings(ui, &dataset.findings);
     }
@@ -170,5 +204,19 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     let ready = !text.trim().is_empty();
     if (ui.add_enabled(ready, egui::Button::new(action)).clicked() || entered) && ready {
         commands.push(Command::Write(what, PathBuf::from(text.trim())));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::btdf::{AngularTransmittance, Scattered};
+
+    #[test]
+    fn orientation_of_what_is_known() {
+        let opal = Btdf { regular: None, scattered: Some(Scattered::Lambert(AngularTransmittance::Constant(0.5))) };
+        assert!(orientation(&opal).is_some_and(|text| text.contains("up and down alike")));
+        let clear = Btdf { regular: Some(AngularTransmittance::Constant(0.8)), scattered: None };
+        assert!(orientation(&clear).is_some_and(|text| text.contains("100 % of the transmitted light goes down")));
     }
 }

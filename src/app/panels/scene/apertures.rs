@@ -1,0 +1,167 @@
+//! The openings of the scene: where they are, how large, and what their room side reflects.
+
+use super::number;
+use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, SceneFile, SurfaceKey};
+use egui::{Button, Ui};
+
+/// Smallest edge of an aperture. [m]
+const LEAST: f64 = 0.05;
+
+/// Extent of a surface along an aperture's two axes. [m]
+fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
+    match surface {
+        SurfaceKey::Facade => [room.width, room.height],
+        SurfaceKey::Roof => [room.width, room.depth],
+    }
+}
+
+const fn word(surface: SurfaceKey) -> &'static str {
+    match surface {
+        SurfaceKey::Facade => "façade",
+        SurfaceKey::Roof => "roof",
+    }
+}
+
+fn overlap(a: &ApertureKeys, b: &ApertureKeys) -> bool {
+    let axis = |k: usize| {
+        let (low, high) = (a.origin[k].max(b.origin[k]), (a.origin[k] + a.size[k]).min(b.origin[k] + b.size[k]));
+        high - low > 1e-6
+    };
+    a.surface == b.surface && axis(0) && axis(1)
+}
+
+/// What is wrong with the apertures, and what would be right.
+pub fn problem(scene: &SceneFile) -> Option<String> {
+    for (i, a) in scene.aperture.iter().enumerate() {
+        let extent = extent(&scene.room, a.surface);
+        if (0..2).any(|k| a.origin[k] < 0.0 || a.origin[k] + a.size[k] > extent[k] + 1e-6) {
+            return Some(format!(
+                "Aperture {} reaches beyond the {}, {:.2} × {:.2} m: move it or make it smaller.",
+                i + 1,
+                word(a.surface),
+                extent[0],
+                extent[1]
+            ));
+        }
+        if let Some(j) = scene.aperture.iter().skip(i + 1).position(|b| overlap(a, b)) {
+            return Some(format!("Apertures {} and {} overlap: move one of them.", i + 1, i + j + 2));
+        }
+    }
+    None
+}
+
+/// A square metre of façade or roof (or what the room has) that no aperture uses yet, with the last one's system.
+fn addition(scene: &SceneFile) -> Option<ApertureKeys> {
+    let last = scene.aperture.last()?;
+    for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
+        let extent = extent(&scene.room, surface);
+        let size = extent.map(|length| length.min(1.0));
+        let steps = |k: usize| ((extent[k] - size[k]) / 0.1 + 1e-6) as u32;
+        for j in 0..=steps(1) {
+            for i in 0..=steps(0) {
+                let origin = [0.1 * f64::from(i), 0.1 * f64::from(j)];
+                let new = ApertureKeys { surface, origin, size, ..last.clone() };
+                if scene.aperture.iter().all(|old| !overlap(old, &new)) {
+                    return Some(new);
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Draws the section.
+pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
+    let room = scene.room;
+    let several = scene.aperture.len() > 1;
+    let mut gone = None;
+    for (index, aperture) in scene.aperture.iter_mut().enumerate() {
+        ui.push_id(index, |ui| {
+            ui.horizontal(|ui| {
+                ui.label(format!("{} in the", index + 1));
+                for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
+                    if ui.selectable_label(aperture.surface == surface, word(surface)).clicked() {
+                        move_to(aperture, surface, &room);
+                    }
+                }
+                if several && ui.small_button("×").on_hover_text("Take this aperture out").clicked() {
+                    gone = Some(index);
+                }
+            });
+            one(ui, aperture, &room);
+        });
+    }
+    if let Some(index) = gone {
+        scene.aperture.remove(index);
+    }
+    let next = addition(scene);
+    let add = ui.add_enabled(next.is_some(), Button::new("Add an aperture"));
+    if add.on_disabled_hover_text("Neither façade nor roof has a free square metre").clicked() {
+        scene.aperture.extend(next);
+    }
+}
+
+/// Puts an aperture into another surface, inside its edges.
+fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) {
+    aperture.surface = surface;
+    let extent = extent(room, surface);
+    for k in 0..2 {
+        aperture.size[k] = aperture.size[k].min(extent[k]);
+        aperture.origin[k] = aperture.origin[k].min(extent[k] - aperture.size[k]);
+    }
+}
+
+fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
+    let low = match aperture.surface {
+        SurfaceKey::Facade => "Sill",
+        SurfaceKey::Roof => "From the façade",
+    };
+    let extent = extent(room, aperture.surface);
+    for (k, label) in ["From the left", low].into_iter().enumerate() {
+        let most = (extent[k] - aperture.size[k]).max(0.0);
+        number(ui, label, " m", &mut aperture.origin[k], 0.0..=most, 2);
+    }
+    for (k, label) in ["Width", "Height"].into_iter().enumerate() {
+        let most = (extent[k] - aperture.origin[k]).max(LEAST);
+        number(ui, label, " m", &mut aperture.size[k], LEAST..=most, 2);
+    }
+    let mut own = aperture.reflectance == ApertureReflectance::Dataset;
+    let tip = "The dataset's back reflection where it has one, 0 for ideal systems; off: type a diffuse reflectance";
+    if ui.checkbox(&mut own, "Room side as in the dataset").on_hover_text(tip).changed() {
+        aperture.reflectance = if own { ApertureReflectance::Dataset } else { ApertureReflectance::Value(0.1) };
+    }
+    if let ApertureReflectance::Value(value) = &mut aperture.reflectance {
+        number(ui, "Room-side reflectance", "", value, 0.0..=0.99, 2);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::state::first_scene;
+
+    #[test]
+    fn additions_find_free_places_until_there_are_none() {
+        let mut scene = first_scene();
+        assert_eq!(problem(&scene), None);
+        let mut count = 0;
+        while let Some(next) = addition(&scene) {
+            scene.aperture.push(next);
+            assert_eq!(problem(&scene), None);
+            count += 1;
+        }
+        // The roof alone, 4 m × 6 m, takes 24 square metres.
+        assert!(count >= 24, "{count}");
+    }
+
+    #[test]
+    fn overlap_and_overhang_are_told() {
+        let mut scene = first_scene();
+        scene.aperture.push(scene.aperture[0].clone());
+        assert!(problem(&scene).is_some_and(|text| text.contains("1 and 2 overlap")));
+        scene.aperture[1].surface = SurfaceKey::Roof;
+        assert_eq!(problem(&scene), None);
+        scene.room.width = 3.0;
+        assert!(problem(&scene).is_some_and(|text| text.contains("beyond the façade")));
+    }
+}
