@@ -45,12 +45,12 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let facing = format!("{}, {:.0}°", moment::bearing_word(scene.site.azimuth), scene.site.azimuth);
         section(ui, "Façade", &facing, wrong("Façade"), true, |ui| facade(ui, &mut scene));
         section(ui, "Date and time", &title::time(&scene), wrong("Date and time"), true, |ui| {
-            date_and_time(ui, &mut scene)
+            date_and_time(ui, &mut scene);
         });
         section(ui, "Sky", &title::sky(&scene), wrong("Sky"), true, |ui| sky(ui, &mut scene, &mut follows));
         let ground = format!("ρ {:.2}", scene.site.ground_reflectance);
         section(ui, "Ground and skyline", &ground, wrong("Ground and skyline"), false, |ui| {
-            ground_and_skyline(ui, &mut scene)
+            ground_and_skyline(ui, &mut scene);
         });
         let count = scene.aperture.len();
         let essence = scene.aperture.first().map_or_else(

@@ -105,9 +105,9 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
 fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) {
     aperture.surface = surface;
     let extent = extent(room, surface);
-    for k in 0..2 {
-        aperture.size[k] = aperture.size[k].min(extent[k]);
-        aperture.origin[k] = aperture.origin[k].min(extent[k] - aperture.size[k]);
+    for ((size, origin), extent) in aperture.size.iter_mut().zip(&mut aperture.origin).zip(extent) {
+        *size = size.min(extent);
+        *origin = origin.min(extent - *size);
     }
 }
 
