@@ -174,7 +174,7 @@ fn path_key(scene: &SceneFile) -> PathKey {
     (year, numbers.map(|number| number.unwrap_or(f64::NAN).to_bits()))
 }
 
-/// The sun before the façade on the 21st of each month, by hours.
+/// The sun on the 21st of each month while it is up, by hours; places behind the façade part a path in two.
 fn sun_paths(scene: &SceneFile) -> Vec<SunPath> {
     let Some(place) = moment::place(scene) else { return Vec::new() };
     let year = path_key(scene).0;
@@ -185,7 +185,6 @@ fn sun_paths(scene: &SceneFile) -> Vec<SunPath> {
                 .into_iter()
                 .filter(|point| point.altitude > 0.0)
                 .map(|point| (point.hour, Incident(incident(scene, point.altitude, point.bearing))))
-                .filter(|(_, incident)| incident.0.vector().z > 0.0)
                 .collect()
         })
         .collect()

@@ -26,7 +26,8 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .size_range(240.0..=380.0)
             .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut commands));
     }
-    if app.state.settings.scene_open {
+    // A sheet takes the scene's place: beside both the tiles would be too narrow to read.
+    if app.state.settings.scene_open && app.state.sheet.is_none() {
         egui::Panel::right("scene")
             .frame(side)
             .default_size(250.0)

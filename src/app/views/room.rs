@@ -366,7 +366,7 @@ fn section_ui(
             let ends = [pos2(chart.area.left(), y), pos2(chart.area.right(), y)];
             ui.painter().extend(Shape::dashed_line(&ends, Stroke::new(1.0, palette.second), 4.0, 3.0));
             // On a scale that squeezes both lines on to the axis their names would only be in the way.
-            if apart > 4.0 && high > 8.0 {
+            if apart > 13.0 && high > 8.0 {
                 let x = chart.area.right() - if level == 300.0 { 4.0 } else { 52.0 };
                 let font = FontId::proportional(11.0);
                 ui.painter().text(pos2(x, y), Align2::RIGHT_BOTTOM, format!("{level:.0} lx"), font, palette.second);
