@@ -365,3 +365,13 @@ fn a_tree_keeps_its_flux_on_klems_cells() {
     let (a, b) = (front(&tree).q(sun, out), front(&klems).q(sun, out));
     assert!((a / b - 1.0).abs() < 0.02, "{a} {b}");
 }
+
+#[test]
+fn the_templates_own_words_are_no_name() {
+    let xml = File::matrix(&[("Visible", "Transmission Front", single(1, 4, 0.5))])
+        .xml()
+        .replace("<Name> Sample &amp; Co </Name>", "<Name>\n Name </Name>");
+    let dataset = read(xml.as_bytes()).unwrap();
+    assert_eq!((dataset.name.as_str(), dataset.manufacturer.as_str()), ("", "Maker"));
+    assert!(codes(&dataset).contains(&"template-word"));
+}

@@ -390,11 +390,9 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let curve = state.product.as_deref().is_some_and(|product| !product.control_curve.is_empty());
     ui.horizontal_centered(|ui| {
         ui.add_space(6.0);
-        for (rule, text) in [
-            (ControlMode::Fixed, "By hand"),
-            (ControlMode::Curve, "Follow the curve"),
-            (ControlMode::Din5034, "DIN 5034"),
-        ] {
+        for (rule, text) in
+            [(ControlMode::Fixed, "By hand"), (ControlMode::Curve, "Curve"), (ControlMode::Din5034, "DIN 5034")]
+        {
             let chosen = mode == rule || (rule == ControlMode::Curve && mode == ControlMode::CutOff);
             let button = egui::Button::selectable(chosen, text);
             let response = ui.add_enabled(rule != ControlMode::Curve || curve, button);

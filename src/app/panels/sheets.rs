@@ -23,7 +23,8 @@ pub fn show(ui: &mut Ui, state: &State, sheet: Sheet, commands: &mut Vec<Command
     ui.horizontal(|ui| {
         ui.heading(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui.button("Close").on_hover_text("Close this sheet").clicked() {
+            let escaped = ui.input(|input| input.key_pressed(Key::Escape));
+            if ui.button("Close").on_hover_text("Close this sheet (Escape)").clicked() || escaped {
                 commands.push(Command::Sheet(None));
             }
         });
@@ -197,6 +198,12 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     let mut text = state.path.clone();
     let name = ui.label("Path");
     let field = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY)).labelled_by(name.id);
+    // Whoever opens the sheet wants to type: once, when it was not there in the pass before.
+    let pass = ui.ctx().cumulative_pass_nr();
+    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(field.id.with("pass"), 0), pass));
+    if before + 1 < pass {
+        field.request_focus();
+    }
     if text != state.path {
         commands.push(Command::EditPath(text.clone()));
     }

@@ -131,8 +131,17 @@ fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_, '_>) {
     dataset.description =
         comments.map(str::trim).filter(|text| !text.is_empty()).take(4).collect::<Vec<_>>().join("\n");
     let Some(material) = child(layer, "Material") else { return };
-    dataset.name = child_text(material, "Name");
-    dataset.manufacturer = child_text(material, "Manufacturer");
+    for (element, place) in [("Name", &mut dataset.name), ("Manufacturer", &mut dataset.manufacturer)] {
+        let word = child_text(material, element);
+        if word.eq_ignore_ascii_case(element) {
+            dataset.findings.push(Finding::warning(
+                "template-word",
+                format!("The {element} of the file is the template's own word '{word}': tell the product's."),
+            ));
+        } else {
+            *place = word;
+        }
+    }
     let Some(thickness) = child(material, "Thickness") else { return };
     let value = text(thickness);
     if value.is_empty() {
