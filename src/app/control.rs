@@ -110,7 +110,7 @@ impl<'a> Chooser<'a> {
         Ok(Self { product, key, states, outside })
     }
 
-    /// Profile angle [°] and index of the state; `None` while the sun is not before the façade.
+    /// Profile angle \[°\] and index of the state; `None` while the sun is not before the façade.
     fn at(&self, day: Date, hour: f64) -> Result<Option<(f64, u16)>, String> {
         let minutes = (hour * 60.0).round() as i64;
         let Ok(time) = day.at(0, 0, 0, 0).checked_add(minutes.minutes()) else { return Ok(None) };
@@ -156,7 +156,7 @@ pub fn year(product: &Arc<Product>, key: YearKey, progress: &dyn Progress) -> Re
     Ok(Year { key, states, hours })
 }
 
-/// A point of today: hour, profile angle [°] and state, or neither while the sun is not before the façade.
+/// A point of today: hour, profile angle \[°\] and state, or neither while the sun is not before the façade.
 pub type TodayPoint = (f64, Option<(f64, u16)>);
 
 /// Every half hour of the scene's day.

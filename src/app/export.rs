@@ -63,7 +63,7 @@ impl Exports {
     }
 }
 
-/// The part of the screen under a rectangle [points], as far as it is on the screen.
+/// The part of the screen under a rectangle \[points\], as far as it is on the screen.
 fn crop(screen: &ColorImage, rect: Rect, scale: f32) -> ColorImage {
     let [width, height] = screen.size;
     let pixel = |points: f32, limit: usize| ((points * scale).round().max(0.0) as usize).min(limit);

@@ -9,7 +9,7 @@ use glam::DVec3;
 pub const ZONES: &str = "Shares of the light that arrives, by the elevation at which it leaves: ceiling above +10°, \
 eye zone −10…+10°, work zone −45…−10°, floor below −45°.";
 
-/// Elevations between the zones from top to bottom. [°]
+/// Elevations between the zones from top to bottom. \[°\]
 const LIMITS: [f64; 3] = [10.0, -10.0, -45.0];
 
 /// Shares of the light from one direction that go to the [`ZONES`]; their sum is τ.

@@ -31,7 +31,7 @@ pub enum ScanError {
     Count(usize),
 }
 
-/// Reads 145 luminances. [cd/m²]
+/// Reads 145 luminances. \[cd/m²\]
 pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
     let text = std::str::from_utf8(bytes).map_err(|error| ScanError::NotText(error.valid_up_to()))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);

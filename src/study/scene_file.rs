@@ -278,10 +278,10 @@ pub struct SkyKeys {
     /// Local standard time of `site.utc_offset`, `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeKey>,
-    /// Perez: direct irradiance on the horizontal plane. [W/m²]
+    /// Perez: direct irradiance on the horizontal plane. \[W/m²\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direct_horizontal_irradiance: Option<f64>,
-    /// Perez: diffuse irradiance on the horizontal plane. [W/m²]
+    /// Perez: diffuse irradiance on the horizontal plane. \[W/m²\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffuse_horizontal_irradiance: Option<f64>,
     /// Scan: 145 Tregenza luminances.
@@ -333,7 +333,7 @@ pub struct SunKeys {
 pub struct ObstructionKeys {
     /// Of the skyline. \[°\]
     pub altitude: f64,
-    /// Of what stands below it. [cd/m²]
+    /// Of what stands below it. \[cd/m²\]
     #[serde(default)]
     pub luminance: f64,
 }

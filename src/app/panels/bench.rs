@@ -492,5 +492,5 @@ fn control_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Comma
     }
 }
 
-/// Height of the strip of rules. [points]
+/// Height of the strip of rules. \[points\]
 const RULES_HEIGHT: f32 = 26.0;

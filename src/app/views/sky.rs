@@ -85,7 +85,7 @@ altitude. The half before the façade is bright. Drag the sun: date and time fol
 it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 or Perez et al. 1993, as chosen in the \
 scene.";
 
-/// Width from which the three illuminances stand in one line. [points]
+/// Width from which the three illuminances stand in one line. \[points\]
 const WIDE_FIGURES: f32 = 440.0;
 
 /// Disk point (right, up) of a place: north up, east left.

@@ -37,12 +37,12 @@ impl CellMatrix {
         &self.emergent
     }
 
-    /// All values, one indicatrix after the other. [1/sr]
+    /// All values, one indicatrix after the other. \[1/sr\]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The indicatrix of one incident cell. [1/sr]
+    /// The indicatrix of one incident cell. \[1/sr\]
     pub fn row(&self, incident: usize) -> &[f64] {
         &self.values[incident * self.emergent.len()..(incident + 1) * self.emergent.len()]
     }
@@ -52,7 +52,7 @@ impl CellMatrix {
         &self.tau
     }
 
-    /// q of the cells that hold the two directions; 0 outside all cells. [1/sr]
+    /// q of the cells that hold the two directions; 0 outside all cells. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.incident.index(incident.0), self.emergent.index(emergent.through_name())) {
             (Some(i), Some(o)) => self.row(i)[o],
@@ -70,7 +70,7 @@ impl CellMatrix {
         self.incident.cells().zip(&self.tau).map(|(cell, tau)| cell.projected_solid_angle() * tau).sum::<f64>() / PI
     }
 
-    /// Luminance of every emergent cell from the illuminance that arrives through every incident cell (eq 12). [cd/m²]
+    /// Luminance of every emergent cell from the illuminance that arrives through every incident cell (eq 12). \[cd/m²\]
     pub fn luminance(&self, illuminance: &[f64]) -> Vec<f64> {
         assert_eq!(illuminance.len(), self.incident.len(), "one illuminance an incident cell");
         let mut luminance = vec![0.0; self.emergent.len()];

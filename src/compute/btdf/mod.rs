@@ -52,7 +52,7 @@ pub struct Btdf {
 pub struct Indicatrix {
     /// Emergent cells, by through-name.
     pub basis: RingBasis,
-    /// Luminance coefficient of each cell. [1/sr]
+    /// Luminance coefficient of each cell. \[1/sr\]
     pub q: Vec<f64>,
 }
 
@@ -69,7 +69,7 @@ impl Btdf {
         Self { regular: None, scattered: Some(Scattered::Cells(Box::new(matrix))) }
     }
 
-    /// Luminance coefficient q = L/E of the scattered part. [1/sr]
+    /// Luminance coefficient q = L/E of the scattered part. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match &self.scattered {
             None => 0.0,

@@ -8,7 +8,7 @@ use crate::compute::direction::Incident;
 use std::f64::consts::PI;
 
 impl TensorTree {
-    /// Emergent luminance [cd/m²] from the illuminance \[lx\] that arrives through every cell of
+    /// Emergent luminance \[cd/m²\] from the illuminance \[lx\] that arrives through every cell of
     /// [`TensorTree::incident_grid`] (façade frame, row by row). Panics when the counts differ.
     ///
     /// The result stands on [`RingBasis::equal_area`]: the emergent grid of the tree with straightened azimuth
@@ -44,7 +44,7 @@ impl TensorTree {
         self.turned(&out.spread())
     }
 
-    /// Emergent luminance [cd/m²] from light of one direction with the given illuminance \[lx\] on the element.
+    /// Emergent luminance \[cd/m²\] from light of one direction with the given illuminance \[lx\] on the element.
     pub fn sun_luminance(&self, incident: Incident, illuminance: f64) -> (RingBasis, Vec<f64>) {
         let Indicatrix { basis, mut q } = self.indicatrix(incident);
         q.iter_mut().for_each(|q| *q *= illuminance);

@@ -75,7 +75,7 @@ impl TreeAxes {
 /// A node of a tree in its list form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TreeNode {
-    /// The same q in the whole box. [1/sr]
+    /// The same q in the whole box. \[1/sr\]
     Leaf(f64),
     /// Index of the first of 2^rank consecutive children.
     Branch(u32),
@@ -192,7 +192,7 @@ impl TensorTree {
         self.tau.iter().copied().fold(0.0, f64::max)
     }
 
-    /// q of the leaf that holds the two directions; 0 for directions from behind. [1/sr]
+    /// q of the leaf that holds the two directions; 0 for directions from behind. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         let (Some(incident), Some(twin)) = (self.disk(incident.0), self.disk(emergent.through_name())) else {
             return 0.0;

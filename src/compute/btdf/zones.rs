@@ -11,7 +11,7 @@ use glam::DVec3;
 const POINTS: usize = 40_000;
 
 /// Shares of the incident light that leave above each limit of elevation and below the one before it, and below the
-/// last: `N` limits [rad], falling, give `N + 1` shares, whose sum is τ of the incidence.
+/// last: `N` limits \[rad\], falling, give `N + 1` shares, whose sum is τ of the incidence.
 ///
 /// `up`: the vertical in the frame of the data (façade: y; roof: z).
 pub fn zone_shares<const N: usize>(btdf: &Btdf, incident: Incident, up: DVec3, limits: [f64; N]) -> Vec<f64> {

@@ -53,7 +53,7 @@ impl Facing<'_> {
     }
 }
 
-/// Luminance on emergent cells, diffuse light and sun apart. [cd/m²]
+/// Luminance on emergent cells, diffuse light and sun apart. \[cd/m²\]
 #[derive(Debug, Clone)]
 pub struct CellLight {
     /// Emergent cells, by through-name.
@@ -69,7 +69,7 @@ pub struct CellLight {
 /// Everything that an aperture emits.
 #[derive(Debug, Clone)]
 pub struct Emission {
-    /// Lambertian part. [cd/m²]
+    /// Lambertian part. \[cd/m²\]
     pub uniform: Estimate,
     /// Part on cells.
     pub cells: Option<CellLight>,
@@ -148,7 +148,7 @@ impl Emission {
         emission
     }
 
-    /// Flux that leaves into the room per area, beam included. [lm/m²]
+    /// Flux that leaves into the room per area, beam included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
         if let Some(cells) = &self.cells {

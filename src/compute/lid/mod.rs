@@ -10,19 +10,19 @@ use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use std::fmt;
 use std::sync::Arc;
 
-/// A luminance as a function of the through-name. [cd/m²]
+/// A luminance as a function of the through-name. \[cd/m²\]
 pub type LuminanceFunction = Arc<dyn Fn(Dir<Facade>) -> f64 + Send + Sync>;
 
 /// One part of the luminance of an aperture's room side. Parts add up.
 #[derive(Clone)]
 pub enum EmergentLuminance {
-    /// The same in every direction. [cd/m²]
+    /// The same in every direction. \[cd/m²\]
     Uniform(f64),
-    /// A value for every emergent cell, by through-name. [cd/m²]
+    /// A value for every emergent cell, by through-name. \[cd/m²\]
     Cells {
         /// The cells.
         basis: Arc<RingBasis>,
-        /// Luminance of each. [cd/m²]
+        /// Luminance of each. \[cd/m²\]
         luminance: Vec<f64>,
     },
     /// A continuous function: the outside seen through a system that keeps directions (eq 20).
@@ -40,7 +40,7 @@ impl fmt::Debug for EmergentLuminance {
 }
 
 impl EmergentLuminance {
-    /// Luminance seen against an emergent direction. [cd/m²]
+    /// Luminance seen against an emergent direction. \[cd/m²\]
     pub fn at(&self, emergent: Emergent) -> f64 {
         let twin = emergent.through_name();
         if twin.vector().z <= 0.0 {
@@ -77,7 +77,7 @@ pub struct Lid {
 }
 
 impl Lid {
-    /// Luminance of the room side against an emergent direction, beam left out. [cd/m²]
+    /// Luminance of the room side against an emergent direction, beam left out. \[cd/m²\]
     pub fn luminance(&self, emergent: Emergent) -> f64 {
         self.parts.iter().map(|part| part.at(emergent)).sum()
     }

@@ -7,7 +7,7 @@ use glam::DVec3;
 /// A box room: 0 ≤ x ≤ width, 0 ≤ y ≤ depth, 0 ≤ z ≤ height, with diffuse reflectances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxRoom {
-    /// Width, depth, height. [m]
+    /// Width, depth, height. \[m\]
     pub size: DVec3,
     /// Reflectance of the floor.
     pub floor: f64,
@@ -22,13 +22,13 @@ pub struct BoxRoom {
 pub struct Wall {
     /// 0, 1, 2: the wall lies in x, y or z = `position`.
     pub axis: usize,
-    /// [m]
+    /// \[m\]
     pub position: f64,
     /// Points into the room.
     pub normal: DVec3,
     /// The two axes along the wall, rising.
     pub along: [usize; 2],
-    /// Grid lines along both. [m]
+    /// Grid lines along both. \[m\]
     pub lines: [Vec<f64>; 2],
     /// Index of the wall's first patch.
     pub first: usize,
@@ -39,9 +39,9 @@ pub struct Wall {
 pub struct Patch {
     /// Index of its wall.
     pub wall: usize,
-    /// From and to along the wall's two axes. [m]
+    /// From and to along the wall's two axes. \[m\]
     pub extent: [[f64; 2]; 2],
-    /// [m²]
+    /// \[m²\]
     pub area: f64,
     /// Diffuse reflectance.
     pub reflectance: f64,

@@ -61,7 +61,7 @@ impl Radiosity {
         Ok(Self { mesh, active, factor, exchange, closure })
     }
 
-    /// Exitance B of every patch from the first illuminance E₀ of every patch. [lm/m²]
+    /// Exitance B of every patch from the first illuminance E₀ of every patch. \[lm/m²\]
     pub fn exitance(&self, first: &[f64]) -> Vec<f64> {
         let mut exitance = vec![0.0; self.mesh.patches.len()];
         if let Some(factor) = &self.factor {

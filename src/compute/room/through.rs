@@ -26,7 +26,7 @@ pub struct Prospect<'a> {
 }
 
 impl Prospect<'_> {
-    /// Luminance of the outside in a direction of the aperture's frame. [cd/m²]
+    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
     pub fn luminance(&self, d: DVec3) -> f64 {
         let room = Dir::from_unit(self.surface.room_from_facade(d));
         self.outside.luminance(self.orientation.world_from_room(room))
@@ -229,11 +229,11 @@ impl<'a> Region<'a> {
 struct Meridian {
     /// The strip's own coordinate.
     x: f64,
-    /// Lowest and highest altitude. [rad]
+    /// Lowest and highest altitude. \[rad\]
     limits: Option<(f64, f64)>,
     /// Of the azimuth.
     sin_cos: (f64, f64),
-    /// Of the interval of azimuths. [rad]
+    /// Of the interval of azimuths. \[rad\]
     width: f64,
 }
 

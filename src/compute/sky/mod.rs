@@ -52,7 +52,7 @@ pub enum SkyError {
     Skyline {
         /// Altitude in degrees.
         altitude: f64,
-        /// Luminance. [cd/m²]
+        /// Luminance. \[cd/m²\]
         luminance: f64,
     },
 }
@@ -126,7 +126,7 @@ impl Outside {
         Ok(self)
     }
 
-    /// A skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a luminance of its own [cd/m²].
+    /// A skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a luminance of its own \[cd/m²\].
     /// The scale of the sky and the ground stay those of the open sky.
     pub fn with_skyline(mut self, altitude: f64, luminance: f64) -> Result<Self, SkyError> {
         if !((0.0..PI / 2.0).contains(&altitude) && luminance >= 0.0 && luminance.is_finite()) {
@@ -136,7 +136,7 @@ impl Outside {
         Ok(self)
     }
 
-    /// Luminance seen in a direction. [cd/m²] Altitude below 0: ground; below the skyline: skyline; else sky.
+    /// Luminance seen in a direction. \[cd/m²\] Altitude below 0: ground; below the skyline: skyline; else sky.
     #[inline]
     pub fn luminance(&self, d: Dir<World>) -> f64 {
         let v = d.vector();
@@ -149,7 +149,7 @@ impl Outside {
         }
     }
 
-    /// Luminance of the open sky; `v` of unit length with z ≥ 0 to rounding. [cd/m²]
+    /// Luminance of the open sky; `v` of unit length with z ≥ 0 to rounding. \[cd/m²\]
     #[inline]
     pub(super) fn sky_luminance(&self, v: DVec3) -> f64 {
         self.scale * self.distribution.relative(v)
@@ -173,12 +173,12 @@ impl Outside {
         self.skyline_altitude
     }
 
-    /// Luminance between horizon and skyline. [cd/m²]
+    /// Luminance between horizon and skyline. \[cd/m²\]
     pub fn skyline_luminance(&self) -> f64 {
         self.skyline_luminance
     }
 
-    /// Luminance of the ground. [cd/m²]
+    /// Luminance of the ground. \[cd/m²\]
     pub fn ground_luminance(&self) -> f64 {
         self.ground_luminance
     }

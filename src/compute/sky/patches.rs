@@ -55,7 +55,7 @@ pub fn tregenza_patches() -> Vec<Patch> {
     patches
 }
 
-/// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. [cd/m²]
+/// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
 pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
     let tolerance = Tolerance::relative(1e-8);
     // The cap goes all the way round: in quarters, as the rules are made for smooth pieces.

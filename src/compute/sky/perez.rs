@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Solar constant. [W/m²]
+/// Solar constant. \[W/m²\]
 const SOLAR_CONSTANT: f64 = 1367.0;
 /// Lower borders of the clearness bins 2 … 8.
 const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
@@ -113,7 +113,7 @@ pub struct PerezState {
 }
 
 impl PerezState {
-    /// From the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal irradiance [W/m²].
+    /// From the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal irradiance \[W/m²\].
     /// `None` where the model has no meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
     pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64) -> Option<Self> {
         let valid = altitude > 0.0

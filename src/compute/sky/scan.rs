@@ -5,7 +5,7 @@ use crate::compute::angle::wrap_two_pi;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// 145 luminances: lowest row first, each row clockwise from north. [cd/m²]
+/// 145 luminances: lowest row first, each row clockwise from north. \[cd/m²\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     values: [f64; 145],
@@ -18,7 +18,7 @@ impl Scan {
         values.iter().all(|value| value.is_finite() && *value >= 0.0).then_some(Self { values })
     }
 
-    /// The 145 luminances. [cd/m²]
+    /// The 145 luminances. \[cd/m²\]
     pub const fn values(&self) -> &[f64; 145] {
         &self.values
     }

@@ -21,7 +21,7 @@ pub struct Sun {
 }
 
 impl Sun {
-    /// Mean luminance of the disc: E_dn over its projected solid angle π sin²ρ. [cd/m²]
+    /// Mean luminance of the disc: E_dn over its projected solid angle π sin²ρ. \[cd/m²\]
     pub fn luminance(&self) -> f64 {
         self.direct_normal / (PI * SUN_HALF_ANGLE.sin().powi(2))
     }

@@ -13,7 +13,7 @@ pub struct Pane {
     pub index: f64,
     /// Thickness. \[m\]
     pub thickness: f64,
-    /// Absorption coefficient. [1/m]
+    /// Absorption coefficient. \[1/m\]
     pub absorption: f64,
 }
 

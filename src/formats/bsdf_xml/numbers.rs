@@ -40,7 +40,7 @@ fn parse_number(token: &str, index: usize, at: &Location) -> Result<f64, FormatE
 pub(super) struct ParsedTree {
     /// Root first.
     pub nodes: Vec<TreeNode>,
-    /// Negative values that were set to zero: count and the most negative. [1/sr]
+    /// Negative values that were set to zero: count and the most negative. \[1/sr\]
     pub negative: (usize, f64),
 }
 

@@ -4,10 +4,10 @@ use super::number;
 use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, SceneFile, SurfaceKey};
 use egui::{Button, Ui};
 
-/// Smallest edge of an aperture. [m]
+/// Smallest edge of an aperture. \[m\]
 const LEAST: f64 = 0.05;
 
-/// Extent of a surface along an aperture's two axes. [m]
+/// Extent of a surface along an aperture's two axes. \[m\]
 fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
     match surface {
         SurfaceKey::Facade => [room.width, room.height],
