@@ -245,6 +245,17 @@ fn provenance(files: &[(String, String)]) -> Provenance {
     }
 }
 
+/// The name asked for; empty, and so the dataset's own, where it has one; else that of the file, which is told.
+fn product_name(args: &ImportArgs, datasets: &[Dataset]) -> String {
+    let nameless = args.name.is_empty() && datasets.first().is_some_and(|dataset| dataset.name.is_empty());
+    let Some(stem) = args.files.first().filter(|_| nameless).and_then(|path| path.file_stem()) else {
+        return args.name.clone();
+    };
+    let name = stem.to_string_lossy().into_owned();
+    eprintln!("note: the file gives no name; taken from the file: {name} (--name gives another)");
+    name
+}
+
 fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     let mut datasets: Vec<Dataset> = Vec::new();
     let mut sources = Vec::new();
@@ -276,7 +287,7 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
         catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
     } else {
         let meta = NewProduct {
-            name: args.name.clone(),
+            name: product_name(args, &datasets),
             manufacturer: args.manufacturer.clone(),
             kind: args.kind.clone(),
             tags: args.tags.clone(),
