@@ -9,7 +9,8 @@
 use super::{front_basis, sub_directions};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Band, Btdf, CellMatrix};
-use crate::compute::direction::{Dir, Facade};
+use crate::compute::control::profile_angle;
+use crate::compute::direction::Dir;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use std::f64::consts::PI;
@@ -33,11 +34,6 @@ pub struct FlatSlats {
 const STRIPS: usize = 20;
 /// Directions along each side of a cell over which incidence and emission are averaged.
 const SUB: usize = 10;
-
-/// Profile angle of a direction of the façade frame with z > 0. \[rad\]
-pub fn profile_angle(d: Dir<Facade>) -> f64 {
-    d.vector().y.atan2(d.vector().z)
-}
 
 /// Tilt at which direct light of a profile angle is just cut off: asin((s/w) cosψ) − ψ. \[rad\]
 /// `None` when the slats are too narrow for it.
@@ -107,7 +103,7 @@ impl FlatSlats {
         let weight = 1.0 / (SUB * SUB) as f64;
         for (index, cell) in basis.cells().enumerate() {
             for d in sub_directions(&cell, SUB) {
-                let psi = profile_angle(d);
+                let psi = profile_angle(d).expect("directions inside a cell lie before the façade");
                 direct[index] += weight * self.direct_share(psi);
                 let sine = (self.tilt + psi).sin();
                 let density = sine.abs() / psi.cos();
