@@ -86,6 +86,7 @@ fn tau_of_cell(btdf: &Btdf, basis: &RingBasis, index: usize) -> f64 {
         Some(Scattered::Lambert(tau)) => cell_mean(&cell, 6, |d| tau.at(d.theta())),
         Some(Scattered::Cells(matrix)) if matrix.incident() == basis => matrix.tau_by_cell()[index],
         Some(Scattered::Cells(matrix)) => matrix.tau(Incident(cell.centre())),
+        Some(Scattered::Directions(data)) => data.tau(Incident(cell.centre())),
         Some(Scattered::Tree(tree)) => tree.tau(Incident(cell.centre())),
     };
     regular + scattered

@@ -116,6 +116,9 @@ fn resolution(btdf: &Btdf) -> String {
         Some(Scattered::Cells(matrix)) => {
             format!("{} incident × {} emergent directions", matrix.incident().len(), matrix.emergent().len())
         }
+        Some(Scattered::Directions(data)) => {
+            format!("{} incident directions × {} emergent cells", data.incident().len(), data.emergent().len())
+        }
         Some(Scattered::Tree(tree)) => {
             let n = tree.incident_resolution();
             let incident = match tree.rank() {

@@ -33,7 +33,7 @@ impl Plan {
         };
         let regular =
             scene.apertures.iter().any(|a| a.system.dataset.transmission().is_some_and(|btdf| btdf.regular.is_some()));
-        let cells = scattered(|part| matches!(part, Scattered::Cells(_) | Scattered::Tree(_)));
+        let cells = scattered(|part| !matches!(part, Scattered::Lambert(_)));
         let sun_on = (0..scene.apertures.len()).any(|index| scene.facing(index).sun_illuminance() > 0.0);
         plan.add(
             "sun",

@@ -10,6 +10,7 @@ mod checks;
 mod dataset;
 mod finding;
 mod ideal;
+mod indicatrices;
 mod pyramid;
 mod tensor_emission;
 mod tensor_reversal;
@@ -21,6 +22,7 @@ pub use cell_matrix::CellMatrix;
 pub use checks::{reciprocity_error, tau_max};
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
+pub use indicatrices::Indicatrices;
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 pub use zones::zone_shares;
 
@@ -34,6 +36,8 @@ pub enum Scattered {
     Lambert(AngularTransmittance),
     /// A value for every pair of an incident and an emergent cell.
     Cells(Box<CellMatrix>),
+    /// An indicatrix for every one of a list of incident directions.
+    Directions(Box<Indicatrices>),
     /// A tensor tree of rank 3 or 4 on Shirley–Chiu squares.
     Tree(Box<TensorTree>),
 }
@@ -75,6 +79,7 @@ impl Btdf {
             None => 0.0,
             Some(Scattered::Lambert(tau)) => tau.at(incident.0.theta()) / std::f64::consts::PI,
             Some(Scattered::Cells(matrix)) => matrix.q(incident, emergent),
+            Some(Scattered::Directions(data)) => data.q(incident, emergent),
             Some(Scattered::Tree(tree)) => tree.q(incident, emergent),
         }
     }
@@ -87,6 +92,7 @@ impl Btdf {
             None => 0.0,
             Some(Scattered::Lambert(tau)) => tau.at(theta),
             Some(Scattered::Cells(matrix)) => matrix.tau(incident),
+            Some(Scattered::Directions(data)) => data.tau(incident),
             Some(Scattered::Tree(tree)) => tree.tau(incident),
         };
         regular + scattered
@@ -104,6 +110,7 @@ impl Btdf {
             None => 0.0,
             Some(Scattered::Lambert(tau)) => tau.hemispherical(),
             Some(Scattered::Cells(matrix)) => matrix.tau_hemispherical(),
+            Some(Scattered::Directions(data)) => data.tau_hemispherical(),
             Some(Scattered::Tree(tree)) => tree.tau_hemispherical(),
         };
         regular + scattered
@@ -113,6 +120,7 @@ impl Btdf {
     pub fn incident_basis(&self) -> RingBasis {
         match &self.scattered {
             Some(Scattered::Cells(matrix)) => matrix.incident().clone(),
+            Some(Scattered::Directions(data)) => data.lattice().cloned().unwrap_or_else(RingBasis::tregenza),
             Some(Scattered::Tree(tree)) => tree.incident_listing(),
             _ => RingBasis::klems_full(crate::compute::basis::AzimuthMap::KLEMS_FRONT),
         }
@@ -131,6 +139,12 @@ impl Btdf {
                     .incident()
                     .index(incident.0)
                     .map_or_else(|| vec![0.0; matrix.emergent().len()], |i| matrix.row(i).to_vec()),
+            },
+            Scattered::Directions(data) => Indicatrix {
+                basis: data.emergent().clone(),
+                q: data
+                    .standing_for(incident.0)
+                    .map_or_else(|| vec![0.0; data.emergent().len()], |i| data.row(i).into_owned()),
             },
             Scattered::Tree(tree) => tree.indicatrix(incident),
         })

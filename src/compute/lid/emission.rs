@@ -131,6 +131,30 @@ impl Emission {
                     relative_error: relative(emission.incident_diffuse),
                 });
             }
+            Some(Scattered::Directions(data)) => {
+                let cells = data.lattice().cloned().unwrap_or_else(|| RingBasis::equal_area(40));
+                let illuminance = incident_illuminances(facing.outside, &cells, &frame);
+                emission.incident_diffuse = illuminance.iter().copied().sum();
+                let mut diffuse = vec![0.0; data.emergent().len()];
+                let add = |d: Dir<Facade>, e: f64, to: &mut [f64]| {
+                    if let Some(i) = data.standing_for(d).filter(|_| e > 0.0) {
+                        to.iter_mut().zip(data.row(i).iter()).for_each(|(l, q)| *l += q * e);
+                    }
+                };
+                for (cell, e) in cells.cells().zip(&illuminance) {
+                    add(cell.centre(), e.value, &mut diffuse);
+                }
+                let mut sun = vec![0.0; data.emergent().len()];
+                if let Some(direction) = sun_direction {
+                    add(direction, incident_sun, &mut sun);
+                }
+                emission.cells = Some(CellLight {
+                    basis: Arc::new(data.emergent().clone()),
+                    diffuse,
+                    sun,
+                    relative_error: relative(emission.incident_diffuse),
+                });
+            }
             Some(Scattered::Tree(tree)) => {
                 let (illuminance, error) = tree_illuminances(tree, facing);
                 emission.incident_diffuse = Estimate::new(illuminance.iter().sum(), error);

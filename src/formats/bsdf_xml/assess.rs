@@ -190,7 +190,7 @@ fn derive_front(dataset: &mut Dataset, findings: &mut Vec<Finding>) {
         Scattered::Tree(tree) => {
             (Scattered::Tree(Box::new(tree.reversed())), "with its leaves averaged anew, as rank 3 demands")
         }
-        Scattered::Lambert(_) => return,
+        Scattered::Lambert(_) | Scattered::Directions(_) => return,
     };
     findings.push(Finding::info(
         "front-by-reciprocity",

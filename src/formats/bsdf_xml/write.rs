@@ -39,6 +39,7 @@ fn changes(dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
         let from = match &btdf.scattered {
             Some(Scattered::Tree(_)) => Some("tensor tree"),
             Some(Scattered::Lambert(_)) => Some("diffuse function"),
+            Some(Scattered::Directions(_)) => Some("list of single incident directions"),
             Some(Scattered::Cells(matrix)) if matrix.incident().rings() != basis.rings() => {
                 Some("matrix on other cells")
             }
@@ -163,6 +164,7 @@ fn matrix_on(btdf: &Btdf, basis: &RingBasis) -> CellMatrix {
     let mut values = match &btdf.scattered {
         None => vec![0.0; n * n],
         Some(Scattered::Cells(matrix)) => resample_matrix(matrix, basis, basis).values().to_vec(),
+        Some(Scattered::Directions(data)) => resample_matrix(&data.to_cells(), basis, basis).values().to_vec(),
         Some(Scattered::Lambert(tau)) => basis
             .cells()
             .flat_map(|cell| {

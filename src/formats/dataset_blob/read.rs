@@ -3,15 +3,19 @@
 use super::{BlobError, MAGIC, VERSION, join_planes};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::compute::btdf::{
-    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes,
-    TreeNode, TreeRank,
+    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered, TensorTree,
+    TreeAxes, TreeNode, TreeRank,
 };
+use crate::compute::direction::{Dir, Incident};
+use glam::DVec3;
 use std::collections::HashSet;
 use std::io::Read;
 use std::sync::{Mutex, OnceLock};
 
 /// Most values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences over 2°.
 const MOST_VALUES: usize = 1 << 24;
+/// Most incident directions of one list: they are compared with one another.
+const MOST_DIRECTIONS: usize = 1 << 13;
 /// Most cells of one basis.
 const MOST_CELLS: usize = 1 << 18;
 
@@ -142,6 +146,7 @@ impl<'a> Reader<'a> {
             1 => Some(Scattered::Lambert(self.angular()?)),
             2 => Some(Scattered::Cells(Box::new(self.cells()?))),
             3 => Some(Scattered::Tree(Box::new(self.tree()?))),
+            4 => Some(Scattered::Directions(Box::new(self.directions()?))),
             other => return self.invalid(format!("kind {other} of scattering, which this version does not know")),
         };
         Ok(Btdf { regular, scattered })
@@ -181,9 +186,34 @@ impl<'a> Reader<'a> {
 
     fn cells(&mut self) -> Result<CellMatrix, BlobError> {
         let (incident, emergent) = (self.basis()?, self.basis()?);
+        let values = self.values(incident.len(), emergent.len())?;
+        CellMatrix::new(incident, emergent, values).map_or_else(|| self.invalid("values do not fit the cells"), Ok)
+    }
+
+    fn directions(&mut self) -> Result<Indicatrices, BlobError> {
+        let count = self.count(24)?;
+        if count > MOST_DIRECTIONS {
+            return self.invalid(format!("{count} incident directions (at most {MOST_DIRECTIONS})"));
+        }
+        let incident = (0..count)
+            .map(|_| {
+                let v = DVec3::new(self.number()?, self.number()?, self.number()?);
+                if (v.length() - 1.0).abs() > 1e-9 || v.z < -1e-9 {
+                    return self.invalid("an incident direction that is no unit vector of the outer hemisphere");
+                }
+                Ok(Incident(Dir::from_unit(v)))
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let emergent = self.basis()?;
+        let values = self.values(incident.len(), emergent.len())?;
+        Indicatrices::new(incident, emergent, values)
+            .map_or_else(|| self.invalid("values do not fit the directions, or two directions coincide"), Ok)
+    }
+
+    /// `rows` × `columns` packed values.
+    fn values(&mut self, rows: usize, columns: usize) -> Result<Vec<f64>, BlobError> {
         let count = self.count(0)?;
-        if count > MOST_VALUES || count != incident.len().saturating_mul(emergent.len()) {
-            let (rows, columns) = (incident.len(), emergent.len());
+        if count > MOST_VALUES || count != rows.saturating_mul(columns) {
             return self.invalid(format!("{count} values for {rows} × {columns} cells (at most {MOST_VALUES})"));
         }
         let packed = self.count(1)?;
@@ -192,7 +222,7 @@ impl<'a> Reader<'a> {
         if values.iter().any(|value| !value.is_finite()) {
             return self.invalid("a value that is not finite");
         }
-        CellMatrix::new(incident, emergent, values).map_or_else(|| self.invalid("values do not fit the cells"), Ok)
+        Ok(values)
     }
 
     fn tree(&mut self) -> Result<TensorTree, BlobError> {

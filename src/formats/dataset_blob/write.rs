@@ -94,6 +94,16 @@ impl Writer {
                 self.basis(matrix.emergent());
                 self.values(matrix.values());
             }
+            Some(Scattered::Directions(data)) => {
+                self.byte(4);
+                self.count(data.incident().len());
+                for direction in data.incident() {
+                    direction.0.vector().to_array().into_iter().for_each(|x| self.number(x));
+                }
+                self.basis(data.emergent());
+                let values: Vec<f64> = (0..data.incident().len()).flat_map(|i| data.row(i).into_owned()).collect();
+                self.values(&values);
+            }
             Some(Scattered::Tree(tree)) => {
                 self.byte(3);
                 self.tree(tree);
