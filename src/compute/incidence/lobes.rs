@@ -1,0 +1,191 @@
+//! An indicatrix as a smooth base and a few lobes: what moves with the incidence and what stays.
+
+use super::grid::{Grid, Opening};
+use glam::DVec3;
+
+/// Reach and blur of the opening that finds the base. \[rad\]
+const REACH: f64 = 15.0 * std::f64::consts::PI / 180.0;
+const BLUR: f64 = 7.5 * std::f64::consts::PI / 180.0;
+/// Peaks lower than this share of the highest, and lobes with less than this share of the lobes' flux, are none.
+const LEAST: f64 = 0.02;
+/// A lobe's peak holds at least this share of the luminance there.
+const STANDS_OUT: f64 = 0.4;
+/// Cells below this share of the highest peak belong to the base: they need not move.
+const EDGE: f64 = 2e-3;
+/// Two peaks are one lobe when the saddle between them reaches this share of the lower one.
+const SADDLE: f64 = 0.7;
+
+/// One lobe: some cells of an indicatrix and what they hold above the base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lobe {
+    /// Mean direction weighted by luminance and solid angle (through-name).
+    pub centre: DVec3,
+    /// Share of the incident flux, ∫q cosθ dω.
+    pub flux: f64,
+    /// Angle from the centre that holds all its cells. \[rad\]
+    pub radius: f64,
+    /// Ring by ring (own ring number): first sector and values. \[1/sr\]
+    rows: Vec<(usize, usize, Vec<f64>)>,
+    /// Of the first ring number to the place in `rows`.
+    first_ring: usize,
+}
+
+impl Lobe {
+    /// Value in a cell given by own ring and sector; 0 outside the lobe. \[1/sr\]
+    #[inline]
+    pub fn value(&self, ring: usize, sector: usize, sectors: usize) -> f64 {
+        let Some((_, first, values)) = ring.checked_sub(self.first_ring).and_then(|k| self.rows.get(k)) else {
+            return 0.0;
+        };
+        let k = if sector >= *first { sector - first } else { sector + sectors - first };
+        values.get(k).copied().unwrap_or(0.0)
+    }
+
+    /// Cells and values. \[1/sr\]
+    pub fn cells<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = (usize, f64)> + 'a {
+        self.rows.iter().flat_map(move |(ring, first, values)| {
+            let (start, sectors) = (grid.basis().first_cell(*ring), grid.basis().rings()[*ring].sectors);
+            values
+                .iter()
+                .enumerate()
+                .filter(|(_, q)| **q != 0.0)
+                .map(move |(k, q)| (start + (first + k) % sectors, *q))
+        })
+    }
+
+    fn new(grid: &Grid, cells: &[(usize, f64)]) -> Option<Self> {
+        let flux: f64 = cells.iter().map(|&(i, q)| q * grid.projected[i]).sum();
+        let centre: DVec3 = cells.iter().map(|&(i, q)| grid.centre[i] * (q * grid.solid[i])).sum();
+        let centre = centre.try_normalize().filter(|_| flux > 0.0)?;
+        let radius = cells.iter().map(|&(i, _)| grid.centre[i].dot(centre)).fold(1.0, f64::min).clamp(-1.0, 1.0).acos();
+        let basis = grid.basis();
+        let mut by_ring: std::collections::BTreeMap<usize, Vec<(usize, f64)>> = std::collections::BTreeMap::new();
+        for &(i, q) in cells {
+            let ring = (0..basis.rings().len()).rev().find(|&r| basis.first_cell(r) <= i)?;
+            by_ring.entry(ring).or_default().push((i - basis.first_cell(ring), q));
+        }
+        let (&first_ring, &last_ring) = (by_ring.keys().next()?, by_ring.keys().next_back()?);
+        let rows = (first_ring..=last_ring)
+            .map(|ring| {
+                let Some(list) = by_ring.get_mut(&ring) else {
+                    return (ring, 0, Vec::new());
+                };
+                list.sort_by_key(|&(sector, _)| sector);
+                let sectors = basis.rings()[ring].sectors;
+                // Starts behind the widest gap, so that the row is as short as it can be on a circle.
+                let gap = |k: usize| {
+                    let next = if k + 1 == list.len() { list[0].0 + sectors } else { list[k + 1].0 };
+                    next - list[k].0
+                };
+                let widest = (0..list.len()).max_by_key(|&k| gap(k)).unwrap_or(0);
+                let first = list[(widest + 1) % list.len()].0;
+                let mut values = Vec::new();
+                for &(sector, q) in list.iter() {
+                    let k = (sector + sectors - first) % sectors;
+                    if values.len() <= k {
+                        values.resize(k + 1, 0.0);
+                    }
+                    values[k] = q;
+                }
+                (ring, first, values)
+            })
+            .collect();
+        Some(Self { centre, flux, radius, rows, first_ring })
+    }
+}
+
+/// Finds base and lobes.
+#[derive(Debug, Clone)]
+pub struct Splitter {
+    opening: Opening,
+}
+
+impl Splitter {
+    /// For indicatrices on the cells of a grid.
+    pub fn new(grid: &Grid) -> Self {
+        Self { opening: Opening::new(grid, REACH, BLUR) }
+    }
+
+    /// The lobes of an indicatrix, brightest flux first. What is left is the base.
+    pub fn lobes(&self, grid: &Grid, q: &[f64]) -> Vec<Lobe> {
+        let base = self.opening.of(q);
+        let sharp: Vec<f64> = q.iter().zip(&base).map(|(q, b)| (q - b).max(0.0)).collect();
+        let total: f64 = sharp.iter().zip(&grid.projected).map(|(q, w)| q * w).sum();
+        let all: f64 = q.iter().zip(&grid.projected).map(|(q, w)| q * w).sum();
+        // Less than this is noise on a diffuser, not light with a direction.
+        if total <= 0.005 * all || total < 1e-6 {
+            return Vec::new();
+        }
+        let owner = basins(grid, &grid.blurred(&sharp));
+        let mut cells: std::collections::BTreeMap<u32, Vec<(usize, f64)>> = std::collections::BTreeMap::new();
+        for (i, (&owner, &q)) in owner.iter().zip(&sharp).enumerate() {
+            if owner != NONE && q > 0.0 {
+                cells.entry(owner).or_default().push((i, q));
+            }
+        }
+        // What rises above the base less than the base itself is a slope of the base, no lobe.
+        let stands_out = |cells: &&Vec<(usize, f64)>| {
+            let &(top, height) = cells.iter().max_by(|a, b| a.1.total_cmp(&b.1)).expect("a basin has cells");
+            height > STANDS_OUT * q[top]
+        };
+        let mut lobes: Vec<Lobe> =
+            cells.values().filter(stands_out).filter_map(|cells| Lobe::new(grid, cells)).collect();
+        lobes.retain(|lobe| lobe.flux > LEAST * total);
+        lobes.sort_by(|a, b| b.flux.total_cmp(&a.flux));
+        lobes
+    }
+}
+
+const NONE: u32 = u32::MAX;
+
+/// For every cell the peak that steepest ascent leads to; peaks without a real saddle between them are one.
+fn basins(grid: &Grid, values: &[f64]) -> Vec<u32> {
+    let highest = values.iter().copied().fold(0.0, f64::max);
+    let mut rank: Vec<u32> = (0..values.len() as u32).filter(|&i| values[i as usize] > EDGE * highest).collect();
+    rank.sort_by(|&a, &b| values[b as usize].total_cmp(&values[a as usize]).then(a.cmp(&b)));
+    let mut owner = vec![NONE; values.len()];
+    // Flooding from the top: a cell that joins two basins is the saddle between them.
+    let mut parent: Vec<u32> = Vec::new();
+    let mut peak: Vec<f64> = Vec::new();
+    fn root(parent: &[u32], mut k: u32) -> u32 {
+        while parent[k as usize] != k {
+            k = parent[k as usize];
+        }
+        k
+    }
+    for &i in &rank {
+        let value = values[i as usize];
+        let mut best: Option<(f64, u32)> = None;
+        let mut met: Vec<u32> = Vec::new();
+        for &j in &grid.neighbours[i as usize] {
+            if owner[j as usize] != NONE {
+                let basin = root(&parent, owner[j as usize]);
+                if !met.contains(&basin) {
+                    met.push(basin);
+                }
+                if best.is_none_or(|(v, _)| values[j as usize] > v) {
+                    best = Some((values[j as usize], owner[j as usize]));
+                }
+            }
+        }
+        match best {
+            None => {
+                owner[i as usize] = parent.len() as u32;
+                parent.push(parent.len() as u32);
+                peak.push(value);
+            }
+            Some((_, own)) => {
+                owner[i as usize] = own;
+                let strongest = met.iter().copied().max_by(|&a, &b| peak[a as usize].total_cmp(&peak[b as usize]));
+                for &basin in &met {
+                    let Some(strongest) = strongest else { break };
+                    let small = peak[basin as usize] < LEAST * highest;
+                    if basin != strongest && (small || value >= SADDLE * peak[basin as usize]) {
+                        parent[basin as usize] = strongest;
+                    }
+                }
+            }
+        }
+    }
+    owner.iter().map(|&k| if k == NONE { NONE } else { root(&parent, k) }).collect()
+}

@@ -1,0 +1,18 @@
+//! Between incident directions: from indicatrices at single directions to any sun and any sky.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `lattice` | the triangles between incident directions |
+//! | `grid` | emergent cells as a picture |
+//! | `lobes` | an indicatrix as base and lobes |
+//! | `response` | how lobes move and change with the incidence |
+//! | `flux` | fluxes between the directions |
+//! | `model` | the indicatrix of any incident direction |
+
+pub mod flux;
+pub mod grid;
+pub mod lattice;
+pub mod lobes;
+pub mod model;
+pub mod response;
+pub mod superpose;

@@ -1,0 +1,369 @@
+//! The indicatrix of any incident direction from those of a lattice.
+
+use super::grid::Grid;
+use super::flux::{Bump, Field, Slopes, along_one_line, bump, missed_behind, slopes};
+use super::lattice::{Lattice, Place, tangent_step};
+use super::lobes::{Lobe, Splitter};
+use super::response::{Responses, gradient, lift};
+use crate::compute::btdf::Indicatrices;
+use crate::compute::direction::{Dir, Facade};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// A lobe of the data, moved and scaled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Copy {
+    /// Incident direction that it comes from.
+    pub vertex: usize,
+    /// Number of the lobe there.
+    pub lobe: usize,
+    /// Where its centre goes (through-name).
+    pub centre: DVec3,
+    /// Its share of the incident flux.
+    pub flux: f64,
+}
+
+/// An indicatrix as a recipe: bases of the data with factors, and copies of lobes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Recipe {
+    /// Incident directions and factors of their bases.
+    pub bases: Vec<(usize, f64)>,
+    /// Lobes.
+    pub copies: Vec<Copy>,
+}
+
+/// Everything that interpolation between incident directions needs.
+pub struct Model {
+    pub(super) data: Arc<Indicatrices>,
+    pub(super) grid: Grid,
+    pub(super) lattice: Lattice,
+    pub(super) lobes: Vec<Vec<Lobe>>,
+    pub(super) responses: Responses,
+    base_flux: Vec<f64>,
+    /// By vertex, lobe (the base behind the last) and neighbour: what the edge adds to linear interpolation of the
+    /// flux, where the lobe is at both ends.
+    bumps: Vec<Vec<Vec<Option<Bump>>>>,
+    /// By vertex, lobe and neighbour: flux that its slope predicts at a neighbour without the lobe.
+    followed: Vec<Vec<Vec<f64>>>,
+}
+
+/// Fluxes of lobes.
+struct LobeFlux<'a>(&'a [Vec<Lobe>], &'a Responses);
+
+impl Field for LobeFlux<'_> {
+    fn value(&self, vertex: usize, lobe: usize) -> f64 {
+        self.0[vertex][lobe].flux
+    }
+    fn partner(&self, vertex: usize, lobe: usize, neighbour: usize) -> Option<usize> {
+        self.1.partner[vertex][neighbour][lobe]
+    }
+}
+
+/// Fluxes of bases; every direction has one.
+struct BaseFlux<'a>(&'a [f64]);
+
+impl Field for BaseFlux<'_> {
+    fn value(&self, vertex: usize, _: usize) -> f64 {
+        self.0[vertex]
+    }
+    fn partner(&self, _: usize, _: usize, _: usize) -> Option<usize> {
+        Some(0)
+    }
+}
+
+/// Bumps of all edges that begin at a lobe of a vertex.
+fn bumps_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Vec<Option<Bump>> {
+    let own = slopes(lattice, field, vertex, lobe);
+    let of = |v: usize, l: usize| slopes(lattice, field, v, l);
+    (0..lattice.neighbours(vertex).len())
+        .map(|k| {
+            let other = field.partner(vertex, lobe, k)?;
+            let there = lattice.neighbours(vertex)[k];
+            let back = lattice.neighbours(there).binary_search(&vertex).ok()?;
+            let values = [field.value(vertex, lobe), field.value(there, other)];
+            let behind = [
+                missed_behind(lattice, field, of, (vertex, lobe), k),
+                missed_behind(lattice, field, of, (there, other), back),
+            ];
+            Some(bump(values, [(&own, k), (&of(there, other), back)], behind))
+        })
+        .collect()
+}
+
+/// Flux that a lobe's slope, seen from the neighbours on the other side, leaves at each neighbour; at most 0.
+fn followed_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Vec<f64> {
+    let Slopes { one_sided, .. } = slopes(lattice, field, vertex, lobe);
+    let here = lattice.points()[vertex];
+    let neighbours = lattice.neighbours(vertex);
+    let value = field.value(vertex, lobe);
+    let samples: Vec<(DVec2, f64)> = (0..neighbours.len())
+        .filter_map(|k| {
+            let change = field.value(neighbours[k], field.partner(vertex, lobe, k)?) - value;
+            Some((tangent_step(here, lattice.points()[neighbours[k]]), change))
+        })
+        .collect();
+    let all = gradient(&samples).or_else(|| along_one_line(&samples)).unwrap_or(DVec2::ZERO);
+    (0..neighbours.len())
+        .map(|k| {
+            let step = one_sided[k].unwrap_or_else(|| all.dot(tangent_step(here, lattice.points()[neighbours[k]])));
+            (value + step).min(0.0)
+        })
+        .collect()
+}
+
+impl Model {
+    /// Splits every indicatrix and follows its lobes to the neighbours.
+    pub fn new(data: Arc<Indicatrices>) -> Self {
+        let grid = Grid::new(data.emergent());
+        let lattice = Lattice::new(data.incident());
+        let splitter = Splitter::new(&grid);
+        let lobes: Vec<Vec<Lobe>> =
+            (0..data.incident().len()).into_par_iter().map(|i| splitter.lobes(&grid, &data.row(i))).collect();
+        let responses = Responses::new(&lattice, &lobes);
+        let base_flux: Vec<f64> = (0..lobes.len())
+            .map(|i| (data.tau_by_direction()[i] - lobes[i].iter().map(|lobe| lobe.flux).sum::<f64>()).max(0.0))
+            .collect();
+        let (lobe_flux, base) = (LobeFlux(&lobes, &responses), BaseFlux(&base_flux));
+        let (bumps, followed) = (0..lobes.len())
+            .into_par_iter()
+            .map(|v| {
+                let mut bumps: Vec<_> = (0..lobes[v].len()).map(|l| bumps_of(&lattice, &lobe_flux, v, l)).collect();
+                bumps.push(bumps_of(&lattice, &base, v, 0));
+                let followed: Vec<_> =
+                    (0..lobes[v].len()).map(|l| followed_of(&lattice, &lobe_flux, v, l)).collect();
+                (bumps, followed)
+            })
+            .unzip();
+        Self { data, grid, lattice, lobes, responses, base_flux, bumps, followed }
+    }
+
+    /// The emergent cells.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The lattice.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// Lobes of every incident direction.
+    pub fn lobes(&self) -> &[Vec<Lobe>] {
+        &self.lobes
+    }
+
+    /// How the lobes move.
+    pub fn responses(&self) -> &Responses {
+        &self.responses
+    }
+
+    /// The indicatrix for an incident direction, every lobe moved by its own response.
+    pub fn recipe(&self, incident: Dir<Facade>) -> Recipe {
+        let place = self.lattice.locate(incident);
+        let used: Vec<(usize, f64)> =
+            (0..3).map(|k| (place.vertices[k], place.weights[k])).filter(|(_, w)| *w > 1e-12).collect();
+        let mut recipe = Recipe { bases: self.bases(&used), copies: Vec::with_capacity(6) };
+        for family in self.families(&used) {
+            self.family(&used, &family, incident.vector(), &mut recipe.copies);
+        }
+        if place.beyond > 0.0 {
+            self.fade(&place, &mut recipe);
+        }
+        recipe
+    }
+
+    /// Bases blended, their flux interpolated to second order.
+    fn bases(&self, used: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let linear: f64 = used.iter().map(|&(v, w)| w * self.base_flux[v]).sum();
+        let mut flux = linear;
+        for (k, &(a, wa)) in used.iter().enumerate() {
+            for &(b, wb) in &used[k + 1..] {
+                let k = self.neighbour(a, b);
+                flux += k.and_then(|k| self.bumps[a][self.lobes[a].len()][k]).map_or(0.0, |bump| bump.at(wa, wb));
+            }
+        }
+        let factor = if linear > 0.0 { (flux / linear).max(0.0) } else { 1.0 };
+        used.iter().map(|&(v, w)| (v, w * factor)).collect()
+    }
+
+    /// Place of `to` in the neighbours of `from`.
+    fn neighbour(&self, from: usize, to: usize) -> Option<usize> {
+        self.lattice.neighbours(from).binary_search(&to).ok()
+    }
+
+    /// Partner at `to` of a lobe at `from`.
+    fn partner(&self, from: usize, lobe: usize, to: usize) -> Option<usize> {
+        self.responses.partner[from][self.neighbour(from, to)?][lobe]
+    }
+
+    /// Lobes of up to three vertices that are the same one: at each vertex a lobe, or none.
+    fn families(&self, used: &[(usize, f64)]) -> Vec<[Option<usize>; 3]> {
+        let mut families: Vec<[Option<usize>; 3]> = Vec::with_capacity(4);
+        for (k, &(v, _)) in used.iter().enumerate() {
+            for lobe in 0..self.lobes[v].len() {
+                let own = families.iter_mut().find(|family| {
+                    family[k].is_none()
+                        && (0..k).any(|j| {
+                            family[j].is_some_and(|other| {
+                                self.partner(used[j].0, other, v) == Some(lobe)
+                                    || self.partner(v, lobe, used[j].0) == Some(other)
+                            })
+                        })
+                });
+                match own {
+                    Some(family) => family[k] = Some(lobe),
+                    None => {
+                        let mut family = [None; 3];
+                        family[k] = Some(lobe);
+                        families.push(family);
+                    }
+                }
+            }
+        }
+        families
+    }
+
+    /// Copies of one family at a direction. Vertices without the lobe are taken for where its flux, followed from the
+    /// others, has fallen to or below zero: this puts the end of a lobe (a blind's cut-off) where its slope says.
+    fn family(&self, used: &[(usize, f64)], family: &[Option<usize>; 3], d: DVec3, copies: &mut Vec<Copy>) {
+        let points = self.lattice.points();
+        let present: Vec<(usize, f64, usize)> =
+            used.iter().zip(family).filter_map(|(&(v, w), lobe)| lobe.map(|lobe| (v, w, lobe))).collect();
+        let weight: f64 = present.iter().map(|(_, w, _)| w).sum();
+        if weight <= 1e-12 {
+            return;
+        }
+        let linear: f64 = present.iter().map(|&(v, w, l)| w * self.lobes[v][l].flux).sum();
+        let mut flux = linear;
+        for (&(absent, w), _) in used.iter().zip(family).filter(|(_, lobe)| lobe.is_none()) {
+            let followed: f64 = present
+                .iter()
+                .map(|&(v, wv, l)| self.neighbour(v, absent).map_or(0.0, |k| wv * self.followed[v][l][k]))
+                .sum();
+            flux += w * followed / weight;
+        }
+        for (k, &(a, wa, la)) in present.iter().enumerate() {
+            for &(b, wb, lb) in &present[k + 1..] {
+                // Only the same lobe on both sides has a bump, and its copy in the other direction is the same.
+                let k = self.neighbour(a, b).filter(|&k| self.responses.partner[a][k][la] == Some(lb));
+                flux += k.and_then(|k| self.bumps[a][la][k]).map_or(0.0, |bump| bump.at(wa, wb));
+            }
+        }
+        if flux <= 0.0 {
+            return;
+        }
+        for &(v, w, l) in &present {
+            let lobe = &self.lobes[v][l];
+            let step = (d - points[v]).truncate();
+            let centre = lift(lobe.centre.truncate() + self.responses.jacobian[v][l] * step);
+            copies.push(Copy { vertex: v, lobe: l, centre, flux: flux * w * lobe.flux / linear });
+        }
+    }
+
+    /// Beyond the last row: what falls steeply there goes to zero at grazing, as Fresnel's equations have it; what is
+    /// level goes on (slats).
+    fn fade(&self, place: &Place, recipe: &mut Recipe) {
+        let _ = place;
+        let factor = self.grazing_factor(place);
+        recipe.bases.iter_mut().for_each(|(_, f)| *f *= factor);
+        recipe.copies.iter_mut().for_each(|copy| copy.flux *= factor);
+    }
+
+    fn grazing_factor(&self, place: &Place) -> f64 {
+        let tau = self.data.tau_by_direction();
+        let points = self.lattice.points();
+        let theta = |v: usize| points[v].z.clamp(-1.0, 1.0).acos();
+        let mut factor = 0.0;
+        for (&v, &w) in place.vertices.iter().zip(&place.weights) {
+            // The slope towards grazing, from the neighbours further in.
+            let inner: Vec<usize> =
+                self.lattice.neighbours(v).iter().copied().filter(|&n| theta(n) < theta(v) - 1e-3).collect();
+            let own = if inner.is_empty() || tau[v] <= 0.0 {
+                1.0
+            } else {
+                let count = inner.len() as f64;
+                let (t0, tau0) = inner.iter().fold((0.0, 0.0), |(t, s), &n| (t + theta(n) / count, s + tau[n] / count));
+                let (t1, t2) = (theta(v), 0.5 * std::f64::consts::PI);
+                let t = t1 + place.beyond * (t2 - t1);
+                let slope = (tau[v] - tau0) / (t1 - t0);
+                let straight = ((tau[v] + slope * (t - t1)) / tau[v]).max(0.0);
+                let at_grazing = (tau[v] + slope * (t2 - t1)) / tau[v];
+                // Parabola through the two rows and zero at grazing.
+                let bend = (-tau[v] / (t2 - t1) - slope) / (t2 - t0);
+                let fading = ((tau[v] + (t - t1) * (-tau[v] / (t2 - t1) + bend * (t - t2))) / tau[v]).max(0.0);
+                let s = ((at_grazing - 0.65) / 0.15).clamp(0.0, 1.0);
+                let s = s * s * (3.0 - 2.0 * s);
+                s * straight + (1.0 - s) * fading
+            };
+            factor += w * own;
+        }
+        factor
+    }
+
+    /// Adds `scale` times the copies of a recipe to a luminance on the emergent cells.
+    pub fn add_copies(&self, recipe: &Recipe, scale: f64, points: usize, luminance: &mut [f64], scratch: &mut Vec<(u32, f64)>) {
+        for copy in &recipe.copies {
+            self.moved(copy, points, scratch);
+            for &(cell, q) in scratch.iter() {
+                luminance[cell as usize] += scale * q;
+            }
+        }
+    }
+
+    /// A moved lobe on the emergent cells: turned from its own centre to the copy's, its flux kept exactly. `points`²
+    /// directions a cell.
+    pub fn moved(&self, copy: &Copy, points: usize, out: &mut Vec<(u32, f64)>) {
+        out.clear();
+        let lobe = &self.lobes[copy.vertex][copy.lobe];
+        // Turns directions about the copy's centre back to those about the lobe's.
+        let back = glam::DQuat::from_rotation_arc(copy.centre, lobe.centre);
+        let back = glam::DMat3::from_quat(back);
+        let basis = self.grid.basis();
+        let mut flux = 0.0;
+        self.grid.within(copy.centre, lobe.radius + 0.04, |cell| {
+            let q = if points <= 1 {
+                self.sampled(lobe, back * self.grid.centre[cell])
+            } else {
+                let c = basis.cell(cell);
+                let (low, high) = (c.theta_min.sin().powi(2), c.theta_max.sin().powi(2));
+                let mut sum = 0.0;
+                for i in 0..points {
+                    let theta = (low + (high - low) * (i as f64 + 0.5) / points as f64).sqrt().min(1.0).asin();
+                    for j in 0..points {
+                        let phi = c.phi + c.width * ((j as f64 + 0.5) / points as f64 - 0.5);
+                        let d: Dir<Facade> = Dir::from_theta_phi(theta, phi);
+                        sum += self.sampled(lobe, back * d.vector());
+                    }
+                }
+                sum / (points * points) as f64
+            };
+            if q > 0.0 {
+                flux += q * self.grid.projected[cell];
+                out.push((cell as u32, q));
+            }
+        });
+        if flux > 0.0 {
+            out.iter_mut().for_each(|(_, q)| *q *= copy.flux / flux);
+        }
+    }
+
+    /// A lobe's value in a direction, linear between cells. \[1/sr\]
+    fn sampled(&self, lobe: &Lobe, d: DVec3) -> f64 {
+        if d.z <= 0.0 {
+            return 0.0;
+        }
+        self.grid.around_rings(d).into_iter().map(|(ring, sector, sectors, w)| w * lobe.value(ring, sector, sectors)).sum()
+    }
+
+    /// The base of one incident direction on the emergent cells. \[1/sr\]
+    pub fn base(&self, vertex: usize) -> Vec<f64> {
+        let mut row = self.data.row(vertex).into_owned();
+        for lobe in &self.lobes[vertex] {
+            for (cell, q) in lobe.cells(&self.grid) {
+                row[cell] -= q;
+            }
+        }
+        row
+    }
+}

@@ -1,0 +1,168 @@
+//! How the lobes of neighbouring incident directions belong together: which lobe is the same one, and how it moves
+//! with the incidence.
+//!
+//! A lobe moves by its own response, a 2 × 2 matrix between direction cosines: the unit matrix for light that goes
+//! straight on, diag(1, −1) for light mirrored in the vertical, anything else for rolled panels and prisms. Plane
+//! layers and gratings shift direction cosines, so that for them the matrix is constant and the move exact.
+
+use super::lattice::Lattice;
+use super::lobes::Lobe;
+use glam::{DMat2, DVec2, DVec3};
+
+/// Two lobes further apart than this after the move are two lobes. \[chord\]
+const GATE: f64 = 0.12;
+/// What disagreement in flux costs, as a chord per unit of ln(f/f′).
+const FLUX_COST: f64 = 0.02;
+
+/// Responses and partners of the lobes of every incident direction.
+#[derive(Debug, Clone)]
+pub struct Responses {
+    /// d(u, v of the lobe's centre) / d(u, v of the incidence), by direction and lobe.
+    pub jacobian: Vec<Vec<DMat2>>,
+    /// By direction, neighbour (as listed by the lattice) and lobe: the same lobe over there.
+    pub partner: Vec<Vec<Vec<Option<usize>>>>,
+}
+
+/// A point of the disk of direction cosines, lifted to the hemisphere.
+pub fn lift(p: DVec2) -> DVec3 {
+    let r = p.length();
+    if r < 1.0 { p.extend((1.0 - r * r).sqrt()) } else { (p / r).extend(0.0) }
+}
+
+impl Responses {
+    /// Fits all.
+    pub fn new(lattice: &Lattice, lobes: &[Vec<Lobe>]) -> Self {
+        let jacobians: Vec<Vec<DMat2>> = (0..lobes.len())
+            .map(|v| lobes[v].iter().map(|lobe| jacobian(lattice, lobes, v, lobe)).collect())
+            .collect();
+        let partner: Vec<Vec<Vec<Option<usize>>>> = (0..lobes.len())
+            .map(|v| {
+                lattice.neighbours(v).iter().map(|&n| partners(lattice, lobes, &jacobians, v, n)).collect()
+            })
+            .collect();
+        Self { jacobian: jacobians, partner }
+    }
+}
+
+/// The same lobes at two neighbours: each the best for the other.
+fn partners(lattice: &Lattice, lobes: &[Vec<Lobe>], jacobians: &[Vec<DMat2>], v: usize, n: usize) -> Vec<Option<usize>> {
+    let best = |from: usize, to: usize, l: usize| {
+        let step = (lattice.points()[to] - lattice.points()[from]).truncate();
+        let lobe = &lobes[from][l];
+        let target = lift(lobe.centre.truncate() + jacobians[from][l] * step);
+        (0..lobes[to].len())
+            .map(|m| (cost(target, lobe.flux, &lobes[to][m]), m))
+            .filter(|(cost, _)| *cost < GATE)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, m)| m)
+    };
+    (0..lobes[v].len())
+        .map(|l| {
+            let there = best(v, n, l)?;
+            let back = best(n, v, there);
+            // A lobe whose own response is unsure still has a partner when the other side finds it.
+            (back == Some(l) || (back.is_none() && lobes[n].len() == 1)).then_some(there)
+        })
+        .collect()
+}
+
+fn cost(target: DVec3, flux: f64, lobe: &Lobe) -> f64 {
+    (target - lobe.centre).length() + FLUX_COST * (flux / lobe.flux).ln().abs()
+}
+
+/// The response that most neighbours agree on.
+fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe) -> DMat2 {
+    let centre = lobe.centre.truncate();
+    let around: Vec<(usize, DVec2)> = lattice
+        .neighbours(v)
+        .iter()
+        .filter(|&&n| !lobes[n].is_empty())
+        .map(|&n| (n, (lattice.points()[n] - lattice.points()[v]).truncate()))
+        .collect();
+    let nearest = |jacobian: DMat2, n: usize, step: DVec2| {
+        let target = lift(centre + jacobian * step);
+        lobes[n]
+            .iter()
+            .map(|other| (cost(target, lobe.flux, other), other.centre.truncate()))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    // Disagreement with every neighbour, each counted up to the gate; wild responses pay for it.
+    let score = |jacobian: DMat2| {
+        let apart: f64 = around
+            .iter()
+            .map(|&(n, step)| nearest(jacobian, n, step).map_or(GATE, |(cost, _)| cost.min(GATE)).powi(2))
+            .sum();
+        let stretch = (jacobian.x_axis.length_squared() + jacobian.y_axis.length_squared() - 2.0).max(0.0);
+        apart + 1e-3 * stretch
+    };
+    let straight = lattice.points()[v];
+    let side = |j: DMat2| (lift(j * straight.truncate()) - lobe.centre).length();
+    let simple = [DMat2::IDENTITY, DMat2::from_diagonal(DVec2::new(1.0, -1.0)), DMat2::from_diagonal(DVec2::new(-1.0, 1.0))];
+    // Ties go to the response that also explains where the lobe is.
+    let mut best = (f64::INFINITY, DMat2::IDENTITY);
+    for j in simple {
+        let score = score(j) + 1e-3 * side(j);
+        if score < best.0 {
+            best = (score, j);
+        }
+    }
+    for (i, &(n, a)) in around.iter().enumerate() {
+        for &(m, b) in &around[i + 1..] {
+            let steps = DMat2::from_cols(a, b);
+            if steps.determinant().abs() < 0.3 * a.length() * b.length() {
+                continue;
+            }
+            let inverse = steps.inverse();
+            for p in &lobes[n] {
+                for q in &lobes[m] {
+                    let moves = DMat2::from_cols(p.centre.truncate() - centre, q.centre.truncate() - centre);
+                    let candidate = moves * inverse;
+                    let score = score(candidate) + 2e-3;
+                    if score < best.0 {
+                        best = (score, candidate);
+                    }
+                }
+            }
+        }
+    }
+    refined(best.1, &around, &nearest, centre).unwrap_or(best.1)
+}
+
+/// Least squares over the neighbours that agree.
+fn refined(
+    start: DMat2,
+    around: &[(usize, DVec2)],
+    nearest: &impl Fn(DMat2, usize, DVec2) -> Option<(f64, DVec2)>,
+    centre: DVec2,
+) -> Option<DMat2> {
+    let agreeing: Vec<(DVec2, DVec2)> = around
+        .iter()
+        .filter_map(|&(n, step)| nearest(start, n, step).filter(|(cost, _)| *cost < GATE).map(|(_, c)| (step, c - centre)))
+        .collect();
+    let (mut square, mut mixed) = (DMat2::ZERO, DMat2::ZERO);
+    let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
+    // A little weight for the start keeps directions that the neighbours do not span.
+    let scale: f64 = agreeing.iter().map(|(step, _)| step.length_squared()).sum::<f64>() / agreeing.len().max(1) as f64;
+    for &(step, change) in &agreeing {
+        square += outer(step, step);
+        mixed += outer(change, step);
+    }
+    if agreeing.len() < 3 {
+        return None;
+    }
+    let keep = 0.02 * scale;
+    square += DMat2::from_diagonal(DVec2::splat(keep));
+    mixed += start * keep;
+    (square.determinant().abs() > 1e-12 * scale * scale).then(|| mixed * square.inverse())
+}
+
+/// Least-squares gradient of differences over steps; `None` when they lie on one line.
+pub fn gradient(samples: &[(DVec2, f64)]) -> Option<DVec2> {
+    let (mut square, mut mixed) = (DMat2::ZERO, DVec2::ZERO);
+    for &(step, change) in samples {
+        square += DMat2::from_cols(step * step.x, step * step.y);
+        mixed += step * change;
+    }
+    let trace = square.x_axis.x + square.y_axis.y;
+    (square.determinant() > 0.02 * trace * trace).then(|| square.inverse() * mixed)
+}
