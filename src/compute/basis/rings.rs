@@ -255,6 +255,27 @@ impl RingBasis {
         Self::from_limits("hemisphere", &[0.0, 90.0], &[1], AzimuthMap::FACADE)
     }
 
+    /// Every cell cut into `parts` × `parts`: rings in equal steps of θ, sectors in equal parts. A cap that is one
+    /// cell gets four sectors a part, so that its parts are about as wide as high.
+    pub fn refined(&self, parts: usize) -> Self {
+        let cut = |ring: &Ring| {
+            let step = (ring.theta_max - ring.theta_min) / parts as f64;
+            let sectors = if ring.sectors == 1 { 4 * parts } else { ring.sectors * parts };
+            let (coarse, fine) = (2.0 * PI / ring.sectors as f64, 2.0 * PI / sectors as f64);
+            let (theta, first_phi) = (ring.theta_min, ring.first_phi - 0.5 * coarse + 0.5 * fine);
+            let part = move |k: usize| Ring {
+                theta_min: theta + k as f64 * step,
+                theta_max: theta + (k + 1) as f64 * step,
+                sectors,
+                first_phi,
+            };
+            let order: Vec<usize> = if self.outwards { (0..parts).collect() } else { (0..parts).rev().collect() };
+            order.into_iter().map(part).collect::<Vec<_>>()
+        };
+        let rings = self.rings.iter().flat_map(cut).collect();
+        Self::new(format!("{} / {parts}²", self.name), rings, self.azimuth).expect("parts of rings rise as these do")
+    }
+
     /// The name given to it, as files write it.
     pub fn name(&self) -> &str {
         &self.name
@@ -388,6 +409,20 @@ mod tests {
         let basis = RingBasis::equal_area(5);
         for weight in basis.projected_solid_angles() {
             assert!((weight - PI / 100.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn refined_cells_lie_in_their_own() {
+        for basis in all().into_iter().filter(|basis| basis.len() > 1) {
+            let fine = basis.refined(3);
+            let mut sums = vec![0.0; basis.len()];
+            for cell in fine.cells() {
+                sums[basis.index(cell.centre()).unwrap()] += cell.projected_solid_angle();
+            }
+            for (sum, weight) in sums.iter().zip(basis.projected_solid_angles()) {
+                assert!((sum - weight).abs() < 1e-12, "{}", basis.name());
+            }
         }
     }
 

@@ -1,9 +1,8 @@
 //! A scalar over the incident directions - the flux of a lobe, of a base - between them: linear, bent where its
 //! neighbours say so, and with a kink where slopes from both sides meet inside an edge.
 //!
-//! On an edge from a to b the straight line misses, for a function with second derivative H, the parabola
-//! −t(1 − t)·½δᵀHδ; ½δᵀHδ is what gradients at either end leave unexplained at the other. A blind's direct share or a
-//! panel's deflected share has kinks instead, which a 12° lattice does not resolve: there the slopes on both sides
+//! On an edge from a to b a cubic with given slopes differs from the straight line by −t(1 − t)·(A(1 − t) + Bt), where
+//! A and B are what the slope at either end leaves unexplained at the other. A blind's direct share or a panel's deflected share has kinks instead, which a 12° lattice does not resolve: there the slopes on both sides
 //! are followed into the edge until they meet (subcell resolution, Harten 1989). Over a triangle the three edges'
 //! bumps add up, each as a form of second degree in the weights, so that the whole is continuous across edges.
 
@@ -14,8 +13,8 @@ use glam::DVec2;
 /// What an edge adds to linear interpolation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bump {
-    /// −c·t(1 − t).
-    Parabola(f64),
+    /// −t(1 − t)·(`[0]`(1 − t) + `[1]`t).
+    Cubic([f64; 2]),
     /// Follows `[0]`·t from the first end and `[1]`·(1 − t) from the second, whichever is nearer to the line.
     Tent([f64; 2]),
 }
@@ -24,7 +23,10 @@ impl Bump {
     /// Over a triangle, for the weights of the edge's two ends.
     pub fn at(self, wa: f64, wb: f64) -> f64 {
         match self {
-            Self::Parabola(c) => -c * wa * wb,
+            Self::Cubic([a, b]) => {
+                let sum = wa + wb;
+                if sum > 0.0 { -wa * wb * (a * wa + b * wb) / sum } else { 0.0 }
+            }
             Self::Tent([p, q]) => {
                 let (from_a, from_b) = (p * wb, q * wa);
                 (wa + wb) * if from_a.abs() < from_b.abs() { from_a } else { from_b }
@@ -39,6 +41,8 @@ pub trait Field {
     fn value(&self, vertex: usize, lobe: usize) -> f64;
     /// The same lobe at a neighbour (given by its place in the lattice's list), if it is there.
     fn partner(&self, vertex: usize, lobe: usize, neighbour: usize) -> Option<usize>;
+    /// Its value at θ = 90° beyond a vertex of the border.
+    fn at_grazing(&self, vertex: usize, lobe: usize) -> Option<f64>;
 }
 
 /// Slopes of a field at one lobe of one vertex towards each neighbour.
@@ -59,7 +63,10 @@ pub fn slopes(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize)
     let changes: Vec<Option<f64>> = (0..neighbours.len())
         .map(|k| field.partner(vertex, lobe, k).map(|other| field.value(neighbours[k], other) - value))
         .collect();
-    let known: Vec<(DVec2, f64)> = steps.iter().zip(&changes).filter_map(|(s, c)| c.map(|c| (*s, c))).collect();
+    let mut known: Vec<(DVec2, f64)> = steps.iter().zip(&changes).filter_map(|(s, c)| c.map(|c| (*s, c))).collect();
+    if let (Some(grazing), Some(out)) = (field.at_grazing(vertex, lobe), here.truncate().try_normalize()) {
+        known.push((tangent_step(here, out.extend(0.0)), grazing - value));
+    }
     let centre = if surrounded(&known) { gradient(&known) } else { None };
     let one_sided = steps
         .iter()
@@ -94,14 +101,15 @@ pub fn bump(values: [f64; 2], towards: [(&Slopes, usize); 2], behind: [Option<f6
     let first = a.centred[ab].map(|g| difference - g);
     let second = b.centred[ba].map(|g| -difference - g);
     let limit = difference.abs();
-    Bump::Parabola(match (first, second) {
+    Bump::Cubic(match (first, second) {
+        // Neither end may bend much more than the other: at a kink in a vertex one of them does not bend at all.
         (Some(p), Some(q)) if p * q > 0.0 => {
-            let least = if p.abs() < q.abs() { p } else { q };
-            least.clamp(-limit, limit)
+            let least = 2.5 * p.abs().min(q.abs());
+            [p.clamp(-least, least), q.clamp(-least, least)].map(|c| c.clamp(-limit, limit))
         }
-        // One end on the border: the other's word, within reason.
-        (Some(p), None) | (None, Some(p)) => p.clamp(-0.5 * limit, 0.5 * limit),
-        _ => 0.0,
+        // One end open: the other's word, within reason.
+        (Some(p), None) | (None, Some(p)) => [p.clamp(-0.5 * limit, 0.5 * limit); 2],
+        _ => [0.0; 2],
     })
 }
 

@@ -123,6 +123,25 @@ impl Grid {
         [(a, a0, na, (1.0 - t) * (1.0 - s)), (a, a1, na, (1.0 - t) * s), (b, b0, nb, t * (1.0 - u)), (b, b1, nb, t * u)]
     }
 
+    /// Mean of a function over a cell by projected solid angle, from `points`² directions.
+    pub fn cell_mean(&self, cell: usize, points: usize, f: impl Fn(DVec3) -> f64) -> f64 {
+        if points <= 1 {
+            return f(self.centre[cell]);
+        }
+        let c = self.basis.cell(cell);
+        let (low, high) = (c.theta_min.sin().powi(2), c.theta_max.sin().powi(2));
+        let mut sum = 0.0;
+        for i in 0..points {
+            let theta = (low + (high - low) * (i as f64 + 0.5) / points as f64).sqrt().min(1.0).asin();
+            for j in 0..points {
+                let phi = c.phi + c.width * ((j as f64 + 0.5) / points as f64 - 0.5);
+                let d: Dir<Facade> = Dir::from_theta_phi(theta, phi);
+                sum += f(d.vector());
+            }
+        }
+        sum / (points * points) as f64
+    }
+
     /// Calls `visit` for every cell whose centre lies within `radius` of a direction, and the nearest others of the
     /// rings it crosses.
     pub fn within(&self, centre: DVec3, radius: f64, mut visit: impl FnMut(usize)) {

@@ -7,11 +7,13 @@ use glam::DVec3;
 const REACH: f64 = 15.0 * std::f64::consts::PI / 180.0;
 const BLUR: f64 = 7.5 * std::f64::consts::PI / 180.0;
 /// Peaks lower than this share of the highest, and lobes with less than this share of the lobes' flux, are none.
-const LEAST: f64 = 0.02;
+const LEAST: f64 = 0.006;
 /// A lobe's peak holds at least this share of the luminance there.
 const STANDS_OUT: f64 = 0.4;
-/// Cells below this share of the highest peak belong to the base: they need not move.
+/// Cells below this share of a lobe's peak belong to the base: they need not move.
 const EDGE: f64 = 2e-3;
+/// Steps of [`Lobe::sharpened`].
+const SHARPENING: usize = 3;
 /// Two peaks are one lobe when the saddle between them reaches this share of the lower one.
 const SADDLE: f64 = 0.7;
 
@@ -51,6 +53,40 @@ impl Lobe {
                 .filter(|(_, q)| **q != 0.0)
                 .map(move |(k, q)| (start + (first + k) % sectors, *q))
         })
+    }
+
+    /// Values at points such that linear interpolation between them has the lobe's means over its cells: undoes the
+    /// blur that means and interpolation bring, so that a lobe can be moved by parts of a cell without widening.
+    pub fn sharpened(&self, grid: &Grid) -> Self {
+        let mut points = self.clone();
+        for _ in 0..SHARPENING {
+            let errors: Vec<(usize, usize, f64)> = self
+                .rows
+                .iter()
+                .enumerate()
+                .flat_map(|(row, (ring, first, values))| {
+                    let points = &points;
+                    let sectors = grid.basis().rings()[*ring].sectors;
+                    values.iter().enumerate().filter(|(_, q)| **q != 0.0).map(move |(k, q)| {
+                        let cell = grid.basis().first_cell(*ring) + (first + k) % sectors;
+                        (row, k, q - grid.cell_mean(cell, 3, |d| points.at(grid, d)))
+                    })
+                })
+                .collect();
+            for (row, k, error) in errors {
+                let value = &mut points.rows[row].2[k];
+                *value = (*value + error).max(0.0);
+            }
+        }
+        points
+    }
+
+    /// Value in a direction, linear between cells. \[1/sr\]
+    pub fn at(&self, grid: &Grid, d: DVec3) -> f64 {
+        if d.z <= 0.0 {
+            return 0.0;
+        }
+        grid.around_rings(d).into_iter().map(|(ring, sector, sectors, w)| w * self.value(ring, sector, sectors)).sum()
     }
 
     fn new(grid: &Grid, cells: &[(usize, f64)]) -> Option<Self> {
@@ -117,9 +153,14 @@ impl Splitter {
             return Vec::new();
         }
         let owner = basins(grid, &grid.blurred(&sharp));
+        let mut peaks: std::collections::BTreeMap<u32, f64> = std::collections::BTreeMap::new();
+        for (&owner, &q) in owner.iter().zip(&sharp) {
+            let peak = peaks.entry(owner).or_insert(0.0);
+            *peak = peak.max(q);
+        }
         let mut cells: std::collections::BTreeMap<u32, Vec<(usize, f64)>> = std::collections::BTreeMap::new();
         for (i, (&owner, &q)) in owner.iter().zip(&sharp).enumerate() {
-            if owner != NONE && q > 0.0 {
+            if owner != NONE && q > EDGE * peaks[&owner] {
                 cells.entry(owner).or_default().push((i, q));
             }
         }
@@ -141,7 +182,7 @@ const NONE: u32 = u32::MAX;
 /// For every cell the peak that steepest ascent leads to; peaks without a real saddle between them are one.
 fn basins(grid: &Grid, values: &[f64]) -> Vec<u32> {
     let highest = values.iter().copied().fold(0.0, f64::max);
-    let mut rank: Vec<u32> = (0..values.len() as u32).filter(|&i| values[i as usize] > EDGE * highest).collect();
+    let mut rank: Vec<u32> = (0..values.len() as u32).filter(|&i| values[i as usize] > 1e-4 * highest).collect();
     rank.sort_by(|&a, &b| values[b as usize].total_cmp(&values[a as usize]).then(a.cmp(&b)));
     let mut owner = vec![NONE; values.len()];
     // Flooding from the top: a cell that joins two basins is the saddle between them.

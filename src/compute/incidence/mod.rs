@@ -10,6 +10,7 @@
 //! | `model` | the indicatrix of any incident direction |
 
 pub mod flux;
+pub mod grazing;
 pub mod grid;
 pub mod lattice;
 pub mod lobes;

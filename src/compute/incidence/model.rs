@@ -1,5 +1,6 @@
 //! The indicatrix of any incident direction from those of a lattice.
 
+use super::grazing::Grazing;
 use super::grid::Grid;
 use super::flux::{Bump, Field, Slopes, along_one_line, bump, missed_behind, slopes};
 use super::lattice::{Lattice, Place, tangent_step};
@@ -40,16 +41,19 @@ pub struct Model {
     pub(super) lattice: Lattice,
     pub(super) lobes: Vec<Vec<Lobe>>,
     pub(super) responses: Responses,
+    /// The lobes as values at points.
+    points: Vec<Vec<Lobe>>,
     base_flux: Vec<f64>,
     /// By vertex, lobe (the base behind the last) and neighbour: what the edge adds to linear interpolation of the
     /// flux, where the lobe is at both ends.
     bumps: Vec<Vec<Vec<Option<Bump>>>>,
     /// By vertex, lobe and neighbour: flux that its slope predicts at a neighbour without the lobe.
     followed: Vec<Vec<Vec<f64>>>,
+    grazing: Vec<Option<Grazing>>,
 }
 
 /// Fluxes of lobes.
-struct LobeFlux<'a>(&'a [Vec<Lobe>], &'a Responses);
+struct LobeFlux<'a>(&'a [Vec<Lobe>], &'a Responses, &'a [Option<Grazing>]);
 
 impl Field for LobeFlux<'_> {
     fn value(&self, vertex: usize, lobe: usize) -> f64 {
@@ -58,10 +62,13 @@ impl Field for LobeFlux<'_> {
     fn partner(&self, vertex: usize, lobe: usize, neighbour: usize) -> Option<usize> {
         self.1.partner[vertex][neighbour][lobe]
     }
+    fn at_grazing(&self, vertex: usize, lobe: usize) -> Option<f64> {
+        self.2[vertex].map(|grazing| grazing.factor(1.0) * self.value(vertex, lobe))
+    }
 }
 
 /// Fluxes of bases; every direction has one.
-struct BaseFlux<'a>(&'a [f64]);
+struct BaseFlux<'a>(&'a [f64], &'a [Option<Grazing>]);
 
 impl Field for BaseFlux<'_> {
     fn value(&self, vertex: usize, _: usize) -> f64 {
@@ -69,6 +76,9 @@ impl Field for BaseFlux<'_> {
     }
     fn partner(&self, _: usize, _: usize, _: usize) -> Option<usize> {
         Some(0)
+    }
+    fn at_grazing(&self, vertex: usize, lobe: usize) -> Option<f64> {
+        self.1[vertex].map(|grazing| grazing.factor(1.0) * self.value(vertex, lobe))
     }
 }
 
@@ -91,8 +101,15 @@ fn bumps_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -
         .collect()
 }
 
-/// Flux that a lobe's slope, seen from the neighbours on the other side, leaves at each neighbour; at most 0.
-fn followed_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Vec<f64> {
+/// Flux that a lobe's slope, seen from the neighbours on the other side, leaves at each neighbour; at most 0, and 0
+/// where the lobe is there again behind the neighbour (it only touches zero, as a panel's share does).
+fn followed_of(
+    lattice: &Lattice,
+    field: &impl Field,
+    returns: impl Fn(usize) -> bool,
+    vertex: usize,
+    lobe: usize,
+) -> Vec<f64> {
     let Slopes { one_sided, .. } = slopes(lattice, field, vertex, lobe);
     let here = lattice.points()[vertex];
     let neighbours = lattice.neighbours(vertex);
@@ -106,6 +123,9 @@ fn followed_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize
     let all = gradient(&samples).or_else(|| along_one_line(&samples)).unwrap_or(DVec2::ZERO);
     (0..neighbours.len())
         .map(|k| {
+            if returns(neighbours[k]) {
+                return 0.0;
+            }
             let step = one_sided[k].unwrap_or_else(|| all.dot(tangent_step(here, lattice.points()[neighbours[k]])));
             (value + step).min(0.0)
         })
@@ -124,18 +144,26 @@ impl Model {
         let base_flux: Vec<f64> = (0..lobes.len())
             .map(|i| (data.tau_by_direction()[i] - lobes[i].iter().map(|lobe| lobe.flux).sum::<f64>()).max(0.0))
             .collect();
-        let (lobe_flux, base) = (LobeFlux(&lobes, &responses), BaseFlux(&base_flux));
+        let grazing: Vec<Option<Grazing>> =
+            (0..lobes.len()).map(|v| Grazing::new(&lattice, data.tau_by_direction(), v)).collect();
+        let (lobe_flux, base) = (LobeFlux(&lobes, &responses, &grazing), BaseFlux(&base_flux, &grazing));
         let (bumps, followed) = (0..lobes.len())
             .into_par_iter()
             .map(|v| {
                 let mut bumps: Vec<_> = (0..lobes[v].len()).map(|l| bumps_of(&lattice, &lobe_flux, v, l)).collect();
                 bumps.push(bumps_of(&lattice, &base, v, 0));
-                let followed: Vec<_> =
-                    (0..lobes[v].len()).map(|l| followed_of(&lattice, &lobe_flux, v, l)).collect();
+                let followed: Vec<_> = (0..lobes[v].len())
+                    .map(|l| {
+                        let returns = |n: usize| responses.returns(&lattice, &lobes, (v, l), n);
+                        followed_of(&lattice, &lobe_flux, returns, v, l)
+                    })
+                    .collect();
                 (bumps, followed)
             })
             .unzip();
-        Self { data, grid, lattice, lobes, responses, base_flux, bumps, followed }
+        let points =
+            lobes.par_iter().map(|list| list.iter().map(|lobe| lobe.sharpened(&grid)).collect()).collect();
+        Self { data, grid, lattice, lobes, responses, points, base_flux, bumps, followed, grazing }
     }
 
     /// The emergent cells.
@@ -261,50 +289,26 @@ impl Model {
         }
     }
 
-    /// Beyond the last row: what falls steeply there goes to zero at grazing, as Fresnel's equations have it; what is
-    /// level goes on (slats).
+    /// Beyond the border everything follows the border's τ.
     fn fade(&self, place: &Place, recipe: &mut Recipe) {
-        let _ = place;
-        let factor = self.grazing_factor(place);
+        let factor: f64 = (0..3)
+            .map(|k| place.weights[k] * self.grazing[place.vertices[k]].map_or(1.0, |g| g.factor(place.beyond)))
+            .sum();
         recipe.bases.iter_mut().for_each(|(_, f)| *f *= factor);
         recipe.copies.iter_mut().for_each(|copy| copy.flux *= factor);
     }
 
-    fn grazing_factor(&self, place: &Place) -> f64 {
-        let tau = self.data.tau_by_direction();
-        let points = self.lattice.points();
-        let theta = |v: usize| points[v].z.clamp(-1.0, 1.0).acos();
-        let mut factor = 0.0;
-        for (&v, &w) in place.vertices.iter().zip(&place.weights) {
-            // The slope towards grazing, from the neighbours further in.
-            let inner: Vec<usize> =
-                self.lattice.neighbours(v).iter().copied().filter(|&n| theta(n) < theta(v) - 1e-3).collect();
-            let own = if inner.is_empty() || tau[v] <= 0.0 {
-                1.0
-            } else {
-                let count = inner.len() as f64;
-                let (t0, tau0) = inner.iter().fold((0.0, 0.0), |(t, s), &n| (t + theta(n) / count, s + tau[n] / count));
-                let (t1, t2) = (theta(v), 0.5 * std::f64::consts::PI);
-                let t = t1 + place.beyond * (t2 - t1);
-                let slope = (tau[v] - tau0) / (t1 - t0);
-                let straight = ((tau[v] + slope * (t - t1)) / tau[v]).max(0.0);
-                let at_grazing = (tau[v] + slope * (t2 - t1)) / tau[v];
-                // Parabola through the two rows and zero at grazing.
-                let bend = (-tau[v] / (t2 - t1) - slope) / (t2 - t0);
-                let fading = ((tau[v] + (t - t1) * (-tau[v] / (t2 - t1) + bend * (t - t2))) / tau[v]).max(0.0);
-                let s = ((at_grazing - 0.65) / 0.15).clamp(0.0, 1.0);
-                let s = s * s * (3.0 - 2.0 * s);
-                s * straight + (1.0 - s) * fading
-            };
-            factor += w * own;
-        }
-        factor
-    }
-
     /// Adds `scale` times the copies of a recipe to a luminance on the emergent cells.
-    pub fn add_copies(&self, recipe: &Recipe, scale: f64, points: usize, luminance: &mut [f64], scratch: &mut Vec<(u32, f64)>) {
+    pub fn add_copies(
+        &self,
+        recipe: &Recipe,
+        scale: f64,
+        (target, points): (&Grid, usize),
+        luminance: &mut [f64],
+        scratch: &mut Vec<(u32, f64)>,
+    ) {
         for copy in &recipe.copies {
-            self.moved(copy, points, scratch);
+            self.moved(copy, target, points, scratch);
             for &(cell, q) in scratch.iter() {
                 luminance[cell as usize] += scale * q;
             }
@@ -313,47 +317,23 @@ impl Model {
 
     /// A moved lobe on the emergent cells: turned from its own centre to the copy's, its flux kept exactly. `points`²
     /// directions a cell.
-    pub fn moved(&self, copy: &Copy, points: usize, out: &mut Vec<(u32, f64)>) {
+    pub fn moved(&self, copy: &Copy, target: &Grid, points: usize, out: &mut Vec<(u32, f64)>) {
         out.clear();
-        let lobe = &self.lobes[copy.vertex][copy.lobe];
+        let lobe = &self.points[copy.vertex][copy.lobe];
         // Turns directions about the copy's centre back to those about the lobe's.
         let back = glam::DQuat::from_rotation_arc(copy.centre, lobe.centre);
         let back = glam::DMat3::from_quat(back);
-        let basis = self.grid.basis();
         let mut flux = 0.0;
-        self.grid.within(copy.centre, lobe.radius + 0.04, |cell| {
-            let q = if points <= 1 {
-                self.sampled(lobe, back * self.grid.centre[cell])
-            } else {
-                let c = basis.cell(cell);
-                let (low, high) = (c.theta_min.sin().powi(2), c.theta_max.sin().powi(2));
-                let mut sum = 0.0;
-                for i in 0..points {
-                    let theta = (low + (high - low) * (i as f64 + 0.5) / points as f64).sqrt().min(1.0).asin();
-                    for j in 0..points {
-                        let phi = c.phi + c.width * ((j as f64 + 0.5) / points as f64 - 0.5);
-                        let d: Dir<Facade> = Dir::from_theta_phi(theta, phi);
-                        sum += self.sampled(lobe, back * d.vector());
-                    }
-                }
-                sum / (points * points) as f64
-            };
+        target.within(copy.centre, lobe.radius + 0.04, |cell| {
+            let q = target.cell_mean(cell, points, |d| lobe.at(&self.grid, back * d));
             if q > 0.0 {
-                flux += q * self.grid.projected[cell];
+                flux += q * target.projected[cell];
                 out.push((cell as u32, q));
             }
         });
         if flux > 0.0 {
             out.iter_mut().for_each(|(_, q)| *q *= copy.flux / flux);
         }
-    }
-
-    /// A lobe's value in a direction, linear between cells. \[1/sr\]
-    fn sampled(&self, lobe: &Lobe, d: DVec3) -> f64 {
-        if d.z <= 0.0 {
-            return 0.0;
-        }
-        self.grid.around_rings(d).into_iter().map(|(ring, sector, sectors, w)| w * lobe.value(ring, sector, sectors)).sum()
     }
 
     /// The base of one incident direction on the emergent cells. \[1/sr\]

@@ -5,7 +5,7 @@
 //! straight on, diag(1, −1) for light mirrored in the vertical, anything else for rolled panels and prisms. Plane
 //! layers and gratings shift direction cosines, so that for them the matrix is constant and the move exact.
 
-use super::lattice::Lattice;
+use super::lattice::{Lattice, tangent_step};
 use super::lobes::Lobe;
 use glam::{DMat2, DVec2, DVec3};
 
@@ -32,8 +32,15 @@ pub fn lift(p: DVec2) -> DVec3 {
 impl Responses {
     /// Fits all.
     pub fn new(lattice: &Lattice, lobes: &[Vec<Lobe>]) -> Self {
+        let alone: Vec<Vec<DMat2>> = (0..lobes.len())
+            .map(|v| lobes[v].iter().map(|lobe| jacobian(lattice, lobes, v, lobe, &[])).collect())
+            .collect();
+        // A response that neighbours have too is more likely than one of its own.
         let jacobians: Vec<Vec<DMat2>> = (0..lobes.len())
-            .map(|v| lobes[v].iter().map(|lobe| jacobian(lattice, lobes, v, lobe)).collect())
+            .map(|v| {
+                let shared: Vec<DMat2> = lattice.neighbours(v).iter().flat_map(|&n| alone[n].iter().copied()).collect();
+                lobes[v].iter().map(|lobe| jacobian(lattice, lobes, v, lobe, &shared)).collect()
+            })
             .collect();
         let partner: Vec<Vec<Vec<Option<usize>>>> = (0..lobes.len())
             .map(|v| {
@@ -41,6 +48,20 @@ impl Responses {
             })
             .collect();
         Self { jacobian: jacobians, partner }
+    }
+}
+
+impl Responses {
+    /// Whether a lobe, absent at a neighbour, is there again beyond it.
+    pub fn returns(&self, lattice: &Lattice, lobes: &[Vec<Lobe>], (v, l): (usize, usize), neighbour: usize) -> bool {
+        let points = lattice.points();
+        let ahead = tangent_step(points[v], points[neighbour]).length();
+        let lobe = &lobes[v][l];
+        lattice.neighbours(neighbour).iter().any(|&far| {
+            let direction = tangent_step(points[v], points[far]).length();
+            let target = lift(lobe.centre.truncate() + self.jacobian[v][l] * (points[far] - points[v]).truncate());
+            direction > 1.6 * ahead && lobes[far].iter().any(|other| (other.centre - target).length() < GATE)
+        })
     }
 }
 
@@ -71,7 +92,7 @@ fn cost(target: DVec3, flux: f64, lobe: &Lobe) -> f64 {
 }
 
 /// The response that most neighbours agree on.
-fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe) -> DMat2 {
+fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, shared: &[DMat2]) -> DMat2 {
     let centre = lobe.centre.truncate();
     let around: Vec<(usize, DVec2)> = lattice
         .neighbours(v)
@@ -92,8 +113,7 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe) -> DM
             .iter()
             .map(|&(n, step)| nearest(jacobian, n, step).map_or(GATE, |(cost, _)| cost.min(GATE)).powi(2))
             .sum();
-        let stretch = (jacobian.x_axis.length_squared() + jacobian.y_axis.length_squared() - 2.0).max(0.0);
-        apart + 1e-3 * stretch
+        apart + 2e-3 * unlike_a_turn(jacobian)
     };
     let straight = lattice.points()[v];
     let side = |j: DMat2| (lift(j * straight.truncate()) - lobe.centre).length();
@@ -101,6 +121,12 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe) -> DM
     // Ties go to the response that also explains where the lobe is.
     let mut best = (f64::INFINITY, DMat2::IDENTITY);
     for j in simple {
+        let score = score(j) + 1e-3 * side(j);
+        if score < best.0 {
+            best = (score, j);
+        }
+    }
+    for &j in shared {
         let score = score(j) + 1e-3 * side(j);
         if score < best.0 {
             best = (score, j);
@@ -117,7 +143,7 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe) -> DM
                 for q in &lobes[m] {
                     let moves = DMat2::from_cols(p.centre.truncate() - centre, q.centre.truncate() - centre);
                     let candidate = moves * inverse;
-                    let score = score(candidate) + 2e-3;
+                    let score = score(candidate) + 4e-3;
                     if score < best.0 {
                         best = (score, candidate);
                     }
@@ -126,6 +152,12 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe) -> DM
         }
     }
     refined(best.1, &around, &nearest, centre).unwrap_or(best.1)
+}
+
+/// How far a matrix is from a turn or a mirror, squared.
+fn unlike_a_turn(j: DMat2) -> f64 {
+    let excess = j.transpose() * j - DMat2::IDENTITY;
+    excess.x_axis.length_squared() + excess.y_axis.length_squared()
 }
 
 /// Least squares over the neighbours that agree.
@@ -137,12 +169,10 @@ fn refined(
 ) -> Option<DMat2> {
     let agreeing: Vec<(DVec2, DVec2)> = around
         .iter()
-        .filter_map(|&(n, step)| nearest(start, n, step).filter(|(cost, _)| *cost < GATE).map(|(_, c)| (step, c - centre)))
+        .filter_map(|&(n, step)| nearest(start, n, step).filter(|(cost, _)| *cost < 0.5 * GATE).map(|(_, c)| (step, c - centre)))
         .collect();
     let (mut square, mut mixed) = (DMat2::ZERO, DMat2::ZERO);
     let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
-    // A little weight for the start keeps directions that the neighbours do not span.
-    let scale: f64 = agreeing.iter().map(|(step, _)| step.length_squared()).sum::<f64>() / agreeing.len().max(1) as f64;
     for &(step, change) in &agreeing {
         square += outer(step, step);
         mixed += outer(change, step);
@@ -150,18 +180,22 @@ fn refined(
     if agreeing.len() < 3 {
         return None;
     }
-    let keep = 0.02 * scale;
+    // The start counts as if it had been seen over a step of 0.04: towards grazing, direction cosines hardly change and
+    // the centres' own errors would decide.
+    let keep = agreeing.len() as f64 * 0.04 * 0.04;
     square += DMat2::from_diagonal(DVec2::splat(keep));
     mixed += start * keep;
-    (square.determinant().abs() > 1e-12 * scale * scale).then(|| mixed * square.inverse())
+    Some(mixed * square.inverse())
 }
 
-/// Least-squares gradient of differences over steps; `None` when they lie on one line.
+/// Least-squares gradient of differences over steps; `None` when they lie on one line. Weights fall with the cube of
+/// the step, so that two steps of unequal length to either side give the slope of the parabola through them.
 pub fn gradient(samples: &[(DVec2, f64)]) -> Option<DVec2> {
     let (mut square, mut mixed) = (DMat2::ZERO, DVec2::ZERO);
     for &(step, change) in samples {
-        square += DMat2::from_cols(step * step.x, step * step.y);
-        mixed += step * change;
+        let weight = step.length().powi(-3);
+        square += DMat2::from_cols(step * step.x, step * step.y) * weight;
+        mixed += step * (change * weight);
     }
     let trace = square.x_axis.x + square.y_axis.y;
     (square.determinant() > 0.02 * trace * trace).then(|| square.inverse() * mixed)

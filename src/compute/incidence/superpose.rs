@@ -1,6 +1,7 @@
 //! Diffuse light through interpolated indicatrices (eq 12): the outside in sub-patches finer than the incident
 //! lattice, each with its own recipe.
 
+use super::grid::Grid;
 use super::model::Model;
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::compute::direction::{Dir, Facade};
@@ -38,7 +39,7 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Vec<f
                 let d: Dir<Facade> = patches.cell(chunk * 512 + k).centre();
                 let recipe = model.recipe(d);
                 recipe.bases.iter().for_each(|&(v, w)| bases[v] += w * e);
-                model.add_copies(&recipe, e, 1, &mut luminance, &mut scratch);
+                model.add_copies(&recipe, e, (model.grid(), 1), &mut luminance, &mut scratch);
             }
             (luminance, bases)
         })
@@ -55,12 +56,15 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Vec<f
 }
 
 /// Luminance of the emergent cells from the sun. \[cd/m²\]
-pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, points: usize) -> Vec<f64> {
-    let mut luminance = vec![0.0; model.grid().basis().len()];
+pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> Vec<f64> {
+    let mut luminance = vec![0.0; target.basis().len()];
+    let parent: Vec<usize> =
+        target.centre.iter().map(|&d| model.grid().basis().index(Dir::from_unit(d)).unwrap_or(0)).collect();
     let recipe = model.recipe(direction);
     for &(vertex, w) in &recipe.bases {
-        luminance.iter_mut().zip(model.base(vertex)).for_each(|(sum, q)| *sum += illuminance * w * q);
+        let base = model.base(vertex);
+        luminance.iter_mut().zip(&parent).for_each(|(sum, &k)| *sum += illuminance * w * base[k]);
     }
-    model.add_copies(&recipe, illuminance, points, &mut luminance, &mut Vec::new());
+    model.add_copies(&recipe, illuminance, (target, points), &mut luminance, &mut Vec::new());
     luminance
 }
