@@ -10,6 +10,9 @@ use super::lattice::{Lattice, tangent_step};
 use super::response::gradient;
 use glam::DVec2;
 
+/// Cosine between two steps that go opposite ways: within 37°.
+const BEHIND: f64 = -0.8;
+
 /// What an edge adds to linear interpolation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bump {
@@ -76,7 +79,8 @@ pub fn slopes(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize)
                 .copied()
                 .filter(|(step, _)| step.dot(ahead) <= 0.26 * step.length() * ahead.length())
                 .collect();
-            if !behind.iter().any(|(step, _)| step.dot(ahead) < -0.5 * step.length() * ahead.length()) {
+            let opposite = |(step, _): &(DVec2, f64)| step.dot(ahead) < BEHIND * step.length() * ahead.length();
+            if lattice.is_on_border(vertex) || !behind.iter().any(opposite) {
                 return None;
             }
             gradient(&behind).or_else(|| along_one_line(&behind)).map(|g| g.dot(ahead))
@@ -94,7 +98,7 @@ pub fn bump(values: [f64; 2], towards: [(&Slopes, usize); 2], behind: [Option<f6
         (a.one_sided[ab].map(|g| difference - g), b.one_sided[ba].map(|g| -difference - g), behind[0], behind[1])
     {
         let jump = p.abs().max(q.abs());
-        if p * q > 0.0 && jump > 0.02 * values[0].max(values[1]) && before.abs() + after.abs() < 0.4 * jump {
+        if p * q > 0.0 && jump > 0.02 * values[0].max(values[1]) && before.abs() + after.abs() < 0.5 * jump {
             return Bump::Tent([-p, -q]);
         }
     }
@@ -128,7 +132,7 @@ pub fn missed_behind(
         .map(|k| (k, tangent_step(here, lattice.points()[neighbours[k]]).normalize_or_zero().dot(direction)))
         .min_by(|x, y| x.1.total_cmp(&y.1))?;
     let back = neighbours[k];
-    let other = field.partner(vertex, lobe, k).filter(|_| cosine < -0.5)?;
+    let other = field.partner(vertex, lobe, k).filter(|_| cosine < BEHIND)?;
     let towards = lattice.neighbours(back).binary_search(&vertex).ok()?;
     let followed = slopes(back, other).one_sided[towards]?;
     Some(field.value(vertex, lobe) - field.value(back, other) - followed)

@@ -27,8 +27,7 @@ impl Grazing {
         if !lattice.is_on_border(vertex) || tau[vertex] <= 0.0 || own > FRAC_PI_2 - 1e-3 {
             return None;
         }
-        let inner: Vec<usize> =
-            lattice.neighbours(vertex).iter().copied().filter(|&n| theta(n) < own - 1e-3).collect();
+        let inner: Vec<usize> = lattice.neighbours(vertex).iter().copied().filter(|&n| theta(n) < own - 1e-3).collect();
         let count = inner.len() as f64;
         if inner.is_empty() {
             return None;

@@ -220,13 +220,16 @@ impl Opening {
         for (value, &k) in values.iter().zip(&self.coarse_of) {
             lowest[k as usize] = lowest[k as usize].min(*value);
         }
-        let eroded: Vec<f64> =
-            self.near.iter().map(|list| list.iter().map(|&k| lowest[k as usize]).fold(f64::INFINITY, f64::min)).collect();
+        let eroded: Vec<f64> = self
+            .near
+            .iter()
+            .map(|list| list.iter().map(|&k| lowest[k as usize]).fold(f64::INFINITY, f64::min))
+            .collect();
         let smooth = |list: &Vec<(u32, f64)>| {
-            let (sum, weight) = list.iter().filter(|(k, _)| eroded[*k as usize].is_finite()).fold(
-                (0.0, 0.0),
-                |(sum, weight), &(k, w)| (sum + w * eroded[k as usize], weight + w),
-            );
+            let (sum, weight) = list
+                .iter()
+                .filter(|(k, _)| eroded[*k as usize].is_finite())
+                .fold((0.0, 0.0), |(sum, weight), &(k, w)| (sum + w * eroded[k as usize], weight + w));
             if weight > 0.0 { sum / weight } else { 0.0 }
         };
         self.spread.iter().zip(values).map(|(list, &value)| smooth(list).min(value)).collect()

@@ -150,7 +150,8 @@ impl Lattice {
         let foot: DVec3 = place.vertices.iter().zip(place.weights).map(|(&v, w)| self.points[v] * w).sum();
         let theta = |v: DVec3| v.truncate().length().atan2(v.z);
         let (from, to) = (theta(foot), theta(d));
-        place.beyond = if to > from { ((to - from) / (0.5 * std::f64::consts::PI - from).max(1e-6)).min(1.0) } else { 0.0 };
+        place.beyond =
+            if to > from { ((to - from) / (0.5 * std::f64::consts::PI - from).max(1e-6)).min(1.0) } else { 0.0 };
         place
     }
 }
@@ -207,7 +208,10 @@ mod tests {
         // A path over vertices, edges, the pole and beyond the border.
         for step in 0..4000 {
             let t = step as f64 / 4000.0;
-            let d = Dir::from_theta_phi((1.5707 * (1.0 - 2.0 * t)).abs(), if t < 0.5 { 0.3 } else { 0.3 + std::f64::consts::PI });
+            let d = Dir::from_theta_phi(
+                (1.5707 * (1.0 - 2.0 * t)).abs(),
+                if t < 0.5 { 0.3 } else { 0.3 + std::f64::consts::PI },
+            );
             let place = lattice.locate(d);
             let sum: DVec3 = place.vertices.iter().zip(place.weights).map(|(&v, w)| lattice.points[v] * w).sum();
             if place.triangle.is_some() {

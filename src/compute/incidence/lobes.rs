@@ -15,7 +15,7 @@ const EDGE: f64 = 2e-3;
 /// Steps of [`Lobe::sharpened`].
 const SHARPENING: usize = 3;
 /// Two peaks are one lobe when the saddle between them reaches this share of the lower one.
-const SADDLE: f64 = 0.7;
+const SADDLE: f64 = 0.9;
 
 /// One lobe: some cells of an indicatrix and what they hold above the base.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,11 +47,7 @@ impl Lobe {
     pub fn cells<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = (usize, f64)> + 'a {
         self.rows.iter().flat_map(move |(ring, first, values)| {
             let (start, sectors) = (grid.basis().first_cell(*ring), grid.basis().rings()[*ring].sectors);
-            values
-                .iter()
-                .enumerate()
-                .filter(|(_, q)| **q != 0.0)
-                .map(move |(k, q)| (start + (first + k) % sectors, *q))
+            values.iter().enumerate().filter(|(_, q)| **q != 0.0).map(move |(k, q)| (start + (first + k) % sectors, *q))
         })
     }
 

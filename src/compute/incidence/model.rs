@@ -1,8 +1,8 @@
 //! The indicatrix of any incident direction from those of a lattice.
 
+use super::flux::{Bump, Field, Slopes, along_one_line, bump, missed_behind, slopes};
 use super::grazing::Grazing;
 use super::grid::Grid;
-use super::flux::{Bump, Field, Slopes, along_one_line, bump, missed_behind, slopes};
 use super::lattice::{Lattice, Place, tangent_step};
 use super::lobes::{Lobe, Splitter};
 use super::response::{Responses, gradient, lift};
@@ -161,8 +161,7 @@ impl Model {
                 (bumps, followed)
             })
             .unzip();
-        let points =
-            lobes.par_iter().map(|list| list.iter().map(|lobe| lobe.sharpened(&grid)).collect()).collect();
+        let points = lobes.par_iter().map(|list| list.iter().map(|lobe| lobe.sharpened(&grid)).collect()).collect();
         Self { data, grid, lattice, lobes, responses, points, base_flux, bumps, followed, grazing }
     }
 

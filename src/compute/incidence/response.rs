@@ -12,7 +12,7 @@ use glam::{DMat2, DVec2, DVec3};
 /// Two lobes further apart than this after the move are two lobes. \[chord\]
 const GATE: f64 = 0.12;
 /// What disagreement in flux costs, as a chord per unit of ln(f/f′).
-const FLUX_COST: f64 = 0.02;
+const FLUX_COST: f64 = 0.035;
 
 /// Responses and partners of the lobes of every incident direction.
 #[derive(Debug, Clone)]
@@ -43,9 +43,7 @@ impl Responses {
             })
             .collect();
         let partner: Vec<Vec<Vec<Option<usize>>>> = (0..lobes.len())
-            .map(|v| {
-                lattice.neighbours(v).iter().map(|&n| partners(lattice, lobes, &jacobians, v, n)).collect()
-            })
+            .map(|v| lattice.neighbours(v).iter().map(|&n| partners(lattice, lobes, &jacobians, v, n)).collect())
             .collect();
         Self { jacobian: jacobians, partner }
     }
@@ -66,7 +64,13 @@ impl Responses {
 }
 
 /// The same lobes at two neighbours: each the best for the other.
-fn partners(lattice: &Lattice, lobes: &[Vec<Lobe>], jacobians: &[Vec<DMat2>], v: usize, n: usize) -> Vec<Option<usize>> {
+fn partners(
+    lattice: &Lattice,
+    lobes: &[Vec<Lobe>],
+    jacobians: &[Vec<DMat2>],
+    v: usize,
+    n: usize,
+) -> Vec<Option<usize>> {
     let best = |from: usize, to: usize, l: usize| {
         let step = (lattice.points()[to] - lattice.points()[from]).truncate();
         let lobe = &lobes[from][l];
@@ -117,7 +121,8 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, share
     };
     let straight = lattice.points()[v];
     let side = |j: DMat2| (lift(j * straight.truncate()) - lobe.centre).length();
-    let simple = [DMat2::IDENTITY, DMat2::from_diagonal(DVec2::new(1.0, -1.0)), DMat2::from_diagonal(DVec2::new(-1.0, 1.0))];
+    let simple =
+        [DMat2::IDENTITY, DMat2::from_diagonal(DVec2::new(1.0, -1.0)), DMat2::from_diagonal(DVec2::new(-1.0, 1.0))];
     // Ties go to the response that also explains where the lobe is.
     let mut best = (f64::INFINITY, DMat2::IDENTITY);
     for j in simple {
@@ -169,7 +174,9 @@ fn refined(
 ) -> Option<DMat2> {
     let agreeing: Vec<(DVec2, DVec2)> = around
         .iter()
-        .filter_map(|&(n, step)| nearest(start, n, step).filter(|(cost, _)| *cost < 0.5 * GATE).map(|(_, c)| (step, c - centre)))
+        .filter_map(|&(n, step)| {
+            nearest(start, n, step).filter(|(cost, _)| *cost < 0.5 * GATE).map(|(_, c)| (step, c - centre))
+        })
         .collect();
     let (mut square, mut mixed) = (DMat2::ZERO, DMat2::ZERO);
     let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
