@@ -3,8 +3,8 @@
 use cfs::catalogue::{Catalogue, CatalogueError, NewProduct, Origin, Query, check};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{
-    AngularTransmittance, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, Severity, TensorTree, TreeAxes,
-    TreeNode, TreeRank, reciprocity_error,
+    AngularTransmittance, Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered, Severity, TensorTree,
+    TreeAxes, TreeNode, TreeRank, reciprocity_error,
 };
 use cfs::compute::direction::{Dir, Incident};
 use cfs::formats::dataset_blob::{content_hash, decode, encode};
@@ -390,6 +390,21 @@ fn cells() -> impl Strategy<Value = Scattered> {
     })
 }
 
+/// Any list of directions no two of which are close, and the lattices in their own order.
+fn directions() -> impl Strategy<Value = Scattered> {
+    let lattices = prop_oneof![
+        Just(RingBasis::tregenza()),
+        Just(RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)),
+        (1..6_usize).prop_map(RingBasis::equal_area),
+    ];
+    (lattices, basis(), any::<u32>(), 1..150_usize).prop_map(|(lattice, emergent, seed, most)| {
+        let incident: Vec<Incident> = lattice.cells().take(most).map(|cell| Incident(cell.centre())).collect();
+        let value = |k: usize| f64::from((k as u32).wrapping_mul(seed) as f32 / u32::MAX as f32);
+        let values = (0..incident.len() * emergent.len()).map(value).collect();
+        Scattered::Directions(Box::new(Indicatrices::new(incident, emergent, values).unwrap()))
+    })
+}
+
 /// Trees of two levels at most: the root, its children, and those of one child.
 fn tree() -> impl Strategy<Value = Scattered> {
     (any::<bool>(), any::<bool>(), any::<bool>(), prop::collection::vec(0.0..1.0_f32, 32)).prop_map(
@@ -409,7 +424,7 @@ fn tree() -> impl Strategy<Value = Scattered> {
 }
 
 fn btdf() -> impl Strategy<Value = Btdf> {
-    let scattered = prop_oneof![angular().prop_map(Scattered::Lambert), cells(), tree()];
+    let scattered = prop_oneof![angular().prop_map(Scattered::Lambert), cells(), directions(), tree()];
     (prop::option::of(angular()), prop::option::of(scattered))
         .prop_map(|(regular, scattered)| Btdf { regular, scattered })
 }

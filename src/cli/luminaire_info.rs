@@ -45,9 +45,8 @@ fn symmetry(luminaire: &Luminaire) -> &'static str {
         return "not examined";
     }
     let tolerance = SAME * luminaire.peak();
-    let same = |a: usize, b: usize| {
-        luminaire.plane(a).iter().zip(luminaire.plane(b)).all(|(x, y)| (x - y).abs() <= tolerance)
-    };
+    let same =
+        |a: usize, b: usize| luminaire.plane(a).iter().zip(luminaire.plane(b)).all(|(x, y)| (x - y).abs() <= tolerance);
     let c = &luminaire.c_deg;
     if (1..c.len()).all(|k| same(0, k)) {
         return "rotational";
