@@ -361,7 +361,7 @@ fn a_measured_dataset_is_described_converted_and_imported() {
     assert_eq!(keys, ["a", "open"]);
     assert!(folder.cfs(&["catalogue", "validate", "a.btdf.txt"]).status.success());
     folder.write("bad.btdf.txt", &measured().replace("30 45 0 0.01", "30 45 0 -0.01"));
-    refused("negative", &folder.cfs(&["info", "bad.btdf.txt"]), &["bad.btdf.txt", "line 14", "negative"]);
+    refused("negative", &folder.cfs(&["info", "bad.btdf.txt"]), &["bad.btdf.txt", "line 13", "negative"]);
 }
 
 #[test]
