@@ -145,8 +145,8 @@ fn plausible(
     let (mut largest, mut above) = (0.0_f64, 0);
     for (incidence, row) in list.iter().zip(rows.chunks_exact(weights.len())) {
         let tau: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
-        // Written so that an overflow to infinity is refused as well.
-        if !(tau <= IMPOSSIBLE) {
+        // Values are finite and not negative: a sum may overflow to infinity, but is never NaN.
+        if tau > IMPOSSIBLE {
             let sum = if tau < 1e4 { format!("{tau:.4}") } else { format!("{tau:.3e}") };
             return Err(FormatError::new(
                 Location::line(incidence.line),
