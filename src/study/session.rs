@@ -73,7 +73,7 @@ pub struct LidResult {
 /// Caches. One for the life of a program; shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
-    gather: Cache<Vec<Vec<f64>>>,
+    gather: Cache<Vec<[Vec<f64>; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
 }
@@ -124,7 +124,7 @@ impl Session {
 
         let clock = Instant::now();
         let (interreflected, flux_gap) = if plan.runs("interreflection") {
-            self.interreflected(scene, &emissions, progress)?
+            self.interreflected(scene, &emissions, &direct, progress)?
         } else {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
         };

@@ -4,117 +4,156 @@ use super::{STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Emission;
-use crate::compute::room::first_bounce::{PatchWeights, first_illuminance};
-use crate::compute::room::mesh::Mesh;
-use crate::compute::room::radiosity::Radiosity;
-use crate::study::cache::bits;
+use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
+use crate::compute::room::gather::{polygon_factor, reconstructing_factors};
+use crate::compute::room::mesh::{Mesh, Nested};
+use crate::compute::room::radiosity::{Radiosity, dot};
+use crate::study::cache::{Key, bits};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Numbers of patches of the two meshes whose results are extrapolated, by the relative error asked for.
-const fn patches(error_target: Option<f64>) -> [usize; 2] {
-    match error_target {
-        Some(target) if target < 1e-3 => [900, 3600],
-        Some(target) if target < 4e-3 => [450, 1800],
-        _ => [220, 900],
-    }
-}
+/// Numbers of fine patches, tried one after the other until the stated error is small enough.
+const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
+
+/// Of the differences between the two densities, wall by wall (their sum may cancel), what the extrapolated result may
+/// be off. Chosen with [`REST`] so that 99 % of the sensors of 57 rooms against ten times finer meshes are covered, and
+/// verified on 24 other rooms.
+const DIFFERENCE: f64 = 1.6;
+
+/// Number of fine patches times the relative error that both densities share: sampling of the first light.
+const REST: f64 = 3.0;
+
+/// What a scene that names no error gets. \[relative\]
+const ORDINARY_TARGET: f64 = 0.01;
 
 impl Session {
-    /// Two meshes, extrapolated to none (the error of patches of constant exitance is of second order in their size).
+    /// Interreflected light at every sensor, and the largest gap of flux before it was closed. Refines until the stated
+    /// error of the total is 0.7 of what is asked for at every sensor that matters, or the finest mesh is reached.
     pub(super) fn interreflected(
         &self,
         scene: &Scene,
         emissions: &[Emission],
+        direct: &[Estimate],
         progress: &dyn Progress,
     ) -> Result<(Vec<Estimate>, f64), StudyError> {
-        let mut levels = Vec::with_capacity(2);
-        let mut gap = 0.0_f64;
-        let counts = patches(scene.error_target);
-        for (level, count) in counts.into_iter().enumerate() {
+        let target = scene.error_target.unwrap_or(ORDINARY_TARGET);
+        // A scene that names no error does not wait seconds for it in an extreme room: what was reached is stated.
+        let turns = if scene.error_target.is_some() { PATCHES.len() } else { 2 };
+        let mut result = (Vec::new(), 0.0);
+        for (turn, count) in PATCHES.into_iter().take(turns).enumerate() {
             check(progress)?;
-            let (illuminances, level_gap) = self.level(scene, emissions, count, 3 - level, progress)?;
-            levels.push(illuminances);
-            gap = gap.max(level_gap);
-            progress.advance("interreflection", 3 + level, STEPS);
+            progress.advance("interreflection", (2 + turn).min(STEPS - 1), STEPS);
+            result = self.reflected(scene, emissions, count, progress)?;
+            let total = |i: usize| direct[i].value + result.0[i].value;
+            let mean = (0..direct.len()).map(total).sum::<f64>() / direct.len() as f64;
+            let stated = |i: usize| direct[i].error + result.0[i].error;
+            let reached = |i: usize| stated(i) <= 0.7 * target * total(i).max(0.1 * mean);
+            if (0..direct.len()).all(reached) {
+                break;
+            }
         }
-        // What extrapolation leaves: of the order of a permille with 900 patches, falling with their area.
-        let rest = 0.9 / counts[1] as f64;
-        let estimates = levels[0]
-            .iter()
-            .zip(&levels[1])
-            .map(|(coarse, fine)| {
-                let value = (fine + (fine - coarse) / 3.0).max(0.0);
-                // More than what was added: near the opening the first order is not yet all of the error.
-                Estimate::new(value, (fine - coarse).abs() / 2.0 + (rest + 0.2 * gap) * value)
-            })
-            .collect();
-        Ok((estimates, gap))
+        progress.advance("interreflection", STEPS, STEPS);
+        Ok(result)
     }
 
-    fn level(
+    /// With about so many fine patches.
+    fn reflected(
         &self,
         scene: &Scene,
         emissions: &[Emission],
         count: usize,
-        order: usize,
         progress: &dyn Progress,
-    ) -> Result<(Vec<f64>, f64), StudyError> {
-        let mut room_key = vec![count as u64];
-        room_key.extend(bits(scene.room.size.to_array()));
-        room_key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
-        for index in 0..scene.apertures.len() {
-            room_key.extend(aperture_key(scene, index));
-            room_key.push(scene.apertures[index].reflectance.to_bits());
-        }
+    ) -> Result<(Vec<Estimate>, f64), StudyError> {
+        let key = room_key(scene, count);
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
-        let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.reflectance).collect();
-        let radiosity = self.rooms.get(room_key.clone(), || {
-            let mesh = Mesh::with_about(&scene.room, &geometry, &reflectances, count)?;
-            Radiosity::new(mesh).map_err(StudyError::from)
+        let radiosity = self.rooms.get(key.clone(), || {
+            let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.reflectance).collect();
+            Radiosity::new(Nested::with_about(&scene.room, &geometry, &reflectances, count)?).map_err(StudyError::from)
         })?;
         check(progress)?;
-        let mut gather_key = room_key.clone();
+        let mesh = &radiosity.nested.fine;
+        let mut gather_key = key.clone();
         gather_key.extend(sensor_key(scene));
         let gather = self.gather.get(gather_key, || {
-            Ok::<_, StudyError>(
-                scene.sensors.par_iter().map(|s| radiosity.gather_weights(s.position, s.normal)).collect(),
-            )
+            let weights = scene.sensors.par_iter().map(|s| {
+                [mesh, &radiosity.nested.coarse].map(|mesh| reconstructing_factors(mesh, s.position, s.normal))
+            });
+            Ok::<_, StudyError>(weights.collect())
         })?;
-        let mut first = vec![0.0; radiosity.mesh.patches.len()];
-        let mut gap = 0.0_f64;
+        let mut first = FirstLight::dark(mesh.patches.len());
         for (index, emission) in emissions.iter().enumerate() {
             check(progress)?;
-            let facing = scene.facing(index);
             let weights = |basis: &Arc<RingBasis>| {
-                let mut key = room_key.clone();
-                key.extend([index as u64, order as u64]);
+                let mut key = key.clone();
+                key.push(index as u64);
                 key.extend(basis_key(Some(basis)));
                 let compute = || {
-                    Ok::<_, std::convert::Infallible>(PatchWeights::new(
-                        &radiosity.mesh,
-                        &geometry[index],
-                        Arc::clone(basis),
-                        order,
-                    ))
+                    let weights = PatchWeights::new(mesh, &geometry[index], Arc::clone(basis));
+                    Ok::<_, std::convert::Infallible>(weights)
                 };
                 match self.patches.get(key, compute) {
                     Ok(weights) => weights,
                     Err(never) => match never {},
                 }
             };
-            let (part, part_gap) = first_illuminance(&radiosity, index, &geometry[index], emission, &facing, &weights);
-            gap = gap.max(part_gap);
-            for (sum, e) in first.iter_mut().zip(part) {
-                *sum += e;
-            }
+            first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
         }
         check(progress)?;
-        let exitance = radiosity.exitance(&first);
-        let at_sensors =
-            gather.par_iter().map(|weights| weights.iter().zip(&exitance).map(|(w, b)| w * b).sum()).collect();
-        Ok((at_sensors, gap))
+        let all: Vec<f64> = first.diffuse.iter().zip(&first.beam).map(|(d, b)| d + b).collect();
+        // The beam's first reflection comes from sharp outlines, and has a closed form at every sensor.
+        let exitance = radiosity.exitance(&all, &first.beam);
+        // What is not known of the emission is not known of its reflections.
+        let emitted: Estimate = emissions
+            .iter()
+            .enumerate()
+            .map(|(index, emission)| emission.exitance(&scene.facing(index)) * geometry[index].area())
+            .sum();
+        let emitted_error = if emitted.value > 0.0 { emitted.error / emitted.value } else { 0.0 };
+        let estimates = scene
+            .sensors
+            .par_iter()
+            .zip(gather.par_iter())
+            .map(|(sensor, [fine, coarse])| {
+                let outlines: f64 = first
+                    .outlines
+                    .iter()
+                    .map(|(wall, outline, exitance)| {
+                        exitance * polygon_factor(&mesh.walls[*wall], outline, sensor.position, sensor.normal)
+                    })
+                    .sum();
+                let (mut value, mut difference, mut squares) = (0.0, 0.0, 0.0_f64);
+                for (a, b) in spans(mesh).into_iter().zip(spans(&radiosity.nested.coarse)) {
+                    let by_fine = dot(&fine[a.clone()], &exitance.fine[a]);
+                    let by_coarse = dot(&coarse[b.clone()], &exitance.coarse[b]);
+                    value += by_fine;
+                    difference += by_fine - by_coarse;
+                    squares += (by_fine - by_coarse).powi(2);
+                }
+                let value = (value + difference / 3.0 + outlines).max(0.0);
+                let rest = (REST / mesh.patches.len() as f64).hypot(0.5 * first.gap) * value;
+                Estimate::new(value, (DIFFERENCE * squares.sqrt()).hypot(rest) + emitted_error * value)
+            })
+            .collect();
+        Ok((estimates, first.gap))
     }
+}
+
+/// What a meshed room depends on.
+fn room_key(scene: &Scene, count: usize) -> Key {
+    let mut key = vec![count as u64];
+    key.extend(bits(scene.room.size.to_array()));
+    key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
+    for index in 0..scene.apertures.len() {
+        key.extend(aperture_key(scene, index));
+        key.push(scene.apertures[index].reflectance.to_bits());
+    }
+    key
+}
+
+/// The patches of every wall.
+fn spans(mesh: &Mesh) -> Vec<std::ops::Range<usize>> {
+    let firsts: Vec<usize> = mesh.walls.iter().map(|wall| wall.first).chain([mesh.patches.len()]).collect();
+    firsts.windows(2).map(|pair| pair[0]..pair[1]).collect()
 }
