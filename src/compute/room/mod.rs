@@ -7,6 +7,7 @@ pub mod direct;
 pub mod first_bounce;
 pub mod form_factor;
 pub mod mesh;
+pub mod near_field;
 pub mod polygon;
 pub mod radiosity;
 pub mod sun_disc;
