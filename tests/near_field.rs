@@ -141,7 +141,7 @@ fn the_other_methods_converge_to_the_ordinary_one() {
             for ((coarse, fine), bar) in coarse.into_iter().zip(fine).zip(bar).skip(1) {
                 let (before, after) = (rms(coarse), rms(fine));
                 assert!(after < bar, "{name}, {fine:?}: {after}");
-                assert!(after < 0.5 * before || fine == NearField::Subdivision(None), "{name}, {fine:?}: {before} {after}");
+                assert!(after < 0.5 * before || after < 1e-12 || fine == NearField::Subdivision(None), "{name}, {fine:?}: {before} {after}");
             }
         }
     }

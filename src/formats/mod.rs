@@ -10,6 +10,7 @@ pub mod eulumdat;
 pub mod ies;
 pub mod lid_tables;
 mod location;
+pub mod log_chart;
 pub mod luminaire;
 pub mod package;
 pub mod scan;

@@ -3,6 +3,7 @@
 //! [`scene_file`] is the text as typed, [`scene`] what it means, [`plan`] what it needs, [`session`] the answers.
 
 pub mod accuracy;
+pub mod accuracy_plot;
 pub mod cache;
 pub mod control;
 mod error;
