@@ -41,12 +41,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 fn sensors(positions: &[[f64; 3]]) -> Vec<Sensor> {
-    let normals =
-        [DVec3::Z, DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z, DVec3::new(0.3, -0.6, 0.5).normalize()];
-    positions
-        .iter()
-        .flat_map(|p| normals.map(|normal| Sensor { position: DVec3::from_array(*p), normal }))
-        .collect()
+    let normals = [DVec3::Z, DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z, DVec3::new(0.3, -0.6, 0.5).normalize()];
+    positions.iter().flat_map(|p| normals.map(|normal| Sensor { position: DVec3::from_array(*p), normal })).collect()
 }
 
 /// Sky component of the overcast sky through an unglazed window for a horizontal sensor at sill height beside the
@@ -75,7 +71,12 @@ fn overcast_sky_through_a_window_has_a_closed_form() {
 #[test]
 fn diffuse_window_facing_and_grazing() {
     // L = 1000 facing 1.2 × 1.0 m on its axis; the closed forms of the corner function.
-    let text = Text { apertures: vec![facade([0.5, 1.0], [3.0, 1.5], DIFFUSE)], sky: UNIFORM.into(), ground: 1.0, ..Text::default() };
+    let text = Text {
+        apertures: vec![facade([0.5, 1.0], [3.0, 1.5], DIFFUSE)],
+        sky: UNIFORM.into(),
+        ground: 1.0,
+        ..Text::default()
+    };
     let scene = text.scene();
     let luminance = emission(&scene).uniform.value;
     let aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(1.4, 0.0, 1.0), size: [1.2, 1.0] };
@@ -141,7 +142,10 @@ fn the_other_methods_converge_to_the_ordinary_one() {
             for ((coarse, fine), bar) in coarse.into_iter().zip(fine).zip(bar).skip(1) {
                 let (before, after) = (rms(coarse), rms(fine));
                 assert!(after < bar, "{name}, {fine:?}: {after}");
-                assert!(after < 0.5 * before || after < 1e-12 || fine == NearField::Subdivision(None), "{name}, {fine:?}: {before} {after}");
+                assert!(
+                    after < 0.5 * before || after < 1e-12 || fine == NearField::Subdivision(None),
+                    "{name}, {fine:?}: {before} {after}"
+                );
             }
         }
     }
@@ -150,7 +154,10 @@ fn the_other_methods_converge_to_the_ordinary_one() {
 #[test]
 fn monte_carlo_knows_its_standard_error() {
     let list: Vec<Sensor> = (0..200)
-        .map(|i| Sensor { position: DVec3::new(0.2 + 0.018 * f64::from(i), 0.4 + 0.02 * f64::from(i), 0.85), normal: DVec3::Z })
+        .map(|i| Sensor {
+            position: DVec3::new(0.2 + 0.018 * f64::from(i), 0.4 + 0.02 * f64::from(i), 0.85),
+            normal: DVec3::Z,
+        })
         .collect();
     for (name, scene) in scenes() {
         let exact = by(NearField::SolidAngle, &scene, &window(), &list);
@@ -228,7 +235,10 @@ fn structure_comes_from_the_dataset_or_the_scene() {
     assert!((scene.apertures[0].homogeneity_distance().unwrap() - 0.216).abs() < 1e-12);
     assert_eq!(scene.too_near(), [1]);
     assert_eq!(scene_of(dataset.clone(), "structure = 0.12").too_near(), [2]);
-    let text = Text { apertures: vec![format!("{}\nstructure = -1.0", facade([0.5, 1.0], [3.0, 1.5], MADE))], ..Text::default() };
+    let text = Text {
+        apertures: vec![format!("{}\nstructure = -1.0", facade([0.5, 1.0], [3.0, 1.5], MADE))],
+        ..Text::default()
+    };
     let error = text.resolve(&Made(Some(dataset))).unwrap_err().to_string();
     assert!(error.starts_with("aperture[1].structure"), "{error}");
 }

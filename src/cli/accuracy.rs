@@ -55,11 +55,7 @@ pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<(
         let bytes = if png { drawing.to_png()? } else { drawing.to_svg().into_bytes() };
         write_file(path, &bytes)?;
     }
-    if args.json {
-        print(&format!("{:#}\n", to_json(&accuracy)))
-    } else {
-        print(&table(&accuracy))
-    }
+    if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
 }
 
 fn is_png(path: &Path) -> anyhow::Result<bool> {
@@ -173,7 +169,9 @@ fn table(accuracy: &Accuracy) -> String {
         100.0 * tight,
         100.0 * tight_or_small
     );
-    for series in accuracy.series.iter().filter(|series| series.quantity == Quantity::Total || accuracy.series.len() < 5) {
+    for series in
+        accuracy.series.iter().filter(|series| series.quantity == Quantity::Total || accuracy.series.len() < 5)
+    {
         if let Some(rung) = series.rungs.last() {
             let _ = writeln!(text, "Reached: {} at the finest target ({}).", error(rung.reached()), name(series));
             break;

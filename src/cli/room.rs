@@ -70,7 +70,9 @@ fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(target) = scene.error_target {
         let (reached, target) = (100.0 * result.reached(), 100.0 * target);
         let word = if reached <= target { "reached" } else { "not reached" };
-        eprintln!("note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error");
+        eprintln!(
+            "note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error"
+        );
     }
 }
 

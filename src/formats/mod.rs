@@ -5,6 +5,7 @@
 
 pub mod bsdf_xml;
 pub mod dataset_blob;
+mod dot_font;
 pub mod drawing;
 pub mod eulumdat;
 pub mod ies;

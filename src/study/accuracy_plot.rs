@@ -65,11 +65,7 @@ pub fn plot(accuracy: &Accuracy, width: u32, height: u32, colours: &Colours) -> 
         left.frame(colours.ink, colours.faint, |x, power| if x { seconds(power) } else { per_cent(power) });
     shapes.extend(right.frame(colours.ink, colours.faint, |_, power| per_cent(power)));
     let ends = both.map(|power| 10_f64.powi(power));
-    shapes.push(Shape::Line {
-        points: ends.map(|end| right.place(end, end)).into(),
-        colour: colours.ink,
-        width: 1.0,
-    });
+    shapes.push(Shape::Line { points: ends.map(|end| right.place(end, end)).into(), colour: colours.ink, width: 1.0 });
     for (chart, text) in
         [(&left, "true error (RMS) against time a new sky"), (&right, "stated error against true error, by sensor")]
     {

@@ -52,10 +52,9 @@ const CELLS: usize = 180;
 /// profile angle.
 pub fn near_field(key: NearFieldKey, samples: Option<usize>) -> Result<NearField, StudyError> {
     let within = |least: usize, most: usize, what: &str| match samples {
-        Some(samples) if !(least..=most).contains(&samples) => Err(StudyError::key(
-            "compute.near_field_samples",
-            format!("{samples} {what} (allowed: {least} to {most})"),
-        )),
+        Some(samples) if !(least..=most).contains(&samples) => {
+            Err(StudyError::key("compute.near_field_samples", format!("{samples} {what} (allowed: {least} to {most})")))
+        }
         other => Ok(other),
     };
     Ok(match key {

@@ -120,9 +120,7 @@ impl Scene {
                 ApertureReflectance::Dataset => system.dataset.room_side_reflectance().unwrap_or(0.0),
             };
             let structure = match keys.structure {
-                Some(period) => {
-                    Some(within(&format!("aperture[{}].structure", index + 1), period, 1e-9, 100.0, " m")?)
-                }
+                Some(period) => Some(within(&format!("aperture[{}].structure", index + 1), period, 1e-9, 100.0, " m")?),
                 None => system.dataset.structure,
             };
             list.push(SceneAperture { aperture, system, reflectance, structure });

@@ -98,21 +98,13 @@ impl<'a> Integrator<'a> {
         if self.method == NearField::SolidAngle {
             let basis = self.emission.cells.as_ref().map(|light| &*light.basis);
             let reception = Reception::new(sensor, self.aperture, basis);
-            return direct::illuminance(
-                sensor,
-                self.aperture,
-                &reception,
-                self.emission,
-                self.facing,
-                self.tolerance,
-            );
+            return direct::illuminance(sensor, self.aperture, &reception, self.emission, self.facing, self.tolerance);
         }
         let Some(view) = self.aperture.view(sensor.position, sensor.normal) else {
             return Estimate::default();
         };
-        let luminance = |to: DVec3| {
-            Dir::new(to).map_or(0.0, |twin| self.lid.luminance(Emergent::from_through_name(twin)))
-        };
+        let luminance =
+            |to: DVec3| Dir::new(to).map_or(0.0, |twin| self.lid.luminance(Emergent::from_through_name(twin)));
         let diffuse = match (self.method, &self.tables) {
             (NearField::Subdivision(Some(parts)), _) => subdivision::fixed(&view, parts, luminance),
             (NearField::Subdivision(None), _) => subdivision::by_distance(&view, luminance),
