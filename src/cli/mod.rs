@@ -1,5 +1,6 @@
 //! The command line: arguments in, files and tables out, no display needed.
 
+pub mod accuracy;
 mod args;
 pub mod catalogue;
 pub mod convert;
@@ -25,6 +26,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     let library = Library::with_catalogue(catalogue);
     match command {
         Command::Room(args) => room::run(args, &library),
+        Command::Accuracy(args) => accuracy::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Info(args) => info::run(args),

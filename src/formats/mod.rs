@@ -6,12 +6,14 @@
 pub mod bsdf_xml;
 pub mod btdf_text;
 pub mod dataset_blob;
+mod dot_font;
 pub mod drawing;
 pub mod eulumdat;
 mod family;
 pub mod ies;
 pub mod lid_tables;
 mod location;
+pub mod log_chart;
 pub mod luminaire;
 mod on_cells;
 pub mod package;

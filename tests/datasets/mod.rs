@@ -105,6 +105,7 @@ pub fn dataset() -> impl Strategy<Value = Dataset> {
                 incident_basis: t[5].clone(),
                 emergent_basis: t[6].clone(),
                 thickness,
+                structure: None,
                 visible,
                 solar: solar.then_some(infrared),
                 derived: if turned { vec![Component::TransmissionBack] } else { vec![] },

@@ -9,6 +9,7 @@ pub mod first_bounce;
 pub mod form_factor;
 pub mod gather;
 pub mod mesh;
+pub mod near_field;
 pub mod polygon;
 pub mod radiosity;
 pub mod sun_disc;

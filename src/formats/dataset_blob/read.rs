@@ -48,6 +48,13 @@ pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     }
     dataset.derived = input.components()?;
     dataset.findings = input.findings()?;
+    if bytes.len() - input.at == size_of::<f64>() {
+        let period = input.number()?;
+        if period <= 0.0 {
+            return input.invalid(format!("a structure of period {period} m"));
+        }
+        dataset.structure = Some(period);
+    }
     match bytes.len() - input.at {
         0 => Ok(dataset),
         rest => Err(BlobError::Trailing(rest)),

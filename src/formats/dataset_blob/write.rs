@@ -33,6 +33,10 @@ pub fn encode(dataset: &Dataset) -> Vec<u8> {
     }
     out.byte(mask(dataset.derived.iter().copied()));
     out.findings(&dataset.findings);
+    // Only where it is known: other datasets keep the bytes, and with them the name, that they always had.
+    if let Some(structure) = dataset.structure {
+        out.number(structure);
+    }
     out.0
 }
 
