@@ -5,6 +5,7 @@ use super::grazing::Grazing;
 use super::grid::Grid;
 use super::lattice::{Lattice, Place, tangent_step};
 use super::lobes::{Lobe, Splitter};
+use super::raster::Raster;
 use super::response::{Responses, gradient, lift};
 use crate::compute::btdf::Indicatrices;
 use crate::compute::direction::{Dir, Facade};
@@ -41,8 +42,8 @@ pub struct Model {
     pub(super) lattice: Lattice,
     pub(super) lobes: Vec<Vec<Lobe>>,
     pub(super) responses: Responses,
-    /// The lobes as values at points.
-    points: Vec<Vec<Lobe>>,
+    /// The lobes as pictures.
+    rasters: Vec<Vec<Raster>>,
     base_flux: Vec<f64>,
     /// By vertex, lobe (the base behind the last) and neighbour: what the edge adds to linear interpolation of the
     /// flux, where the lobe is at both ends.
@@ -161,8 +162,9 @@ impl Model {
                 (bumps, followed)
             })
             .unzip();
-        let points = lobes.par_iter().map(|list| list.iter().map(|lobe| lobe.sharpened(&grid)).collect()).collect();
-        Self { data, grid, lattice, lobes, responses, points, base_flux, bumps, followed, grazing }
+        let rasters =
+            lobes.par_iter().map(|list| list.iter().map(|lobe| Raster::new(&grid, lobe)).collect()).collect();
+        Self { data, grid, lattice, lobes, responses, rasters, base_flux, bumps, followed, grazing }
     }
 
     /// The emergent cells.
@@ -318,13 +320,11 @@ impl Model {
     /// directions a cell.
     pub fn moved(&self, copy: &Copy, target: &Grid, points: usize, out: &mut Vec<(u32, f64)>) {
         out.clear();
-        let lobe = &self.points[copy.vertex][copy.lobe];
-        // Turns directions about the copy's centre back to those about the lobe's.
-        let back = glam::DQuat::from_rotation_arc(copy.centre, lobe.centre);
-        let back = glam::DMat3::from_quat(back);
+        let lobe = &self.lobes[copy.vertex][copy.lobe];
+        let picture = self.rasters[copy.vertex][copy.lobe].turned(copy.centre);
         let mut flux = 0.0;
         target.within(copy.centre, lobe.radius + 0.04, |cell| {
-            let q = target.cell_mean(cell, points, |d| lobe.at(&self.grid, back * d));
+            let q = target.cell_mean(cell, points, |d| picture.at(d));
             if q > 0.0 {
                 flux += q * target.projected[cell];
                 out.push((cell as u32, q));
