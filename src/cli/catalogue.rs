@@ -3,7 +3,9 @@
 use crate::catalogue::{Catalogue, NewProduct, Origin, Product, ProductFinding, Provenance, Query, check};
 use crate::cli::dataset_file;
 use crate::compute::btdf::{Dataset, Severity};
+use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
+use crate::study::compact::{Storage, stored_as};
 use anyhow::{Context, anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -75,6 +77,20 @@ pub struct ImportArgs {
     /// Word to find it by; may be given several times.
     #[arg(long = "tag")]
     pub tags: Vec<String>,
+    /// How values are kept; by default without loss below 1 MB, else as `archive`.
+    #[arg(long, value_enum)]
+    pub compact: Option<Compactness>,
+}
+
+/// How the values of indicatrices are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Compactness {
+    /// At most 0.5 % of the flux of any indicatrix misplaced
+    Archive,
+    /// At most 1.5 % of the flux of any indicatrix misplaced
+    Normal,
+    /// Every value, rounded to 7 digits
+    Lossless,
 }
 
 /// Arguments of `cfs catalogue export`.
@@ -283,6 +299,9 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     if packages.len() > 1 || (!packages.is_empty() && !datasets.is_empty()) {
         bail!("one package at a time, without dataset files beside it, so that an import is one step");
     }
+    if args.compact.is_some() && !packages.is_empty() {
+        bail!("--compact is for dataset files; a package keeps the form that its data have");
+    }
     let imported = if let Some((path, bytes)) = packages.first() {
         catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
     } else {
@@ -294,7 +313,16 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
             provenance: provenance(&sources),
             ..NewProduct::default()
         };
-        vec![catalogue.import(&datasets, meta)?]
+        let stored = datasets.iter().map(|dataset| {
+            let storage = match args.compact {
+                None => Storage::default_for(dataset),
+                Some(Compactness::Lossless) => Storage::Lossless,
+                Some(Compactness::Archive) => Storage::Compact(Criterion::ARCHIVE),
+                Some(Compactness::Normal) => Storage::Compact(Criterion::NORMAL),
+            };
+            stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
+        });
+        vec![catalogue.import(&stored.collect::<anyhow::Result<Vec<_>>>()?, meta)?]
     };
     let mut text = String::new();
     for product in imported {

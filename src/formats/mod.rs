@@ -4,6 +4,7 @@
 //! [`write_dataset`].
 
 pub mod bsdf_xml;
+pub mod compact_rows;
 pub mod dataset_blob;
 pub mod drawing;
 pub mod eulumdat;
@@ -74,6 +75,12 @@ impl Format {
 /// # Errors
 /// Of the reader; or an unknown format.
 pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
+    if bytes.starts_with(dataset_blob::MAGIC) {
+        let read = dataset_blob::decode(bytes);
+        let error =
+            |e: dataset_blob::BlobError| FormatError::new(Location::file(), e.to_string(), "a whole .cfsd file");
+        return Ok(vec![read.map_err(error)?]);
+    }
     match Format::sniff(name, bytes) {
         Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
         None if bytes.is_empty() => Err(FormatError::new(Location::file(), "an empty file", Format::list())),

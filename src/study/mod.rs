@@ -3,6 +3,7 @@
 //! [`scene_file`] is the text as typed, [`scene`] what it means, [`plan`] what it needs, [`session`] the answers.
 
 pub mod cache;
+pub mod compact;
 pub mod control;
 mod error;
 pub mod library;

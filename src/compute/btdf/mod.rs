@@ -12,6 +12,7 @@ mod finding;
 mod ideal;
 mod indicatrices;
 mod pyramid;
+mod rows;
 mod tensor_emission;
 mod tensor_reversal;
 mod tensor_tree;
