@@ -5,7 +5,7 @@ use crate::cli::dataset_file;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
-use crate::study::compact::{Storage, stored_as};
+use crate::study::compact::{Storage, stored_as, stored_by_default};
 use anyhow::{Context, anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -315,7 +315,7 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
         };
         let stored = datasets.iter().map(|dataset| {
             let storage = match args.compact {
-                None => Storage::default_for(dataset),
+                None => return Ok(stored_by_default(dataset)),
                 Some(Compactness::Lossless) => Storage::Lossless,
                 Some(Compactness::Archive) => Storage::Compact(Criterion::ARCHIVE),
                 Some(Compactness::Normal) => Storage::Compact(Criterion::NORMAL),

@@ -229,6 +229,16 @@ pub fn stored_as(dataset: &Dataset, storage: Storage) -> Result<Dataset, Compact
     Ok(dataset)
 }
 
+/// The dataset as it is stored when nobody chooses. Data that have no compact form are kept without loss, and that is
+/// said.
+pub fn stored_by_default(dataset: &Dataset) -> Dataset {
+    stored_as(dataset, Storage::default_for(dataset)).unwrap_or_else(|error| {
+        let mut kept = dataset.clone();
+        kept.findings.push(Finding::info("lossless-storage", format!("Kept without loss: {error}.")));
+        kept
+    })
+}
+
 fn finding(function: &CompactedFunction, criterion: Criterion) -> Finding {
     let report = &function.report;
     let worst = function.effects.iter().map(|effect| effect.illuminance).fold(0.0, f64::max);

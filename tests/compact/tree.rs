@@ -5,29 +5,40 @@
 use cfs::compute::basis::{RingBasis, SquareGrid};
 use cfs::compute::btdf::Indicatrices;
 use cfs::formats::compact_rows::range_coder::{Chance, Encoder};
-use std::collections::HashMap;
 
-/// Cells along the incident side: as many as 145 directions fill.
-const IN: usize = 16;
-/// Levels of the incident square.
+/// Levels of the incident square: 16 × 16 cells, as many as 145 directions fill.
 const IN_LEVELS: usize = 4;
 /// Levels of the emergent square: 64 × 64 cells of about 2.5°.
 const OUT_LEVELS: usize = 6;
 const OUT: usize = 1 << OUT_LEVELS;
 
+/// Cells along the incident and the emergent side at a level.
+fn sides(level: usize) -> [usize; 2] {
+    [1 << level.min(IN_LEVELS), 1 << level]
+}
+
+/// Place of a node (incident x, y, emergent x, y) in its level's list.
+fn place(level: usize, [ix, iy, ox, oy]: [usize; 4]) -> usize {
+    let [n, m] = sides(level);
+    (iy * n + ix) * m * m + oy * m + ox
+}
+
+fn children(level: usize, corner: [usize; 4]) -> impl DoubleEndedIterator<Item = [usize; 4]> {
+    let parted = if level < IN_LEVELS { 0 } else { 2 };
+    let child = move |k: usize| {
+        std::array::from_fn(|d| if d < parted { corner[d] } else { 2 * corner[d] + (k >> (d - parted) & 1) })
+    };
+    (0..1_usize << (4 - parted)).map(child)
+}
+
 pub struct Grid {
-    /// q by incident cell, then emergent cell, both row by row.
-    pub values: Vec<f64>,
+    /// Mean of every node, by level; the finest is the data.
+    means: Vec<Vec<f64>>,
+    /// Σ|q − mean| of every node, by level.
+    off: Vec<Vec<f64>>,
     /// Incident cell of each incident direction.
     cell_of: Vec<usize>,
     emergent: SquareGrid,
-}
-
-struct Pruned<'a> {
-    grid: &'a Grid,
-    lambda: f64,
-    /// Whether a node is a leaf, and its mean, by (level, corners).
-    leaves: HashMap<(usize, [usize; 4]), f64>,
 }
 
 impl Grid {
@@ -39,9 +50,31 @@ impl Grid {
             let row = data.row(data.nearest(cell.centre())).into_owned();
             at.iter().map(move |o| o.map_or(0.0, |o| row[o])).collect::<Vec<f64>>()
         });
-        let values = values.collect();
+        let values: Vec<f64> = values.collect();
         let cell_of = data.incident().iter().map(|d| incident.index(d.0).unwrap()).collect();
-        Self { values, cell_of, emergent }
+        let (mut means, mut off) = (vec![], vec![]);
+        for level in 0..=OUT_LEVELS {
+            let [n, m] = sides(level);
+            let (mut sum, mut count) = (vec![0.0; n * n * m * m], 0.0);
+            let ancestor = |at: usize| {
+                let (i, o) = (at / (OUT * OUT), at % (OUT * OUT));
+                let (down_i, down_o) = (IN_LEVELS - level.min(IN_LEVELS), OUT_LEVELS - level);
+                let side = 1 << IN_LEVELS;
+                place(level, [i % side >> down_i, i / side >> down_i, o % OUT >> down_o, o / OUT >> down_o])
+            };
+            values.iter().enumerate().for_each(|(at, q)| sum[ancestor(at)] += q);
+            count += values.len() as f64 / sum.len() as f64;
+            sum.iter_mut().for_each(|s| *s /= count);
+            let mut difference = vec![0.0; sum.len()];
+            values.iter().enumerate().for_each(|(at, q)| difference[ancestor(at)] += (q - sum[ancestor(at)]).abs());
+            means.push(sum);
+            off.push(difference);
+        }
+        Self { means, off, cell_of, emergent }
+    }
+
+    pub fn values(&self) -> &[f64] {
+        &self.means[OUT_LEVELS]
     }
 
     pub fn rings(&self) -> RingBasis {
@@ -55,102 +88,70 @@ impl Grid {
     }
 
     /// Trees of several sizes: the values that they stand for, and their bytes.
-    pub fn ladder(&self) -> Vec<(Vec<f64>, usize)> {
-        let mean: f64 = self.values.iter().sum::<f64>() / self.values.len() as f64;
-        let mut out = vec![];
-        for k in 0..13 {
-            let mut pruned = Pruned { grid: self, lambda: mean * 0.004 * 2.2_f64.powi(k), leaves: HashMap::new() };
-            pruned.node(0, [0; 4]);
-            for precision in [0.005, 0.02, 0.05, 0.12] {
-                out.push(pruned.coded(precision, mean));
-            }
-        }
-        out
-    }
-}
-
-impl Pruned<'_> {
-    /// Ranges of a node: incident x, y, emergent x, y, in finest cells.
-    fn ranges(level: usize, corner: [usize; 4]) -> [std::ops::Range<usize>; 4] {
-        let incident = IN >> level.min(IN_LEVELS);
-        let emergent = OUT >> level;
-        std::array::from_fn(|d| {
-            let side = if d < 2 { incident } else { emergent };
-            corner[d] * side..(corner[d] + 1) * side
+    pub fn ladder(&self) -> impl Iterator<Item = (Vec<f64>, usize)> + '_ {
+        let mean = self.means[0][0];
+        (0..10).flat_map(move |k| {
+            let leaves = self.pruned(mean * 0.02 * 2.5_f64.powi(k));
+            [0.01, 0.03, 0.1].map(|precision| self.coded(&leaves, precision))
         })
     }
 
-    fn each(level: usize, corner: [usize; 4], mut f: impl FnMut(usize)) {
-        let [ix, iy, ox, oy] = Self::ranges(level, corner);
-        for iy in iy {
-            for ix in ix.clone() {
-                for oy in oy.clone() {
-                    for ox in ox.clone() {
-                        f((iy * IN + ix) * OUT * OUT + oy * OUT + ox);
-                    }
-                }
+    /// Which nodes are leaves, so that Σ|q − mean| + λ·leaves is least.
+    fn pruned(&self, lambda: f64) -> Vec<Vec<bool>> {
+        let mut leaves: Vec<Vec<bool>> = self.means.iter().map(|level| vec![true; level.len()]).collect();
+        let mut cost: Vec<f64> = vec![lambda; self.values().len()];
+        for level in (0..OUT_LEVELS).rev() {
+            let [n, m] = sides(level);
+            let mut next = vec![0.0; n * n * m * m];
+            for (at, next) in next.iter_mut().enumerate() {
+                let (i, o) = (at / (m * m), at % (m * m));
+                let parts: f64 =
+                    children(level, [i % n, i / n, o % m, o / m]).map(|child| cost[place(level + 1, child)]).sum();
+                let merged = self.off[level][at] + lambda;
+                leaves[level][at] = merged <= parts;
+                *next = merged.min(parts);
             }
+            cost = next;
         }
+        leaves
     }
 
-    fn children(level: usize, corner: [usize; 4]) -> Vec<[usize; 4]> {
-        let parted = if level < IN_LEVELS { 0 } else { 2 };
-        (0..1 << (4 - parted))
-            .map(|k| std::array::from_fn(|d| if d < parted { corner[d] } else { 2 * corner[d] + (k >> (d - parted) & 1) }))
-            .collect()
-    }
-
-    /// Least cost of a subtree: |q − mean| summed, and λ a leaf.
-    fn node(&mut self, level: usize, corner: [usize; 4]) -> f64 {
-        let (mut sum, mut count, mut off) = (0.0, 0.0, 0.0);
-        Self::each(level, corner, |at| {
-            sum += self.grid.values[at];
-            count += 1.0;
-        });
-        let mean: f64 = sum / count;
-        Self::each(level, corner, |at| off += (self.grid.values[at] - mean).abs());
-        let merged = off + self.lambda;
-        if level == OUT_LEVELS {
-            self.leaves.insert((level, corner), mean);
-            return merged;
-        }
-        let parts: f64 = Self::children(level, corner).into_iter().map(|child| self.node(level + 1, child)).sum();
-        if merged <= parts {
-            self.leaves.insert((level, corner), mean);
-            merged
-        } else {
-            parts
-        }
-    }
-
-    /// Leaves rounded to steps of a relative precision (of absolute size below a thousandth of the mean), and bytes.
-    fn coded(&self, precision: f64, mean: f64) -> (Vec<f64>, usize) {
-        let floor = 1e-3 * mean.max(1e-30);
+    /// Leaves rounded to steps of a relative precision (absolute below a thousandth of the mean), and bytes.
+    fn coded(&self, leaves: &[Vec<bool>], precision: f64) -> (Vec<f64>, usize) {
+        let floor = 1e-3 * self.means[0][0].max(1e-30);
         let round = |q: f64| ((1.0 + q / floor).ln() / precision).round();
         let back = |level: f64| ((level * precision).exp() - 1.0) * floor;
-        let mut values = vec![0.0; self.grid.values.len()];
+        let mut values = vec![0.0; self.values().len()];
         let (mut shape, mut levels) = (vec![], vec![]);
         let mut stack = vec![(0, [0; 4])];
         while let Some((level, corner)) = stack.pop() {
-            let leaf = self.leaves.get(&(level, corner));
+            let leaf = leaves[level][place(level, corner)];
             if level < OUT_LEVELS {
-                shape.push((level, leaf.is_some()));
+                shape.push((level, leaf));
             }
-            match leaf {
-                Some(q) => {
-                    levels.push(round(*q) as i32);
-                    Self::each(level, corner, |at| values[at] = back(round(*q)));
-                }
-                None => stack.extend(Self::children(level, corner).into_iter().rev().map(|c| (level + 1, c))),
+            if leaf {
+                let rounded = round(self.means[level][place(level, corner)]);
+                levels.push(rounded as i32);
+                fill(level, corner, back(rounded), &mut values);
+            } else {
+                stack.extend(children(level, corner).rev().map(|child| (level + 1, child)));
             }
         }
         (values, coder_bytes(&shape, &levels).min(zstd_bytes(&shape, &levels)))
     }
 }
 
+fn fill(level: usize, corner: [usize; 4], q: f64, values: &mut [f64]) {
+    if level == OUT_LEVELS {
+        values[place(level, corner)] = q;
+    } else {
+        children(level, corner).for_each(|child| fill(level + 1, child, q, values));
+    }
+}
+
 /// Adaptive chances: shape by level and the node before, values by their difference to the leaf before.
 fn coder_bytes(shape: &[(usize, bool)], levels: &[i32]) -> usize {
-    let mut encoder = Encoder::new();
+    let mut encoder = Encoder::default();
     let mut chances = vec![Chance::from_byte(128); 16];
     let mut before = false;
     for &(level, leaf) in shape {
@@ -169,8 +170,12 @@ fn coder_bytes(shape: &[(usize, bool)], levels: &[i32]) -> usize {
         }
         for k in (0..bits).rev() {
             let bit = magnitude >> k & 1 == 1;
-            // The first bit behind the leading one is not even either.
-            if k + 1 == bits { encoder.bit(&mut chances[class * 64 + 32 + k as usize], bit) } else { encoder.even_bit(bit) }
+            // The bit behind the leading one is not even either.
+            if k + 1 == bits {
+                encoder.bit(&mut chances[class * 64 + 32 + k as usize], bit);
+            } else {
+                encoder.even_bit(bit);
+            }
         }
         if difference != 0 {
             encoder.even_bit(difference < 0);
@@ -181,12 +186,9 @@ fn coder_bytes(shape: &[(usize, bool)], levels: &[i32]) -> usize {
 }
 
 fn zstd_bytes(shape: &[(usize, bool)], levels: &[i32]) -> usize {
-    let mut bytes: Vec<u8> = shape.chunks(8).map(|c| c.iter().fold(0, |b, (_, leaf)| b << 1 | u8::from(*leaf))).collect();
+    let byte = |c: &[(usize, bool)]| c.iter().fold(0, |b, (_, leaf)| b << 1 | u8::from(*leaf));
+    let mut bytes: Vec<u8> = shape.chunks(8).map(byte).collect();
     (0..2).for_each(|plane| bytes.extend(levels.iter().map(|level| level.to_le_bytes()[plane])));
-    zstd::bulk::compress(&bytes, 19).unwrap().len()
-}
-
-/// Fewest bytes of any tree whose error is not larger.
-pub fn best_at(trees: &[(f64, f64)], error: f64) -> Option<f64> {
-    trees.iter().filter(|(e, _)| *e <= error).map(|(_, bytes)| *bytes).min_by(f64::total_cmp)
+    let effort = if levels.len() < 100_000 { 19 } else { 9 };
+    zstd::bulk::compress(&bytes, effort).unwrap().len()
 }

@@ -153,7 +153,7 @@ pub struct Writer {
 impl Writer {
     /// With one byte a context.
     pub fn new(table: &[u8]) -> Self {
-        Self { coder: Encoder::new(), chances: table.iter().map(|byte| Chance::from_byte(*byte)).collect() }
+        Self { coder: Encoder::default(), chances: table.iter().map(|byte| Chance::from_byte(*byte)).collect() }
     }
 
     /// The bytes.

@@ -44,12 +44,14 @@ pub struct Encoder {
     out: Vec<u8>,
 }
 
-impl Encoder {
+impl Default for Encoder {
     /// Nothing written yet.
-    pub const fn new() -> Self {
+    fn default() -> Self {
         Self { low: 0, range: u32::MAX, cache: 0, pending: 0, out: Vec::new() }
     }
+}
 
+impl Encoder {
     /// A bit with a chance.
     pub fn bit(&mut self, chance: &mut Chance, bit: bool) {
         let bound = (self.range >> 16) * u32::from(chance.0);
@@ -189,7 +191,7 @@ mod tests {
         #[test]
         fn bits_come_back(bits in proptest::collection::vec((0_usize..3, any::<bool>()), 0..4000)) {
             let start = [Chance::from_byte(0), Chance::from_byte(128), Chance::from_byte(255)];
-            let (mut encoder, mut chances) = (Encoder::new(), start);
+            let (mut encoder, mut chances) = (Encoder::default(), start);
             for &(k, bit) in &bits {
                 encoder.bit(&mut chances[k], bit);
                 encoder.even_bit(!bit);
@@ -205,7 +207,7 @@ mod tests {
 
     #[test]
     fn rare_bits_cost_little() {
-        let mut encoder = Encoder::new();
+        let mut encoder = Encoder::default();
         let mut chance = Chance::from_byte(Chance::byte_for(990, 10));
         (0..10_000).for_each(|k| encoder.bit(&mut chance, k % 100 == 50));
         // Entropy of 1 in 100: 0.0808 bit.
