@@ -1,8 +1,8 @@
 //! What can be typed.
 
 use super::{
-    accuracy::AccuracyArgs, catalogue::CatalogueArgs, convert::ConvertArgs, info::InfoArgs, lid::LidArgs,
-    room::RoomArgs, sky::SkyArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs, info::InfoArgs,
+    lid::LidArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
 
@@ -23,6 +23,7 @@ Examples:
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
+  cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
   cfs catalogue list --search blind     products, built in and your own
 
 On bad input every command ends with status 2 and one line that says what would be right."
@@ -54,6 +55,8 @@ pub enum Command {
     Info(InfoArgs),
     /// A dataset in another format
     Convert(ConvertArgs),
+    /// What the compact form of a dataset saves and costs
+    Compact(CompactArgs),
     /// List, show, import, export, validate products
     Catalogue(CatalogueArgs),
 }

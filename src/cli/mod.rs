@@ -3,6 +3,7 @@
 pub mod accuracy;
 mod args;
 pub mod catalogue;
+pub mod compact;
 pub mod convert;
 mod dataset_file;
 pub mod info;
@@ -31,6 +32,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Sky(args) => sky::run(args),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Compact(args) => compact::run(args),
         Command::Catalogue(args) => catalogue::run(args, catalogue),
     }
 }

@@ -5,6 +5,7 @@
 pub mod accuracy;
 pub mod accuracy_plot;
 pub mod cache;
+pub mod compact;
 pub mod control;
 mod error;
 pub mod library;

@@ -7,9 +7,13 @@ use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
+use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
+use crate::compute::btdf::Scattered;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::{Emission, Lid};
+use crate::compute::incidence::grid::Grid;
+use crate::compute::incidence::model::Model;
+use crate::compute::lid::{Emission, Lid, sun_grid};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::direct::{self, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
@@ -89,6 +93,7 @@ pub struct Session {
     gather: Cache<Vec<[Vec<f64>; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
+    models: Cache<(Model, Grid)>,
 }
 
 impl Default for Session {
@@ -100,14 +105,20 @@ impl Default for Session {
 impl Session {
     /// Empty caches.
     pub const fn new() -> Self {
-        Self { rooms: Cache::new(8), gather: Cache::new(8), reception: Cache::new(16), patches: Cache::new(24) }
+        Self {
+            rooms: Cache::new(8),
+            gather: Cache::new(8),
+            reception: Cache::new(16),
+            patches: Cache::new(24),
+            models: Cache::new(6),
+        }
     }
 
     /// The light of one aperture (eq 5). `aperture` counts from 0 and must exist.
     pub fn lid(&self, scene: &Scene, aperture: usize, progress: &dyn Progress) -> Result<LidResult, StudyError> {
         check(progress)?;
         let facing = scene.facing(aperture);
-        let emission = emission(scene, aperture);
+        let emission = self.emission(scene, aperture);
         let geometry = &scene.apertures[aperture].aperture;
         Ok(LidResult {
             lid: emission.lid(&facing, geometry.size),
@@ -116,11 +127,34 @@ impl Session {
         })
     }
 
+    /// What an aperture emits under the scene's outside.
+    fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
+        let system = &scene.apertures[aperture].system;
+        let btdf = system.dataset.transmission().expect("a resolved scene has only systems with transmission data");
+        let facing = scene.facing(aperture);
+        let Some(Scattered::Directions(data)) = &btdf.scattered else {
+            return Emission::new(btdf, &facing);
+        };
+        if scene.interpolation == Interpolation::Patch {
+            return Emission::new(btdf, &facing);
+        }
+        let compute = || {
+            let model = Model::new(Arc::clone(data));
+            let grid = sun_grid(&model);
+            Ok::<_, std::convert::Infallible>((model, grid))
+        };
+        // The model keeps the data alive, so that no others can have their address.
+        match self.models.get(vec![Arc::as_ptr(data) as u64], compute) {
+            Ok(entry) => Emission::interpolated(btdf, &entry.0, &entry.1, &facing),
+            Err(never) => match never {},
+        }
+    }
+
     /// Illuminance at every sensor.
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
-        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| emission(scene, index)).collect();
+        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect();
         let flux = emissions
             .iter()
             .enumerate()
@@ -209,12 +243,6 @@ impl Session {
         }
         Ok(sums)
     }
-}
-
-fn emission(scene: &Scene, aperture: usize) -> Emission {
-    let system = &scene.apertures[aperture].system;
-    let btdf = system.dataset.transmission().expect("a resolved scene has only systems with transmission data");
-    Emission::new(btdf, &scene.facing(aperture))
 }
 
 fn check(progress: &dyn Progress) -> Result<(), Cancelled> {

@@ -59,7 +59,8 @@ pub fn illuminance(
     if let Some(light) = &emission.cells {
         let e: f64 =
             reception.cells.iter().zip(light.diffuse.iter().zip(&light.sun)).map(|(w, (d, s))| w * (d + s)).sum();
-        sum += Estimate::new(e, e * light.relative_error);
+        let doubt: f64 = reception.cells.iter().zip(&light.doubtful).map(|(w, l)| w * l).sum();
+        sum += Estimate::new(e, e * light.relative_error + doubt.abs());
     }
     if let Some(tau) = &emission.regular {
         if let Some(view) = aperture.view(sensor.position, sensor.normal) {
