@@ -1,10 +1,11 @@
 //! Values at emergent directions, made into means over cells.
 //!
 //! Where all incidences have their points on the same rings of equal azimuth steps, every point becomes the cell around
-//! it. Elsewhere a cell's mean is taken over 2 × 2 directions of equal projected weight, each interpolated from its
-//! four nearest points with weights 1/d² (Shepard). The error is estimated by leaving points out one after the other
-//! and predicting them from their neighbours, weighted by flux: it is the share of the light that the points leave
-//! uncertain, and an upper bound for what lies between them rather than for τ.
+//! it. Elsewhere a cell's mean is that of the points in it, where there are many; else it is taken over 2 × 2 directions
+//! of equal projected weight, each interpolated from its four nearest points with weights 1/d² (Shepard). The error is
+//! estimated by leaving points out one after the other and predicting them from their neighbours, weighted by flux: it
+//! is the share of the light that the points leave uncertain, and an upper bound for what lies between them rather than
+//! for τ.
 
 use super::frame::{Naming, tidy};
 use super::records::{Incidence, Point};
@@ -20,8 +21,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Neighbours that a value is interpolated from.
 const NEIGHBOURS: usize = 4;
-/// Cells that resampling makes for all incidences together at most: what finer points hold is averaged.
+/// Points in a cell from which on their mean is its value.
+const MANY: usize = 6;
+/// Values that resampling makes for all incidences together at most: what finer points hold is averaged.
 const MOST_RESAMPLED: usize = 6_000_000;
+/// Cells are not made finer than this, unless the header asks for it. \[rad\]
+const FINEST: f64 = PI / 180.0;
 
 /// Cells, one row a incidence, and what to tell.
 pub(super) struct Resampled {
@@ -77,7 +82,9 @@ pub(super) fn resample(
                 }
             };
             let value = |s: &Stencil| s.iter().map(|&(k, w)| w * points[k as usize].q).sum::<f64>();
-            let row = stencils.list.chunks_exact(4).map(|four| 0.25 * four.iter().map(value).sum::<f64>()).collect();
+            let mut row: Vec<f64> =
+                stencils.list.chunks_exact(4).map(|four| 0.25 * four.iter().map(value).sum::<f64>()).collect();
+            means_of_many(&basis, points, &mut row);
             (row, stencils.beyond, left_out(points))
         })
         .collect();
@@ -97,6 +104,22 @@ pub(super) fn resample(
     }
     let rows = rows.into_iter().flat_map(|row| row.0).collect();
     Ok(Resampled { basis, rows, findings })
+}
+
+/// Puts the mean of the points of a cell where many lie in it.
+fn means_of_many(basis: &RingBasis, points: &[Point], row: &mut [f64]) {
+    let mut sums = vec![(0_u32, 0.0); basis.len()];
+    for point in points {
+        if let Some(cell) = basis.index(point.name) {
+            sums[cell].0 += 1;
+            sums[cell].1 += point.q;
+        }
+    }
+    for ((count, sum), value) in sums.into_iter().zip(row) {
+        if count as usize >= MANY {
+            *value = sum / f64::from(count);
+        }
+    }
 }
 
 /// The finding that states the error.
@@ -205,10 +228,10 @@ fn cells_for(list: &[(Incidence, Vec<Point>)]) -> RingBasis {
     let mut spacing = Cloud::new(points).spacings();
     spacing.sort_by(f64::total_cmp);
     let close = spacing.get(spacing.len() / 4).copied().unwrap_or(FRAC_PI_2);
-    // 2/step² cells of a step in radians cover the projected hemisphere's rings (4/π of the sphere's share).
-    let budget = (4.0 * list.len() as f64 / MOST_RESAMPLED as f64).sqrt();
-    let least = budget.max((4.0 / MOST_CELLS as f64).sqrt()).max(0.5_f64.to_radians());
-    even_rings(close.clamp(least, 10_f64.to_radians().max(least)))
+    // Cells of a step as wide as high: 2π/step² on the hemisphere.
+    let budget = (2.0 * PI * list.len() as f64 / MOST_RESAMPLED as f64).sqrt();
+    let least = FINEST.max(budget).max((2.0 * PI / MOST_CELLS as f64).sqrt());
+    even_rings(close.clamp(least, least.max(10_f64.to_radians())))
 }
 
 /// Rings of one step with sectors about as wide. \[rad\]
@@ -273,7 +296,8 @@ impl Stencils {
     fn new(cloud: &Cloud, samples: &[DVec3]) -> Self {
         let mut spacing = cloud.spacings();
         spacing.sort_by(f64::total_cmp);
-        let far = 3.0 * spacing.get(spacing.len() / 2).copied().unwrap_or(0.0);
+        // Measured by the wide spacings: points may be closer in a peak.
+        let far = 3.0 * spacing.get(9 * spacing.len() / 10).copied().unwrap_or(0.0);
         let list: Vec<Stencil> = samples.iter().map(|v| cloud.stencil(*v, None)).collect();
         let away = samples.iter().zip(&list).filter(|(v, s)| (cloud.points[s[0].0 as usize] - **v).length() > far);
         Self { beyond: away.count() as f64 / samples.len().max(1) as f64, list }
