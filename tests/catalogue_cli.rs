@@ -10,6 +10,7 @@ fn import(files: &[PathBuf]) -> CatalogueArgs {
         manufacturer: String::new(),
         kind: "test".into(),
         tags: vec!["t".into()],
+        compact: None,
     };
     CatalogueArgs { action: Action::Import(args) }
 }

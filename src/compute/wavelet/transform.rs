@@ -391,3 +391,77 @@ fn independent(mut vector: Vec<f64>, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     let length = dot(&vector, &vector).sqrt();
     (length > INDEPENDENT * before && length > 0.0).then(|| vector.into_iter().map(|v| v / length).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::TriangleTree;
+    use super::*;
+    use crate::compute::basis::{AzimuthMap, RingBasis};
+
+    fn hierarchies() -> Vec<(Hierarchy, Order)> {
+        let mut all = Vec::new();
+        for order in [Order::Constant, Order::Linear, Order::Quadratic] {
+            for basis in [
+                RingBasis::hemisphere(),
+                RingBasis::klems_full(AzimuthMap::KLEMS_BACK),
+                RingBasis::tregenza(),
+                RingBasis::equal_area(12),
+            ] {
+                all.push((Hierarchy::of_rings(&basis, 2 * order.functions()), order));
+            }
+            let tree = TriangleTree::new(3).unwrap();
+            all.push((Hierarchy::of_triangles(&tree), order));
+        }
+        all
+    }
+
+    /// Values that look like noise, the same every time.
+    fn rough(n: usize) -> Vec<f64> {
+        (0..n).map(|k| ((k * 7919 + 13) % 1009) as f64 / 1009.0).collect()
+    }
+
+    #[test]
+    fn energy_and_values_come_back() {
+        for (hierarchy, order) in hierarchies() {
+            let transform = Transform::new(&hierarchy, order);
+            let values = rough(transform.len());
+            let coefficients = transform.forward(&values);
+            let energy: f64 = hierarchy.cells.iter().zip(&values).map(|(cell, v)| cell.weight * v * v).sum();
+            let kept: f64 = coefficients.iter().map(|c| c * c).sum();
+            assert!((kept / energy - 1.0).abs() < 1e-12, "{order:?} {}", transform.len());
+            let tau: f64 = hierarchy.cells.iter().zip(&values).map(|(cell, v)| cell.weight * v).sum();
+            assert!((coefficients[0] * transform.weight().sqrt() - tau).abs() < 1e-12 * tau);
+            for (a, b) in transform.inverse(&coefficients).iter().zip(&values) {
+                assert!((a - b).abs() < 1e-11, "{order:?}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn dropping_wavelets_never_changes_tau() {
+        for (hierarchy, order) in hierarchies() {
+            let transform = Transform::new(&hierarchy, order);
+            let values = rough(transform.len());
+            let mut coefficients = transform.forward(&values);
+            coefficients.iter_mut().enumerate().skip(1).filter(|(k, _)| k % 3 != 0).for_each(|(_, c)| *c = 0.0);
+            let tau = |v: &[f64]| -> f64 { hierarchy.cells.iter().zip(v).map(|(cell, v)| cell.weight * v).sum() };
+            assert!((tau(&transform.inverse(&coefficients)) - tau(&values)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn wavelets_are_blind_to_the_polynomials_of_their_order() {
+        for (hierarchy, order) in hierarchies() {
+            let transform = Transform::new(&hierarchy, order);
+            let value = |d: DVec3| match order {
+                Order::Constant => 0.7,
+                Order::Linear => 0.7 + 0.3 * d.x - 0.4 * d.y + 0.2 * d.z,
+                Order::Quadratic => 0.7 + 0.3 * d.x - 0.4 * d.y * d.y + 0.2 * d.z * d.x + 0.1 * d.x * d.y,
+            };
+            let values: Vec<f64> = hierarchy.cells.iter().map(|cell| value(cell.centre)).collect();
+            let coefficients = transform.forward(&values);
+            let wavelets = &coefficients[transform.root_count()..];
+            assert!(wavelets.iter().all(|c| c.abs() < 1e-9), "{order:?} {}", transform.len());
+        }
+    }
+}
