@@ -51,6 +51,8 @@ pub(crate) struct Block {
     input_at: u32,
     kept_at: u32,
     matrix_at: usize,
+    /// Its cells, as places in the order of the tree.
+    cells: [u32; 2],
 }
 
 impl Block {
@@ -64,6 +66,7 @@ impl Block {
 #[derive(Debug, Clone)]
 pub struct Transform {
     root_weight: Vec<f64>,
+    inverse_root_weight: Vec<f64>,
     /// Cells in the order of the tree, with the root of the weight of each.
     order: Vec<u32>,
     blocks: Vec<Block>,
@@ -176,30 +179,57 @@ impl Transform {
     /// Cell means of a function given by its coefficients.
     pub fn inverse(&self, coefficients: &[f64]) -> Vec<f64> {
         assert_eq!(coefficients.len(), self.len(), "one coefficient a cell");
+        let flat = self.flat(coefficients);
         let mut leaves = vec![0.0; self.len()];
         let mut kept = vec![0.0; self.kept];
         let root = self.root_count();
         kept[..root].copy_from_slice(&coefficients[..root]);
-        for block in &self.blocks {
-            let (n, m) = (block.inputs as usize, block.kept as usize);
+        for (block, flat) in self.blocks.iter().zip(flat) {
+            let (n, m, at) = (block.inputs as usize, block.kept as usize, block.kept_at as usize);
+            if flat && m == 1 && block.weight > 0.0 {
+                // A constant below here. Blocks inside find zeros and add nothing.
+                let value = kept[at] / block.weight.sqrt();
+                if value != 0.0 {
+                    let [first, end] = block.cells.map(|at| at as usize);
+                    for (leaf, &cell) in leaves[first..end].iter_mut().zip(&self.order[first..end]) {
+                        *leaf = value * self.root_weight[cell as usize];
+                    }
+                }
+                continue;
+            }
             let matrix = &self.matrices[block.matrix_at..block.matrix_at + n * n];
             let from = block.input_at as usize;
             let (head, tail) = kept.split_at_mut(if block.children == 0 { self.kept } else { from });
             let output = if block.children == 0 { &mut leaves[from..from + n] } else { &mut tail[..n] };
-            let at = block.kept_at as usize;
-            let wavelets = block.wavelets as usize;
-            let inputs = head[at..at + m].iter().chain(&coefficients[wavelets..wavelets + n - m]);
-            for (row, &c) in inputs.enumerate() {
+            let mut add = |row: usize, c: f64| {
                 if c != 0.0 {
                     output.iter_mut().zip(&matrix[row * n..(row + 1) * n]).for_each(|(o, q)| *o += c * q);
                 }
-            }
+            };
+            head[at..at + m].iter().enumerate().for_each(|(row, &c)| add(row, c));
+            let wavelets = block.wavelets as usize;
+            coefficients[wavelets..wavelets + n - m].iter().enumerate().for_each(|(k, &c)| add(m + k, c));
         }
         let mut values = vec![0.0; self.len()];
         for (&cell, leaf) in self.order.iter().zip(leaves) {
-            values[cell as usize] = leaf / self.root_weight[cell as usize];
+            values[cell as usize] = leaf * self.inverse_root_weight[cell as usize];
         }
         values
+    }
+
+    /// Blocks without any wavelet in them or below them.
+    fn flat(&self, coefficients: &[f64]) -> Vec<bool> {
+        let mut flat = vec![true; self.blocks.len()];
+        for (index, block) in self.blocks.iter().enumerate().rev() {
+            let from = block.wavelets as usize;
+            if coefficients[from..from + block.wavelet_count()].iter().any(|c| *c != 0.0) {
+                flat[index] = false;
+            }
+            if !flat[index] {
+                flat[block.parent as usize] = false;
+            }
+        }
+        flat
     }
 }
 
@@ -353,6 +383,7 @@ impl Builder<'_> {
                 input_at: group.cells[0] as u32,
                 kept_at,
                 matrix_at: matrices.len(),
+                cells: group.cells.map(|at| at as u32),
             });
             rows.iter().for_each(|row| matrices.extend(row));
             kept_at += kept;
@@ -363,7 +394,8 @@ impl Builder<'_> {
                 blocks[index].input_at = blocks[blocks[index].first_child as usize].kept_at;
             }
         }
-        Transform { root_weight, order: self.order, blocks, matrices, kept: kept_at as usize }
+        let inverse_root_weight = root_weight.iter().map(|root| if *root > 0.0 { 1.0 / root } else { 0.0 }).collect();
+        Transform { root_weight, inverse_root_weight, order: self.order, blocks, matrices, kept: kept_at as usize }
     }
 }
 
