@@ -11,6 +11,7 @@ fn import(files: &[PathBuf]) -> CatalogueArgs {
         manufacturer: String::new(),
         kind: "test".into(),
         tags: vec!["t".into()],
+        compact: None,
     };
     CatalogueArgs { action: Action::Import(args) }
 }

@@ -1,6 +1,8 @@
 //! Systems in closed form at the 145 façade-Tregenza incidences, by which the compact form is tried: a lobe that goes
 //! straight on, one that is redirected, a smooth part.
 
+#![allow(dead_code, reason = "each test takes what it needs")]
+
 use cfs::compute::basis::{AzimuthMap, Ring, RingBasis};
 use cfs::compute::btdf::Indicatrices;
 use cfs::compute::direction::{Dir, Facade, Incident};
@@ -144,4 +146,28 @@ pub fn read_text(text: &str) -> Indicatrices {
         values.extend(words);
     }
     Indicatrices::new(incident, basis, values).unwrap()
+}
+
+/// The two glasses of the report's Figure 11 as closed forms, for light from 48° above: redirecting (upward lobe of
+/// 3° × 9°, a rest straight on, haze) and diffusing.
+pub fn glass(redirecting: bool, basis: &RingBasis) -> Vec<f64> {
+    let about = |altitude: f64, phi: f64| {
+        Dir::<Facade>::from_theta_phi((90.0 - altitude).to_radians(), phi.to_radians()).vector()
+    };
+    let oval = |v: DVec3, d: DVec3, high: f64, wide: f64| {
+        let across = DVec3::Y.cross(d).normalize_or_zero();
+        let along = d.cross(across);
+        let (a, b) = (v.dot(across) / wide.to_radians(), v.dot(along) / high.to_radians());
+        if v.dot(d) > 0.0 { (-0.5 * (a * a + b * b)).exp() } else { 0.0 }
+    };
+    let value = |v: DVec3| {
+        if redirecting {
+            0.75 * oval(v, about(48.0, 90.0), 3.0, 9.0)
+                + 0.15 * oval(v, about(48.0, -90.0), 2.0, 5.0)
+                + 0.04 * v.z.max(0.0).sqrt()
+        } else {
+            0.32 * (0.35 + 0.65 * v.dot(about(60.0, -90.0)).max(0.0).powi(3)) * v.z.max(0.0).powf(0.15)
+        }
+    };
+    basis.cells().map(|cell| value(cell.centre().vector())).collect()
 }

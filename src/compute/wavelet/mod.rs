@@ -27,6 +27,9 @@
 //!
 //! Steps may follow the support W of a wavelet as (W/W_all)^−β. For a square norm β = 0 is best; for misplaced flux,
 //! which forgives large errors on small places, β = 0.3 saves up to a tenth of the bytes.
+//!
+//! Noise is not worth its bytes: 2 % of it on a diffuser costs 50 kB at 0.5 % of the flux and 1 kB at 1.5 %. A threshold
+//! below the noise of a measurement only keeps the noise.
 
 mod compact;
 mod hierarchy;

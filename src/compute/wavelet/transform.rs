@@ -51,6 +51,8 @@ pub(crate) struct Block {
     input_at: u32,
     kept_at: u32,
     matrix_at: usize,
+    /// Its cells, as places in the order of the tree.
+    cells: [u32; 2],
 }
 
 impl Block {
@@ -64,6 +66,7 @@ impl Block {
 #[derive(Debug, Clone)]
 pub struct Transform {
     root_weight: Vec<f64>,
+    inverse_root_weight: Vec<f64>,
     /// Cells in the order of the tree, with the root of the weight of each.
     order: Vec<u32>,
     blocks: Vec<Block>,
@@ -176,30 +179,57 @@ impl Transform {
     /// Cell means of a function given by its coefficients.
     pub fn inverse(&self, coefficients: &[f64]) -> Vec<f64> {
         assert_eq!(coefficients.len(), self.len(), "one coefficient a cell");
+        let flat = self.flat(coefficients);
         let mut leaves = vec![0.0; self.len()];
         let mut kept = vec![0.0; self.kept];
         let root = self.root_count();
         kept[..root].copy_from_slice(&coefficients[..root]);
-        for block in &self.blocks {
-            let (n, m) = (block.inputs as usize, block.kept as usize);
+        for (block, flat) in self.blocks.iter().zip(flat) {
+            let (n, m, at) = (block.inputs as usize, block.kept as usize, block.kept_at as usize);
+            if flat && m == 1 && block.weight > 0.0 {
+                // A constant below here. Blocks inside find zeros and add nothing.
+                let value = kept[at] / block.weight.sqrt();
+                if value != 0.0 {
+                    let [first, end] = block.cells.map(|at| at as usize);
+                    for (leaf, &cell) in leaves[first..end].iter_mut().zip(&self.order[first..end]) {
+                        *leaf = value * self.root_weight[cell as usize];
+                    }
+                }
+                continue;
+            }
             let matrix = &self.matrices[block.matrix_at..block.matrix_at + n * n];
             let from = block.input_at as usize;
             let (head, tail) = kept.split_at_mut(if block.children == 0 { self.kept } else { from });
             let output = if block.children == 0 { &mut leaves[from..from + n] } else { &mut tail[..n] };
-            let at = block.kept_at as usize;
-            let wavelets = block.wavelets as usize;
-            let inputs = head[at..at + m].iter().chain(&coefficients[wavelets..wavelets + n - m]);
-            for (row, &c) in inputs.enumerate() {
+            let mut add = |row: usize, c: f64| {
                 if c != 0.0 {
                     output.iter_mut().zip(&matrix[row * n..(row + 1) * n]).for_each(|(o, q)| *o += c * q);
                 }
-            }
+            };
+            head[at..at + m].iter().enumerate().for_each(|(row, &c)| add(row, c));
+            let wavelets = block.wavelets as usize;
+            coefficients[wavelets..wavelets + n - m].iter().enumerate().for_each(|(k, &c)| add(m + k, c));
         }
         let mut values = vec![0.0; self.len()];
         for (&cell, leaf) in self.order.iter().zip(leaves) {
-            values[cell as usize] = leaf / self.root_weight[cell as usize];
+            values[cell as usize] = leaf * self.inverse_root_weight[cell as usize];
         }
         values
+    }
+
+    /// Blocks without any wavelet in them or below them.
+    fn flat(&self, coefficients: &[f64]) -> Vec<bool> {
+        let mut flat = vec![true; self.blocks.len()];
+        for (index, block) in self.blocks.iter().enumerate().rev() {
+            let from = block.wavelets as usize;
+            if coefficients[from..from + block.wavelet_count()].iter().any(|c| *c != 0.0) {
+                flat[index] = false;
+            }
+            if !flat[index] {
+                flat[block.parent as usize] = false;
+            }
+        }
+        flat
     }
 }
 
@@ -353,6 +383,7 @@ impl Builder<'_> {
                 input_at: group.cells[0] as u32,
                 kept_at,
                 matrix_at: matrices.len(),
+                cells: group.cells.map(|at| at as u32),
             });
             rows.iter().for_each(|row| matrices.extend(row));
             kept_at += kept;
@@ -363,7 +394,8 @@ impl Builder<'_> {
                 blocks[index].input_at = blocks[blocks[index].first_child as usize].kept_at;
             }
         }
-        Transform { root_weight, order: self.order, blocks, matrices, kept: kept_at as usize }
+        let inverse_root_weight = root_weight.iter().map(|root| if *root > 0.0 { 1.0 / root } else { 0.0 }).collect();
+        Transform { root_weight, inverse_root_weight, order: self.order, blocks, matrices, kept: kept_at as usize }
     }
 }
 
@@ -390,4 +422,78 @@ fn independent(mut vector: Vec<f64>, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     }
     let length = dot(&vector, &vector).sqrt();
     (length > INDEPENDENT * before && length > 0.0).then(|| vector.into_iter().map(|v| v / length).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::TriangleTree;
+    use super::*;
+    use crate::compute::basis::{AzimuthMap, RingBasis};
+
+    fn hierarchies() -> Vec<(Hierarchy, Order)> {
+        let mut all = Vec::new();
+        for order in [Order::Constant, Order::Linear, Order::Quadratic] {
+            for basis in [
+                RingBasis::hemisphere(),
+                RingBasis::klems_full(AzimuthMap::KLEMS_BACK),
+                RingBasis::tregenza(),
+                RingBasis::equal_area(12),
+            ] {
+                all.push((Hierarchy::of_rings(&basis, 2 * order.functions()), order));
+            }
+            let tree = TriangleTree::new(3).unwrap();
+            all.push((Hierarchy::of_triangles(&tree), order));
+        }
+        all
+    }
+
+    /// Values that look like noise, the same every time.
+    fn rough(n: usize) -> Vec<f64> {
+        (0..n).map(|k| ((k * 7919 + 13) % 1009) as f64 / 1009.0).collect()
+    }
+
+    #[test]
+    fn energy_and_values_come_back() {
+        for (hierarchy, order) in hierarchies() {
+            let transform = Transform::new(&hierarchy, order);
+            let values = rough(transform.len());
+            let coefficients = transform.forward(&values);
+            let energy: f64 = hierarchy.cells.iter().zip(&values).map(|(cell, v)| cell.weight * v * v).sum();
+            let kept: f64 = coefficients.iter().map(|c| c * c).sum();
+            assert!((kept / energy - 1.0).abs() < 1e-12, "{order:?} {}", transform.len());
+            let tau: f64 = hierarchy.cells.iter().zip(&values).map(|(cell, v)| cell.weight * v).sum();
+            assert!((coefficients[0] * transform.weight().sqrt() - tau).abs() < 1e-12 * tau);
+            for (a, b) in transform.inverse(&coefficients).iter().zip(&values) {
+                assert!((a - b).abs() < 1e-11, "{order:?}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn dropping_wavelets_never_changes_tau() {
+        for (hierarchy, order) in hierarchies() {
+            let transform = Transform::new(&hierarchy, order);
+            let values = rough(transform.len());
+            let mut coefficients = transform.forward(&values);
+            coefficients.iter_mut().enumerate().skip(1).filter(|(k, _)| k % 3 != 0).for_each(|(_, c)| *c = 0.0);
+            let tau = |v: &[f64]| -> f64 { hierarchy.cells.iter().zip(v).map(|(cell, v)| cell.weight * v).sum() };
+            assert!((tau(&transform.inverse(&coefficients)) - tau(&values)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn wavelets_are_blind_to_the_polynomials_of_their_order() {
+        for (hierarchy, order) in hierarchies() {
+            let transform = Transform::new(&hierarchy, order);
+            let value = |d: DVec3| match order {
+                Order::Constant => 0.7,
+                Order::Linear => 0.7 + 0.3 * d.x - 0.4 * d.y + 0.2 * d.z,
+                Order::Quadratic => 0.7 + 0.3 * d.x - 0.4 * d.y * d.y + 0.2 * d.z * d.x + 0.1 * d.x * d.y,
+            };
+            let values: Vec<f64> = hierarchy.cells.iter().map(|cell| value(cell.centre)).collect();
+            let coefficients = transform.forward(&values);
+            let wavelets = &coefficients[transform.root_count()..];
+            assert!(wavelets.iter().all(|c| c.abs() < 1e-9), "{order:?} {}", transform.len());
+        }
+    }
 }

@@ -173,3 +173,41 @@ impl Overlap {
         self.cells.iter().map(mean).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn leaves_tile_the_hemisphere() {
+        for level in 1..=6 {
+            let tree = TriangleTree::new(level).unwrap();
+            assert_eq!(tree.leaves().len(), 4_usize.pow(level + 1));
+            let sum: f64 = tree.leaves().iter().map(|leaf| leaf.weight).sum();
+            assert!((sum - PI).abs() < 1e-12, "{level}: {sum}");
+            for (index, leaf) in tree.leaves().iter().enumerate() {
+                assert_eq!(tree.index(leaf.centre), index);
+            }
+        }
+        assert!(TriangleTree::new(0).is_none() && TriangleTree::new(9).is_none());
+    }
+
+    #[test]
+    fn changing_places_keeps_flux_and_uniform_values() {
+        let basis = RingBasis::equal_area(14);
+        let tree = TriangleTree::new(TriangleTree::level_for(&basis)).unwrap();
+        let overlap = Overlap::new(&basis, &tree, 8);
+        let weights = overlap.leaf_weights();
+        // Counted areas are close to the exact ones.
+        assert!(weights.iter().zip(tree.leaves()).all(|(w, leaf)| (w / leaf.weight - 1.0).abs() < 0.15));
+        let values: Vec<f64> = (0..basis.len()).map(|k| ((k * 37) % 11) as f64).collect();
+        let leaves = overlap.to_leaves(&values);
+        let flux: f64 = weights.iter().zip(&leaves).map(|(w, v)| w * v).sum();
+        let before: f64 = basis.projected_solid_angles().iter().zip(&values).map(|(w, v)| w * v).sum();
+        assert!((flux - before).abs() < 1e-11 * before);
+        let after: f64 = basis.projected_solid_angles().iter().zip(overlap.to_cells(&leaves)).map(|(w, v)| w * v).sum();
+        assert!((after - before).abs() < 1e-11 * before);
+        assert!(overlap.to_leaves(&vec![2.5; basis.len()]).iter().all(|v| (v - 2.5).abs() < 1e-12));
+    }
+}

@@ -18,15 +18,17 @@ pub trait Bits {
 const ACTIVITIES: usize = 4;
 const LEVELS: usize = 16;
 const WAVELETS: usize = 8;
-const UNARY: usize = 12;
+/// Binary digits of a magnitude that have contexts of their own.
+const DIGITS: usize = 12;
+/// Most binary digits of a magnitude.
+const MOST_DIGITS: usize = 25;
 const GROUP: usize = 0;
 const ZERO: usize = GROUP + LEVELS * ACTIVITIES * 3;
 const MORE: usize = ZERO + 2 * WAVELETS * ACTIVITIES * 3;
-const ROOT: usize = MORE + UNARY * ACTIVITIES;
+const SECOND: usize = MORE + DIGITS * ACTIVITIES * LEVELS;
+const ROOT: usize = SECOND + DIGITS;
 /// Number of contexts.
 pub const CONTEXTS: usize = ROOT + 9;
-/// Most bits of a magnitude beyond the unary part.
-const ESCAPE: u32 = 24;
 
 /// Tells or asks all levels of one indicatrix. `levels` holds them, or zeros that are filled in.
 /// `false`: a magnitude that no writer writes.
@@ -75,7 +77,7 @@ pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) ->
             let context = ((leaf * WAVELETS + k.min(WAVELETS - 1)) * ACTIVITIES + around) * 3 + before.min(2);
             let place = &mut levels[from + k];
             if bits.bit(ZERO + context, *place != 0) {
-                *place = magnitude(*place, around, bits, &mut sound);
+                *place = magnitude(*place, level * ACTIVITIES + around, bits, &mut sound);
                 before += 1;
                 largest = place.unsigned_abs().max(largest);
             } else {
@@ -92,34 +94,26 @@ pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) ->
     sound
 }
 
-/// Sign, then magnitude − 1: unary as far as contexts go, then with the number of its bits.
-fn magnitude(level: i32, around: usize, bits: &mut impl Bits, sound: &mut bool) -> i32 {
-    let negative = bits.even(level < 0);
-    let told = level.unsigned_abs().saturating_sub(1);
-    let mut found = 0_u32;
-    while (found as usize) < UNARY && bits.bit(MORE + found as usize * ACTIVITIES + around, told > found) {
+/// Sign, the number of binary digits one by one, then the digits behind the first: the second has a context.
+fn magnitude(told: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) -> i32 {
+    let negative = bits.even(told < 0);
+    let told = told.unsigned_abs().max(1);
+    let digits = told.ilog2() as usize;
+    let mut found = 0;
+    while bits.bit(MORE + found.min(DIGITS - 1) * ACTIVITIES * LEVELS + place, digits > found) {
         found += 1;
-    }
-    if found as usize == UNARY {
-        // Elias gamma of what is beyond.
-        let beyond = told.saturating_sub(UNARY as u32) + 1;
-        let length = 31 - beyond.leading_zeros().min(31);
-        let mut asked = 0;
-        while asked <= ESCAPE && bits.even(asked < length) {
-            asked += 1;
-        }
-        if asked > ESCAPE {
+        if found > MOST_DIGITS {
             *sound = false;
             return 0;
         }
-        let mut value = 1_u32;
-        for k in (0..asked).rev() {
-            value = value << 1 | u32::from(bits.even(beyond >> k & 1 == 1));
-        }
-        found += value - 1;
     }
-    let magnitude = (found + 1) as i32;
-    if negative { -magnitude } else { magnitude }
+    let mut magnitude = 1_u32;
+    for k in (0..found).rev() {
+        let digit = told >> k & 1 == 1;
+        let digit = if k + 1 == found { bits.bit(SECOND + found.min(DIGITS - 1), digit) } else { bits.even(digit) };
+        magnitude = magnitude << 1 | u32::from(digit);
+    }
+    if negative { -(magnitude as i32) } else { magnitude as i32 }
 }
 
 /// Counts how often which bit comes in which context.
