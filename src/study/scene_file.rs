@@ -408,6 +408,26 @@ pub enum Interpolation {
     Patch,
 }
 
+/// `compute.back_reflection`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BackReflectionMode {
+    /// By direction where that can matter more than the error asked for, else diffuse.
+    #[default]
+    Auto,
+    /// Diffuse.
+    Diffuse,
+    /// By the dataset's own back reflection wherever it is given on cells.
+    Directional,
+}
+
+impl BackReflectionMode {
+    /// Nothing that the file needs to say.
+    fn is_auto(&self) -> bool {
+        *self == Self::Auto
+    }
+}
+
 /// `[compute]`
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -419,10 +439,18 @@ pub struct ComputeKeys {
     pub error_target: Option<f64>,
     /// Between and inside the dataset's directions.
     pub interpolation: Interpolation,
+    /// How apertures of `reflectance = "dataset"` reflect the room's light.
+    #[serde(skip_serializing_if = "BackReflectionMode::is_auto")]
+    pub back_reflection: BackReflectionMode,
 }
 
 impl Default for ComputeKeys {
     fn default() -> Self {
-        Self { interreflection: true, error_target: None, interpolation: Interpolation::Auto }
+        Self {
+            interreflection: true,
+            error_target: None,
+            interpolation: Interpolation::Auto,
+            back_reflection: BackReflectionMode::Auto,
+        }
     }
 }
