@@ -36,7 +36,7 @@ fn tau(basis: &RingBasis, row: &[f64]) -> f64 {
 
 fn dataset(data: Indicatrices) -> Dataset {
     let mut dataset = Dataset { name: "Sample".into(), ..Dataset::default() };
-    let scattered = Some(Scattered::Directions(Box::new(data)));
+    let scattered = Some(Scattered::Directions(std::sync::Arc::new(data)));
     dataset.visible.transmission_front = Some(Btdf { regular: None, scattered });
     dataset
 }

@@ -394,3 +394,37 @@ fn skylines_up_to_the_zenith() {
         with_every_system(&format!("skyline at {altitude}°"), &text, |s| roof([0.5, 1.0], [3.0, 1.5], s));
     }
 }
+
+#[test]
+fn a_diffuse_back_reflection_is_the_same_by_cells_and_without() {
+    // A lattice that throws back 0.3 of the light evenly into all directions: what the diffuse way takes it for. What
+    // differs is that light on the opening is taken as even over it.
+    use cfs::compute::basis::{AzimuthMap, RingBasis};
+    use cfs::compute::btdf::{Btdf, CellMatrix};
+    let basis = RingBasis::klems_full(AzimuthMap::KLEMS_BACK);
+    let even = vec![0.3 / std::f64::consts::PI; basis.len() * basis.len()];
+    let matrix = CellMatrix::new(basis.clone(), basis, even).unwrap();
+    let text = Text { reflectance: GREY, apertures: vec![facade([0.0, 0.0], [4.0, 3.0], MADE)], ..Text::default() };
+    let mut scene = text.scene_with(klems(rough));
+    let mut system = (*scene.apertures[0].system).clone();
+    let mut dataset = (*system.dataset).clone();
+    dataset.visible.reflection_back = Some(Btdf::from_cells(matrix));
+    system.dataset = std::sync::Arc::new(dataset);
+    scene.apertures[0].system = std::sync::Arc::new(system);
+    scene.apertures[0].reflectance = 0.3;
+    let mut values = [false, true].map(|directional| {
+        scene.apertures[0].directional = directional;
+        compute(&scene)
+    });
+    scene.apertures[0].directional = false;
+    scene.apertures[0].reflectance = 0.0;
+    let black = compute(&scene);
+    let [diffuse, by_cells] = &mut values;
+    for ((a, b), none) in diffuse.sensors.iter().zip(&by_cells.sensors).zip(&black.sensors) {
+        let (a, b) = (a.interreflected, b.interreflected);
+        let thrown_back = a.value - none.interreflected.value;
+        assert!((a.value - b.value).abs() <= a.error + b.error, "{a:?} {b:?}");
+        assert!((a.value - b.value).abs() <= 0.2 * thrown_back, "{a:?} {b:?} {thrown_back}");
+        assert!(thrown_back > 0.02 * a.value);
+    }
+}

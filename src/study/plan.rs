@@ -1,6 +1,6 @@
 //! What a scene needs, and what was left out and why: decided before any work, printed with every result.
 
-use super::scene::Scene;
+use super::scene::{Scene, surface};
 use crate::compute::btdf::Scattered;
 use std::time::Duration;
 
@@ -68,6 +68,19 @@ impl Plan {
                 (false, _) => "the scene asks for the direct component alone",
                 (true, false) => "nothing in the room reflects",
                 (true, true) => "surfaces reflect",
+            },
+        );
+        let directional = scene.apertures.iter().filter(|a| a.directional).count();
+        let weight =
+            scene.apertures.iter().map(|a| a.reflectance * a.aperture.area()).sum::<f64>() / surface(&scene.room);
+        let share = format!("{:.2} % of the room's surface times reflectance are apertures", 100.0 * weight);
+        plan.add(
+            "back reflection",
+            directional > 0 && scene.interreflection,
+            &if directional > 0 {
+                format!("{share}: {directional} of them by direction, from the dataset's own cells")
+            } else {
+                format!("{share}: too little for its direction to matter, asked for, or no cells: taken as diffuse")
             },
         );
         plan

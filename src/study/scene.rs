@@ -3,15 +3,17 @@
 use super::error::StudyError;
 use super::near_field::near_field;
 use super::scene_file::{
-    ApertureKeys, ApertureReflectance, ControlMode, Interpolation, RoomKeys, SceneFile, SensorKeys, SurfaceKey,
-    SystemKeys,
+    ApertureKeys, ApertureReflectance, BackReflectionMode, ControlMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
+    SurfaceKey, SystemKeys,
 };
 use super::sky::outside_from_keys;
 use super::system::{System, SystemLibrary};
 use crate::compute::angle::Bearing;
+use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Orientation, Surface};
 use crate::compute::lid::Facing;
 use crate::compute::room::aperture::Aperture;
+use crate::compute::room::back_reflection::reflecting_cells;
 use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
@@ -34,12 +36,25 @@ pub struct SceneAperture {
     pub reflectance: f64,
     /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
     pub structure: Option<f64>,
+    /// The room side reflects by its dataset's own cells instead.
+    pub directional: bool,
 }
 
 impl SceneAperture {
     /// Sensors nearer than this see the structure, which the data do not hold; `None` where it is not known. \[m\]
     pub fn homogeneity_distance(&self) -> Option<f64> {
         self.structure.map(homogeneity::distance)
+    }
+
+    /// What the room side reflects without direction.
+    pub fn diffuse_reflectance(&self) -> f64 {
+        if self.directional { 0.0 } else { self.reflectance }
+    }
+
+    /// The dataset's back reflection, where it is followed by direction.
+    pub fn back_reflection(&self) -> Option<&CellMatrix> {
+        reflecting_cells(self.system.dataset.visible.reflection_back.as_ref()?.scattered.as_ref())
+            .filter(|_| self.directional)
     }
 }
 
@@ -123,7 +138,16 @@ impl Scene {
                 Some(period) => Some(within(&format!("aperture[{}].structure", index + 1), period, 1e-9, 100.0, " m")?),
                 None => system.dataset.structure,
             };
-            list.push(SceneAperture { aperture, system, reflectance, structure });
+            let by_dataset = matches!(keys.reflectance, ApertureReflectance::Dataset);
+            let target = file.compute.error_target.unwrap_or(0.01);
+            let directional = by_dataset
+                && reflects_by_cells(&system)
+                && match file.compute.back_reflection {
+                    BackReflectionMode::Diffuse => false,
+                    BackReflectionMode::Directional => true,
+                    BackReflectionMode::Auto => reflectance * aperture.area() / surface(&room) > 2.0 * target,
+                };
+            list.push(SceneAperture { aperture, system, reflectance, structure, directional });
         }
         if let Some(target) = file.compute.error_target {
             within("compute.error_target", target, 1e-8, 1.0, "")?;
@@ -163,6 +187,22 @@ impl Scene {
             surface: self.apertures[aperture].aperture.surface,
         }
     }
+}
+
+/// Area of all six sides. \[m²\]
+pub(super) fn surface(room: &BoxRoom) -> f64 {
+    let s = room.size;
+    2.0 * (s.x * s.y + s.y * s.z + s.z * s.x)
+}
+
+/// Has it a back reflection that can be followed by direction? A part that is thrown back like from a pane cannot.
+fn reflects_by_cells(system: &System) -> bool {
+    system
+        .dataset
+        .visible
+        .reflection_back
+        .as_ref()
+        .is_some_and(|btdf| btdf.regular.is_none() && reflecting_cells(btdf.scattered.as_ref()).is_some())
 }
 
 /// The error with the place in the scene that led to it.

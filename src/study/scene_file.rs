@@ -412,6 +412,26 @@ pub enum Interpolation {
     Patch,
 }
 
+/// `compute.back_reflection`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BackReflectionMode {
+    /// By direction where that can matter more than the error asked for, else diffuse.
+    #[default]
+    Auto,
+    /// Diffuse.
+    Diffuse,
+    /// By the dataset's own back reflection wherever it is given on cells.
+    Directional,
+}
+
+impl BackReflectionMode {
+    /// Nothing that the file needs to say.
+    fn is_auto(&self) -> bool {
+        *self == Self::Auto
+    }
+}
+
 /// `[compute]`
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -428,6 +448,9 @@ pub struct ComputeKeys {
     /// Effort of the methods that have one: point luminaires in all, random points a sensor, cells along each angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near_field_samples: Option<usize>,
+    /// How apertures of `reflectance = "dataset"` reflect the room's light.
+    #[serde(skip_serializing_if = "BackReflectionMode::is_auto")]
+    pub back_reflection: BackReflectionMode,
 }
 
 impl Default for ComputeKeys {
@@ -438,6 +461,7 @@ impl Default for ComputeKeys {
             interpolation: Interpolation::Auto,
             near_field: NearFieldKey::SolidAngle,
             near_field_samples: None,
+            back_reflection: BackReflectionMode::Auto,
         }
     }
 }

@@ -185,6 +185,30 @@ impl Session {
         Ok(RoomResult { sensors, flux, flux_gap, plan })
     }
 
+    /// What every sensor receives from one aperture per luminance, on the cells of a basis.
+    fn receptions(
+        &self,
+        scene: &Scene,
+        index: usize,
+        basis: Option<&RingBasis>,
+        progress: &dyn Progress,
+    ) -> Result<Arc<Vec<Reception>>, StudyError> {
+        let aperture = &scene.apertures[index].aperture;
+        let mut key = aperture_key(scene, index);
+        key.extend(sensor_key(scene));
+        key.extend(basis_key(basis));
+        self.reception.get(key, || {
+            scene
+                .sensors
+                .par_iter()
+                .map(|sensor| {
+                    check(progress)?;
+                    Ok(Reception::new(sensor, aperture, basis))
+                })
+                .collect()
+        })
+    }
+
     fn direct(
         &self,
         scene: &Scene,
@@ -212,19 +236,7 @@ impl Session {
                 continue;
             }
             let basis = emission.cells.as_ref().map(|light| Arc::clone(&light.basis));
-            let mut key = aperture_key(scene, index);
-            key.extend(sensor_key(scene));
-            key.extend(basis_key(basis.as_deref()));
-            let receptions = self.reception.get(key, || {
-                scene
-                    .sensors
-                    .par_iter()
-                    .map(|sensor| {
-                        check(progress)?;
-                        Ok(Reception::new(sensor, aperture, basis.as_deref()))
-                    })
-                    .collect::<Result<Vec<_>, StudyError>>()
-            })?;
+            let receptions = self.receptions(scene, index, basis.as_deref(), progress)?;
             // Dark corners are not chased beyond what anyone can see.
             let absolute = 1e-7 * (facing.outside.diffuse_horizontal());
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };

@@ -148,23 +148,25 @@ impl Polygon {
         }
         breaks.retain(|&azimuth| azimuth >= first && azimuth <= last);
         breaks.sort_unstable_by(f64::total_cmp);
+        let rims = [ring.theta_min, ring.theta_max].map(Rim::new);
         let mut from = first;
+        let mut end = (first + self.reference).sin_cos();
         for &to in breaks.iter() {
             if to - from < 1e-15 {
                 continue;
             }
             let (a, b) = (from, to);
-            from = to;
+            let ends = [end, (b + self.reference).sin_cos()];
+            (from, end) = (to, ends[1]);
             let middle = 0.5 * (a + b);
             let Some([low, high]) = self.along(middle) else {
                 continue;
             };
-            let lower = if low.0 >= inner { Bound::Edge(low.1) } else { Bound::Circle(ring.theta_min) };
-            let upper = if high.0 <= outer { Bound::Edge(high.1) } else { Bound::Circle(ring.theta_max) };
+            let lower = if low.0 >= inner { Bound::Edge(low.1) } else { Bound::Circle(rims[0]) };
+            let upper = if high.0 <= outer { Bound::Edge(high.1) } else { Bound::Circle(rims[1]) };
             if high.0.min(outer) <= low.0.max(inner) {
                 continue;
             }
-            let ends = [a, b].map(|azimuth| (azimuth + self.reference).sin_cos());
             let fan = |bound: &Bound| self.fan(bound, ends, b - a);
             let weight = view.normal.dot(fan(&upper) - fan(&lower));
             let own = basis.azimuth().own_phi(middle + self.reference);
@@ -190,10 +192,8 @@ impl Polygon {
     fn fan(&self, bound: &Bound, ends: [(f64, f64); 2], turn: f64) -> DVec3 {
         let [(sin_a, cos_a), (sin_b, cos_b)] = ends;
         match *bound {
-            Bound::Circle(theta) => {
-                let (sin, cos) = theta.sin_cos();
-                let radial = 0.5 * (theta - sin * cos);
-                DVec3::new(radial * (sin_b - sin_a), radial * (cos_a - cos_b), 0.5 * sin * sin * turn)
+            Bound::Circle(Rim { radial, axial }) => {
+                DVec3::new(radial * (sin_b - sin_a), radial * (cos_a - cos_b), axial * turn)
             }
             Bound::Edge(None) => DVec3::ZERO,
             Bound::Edge(Some(k)) => {
@@ -210,9 +210,23 @@ impl Polygon {
     }
 }
 
+/// ∫ ω dω per azimuth from the pole to a circle about it: outwards and along the axis.
+#[derive(Clone, Copy)]
+struct Rim {
+    radial: f64,
+    axial: f64,
+}
+
+impl Rim {
+    fn new(theta: f64) -> Self {
+        let (sin, cos) = theta.sin_cos();
+        Self { radial: 0.5 * (theta - sin * cos), axial: 0.5 * sin * sin }
+    }
+}
+
 enum Bound {
-    /// A ring's limit. \[rad\]
-    Circle(f64),
+    /// A ring's limit.
+    Circle(Rim),
     /// An edge of the polygon; `None` is the pole itself.
     Edge(Option<usize>),
 }

@@ -106,7 +106,7 @@ impl PatchWeights {
 
     /// Mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the aperture;
     /// and by how much that scaling was, relative.
-    fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
+    pub fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
         let received = dot(&self.received, luminance);
         if received <= 0.0 {
             return (vec![0.0; self.rows.len()], 0.0);
@@ -121,6 +121,22 @@ impl PatchWeights {
         let scale = left / received;
         let first = self.rows.iter().map(|row| if row.is_empty() { 0.0 } else { scale * dot(row, luminance) });
         (first.collect(), (scale - 1.0).abs())
+    }
+}
+
+impl PatchWeights {
+    /// Mean illuminance of the aperture's room side from the patches, by the cells through which their light comes.
+    /// \[lx\] A cell is named by where its light goes to.
+    pub fn falling_back(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
+        let mut incident = vec![0.0; self.basis.len()];
+        for ((row, patch), b) in self.rows.iter().zip(&mesh.patches).zip(exitance) {
+            let flux = patch.area * b;
+            if flux > 0.0 {
+                incident.iter_mut().zip(row).for_each(|(sum, weight)| *sum += flux * weight);
+            }
+        }
+        let scale = 1.0 / (PI * aperture.area());
+        incident.iter().zip(&self.closure).map(|(e, c)| if *c > 0.0 { e * scale / c } else { 0.0 }).collect()
     }
 }
 

@@ -22,11 +22,9 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
         }
         let [lines_a, lines_b] = &wall.lines;
         let n1 = lines_b.len() - 1;
-        let origin = [position[wall.along[0]], position[wall.along[1]]];
-        // Components of the sensor's normal along the wall's axes and against its normal.
-        let n = DVec3::new(normal[wall.along[0]], normal[wall.along[1]], -normal.dot(wall.normal));
-        let front = |a: f64, b: f64| n.dot(DVec3::new(a - origin[0], b - origin[1], distance)) > 0.0;
-        let corner = |a: f64, b: f64| corner_vector(a - origin[0], b - origin[1], distance).dot(n);
+        let plane = Plane::new(wall, position, normal);
+        let front = |a: f64, b: f64| plane.in_front(a, b);
+        let corner = |a: f64, b: f64| plane.corner(a, b);
         row.clear();
         row.extend(lines_b.iter().map(|&b| (corner(lines_a[0], b), front(lines_a[0], b))));
         for (i, &a) in lines_a.iter().enumerate().skip(1) {
@@ -80,7 +78,8 @@ pub fn reconstructing_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Ve
                 if ratio < NEAR || weights[at] == 0.0 {
                     continue;
                 }
-                let moments = moments(wall, patch, position, normal, ((4.0 * ratio).ceil() as usize).clamp(2, 12));
+                let moments =
+                    moments(wall, patch, position, normal, ((4.0 * ratio).ceil() as usize).clamp(2, MOST_PARTS));
                 for side in 0..2 {
                     // The slope between the neighbours' middles, as far as they are of the same surface.
                     let neighbour = |step: isize| {
@@ -113,21 +112,67 @@ fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: us
         let [from, to] = patch.extent[side];
         from + (to - from) * k as f64 / parts as f64
     };
+    // What each part gives to the sums.
     let mut sums = [0.0; 2];
-    for i in 0..parts {
-        for j in 0..parts {
-            let cell = [[line(0, i), line(0, i + 1)], [line(1, j), line(1, j + 1)]];
-            let [a, b] = cell;
-            let corners = [(a[0], b[0]), (a[1], b[0]), (a[1], b[1]), (a[0], b[1])];
-            let corners = corners.map(|(a, b)| wall.point(a, b) - position);
-            let factor = projected_solid_angle(&corners, normal) / PI;
-            for side in 0..2 {
-                let middle = 0.5 * (patch.extent[side][0] + patch.extent[side][1]);
-                sums[side] += factor * (0.5 * (cell[side][0] + cell[side][1]) - middle);
+    let mut add = |i: usize, j: usize, factor: f64| {
+        for (side, k) in [i, j].into_iter().enumerate() {
+            let size = patch.extent[side][1] - patch.extent[side][0];
+            sums[side] += factor * size * ((k as f64 + 0.5) / parts as f64 - 0.5);
+        }
+    };
+    let plane = Plane::new(wall, position, normal);
+    let [a, b] = patch.extent;
+    if a.iter().all(|&a| b.iter().all(|&b| plane.in_front(a, b))) {
+        let column = |i: usize| -> [f64; MOST_PARTS + 1] {
+            std::array::from_fn(|j| if j <= parts { plane.corner(line(0, i), line(1, j)) } else { 0.0 })
+        };
+        let mut before = column(0);
+        for i in 0..parts {
+            let next = column(i + 1);
+            for j in 0..parts {
+                add(i, j, (before[j] - before[j + 1] - next[j] + next[j + 1]) / PI);
+            }
+            before = next;
+        }
+    } else {
+        for i in 0..parts {
+            for j in 0..parts {
+                let (a, b) = ([line(0, i), line(0, i + 1)], [line(1, j), line(1, j + 1)]);
+                let corners = [(a[0], b[0]), (a[1], b[0]), (a[1], b[1]), (a[0], b[1])];
+                let corners = corners.map(|(a, b)| wall.point(a, b) - position);
+                add(i, j, projected_solid_angle(&corners, normal) / PI);
             }
         }
     }
     sums
+}
+
+/// Most parts along each side of a near patch.
+const MOST_PARTS: usize = 12;
+
+/// A point and its normal in a wall's own coordinates.
+struct Plane {
+    origin: [f64; 2],
+    distance: f64,
+    normal: DVec3,
+}
+
+impl Plane {
+    fn new(wall: &Wall, position: DVec3, normal: DVec3) -> Self {
+        Self {
+            origin: [position[wall.along[0]], position[wall.along[1]]],
+            distance: wall.normal.dot(position - wall.point(0.0, 0.0)),
+            normal: DVec3::new(normal[wall.along[0]], normal[wall.along[1]], -normal.dot(wall.normal)),
+        }
+    }
+
+    fn in_front(&self, a: f64, b: f64) -> bool {
+        self.normal.dot(DVec3::new(a - self.origin[0], b - self.origin[1], self.distance)) > 0.0
+    }
+
+    fn corner(&self, a: f64, b: f64) -> f64 {
+        corner_vector(a - self.origin[0], b - self.origin[1], self.distance).dot(self.normal)
+    }
 }
 
 /// The same from one polygon on a wall, given by its corners in the wall's own two coordinates.

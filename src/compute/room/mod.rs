@@ -1,6 +1,7 @@
 //! Light in a box room: apertures, the near field at a sensor, interreflection.
 
 pub mod aperture;
+pub mod back_reflection;
 pub mod beam;
 pub mod cell_weights;
 pub mod direct;

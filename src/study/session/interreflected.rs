@@ -4,10 +4,12 @@ use super::{STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Emission;
+use crate::compute::room::aperture::Aperture;
+use crate::compute::room::back_reflection::BackReflection;
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
 use crate::compute::room::gather::{polygon_factor, reconstructing_factors};
 use crate::compute::room::mesh::{Mesh, Nested};
-use crate::compute::room::radiosity::{Radiosity, dot};
+use crate::compute::room::radiosity::{Exitance, Radiosity, dot};
 use crate::study::cache::{Key, bits};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -25,12 +27,15 @@ const DIFFERENCE: f64 = 1.6;
 /// Number of fine patches times the relative error that both densities share: sampling of the first light.
 const REST: f64 = 3.0;
 
+/// What taking the light on an aperture as even costs of what it throws back to a sensor, relative.
+const UNEVEN: f64 = 0.1;
+
 /// What a scene that names no error gets. \[relative\]
 const ORDINARY_TARGET: f64 = 0.01;
 
 impl Session {
     /// Interreflected light at every sensor, and the largest gap of flux before it was closed. Refines until the stated
-    /// error of the total is 0.7 of what is asked for at every sensor that matters, or the finest mesh is reached.
+    /// error of the total is 0.9 of what is asked for at every sensor that matters, or the finest mesh is reached.
     pub(super) fn interreflected(
         &self,
         scene: &Scene,
@@ -49,7 +54,7 @@ impl Session {
             let total = |i: usize| direct[i].value + result.0[i].value;
             let mean = (0..direct.len()).map(total).sum::<f64>() / direct.len() as f64;
             let stated = |i: usize| direct[i].error + result.0[i].error;
-            let reached = |i: usize| stated(i) <= 0.7 * target * total(i).max(0.1 * mean);
+            let reached = |i: usize| stated(i) <= 0.9 * target * total(i).max(0.1 * mean);
             if (0..direct.len()).all(reached) {
                 break;
             }
@@ -69,7 +74,7 @@ impl Session {
         let key = room_key(scene, count);
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let radiosity = self.rooms.get(key.clone(), || {
-            let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.reflectance).collect();
+            let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.diffuse_reflectance()).collect();
             Radiosity::new(Nested::with_about(&scene.room, &geometry, &reflectances, count)?).map_err(StudyError::from)
         })?;
         check(progress)?;
@@ -82,28 +87,50 @@ impl Session {
             });
             Ok::<_, StudyError>(weights.collect())
         })?;
+        let weights = |index: usize, basis: &Arc<RingBasis>| {
+            let mut key = key.clone();
+            key.push(index as u64);
+            key.extend(basis_key(Some(basis)));
+            let compute = || {
+                let weights = PatchWeights::new(mesh, &geometry[index], Arc::clone(basis));
+                Ok::<_, std::convert::Infallible>(weights)
+            };
+            match self.patches.get(key, compute) {
+                Ok(weights) => weights,
+                Err(never) => match never {},
+            }
+        };
         let mut first = FirstLight::dark(mesh.patches.len());
         for (index, emission) in emissions.iter().enumerate() {
             check(progress)?;
-            let weights = |basis: &Arc<RingBasis>| {
-                let mut key = key.clone();
-                key.push(index as u64);
-                key.extend(basis_key(Some(basis)));
-                let compute = || {
-                    let weights = PatchWeights::new(mesh, &geometry[index], Arc::clone(basis));
-                    Ok::<_, std::convert::Infallible>(weights)
-                };
-                match self.patches.get(key, compute) {
-                    Ok(weights) => weights,
-                    Err(never) => match never {},
-                }
-            };
+            let weights = |basis: &Arc<RingBasis>| weights(index, basis);
             first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
         }
         check(progress)?;
         let all: Vec<f64> = first.diffuse.iter().zip(&first.beam).map(|(d, b)| d + b).collect();
         // The beam's first reflection comes from sharp outlines, and has a closed form at every sensor.
-        let exitance = radiosity.exitance(&all, &first.beam);
+        let mut exitance = radiosity.exitance(&all, &first.beam);
+        let mut thrown_back = vec![0.0; scene.sensors.len()];
+        let mirrors: Vec<(usize, BackReflection<'_>)> = scene
+            .apertures
+            .iter()
+            .enumerate()
+            .filter_map(|(index, aperture)| {
+                let matrix = aperture.back_reflection()?;
+                Some((index, BackReflection::new(matrix, weights(index, &Arc::new(matrix.incident().clone())))))
+            })
+            .collect();
+        if !mirrors.is_empty() {
+            check(progress)?;
+            let luminances =
+                between_room_and_apertures(&radiosity, &geometry, &mirrors, &all, &first.beam, &mut exitance);
+            for ((index, mirror), luminance) in mirrors.iter().zip(luminances) {
+                let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
+                for (sum, reception) in thrown_back.iter_mut().zip(receptions.iter()) {
+                    *sum += dot(&reception.cells, &luminance);
+                }
+            }
+        }
         // What is not known of the emission is not known of its reflections.
         let emitted: Estimate = emissions
             .iter()
@@ -115,7 +142,8 @@ impl Session {
             .sensors
             .par_iter()
             .zip(gather.par_iter())
-            .map(|(sensor, [fine, coarse])| {
+            .zip(thrown_back.par_iter())
+            .map(|((sensor, [fine, coarse]), thrown_back)| {
                 let outlines: f64 = first
                     .outlines
                     .iter()
@@ -131,13 +159,52 @@ impl Session {
                     difference += by_fine - by_coarse;
                     squares += (by_fine - by_coarse).powi(2);
                 }
-                let value = (value + difference / 3.0 + outlines).max(0.0);
+                let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
                 let rest = (REST / mesh.patches.len() as f64).hypot(0.5 * first.gap) * value;
-                Estimate::new(value, (DIFFERENCE * squares.sqrt()).hypot(rest) + emitted_error * value)
+                Estimate::new(
+                    value,
+                    (DIFFERENCE * squares.sqrt()).hypot(rest) + emitted_error * value + UNEVEN * thrown_back,
+                )
             })
             .collect();
         Ok((estimates, first.gap))
     }
+}
+
+/// Luminance of every mirroring aperture, once what goes to and fro between them and the room has settled; `exitance` is
+/// brought up to date.
+fn between_room_and_apertures(
+    radiosity: &Radiosity,
+    geometry: &[Aperture],
+    mirrors: &[(usize, BackReflection<'_>)],
+    first: &[f64],
+    beam: &[f64],
+    exitance: &mut Exitance,
+) -> Vec<Vec<f64>> {
+    let mesh = &radiosity.nested.fine;
+    let brightest = first.iter().copied().fold(0.0, f64::max);
+    let mut returned = vec![0.0; first.len()];
+    let mut luminances = Vec::new();
+    // Each turn leaves the share of the light that comes back to an aperture, about a tenth.
+    for _ in 0..60 {
+        let emitted: Vec<f64> =
+            mesh.patches.iter().zip(&exitance.fine).zip(beam).map(|((p, b), e)| b + p.reflectance * e).collect();
+        luminances =
+            mirrors.iter().map(|(index, mirror)| mirror.luminance(mesh, &geometry[*index], &emitted)).collect();
+        let mut next = vec![0.0; first.len()];
+        for ((_, mirror), luminance) in mirrors.iter().zip(&luminances) {
+            let (part, _) = mirror.weights().illuminance(luminance);
+            next.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
+        }
+        let change = next.iter().zip(&returned).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        returned = next;
+        let all: Vec<f64> = first.iter().zip(&returned).map(|(a, b)| a + b).collect();
+        *exitance = radiosity.exitance(&all, beam);
+        if change <= 1e-9 * brightest {
+            break;
+        }
+    }
+    luminances
 }
 
 /// What a meshed room depends on.
@@ -147,7 +214,7 @@ fn room_key(scene: &Scene, count: usize) -> Key {
     key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
     for index in 0..scene.apertures.len() {
         key.extend(aperture_key(scene, index));
-        key.push(scene.apertures[index].reflectance.to_bits());
+        key.push(scene.apertures[index].diffuse_reflectance().to_bits());
     }
     key
 }

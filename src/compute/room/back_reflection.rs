@@ -1,0 +1,120 @@
+//! What an aperture throws back into the room, by direction (second term of eq 4): light from the patches, by the cells
+//! through which it falls on the aperture, times the dataset's own back reflection.
+//!
+//! The geometry is that of the first light, read backwards: what a patch of unit exitance sends into the aperture through
+//! a cell is what it would receive through that cell. Like the emission, the light on the aperture is taken as the same
+//! all over it.
+
+use super::aperture::Aperture;
+use super::first_bounce::PatchWeights;
+use super::mesh::Mesh;
+use crate::compute::btdf::{CellMatrix, Scattered};
+use crate::compute::direction::Dir;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Most cells that the room side is reflected by; finer data are taken as diffuse.
+const MOST_CELLS: usize = 600;
+
+/// One aperture's room side.
+pub struct BackReflection<'a> {
+    matrix: &'a CellMatrix,
+    /// On the matrix's incident cells.
+    weights: Arc<PatchWeights>,
+    /// For every cell of emergent light the emergent cell of the matrix.
+    source: Vec<usize>,
+}
+
+/// The cells of a back reflection, where it can be followed by direction.
+pub fn reflecting_cells(scattered: Option<&Scattered>) -> Option<&CellMatrix> {
+    match scattered {
+        Some(Scattered::Cells(matrix)) if matrix.incident().len() <= MOST_CELLS => Some(matrix),
+        _ => None,
+    }
+}
+
+impl<'a> BackReflection<'a> {
+    /// `weights` of the patches on the matrix's incident cells.
+    pub fn new(matrix: &'a CellMatrix, weights: Arc<PatchWeights>) -> Self {
+        // Reflected light is named by its lateral parts as it travels, so that a mirror is a diagonal; light from an
+        // aperture by where it comes from: half a turn about the normal between the two.
+        let source = weights
+            .basis
+            .cells()
+            .map(|cell| {
+                let turned = Dir::from_theta_phi(cell.theta(), cell.phi + PI);
+                matrix.emergent().index(turned).unwrap_or_default()
+            })
+            .collect();
+        Self { matrix, weights, source }
+    }
+
+    /// Luminance of the room side by the cells of [`Self::weights`], from the exitance of every patch. \[cd/m²\]
+    pub fn luminance(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
+        let incident = self.weights.falling_back(mesh, aperture, exitance);
+        let reflected = self.matrix.luminance(&incident);
+        self.source.iter().map(|&cell| reflected[cell]).collect()
+    }
+
+    /// The patches' weights.
+    pub fn weights(&self) -> &PatchWeights {
+        &self.weights
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mesh::{BoxRoom, Nested};
+    use super::*;
+    use crate::compute::basis::{AzimuthMap, RingBasis};
+    use crate::compute::direction::Surface;
+    use glam::DVec3;
+
+    fn setting() -> (Mesh, Aperture, RingBasis) {
+        let room = BoxRoom { size: DVec3::new(4.0, 6.0, 3.0), floor: 0.5, walls: 0.5, ceiling: 0.5 };
+        let aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.5), size: [3.0, 2.0] };
+        let mesh = Nested::with_about(&room, &[aperture], &[0.0], 500).unwrap().fine;
+        (mesh, aperture, RingBasis::klems_full(AzimuthMap::KLEMS_BACK))
+    }
+
+    fn returned(matrix: &CellMatrix, exitance: impl Fn(&super::super::mesh::Patch) -> f64) -> (Mesh, Vec<f64>, f64) {
+        let (mesh, aperture, basis) = setting();
+        let weights = Arc::new(PatchWeights::new(&mesh, &aperture, Arc::new(basis)));
+        let back = BackReflection::new(matrix, weights);
+        let exitance: Vec<f64> = mesh.patches.iter().map(exitance).collect();
+        let luminance = back.luminance(&mesh, &aperture, &exitance);
+        let (first, _) = back.weights().illuminance(&luminance);
+        let incident: f64 = back.weights().falling_back(&mesh, &aperture, &exitance).iter().sum();
+        (mesh, first, incident * aperture.area())
+    }
+
+    fn mirror(basis: &RingBasis) -> CellMatrix {
+        let n = basis.len();
+        let mut values = vec![0.0; n * n];
+        for (i, cell) in basis.cells().enumerate() {
+            values[i * n + i] = 1.0 / cell.projected_solid_angle();
+        }
+        CellMatrix::new(basis.clone(), basis.clone(), values).unwrap()
+    }
+
+    #[test]
+    fn a_room_of_even_exitance_lights_its_aperture_evenly_and_gets_all_of_it_back() {
+        let (mesh, _, basis) = setting();
+        let (_, first, incident) = returned(&mirror(&basis), |_| 100.0);
+        assert!((incident / (100.0 * 6.0) - 1.0).abs() < 1e-9, "{incident}");
+        let back: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
+        assert!((back / incident - 1.0).abs() < 1e-9, "{back} {incident}");
+    }
+
+    #[test]
+    fn a_mirror_sends_light_from_the_floor_on_upwards_and_from_the_left_to_the_right() {
+        let (_, _, basis) = setting();
+        let flux = |mesh: &Mesh, first: &[f64], wall: usize| -> f64 {
+            mesh.patches.iter().zip(first).filter(|(p, _)| p.wall == wall).map(|(p, e)| p.area * e).sum()
+        };
+        let (mesh, first, _) = returned(&mirror(&basis), |patch| if patch.wall == 0 { 100.0 } else { 0.0 });
+        assert!(flux(&mesh, &first, 1) > 20.0 * flux(&mesh, &first, 0), "ceiling against floor");
+        let (mesh, first, _) = returned(&mirror(&basis), |patch| if patch.wall == 2 { 100.0 } else { 0.0 });
+        assert!(flux(&mesh, &first, 3) > 20.0 * flux(&mesh, &first, 2), "right against left");
+    }
+}
