@@ -323,7 +323,7 @@ fn what_is_written_reads_back() {
             else {
                 panic!("matrices")
             };
-            assert!(x.values().iter().zip(y.values()).all(|(x, y)| (x - y).abs() <= 1e-8 * y), "{component:?}");
+            assert!(x.values().iter().zip(y.values().iter()).all(|(x, y)| (x - y).abs() <= 1e-8 * y), "{component:?}");
         }
     }
 }
