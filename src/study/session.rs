@@ -13,6 +13,7 @@ use crate::compute::lid::{Emission, Lid};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::direct::{self, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
+use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -21,7 +22,7 @@ use std::time::Instant;
 /// Relative accuracy asked of the cubature at every sensor. Its error estimate is on the safe side by two to three
 /// digits, so that the ordinary value costs no digit that anyone sees.
 fn cubature(error_target: Option<f64>) -> f64 {
-    error_target.map_or(2e-4, |target| (0.03 * target).clamp(1e-10, 1e-4))
+    error_target.map_or(8e-5, |target| (0.03 * target).clamp(1e-10, 8e-5))
 }
 
 /// Steps that a room reports: emission, direct light, two meshes.
@@ -73,7 +74,7 @@ pub struct LidResult {
 /// Caches. One for the life of a program; shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
-    gather: Cache<Vec<[Vec<f64>; 2]>>,
+    gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
 }
