@@ -17,6 +17,7 @@ use crate::compute::lid::{Emission, Lid, sun_grid};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::direct::{self, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
+use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
@@ -26,7 +27,7 @@ use std::time::Instant;
 /// Relative accuracy asked of the cubature at every sensor: half of what the scene asks for, the rest is for the light
 /// itself and for interreflection. Without a target, what costs no digit that anyone sees.
 fn cubature(error_target: Option<f64>) -> f64 {
-    error_target.map_or(2e-4, |target| (0.5 * target).clamp(1e-10, 0.1))
+    error_target.map_or(1e-4, |target| (0.5 * target).clamp(1e-10, 0.1))
 }
 
 /// Steps that a room reports: emission, direct light, two meshes.
@@ -90,7 +91,7 @@ pub struct LidResult {
 /// Caches. One for the life of a program; shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
-    gather: Cache<Vec<[Vec<f64>; 2]>>,
+    gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
     models: Cache<(Model, Grid)>,

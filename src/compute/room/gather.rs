@@ -54,8 +54,17 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
 /// slopes that its neighbours give it, its mean kept.
 ///
 /// A patch close to the point covers much of what the point sees, and a constant there errs in first order of its size.
-pub fn reconstructing_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec<f64> {
+pub struct Reconstruction {
+    /// Weights w with E = Σ w_j B_j.
+    pub weights: Vec<f64>,
+    /// What the slopes have in the weights: what they give tells how much the patches near the point matter.
+    pub slopes: Vec<f64>,
+}
+
+/// At a point.
+pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstruction {
     let mut weights = configuration_factors(mesh, position, normal);
+    let mut slopes = vec![0.0; weights.len()];
     for wall in &mesh.walls {
         let distance = wall.normal.dot(position - wall.point(0.0, 0.0));
         if distance <= 0.0 {
@@ -93,14 +102,15 @@ pub fn reconstructing_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Ve
                     let (low, high) = (neighbour(-1).unwrap_or(own), neighbour(1).unwrap_or(own));
                     if high.1 > low.1 {
                         let slope = moments[side] / (high.1 - low.1);
-                        weights[high.0] += slope;
-                        weights[low.0] -= slope;
+                        slopes[high.0] += slope;
+                        slopes[low.0] -= slope;
                     }
                 }
             }
         }
     }
-    weights
+    weights.iter_mut().zip(&slopes).for_each(|(weight, slope)| *weight += slope);
+    Reconstruction { weights, slopes }
 }
 
 /// Size of a patch over its distance from which its slopes count.
