@@ -182,6 +182,8 @@ pub enum Sheet {
     Findings,
     /// All keys.
     Keys,
+    /// Error against run time.
+    Accuracy,
     /// A path to open or write.
     Path(PathUse),
 }
