@@ -39,7 +39,7 @@ pub struct AccuracyArgs {
 }
 
 /// Size of the picture. \[px\]
-const SIZE: [u32; 2] = [1240, 560];
+const SIZE: [u32; 2] = [1280, 560];
 
 /// Runs the command.
 pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {

@@ -81,13 +81,15 @@ pub fn plot(accuracy: &Accuracy, width: u32, height: u32, colours: &Colours) -> 
     for (k, (series, colour)) in accuracy.series.iter().zip(colours.series.into_iter().cycle()).enumerate() {
         let (centre, line) = (((k % columns) as f64 + 0.5) * step, 14.0 + 18.0 * (k / columns) as f64);
         let text = name(series);
-        let half = 0.5 * 9.0 * text.chars().count() as f64;
+        // Upright paper is the window's, with its narrow letters; a PNG's dots are wider than those of any font.
+        let (half, aside) = if upright { (4.5, 10.0) } else { (6.2, 6.0) };
+        let half = half * text.chars().count() as f64;
         shapes.push(Shape::Line {
             points: vec![[centre - half - 18.0, line], [centre - half, line]],
             colour,
             width: 3.0,
         });
-        shapes.push(Shape::Text { at: [centre + 10.0, line], text, colour: colours.ink });
+        shapes.push(Shape::Text { at: [centre + aside, line], text, colour: colours.ink });
         front(&left, series, colour, &mut shapes);
         dots(&right, series, colour, &mut shapes);
     }
