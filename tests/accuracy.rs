@@ -43,7 +43,7 @@ fn a_ladder_rises() {
         let errors: Vec<f64> = rungs.iter().map(|rung| rung.rms()).collect();
         // The last of the point luminaires is the distance rule.
         let finest = if method == "subdivision" { errors[errors.len() - 2] } else { errors[errors.len() - 1] };
-        assert!(finest <= bar && finest <= errors[0], "{method}: {errors:?}");
+        assert!(finest <= bar && (finest < errors[0] || finest < 1e-5), "{method}: {errors:?}");
         for rung in rungs {
             assert!(rung.sky > 0.0 && rung.sky < 60.0 && rung.setup >= 0.0 && rung.sun.is_some(), "{method}");
             assert!(rung.max() >= rung.rms() && !rung.errors.is_empty());

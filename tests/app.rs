@@ -4,6 +4,7 @@ use cfs::app::App;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
 use cfs::app::state::{Sheet, Tile};
 use cfs::compute::estimate::{Estimate, Progress};
+use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -44,6 +45,10 @@ impl Engine for Scripted {
 
     fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, String> {
         Err("no LID in this test".to_owned())
+    }
+
+    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, String> {
+        Err("no ladder in this test".to_owned())
     }
 
     fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, String> {

@@ -138,7 +138,7 @@ fn the_other_methods_converge_to_the_ordinary_one() {
             let e = by(method, &scene, &window(), &list);
             (e.iter().zip(&exact).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / exact.len() as f64).sqrt() / mean
         };
-        for (coarse, fine, bar) in [(methods(4), methods(64), [0.0, 2e-3, 2e-2, 1e-2, 2e-3])] {
+        for (coarse, fine, bar) in [(methods(4), methods(64), [0.0, 2e-3, 4e-2, 2e-2, 2e-3])] {
             for ((coarse, fine), bar) in coarse.into_iter().zip(fine).zip(bar).skip(1) {
                 let (before, after) = (rms(coarse), rms(fine));
                 assert!(after < bar, "{name}, {fine:?}: {after}");
@@ -198,7 +198,7 @@ fn parts_of_an_aperture_add_up_to_the_whole() {
             }
         }
         for ((a, b), sensor) in whole.iter().zip(&sum).zip(&list) {
-            let slack = if system == TRANSPARENT { 2e-8 } else { 1e-9 };
+            let slack = if system == TRANSPARENT { 4e-9 } else { 1e-9 };
             assert!((a - b).abs() <= slack * a + 1e-12, "{system}: {a} {b} at {sensor:?}");
         }
     }

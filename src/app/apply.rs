@@ -112,6 +112,7 @@ impl App {
                 state.import = None;
                 state.sheet = None;
             }
+            Command::MeasureAccuracy => self.measure_accuracy(),
             Command::RetryCatalogue => self.open_catalogue(),
         }
     }

@@ -7,6 +7,7 @@ use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::ies::IesEdition;
+use crate::study::accuracy::{Accuracy, ladder};
 use crate::study::compact::stored_by_default;
 use crate::study::control::pick_state;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
@@ -197,6 +198,10 @@ impl Engine for StudyEngine {
             description: describe(&name, &question.scene, 0, ""),
             seconds: start.elapsed().as_secs_f64(),
         })
+    }
+
+    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, String> {
+        ladder(&self.scene(question)?, progress).map_err(|error| error.to_string())
     }
 
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, String> {

@@ -95,6 +95,8 @@ pub enum Command {
     AddImport,
     /// Forget what was read.
     DiscardImport,
+    /// Run the present scene with rising effort by every method.
+    MeasureAccuracy,
     /// Open the catalogue once more after a failure.
     RetryCatalogue,
 }
@@ -136,6 +138,7 @@ impl Command {
         list.extend(Tile::ALL.map(CopyTile));
         list.extend(ThemeChoice::ALL.map(Theme));
         list.extend([ResetScene, Sheet(Some(super::state::Sheet::Findings))]);
+        list.extend([Sheet(Some(super::state::Sheet::Accuracy)), MeasureAccuracy]);
         list.extend([Sheet(Some(super::state::Sheet::Keys)), Quit]);
         list
     }
@@ -207,6 +210,16 @@ impl Command {
                 ("Findings of the dataset".into(), "What the checks say about the selected dataset", None)
             }
             Self::Sheet(Some(Sheet::Keys)) => ("Keys".into(), "All keyboard shortcuts", plain(Key::Questionmark)),
+            Self::Sheet(Some(Sheet::Accuracy)) => (
+                "Accuracy".into(),
+                "Error against run time of every method for this scene, and what stated errors are worth",
+                plain(Key::A),
+            ),
+            Self::MeasureAccuracy => (
+                "Measure error against run time".into(),
+                "Compute the scene with rising effort by every method: some seconds to a minute",
+                None,
+            ),
             Self::Sheet(Some(Sheet::Import)) => ("Import sheet".into(), "Files that were read", None),
             Self::Sheet(Some(Sheet::Path(_))) => ("Type a path".into(), "Give a path instead of choosing a file", None),
             Self::Sheet(None) => ("Close the sheet".into(), "Close the sheet at the side", None),

@@ -4,6 +4,7 @@ use super::shelf::Shelf;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Lid;
 use crate::formats::luminaire::Description;
+use crate::study::accuracy::Accuracy;
 use crate::study::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -73,6 +74,8 @@ pub trait Engine: Send + Sync {
     fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, String>;
     /// The light of the first aperture.
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, String>;
+    /// Error against run time of every method.
+    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, String>;
     /// The bytes of a luminaire file, its format by the path's extension.
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, String>;
 }

@@ -29,6 +29,8 @@ pub enum Lane {
     Room,
     /// What control chooses over the year.
     Year,
+    /// Error against run time.
+    Accuracy,
     /// Writing files.
     Export,
 }
@@ -44,6 +46,7 @@ impl Lane {
             Self::Lid => "LID",
             Self::Room => "room",
             Self::Year => "year of control",
+            Self::Accuracy => "error against time",
             Self::Export => "writing file",
         }
     }

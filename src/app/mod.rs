@@ -23,6 +23,7 @@ pub mod title;
 pub mod views;
 pub mod work;
 
+use crate::study::accuracy::Accuracy;
 use command::Command;
 use dialogs::{FileDialogs, NativeDialogs, NoDialogs};
 use egui::util::undoer::Undoer;
@@ -59,6 +60,10 @@ pub struct Results {
     pub room: Shown<RoomFigures>,
     /// What control does over the year.
     pub year: Shown<control::Year>,
+    /// Error against run time, of the scene that it was asked for.
+    pub accuracy: Shown<Accuracy>,
+    /// Counts the ladders that came in.
+    pub accuracy_revision: u64,
     /// Counts what the pictures depend on.
     pub revision: u64,
 }
@@ -81,6 +86,7 @@ pub struct App {
     export: export::Exports,
     toasts: egui_notify::Toasts,
     bench: panels::bench::BenchState,
+    accuracy_view: views::accuracy::State,
     ctx: egui::Context,
     installed: bool,
     shown_title: String,
@@ -108,6 +114,7 @@ impl App {
             export: export::Exports::default(),
             toasts: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
             bench: panels::bench::BenchState::default(),
+            accuracy_view: views::accuracy::State::default(),
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),

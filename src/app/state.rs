@@ -185,6 +185,8 @@ pub enum Sheet {
     Findings,
     /// All keys.
     Keys,
+    /// Error against run time.
+    Accuracy,
     /// A path to open or write.
     Path(PathUse),
 }

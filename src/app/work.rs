@@ -11,6 +11,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::lid::Facing;
+use crate::study::accuracy::Accuracy;
 use crate::study::scene_file::{ControlMode, SceneFile};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::{Path, PathBuf};
@@ -36,6 +37,8 @@ pub enum Outcome {
     Lid(Result<LidFigures, String>),
     /// The room.
     Room(Result<RoomFigures, String>),
+    /// Error against run time.
+    Accuracy(Result<Accuracy, String>),
     /// Files that the user chose.
     Chosen(Result<Vec<PathBuf>, String>),
     /// Where to write.
@@ -226,6 +229,7 @@ impl App {
                     match finished.lane {
                         Lane::Lid => self.results.lid.error = Some(text),
                         Lane::Room => self.results.room.error = Some(text),
+                        Lane::Accuracy => self.results.accuracy.error = Some(text),
                         Lane::Year => self.results.year.error = Some(text),
                         Lane::Catalogue => self.state.search_error = Some(text),
                         _ => {}
@@ -254,6 +258,10 @@ impl App {
             Outcome::Found(Err(error)) => self.state.search_error = Some(error),
             Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
             Outcome::Year(result) => self.results.year.take(result),
+            Outcome::Accuracy(result) => {
+                self.results.accuracy_revision += 1;
+                self.results.accuracy.take(result);
+            }
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Room(result) => self.results.room.take(result),
             Outcome::Chosen(Ok(paths)) => self.apply(super::command::Command::OpenPaths(paths)),
@@ -382,6 +390,24 @@ impl App {
         }
     }
 
+    /// What relative paths of the scene start from.
+    fn base(&self) -> PathBuf {
+        self.state.scene_path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf()
+    }
+
+    /// Runs the ladder on the present scene and shows its sheet.
+    pub(super) fn measure_accuracy(&mut self) {
+        self.state.sheet = Some(Sheet::Accuracy);
+        let Some(shelf) = self.state.shelf() else {
+            self.toasts.info("The catalogue is not open yet");
+            return;
+        };
+        let question = Question { scene: self.state.document.scene.clone(), base: self.base(), shelf };
+        let engine = self.services.engine.clone();
+        self.results.accuracy.error = None;
+        self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
+    }
+
     /// Asks for everything that the document's change since the last call affects.
     pub fn refresh(&mut self) {
         if self.state.document.daylight_follows {
@@ -393,13 +419,13 @@ impl App {
             return;
         }
         self.asked = Some(document.clone());
-        let base = self.state.scene_path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
-        let question = Question { scene: document.scene.clone(), base, shelf: shelf.clone() };
+        let question = Question { scene: document.scene.clone(), base: self.base(), shelf: shelf.clone() };
         let selection = document.selection.clone();
         self.state.dataset.stale = true;
         self.state.daylight.stale = true;
         self.results.lid.stale = true;
         self.results.room.stale = true;
+        self.results.accuracy.stale = true;
         let (scene, base) = (question.scene.clone(), question.base.clone());
         self.start(Lane::Scene, move |_| {
             let daylight =

@@ -39,7 +39,7 @@ pub struct AccuracyArgs {
 }
 
 /// Size of the picture. \[px\]
-const SIZE: [u32; 2] = [1240, 560];
+const SIZE: [u32; 2] = [1280, 560];
 
 /// Runs the command.
 pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
@@ -169,13 +169,13 @@ fn table(accuracy: &Accuracy) -> String {
         100.0 * tight,
         100.0 * tight_or_small
     );
-    for series in
-        accuracy.series.iter().filter(|series| series.quantity == Quantity::Total || accuracy.series.len() < 5)
-    {
-        if let Some(rung) = series.rungs.last() {
-            let _ = writeln!(text, "Reached: {} at the finest target ({}).", error(rung.reached()), name(series));
-            break;
-        }
+    for series in accuracy.series.iter().filter(|series| series.rungs.iter().all(|rung| rung.target.is_some())) {
+        let reached: Vec<String> = series
+            .rungs
+            .iter()
+            .filter_map(|rung| Some(format!("{} of {}", error(rung.reached()), error(rung.target?))))
+            .collect();
+        let _ = writeln!(text, "Reached, {} illuminance: {}.", quantity(series.quantity), reached.join(", "));
     }
     let (computed, all) = accuracy.sensors;
     let _ = writeln!(text, "{computed} of {all} sensors, times of {} thread(s).", accuracy.threads);
@@ -198,7 +198,7 @@ fn to_json(accuracy: &Accuracy) -> serde_json::Value {
             "method": series.method,
             "quantity": quantity(series.quantity),
             "rungs": series.rungs.iter().map(|rung| json!({
-                "setting": rung.setting, "setup_s": rung.setup, "sky_s": rung.sky, "sun_s": rung.sun,
+                "setting": rung.setting, "error_target": rung.target, "setup_s": rung.setup, "sky_s": rung.sky, "sun_s": rung.sun,
                 "reached": rung.reached(), "true_rms": rung.rms(), "true_max": rung.max(),
                 "coverage": coverage(rung.coverage()),
             })).collect::<Vec<_>>(),

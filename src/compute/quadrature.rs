@@ -105,13 +105,11 @@ fn scaled_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     error.max(2.0 * f64::EPSILON * magnitude)
 }
 
-/// The same for the product of 3–7 rules. On a smooth piece of size h the weaker rule errs with h⁶ and the better one
-/// with h¹², so that the error is the square of the difference, both taken relative to the variation. The factor is for
-/// the constants; over skies seen through openings it leaves one to two digits of reserve. Pieces that are not smooth
-/// are found out when they are halved, see [`adapt`].
-fn squared_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
+/// The same for pieces that are known to be smooth: of the reserve of [`scaled_error`], which costs ten times the work,
+/// one digit is left. Pieces that are not smooth after all are found out when they are halved, see [`adapt`].
+fn smooth_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     let error = if variation > 0.0 && difference > 0.0 {
-        variation * (10.0 * difference / variation).powi(2).min(1.0)
+        variation * (8.0 * difference / variation).powf(1.5).min(1.0)
     } else {
         difference
     };
@@ -170,7 +168,7 @@ impl<D> Ord for Piece<D> {
 /// domain and the axis to cut it along; `halve` cuts.
 ///
 /// Halves check what their whole has claimed: where the value changes by more than that, the claims of the halves are
-/// raised in proportion, four times for safety. Kinks inside a piece, for which the rules' claims are too small, are so
+/// raised in proportion, six times for safety. Kinks inside a piece, for which the rules' claims are too small, are so
 /// found.
 fn adapt<D: Copy>(
     start: impl Iterator<Item = D>,
@@ -197,7 +195,7 @@ fn adapt<D: Copy>(
         total = Estimate::new(total.value - worst.estimate.value, (total.error - worst.estimate.error).max(0.0));
         let parts = halves.map(|domain| (domain, measure(domain)));
         let change = (parts.iter().map(|(_, (part, _))| part.value).sum::<f64>() - worst.estimate.value).abs();
-        let doubt = if worst.claimed > 0.0 { (4.0 * change / worst.claimed).max(1.0) } else { 1.0 };
+        let doubt = if worst.claimed > 0.0 { (6.0 * change / worst.claimed).max(1.0) } else { 1.0 };
         for (domain, (part, second_axis)) in parts {
             let estimate = Estimate::new(part.value, (part.error * doubt).min(part.error.max(change)));
             total += estimate;
@@ -252,7 +250,11 @@ impl Rectangle {
 }
 
 /// The product of two 3–7 rules; the flag says whether the second axis has the larger error.
-fn kronrod_7_squared(f: &mut impl FnMut(f64, f64) -> f64, domain: Rectangle) -> (Estimate, bool) {
+fn kronrod_7_squared(
+    f: &mut impl FnMut(f64, f64) -> f64,
+    domain: Rectangle,
+    claim: fn(f64, f64, f64) -> f64,
+) -> (Estimate, bool) {
     let (cx, hx) = (0.5 * (domain.x.0 + domain.x.1), 0.5 * (domain.x.1 - domain.x.0));
     let (cy, hy) = (0.5 * (domain.y.0 + domain.y.1), 0.5 * (domain.y.1 - domain.y.0));
     let (mut best, mut coarse_x, mut coarse_y, mut magnitude, mut squares) = (0.0, 0.0, 0.0, 0.0, 0.0);
@@ -273,7 +275,7 @@ fn kronrod_7_squared(f: &mut impl FnMut(f64, f64) -> f64, domain: Rectangle) -> 
     let (difference_x, difference_y) = ((best - coarse_x).abs(), (best - coarse_y).abs());
     // Standard deviation over the rectangle, times its measure 4: the variation.
     let variation = 4.0 * (0.25 * squares - (0.25 * best).powi(2)).max(0.0).sqrt();
-    let error = squared_error((difference_x + difference_y) * area, variation * area, magnitude * area);
+    let error = claim((difference_x + difference_y) * area, variation * area, magnitude * area);
     (Estimate::new(best * area, error), difference_y > difference_x)
 }
 
@@ -287,7 +289,22 @@ pub fn integrate_rectangles(
     adapt(
         rectangles.iter().copied(),
         tolerance,
-        |domain| kronrod_7_squared(&mut f, domain),
+        |domain| kronrod_7_squared(&mut f, domain, scaled_error),
+        |domain, second_axis| domain.halves(second_axis),
+    )
+}
+
+/// [`integrate_rectangles`] for an integrand that is smooth on each of the rectangles, kinks and jumps being on their
+/// borders: the same accuracy for a tenth of the evaluations, by an error estimate with less in reserve.
+pub fn integrate_smooth_rectangles(
+    mut f: impl FnMut(f64, f64) -> f64,
+    rectangles: &[Rectangle],
+    tolerance: Tolerance,
+) -> Estimate {
+    adapt(
+        rectangles.iter().copied(),
+        tolerance,
+        |domain| kronrod_7_squared(&mut f, domain, smooth_error),
         |domain, second_axis| domain.halves(second_axis),
     )
 }
@@ -312,7 +329,8 @@ mod tests {
         // 15 points: degree 22; 7 points: degree 11, in each axis.
         let line = kronrod_15(&mut |x: f64| 23.0 * x.powi(22), 0.0, 1.0);
         assert!((line.value - 1.0).abs() < 1e-14);
-        let (square, _) = kronrod_7_squared(&mut |x: f64, y: f64| 144.0 * (x * y).powi(11), Rectangle::UNIT);
+        let (square, _) =
+            kronrod_7_squared(&mut |x: f64, y: f64| 144.0 * (x * y).powi(11), Rectangle::UNIT, scaled_error);
         assert!((square.value - 1.0).abs() < 1e-14);
     }
 
@@ -338,6 +356,25 @@ mod tests {
         let truth = (2_f64.sqrt() + 1_f64.asinh()) / 3.0;
         let got = integrate_rectangles(f64::hypot, &[Rectangle::UNIT], Tolerance::relative(1e-8));
         assert!((got.value - truth).abs() <= got.error && got.error < 1.1e-8, "{got:?}");
+        let got = integrate_smooth_rectangles(f64::hypot, &[Rectangle::UNIT], Tolerance::relative(1e-8));
+        assert!((got.value - truth).abs() <= got.error && got.error < 1.1e-8, "{got:?}");
+    }
+
+    #[test]
+    fn a_kink_inside_is_found_out() {
+        // ∬ |x − y/2 − 0.3| over the unit square: no rectangle ever has the kink on its border.
+        let truth: f64 = gauss_legendre(40)
+            .into_iter()
+            .map(|(y, weight)| {
+                let at = 0.5 * y + 0.3;
+                weight * 0.5 * (at * at + (1.0 - at) * (1.0 - at))
+            })
+            .sum();
+        for relative in [1e-3, 1e-5, 1e-7] {
+            let tolerance = Tolerance { max_pieces: 100_000, ..Tolerance::relative(relative) };
+            let got = integrate_smooth_rectangles(|x, y| (x - 0.5 * y - 0.3).abs(), &[Rectangle::UNIT], tolerance);
+            assert!((got.value - truth).abs() <= got.error && got.error <= 1.01 * relative * truth, "{got:?} {truth}");
+        }
     }
 
     #[test]

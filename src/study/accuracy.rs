@@ -45,6 +45,8 @@ pub enum Quantity {
 pub struct Rung {
     /// The effort in words.
     pub setting: String,
+    /// Relative error that was asked for, where the program chose its effort.
+    pub target: Option<f64>,
     /// What a first sky costs more than a second. \[s\]
     pub setup: f64,
     /// A new sky in the same room. \[s\]
@@ -266,7 +268,14 @@ impl Ladder<'_> {
         };
         let (finest, second) = (at(target)?, at(second)?);
         let truth: Vec<f64> = finest.sensors.iter().map(|row| row.total().value).collect();
-        let between = Rung { setting: String::new(), setup: 0.0, sky: 0.0, sun: None, errors: errors(&second, &truth) };
+        let between = Rung {
+            setting: String::new(),
+            target: None,
+            setup: 0.0,
+            sky: 0.0,
+            sun: None,
+            errors: errors(&second, &truth),
+        };
         let stated = finest.reached();
         Ok((Reference { quantity, target, stated, rms: between.rms(), max: between.max() }, truth))
     }
@@ -304,7 +313,14 @@ impl Ladder<'_> {
                 session.room(&Scene { sun: Some(Sun { direction, ..sun }), ..scene.clone() }, &progress)
             })?),
         };
-        Ok(Rung { setting, setup: (cold - sky).max(0.0), sky, sun, errors: errors(&result, truth) })
+        Ok(Rung {
+            setting,
+            target: scene.error_target,
+            setup: (cold - sky).max(0.0),
+            sky,
+            sun,
+            errors: errors(&result, truth),
+        })
     }
 }
 

@@ -33,10 +33,12 @@ impl Colours {
 
 /// Most dots of one series in the right panel.
 const MOST_DOTS: usize = 400;
-/// Room for the labels left of a panel, below it, and for the legend above. \[px\]
+/// Room for the labels left of a panel and below it, and for its title. \[px\]
 const LEFT: f64 = 84.0;
 const BELOW: f64 = 40.0;
-const ABOVE: f64 = 64.0;
+const ABOVE: f64 = 30.0;
+/// Room for the names of the series. \[px\]
+const LEGEND: f64 = 58.0;
 
 /// What a series is called.
 pub fn name(series: &Series) -> String {
@@ -46,18 +48,19 @@ pub fn name(series: &Series) -> String {
     }
 }
 
-/// Draws both panels on paper of a size. \[px\]
+/// Draws both panels on paper of a size, side by side or, on upright paper, one above the other. \[px\]
 pub fn plot(accuracy: &Accuracy, width: u32, height: u32, colours: &Colours) -> Drawing {
-    let middle = 0.5 * f64::from(width);
-    let bottom = f64::from(height) - BELOW;
+    let (across, down) = (f64::from(width), f64::from(height));
+    let upright = height > width;
+    let (middle, bottom) = if upright { (across, 0.5 * (down + LEGEND) - BELOW) } else { (0.5 * across, down - BELOW) };
     let rungs = || accuracy.series.iter().flat_map(|series| &series.rungs);
     let time = decades(rungs().map(|rung| rung.sky), 9);
     let error = decades(rungs().map(Rung::rms), 9);
     let both = decades(rungs().flat_map(|rung| rung.errors.iter().flat_map(|e| [e.stated, e.real])), 9);
-    let left = LogChart { left_right: [LEFT, middle - 16.0], top_bottom: [ABOVE, bottom], x: time, y: error };
+    let left = LogChart { left_right: [LEFT, middle - 16.0], top_bottom: [LEGEND + ABOVE, bottom], x: time, y: error };
     let right = LogChart {
-        left_right: [middle + LEFT, f64::from(width) - 16.0],
-        top_bottom: [ABOVE, bottom],
+        left_right: if upright { left.left_right } else { [middle + LEFT, across - 16.0] },
+        top_bottom: if upright { [bottom + BELOW + ABOVE, down - BELOW] } else { left.top_bottom },
         x: both,
         y: both,
     };
@@ -69,20 +72,24 @@ pub fn plot(accuracy: &Accuracy, width: u32, height: u32, colours: &Colours) -> 
     for (chart, text) in
         [(&left, "true error (RMS) against time a new sky"), (&right, "stated error against true error, by sensor")]
     {
-        let at = [0.5 * (chart.left_right[0] + chart.left_right[1]), ABOVE - 14.0];
+        let at = [0.5 * (chart.left_right[0] + chart.left_right[1]), chart.top_bottom[0] - 14.0];
         shapes.push(Shape::Text { at, text: text.to_owned(), colour: colours.ink });
     }
-    let step = f64::from(width) / accuracy.series.len().max(1) as f64;
+    // As many beside one another as there is room for their names.
+    let columns = ((across / 210.0) as usize).clamp(1, accuracy.series.len().max(1));
+    let step = across / columns as f64;
     for (k, (series, colour)) in accuracy.series.iter().zip(colours.series.into_iter().cycle()).enumerate() {
-        let centre = (k as f64 + 0.5) * step;
+        let (centre, line) = (((k % columns) as f64 + 0.5) * step, 14.0 + 18.0 * (k / columns) as f64);
         let text = name(series);
-        let half = 0.5 * 9.0 * text.chars().count() as f64;
+        // Upright paper is the window's, with its narrow letters; a PNG's dots are wider than those of any font.
+        let (half, aside) = if upright { (4.5, 10.0) } else { (6.2, 6.0) };
+        let half = half * text.chars().count() as f64;
         shapes.push(Shape::Line {
-            points: vec![[centre - half - 24.0, 18.0], [centre - half - 6.0, 18.0]],
+            points: vec![[centre - half - 18.0, line], [centre - half, line]],
             colour,
             width: 3.0,
         });
-        shapes.push(Shape::Text { at: [centre + 6.0, 18.0], text, colour: colours.ink });
+        shapes.push(Shape::Text { at: [centre + aside, line], text, colour: colours.ink });
         front(&left, series, colour, &mut shapes);
         dots(&right, series, colour, &mut shapes);
     }

@@ -106,7 +106,7 @@ pub fn dataset() -> impl Strategy<Value = Dataset> {
                 incident_basis: t[5].clone(),
                 emergent_basis: t[6].clone(),
                 thickness,
-                structure: None,
+                structure: thickness.map(|thickness| 0.01 + thickness.abs()),
                 visible,
                 solar: solar.then_some(infrared),
                 derived: if turned { vec![Component::TransmissionBack] } else { vec![] },

@@ -4,6 +4,7 @@
 pub mod chart;
 pub mod colour_scale;
 pub mod contour;
+pub mod drawing;
 pub mod hemisphere;
 pub mod palette;
 pub mod polar;

@@ -48,6 +48,8 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             }
             entry(ui, Command::Maximise(None), commands);
             ui.separator();
+            entry(ui, Command::Sheet(Some(Sheet::Accuracy)), commands);
+            ui.separator();
             entry(ui, Command::ToggleCatalogue, commands);
             entry(ui, Command::ToggleScene, commands);
             ui.separator();

@@ -39,7 +39,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .frame(side)
             .default_size(330.0)
             .size_range(280.0..=460.0)
-            .show(ui, |ui| sheets::show(ui, &app.state, sheet, &mut commands));
+            .show(ui, |ui| sheets::show(ui, app, sheet, &mut commands));
     }
     let ground = egui::Frame::new().fill(theme::palette(ui).ground).inner_margin(theme::TILE_GAP);
     egui::CentralPanel::default().frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));

@@ -1,8 +1,11 @@
 //! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
 
+use crate::app::App;
 use crate::app::command::{Command, ImportFields};
+use crate::app::jobs::Lane;
 use crate::app::state::{Import, PathUse, Sheet, State};
 use crate::app::theme;
+use crate::app::views::accuracy;
 use crate::compute::btdf::{Btdf, Finding, Indicatrix, Severity};
 use crate::compute::direction::{Dir, Emergent, Incident};
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
@@ -10,11 +13,12 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::path::PathBuf;
 
 /// Draws the sheet that is open.
-pub fn show(ui: &mut Ui, state: &State, sheet: Sheet, commands: &mut Vec<Command>) {
+pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command>) {
     let title = match sheet {
         Sheet::Import => "Import",
         Sheet::Findings => "Findings of the dataset",
         Sheet::Keys => "Keys",
+        Sheet::Accuracy => "Accuracy",
         Sheet::Path(PathUse::Open) => "Open",
         Sheet::Path(PathUse::SaveScene) => "Save the scene",
         Sheet::Path(PathUse::ExportLid) => "Export the LID",
@@ -30,8 +34,8 @@ pub fn show(ui: &mut Ui, state: &State, sheet: Sheet, commands: &mut Vec<Command
         });
     });
     ScrollArea::vertical().id_salt(title).auto_shrink([false, false]).show(ui, |ui| match sheet {
-        Sheet::Import => import(ui, state, commands),
-        Sheet::Findings => match state.dataset.value.as_deref() {
+        Sheet::Import => import(ui, &app.state, commands),
+        Sheet::Findings => match app.state.dataset.value.as_deref() {
             Some(dataset) => {
                 ui.strong(&dataset.name);
                 findings(ui, &dataset.findings);
@@ -41,8 +45,27 @@ pub fn show(ui: &mut Ui, state: &State, sheet: Sheet, commands: &mut Vec<Command
             }
         },
         Sheet::Keys => keys(ui),
-        Sheet::Path(what) => path(ui, state, what, commands),
+        Sheet::Accuracy => ladder(ui, app, commands),
+        Sheet::Path(what) => path(ui, &app.state, what, commands),
     });
+}
+
+fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+    let running = app.jobs.views().iter().find(|job| job.lane == Lane::Accuracy).map(|job| job.state.clone());
+    let shown = &app.results.accuracy;
+    let input = accuracy::Input {
+        accuracy: shown.value.as_deref(),
+        revision: app.results.accuracy_revision,
+        stale: shown.stale,
+        error: shown.error.as_deref(),
+        running: running.map(|state| state.fraction().unwrap_or(0.0)),
+    };
+    for action in accuracy::show(ui, &input, &mut app.accuracy_view) {
+        commands.push(match action {
+            accuracy::Action::Run => Command::MeasureAccuracy,
+            accuracy::Action::Cancel => Command::Cancel(Lane::Accuracy),
+        });
+    }
 }
 
 fn findings(ui: &mut Ui, findings: &[Finding]) {

@@ -2,6 +2,7 @@
 //! data), `Action` (what the user asked for), `show` and `csv`. Views change nothing but their own state; pictures are
 //! rebuilt only when the input's `revision` or the tile's own settings change.
 
+pub mod accuracy;
 pub mod btdf;
 pub mod control;
 pub mod lid;

@@ -9,7 +9,7 @@ use super::aperture::View;
 use super::polygon::{clip, projected_solid_angle};
 use crate::compute::direction::{Dir, Orientation, Surface};
 use crate::compute::estimate::Estimate;
-use crate::compute::quadrature::{Rectangle, Tolerance, integrate_rectangles};
+use crate::compute::quadrature::{Rectangle, Tolerance, integrate_smooth_rectangles};
 use crate::compute::sky::Outside;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -125,9 +125,25 @@ impl<'a> Region<'a> {
             altitudes.push(sun.z.clamp(-1.0, 1.0).asin());
             inner.push(near(azimuth(sun), middle));
         }
+        // A sensor close to a façade sees an edge's altitude drop from the zenith to the horizon within a small turn
+        // near the façade's own plane: tan h = z cos(turn)/d. Knots on both sides of that drop keep the pieces smooth.
+        if surface == Surface::Facade {
+            let outward = azimuth(DVec3::NEG_Y);
+            for vertex in polygon {
+                for factor in [0.4, 1.5] {
+                    let cosine = factor * (vertex.y / vertex.z).abs();
+                    if cosine < 0.7 {
+                        inner.extend([1.0, -1.0].map(|side| near(outward + side * cosine.acos(), middle)));
+                    }
+                }
+            }
+        }
         // Where edges at constant height cross the skyline or the sun's altitude, limits change over.
         for i in 0..polygon.len() {
             let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+            if (p.z < 0.0) != (q.z < 0.0) {
+                inner.push(near(azimuth(p + (q - p) * (p.z / (p.z - q.z))), middle));
+            }
             for &altitude in altitudes.iter().filter(|h| h.abs() < 1.5 && **h != 0.0) {
                 for t in crossings(p, q, altitude.tan()) {
                     inner.push(near(azimuth(p + (q - p) * t), middle));
@@ -201,7 +217,7 @@ impl<'a> Region<'a> {
         }
         // The rules ask for several altitudes in each azimuth: what belongs to the azimuth is kept from one to the next.
         let mut meridian = Meridian { x: f64::NAN, limits: None, sin_cos: (0.0, 1.0), width: 0.0 };
-        integrate_rectangles(
+        integrate_smooth_rectangles(
             |x, y| {
                 if x != meridian.x {
                     let i = (x as usize).min(intervals - 1);

@@ -1,0 +1,119 @@
+//! Error against run time of the present scene: runs the ladder on demand, shows its picture and what the stated errors
+//! are worth.
+
+use super::Cache;
+use crate::app::paint::drawing;
+use crate::formats::drawing::Drawing;
+use crate::study::accuracy::{Accuracy, Quantity};
+use crate::study::accuracy_plot::{Colours, plot};
+use egui::{Button, Label, ProgressBar, Sense, Ui, vec2};
+
+/// What only this view knows.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    picture: Cache<(u64, [u32; 2], bool), Drawing>,
+}
+
+/// What is shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// The last ladder.
+    pub accuracy: Option<&'a Accuracy>,
+    /// Counts the ladders.
+    pub revision: u64,
+    /// The scene has changed since.
+    pub stale: bool,
+    /// Why there is none.
+    pub error: Option<&'a str>,
+    /// Share done of a ladder under way.
+    pub running: Option<f32>,
+}
+
+/// What the user asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Action {
+    /// Run the ladder on the present scene.
+    Run,
+    /// Stop it.
+    Cancel,
+}
+
+/// Draws the view into the width that there is; the two panels lie one above the other.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
+    let mut actions = Vec::new();
+    ui.horizontal(|ui| {
+        if let Some(fraction) = input.running {
+            let stop = ui.button("Stop").on_hover_text("Withdraw this computation; the last picture stays");
+            if stop.clicked() {
+                actions.push(Action::Cancel);
+            }
+            ui.add(ProgressBar::new(fraction).desired_width(150.0).show_percentage());
+        } else {
+            let run = ui.add(Button::new("Measure")).on_hover_text(
+                "Computes the present scene with rising effort by every method, on one thread: some seconds to a minute",
+            );
+            if run.clicked() {
+                actions.push(Action::Run);
+            }
+            if input.accuracy.is_some() && input.stale {
+                ui.weak("of an earlier scene");
+            }
+        }
+    });
+    if let Some(error) = input.error {
+        ui.add(Label::new(error).wrap());
+    }
+    let Some(accuracy) = input.accuracy else {
+        if input.error.is_none() {
+            ui.add(
+                Label::new(
+                    "How far each method lies from a converged result, against the time that it takes, and whether \
+                     the errors that it states are true.",
+                )
+                .wrap(),
+            );
+        }
+        return actions;
+    };
+    let width = ui.available_width().clamp(280.0, 900.0);
+    let size = [width as u32, (1.7 * width) as u32];
+    let dark = ui.visuals().dark_mode;
+    let picture = state.picture.get((input.revision, size, dark), || {
+        plot(accuracy, size[0], size[1], if dark { &Colours::DARK } else { &Colours::PAPER })
+    });
+    let (rect, response) = ui.allocate_exact_size(vec2(size[0] as f32, size[1] as f32), Sense::hover());
+    let painter = ui.painter_at(rect);
+    drawing::paint(&painter, rect.min, picture);
+    let sentence = sentence(accuracy);
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "Error against run time");
+        info.current_text_value = Some(sentence.clone());
+        info
+    });
+    response.on_hover_text(
+        "Above: a square for each effort; further left is faster, further down more exact. Below: a dot for each \
+         sensor; above the diagonal the stated error holds.",
+    );
+    ui.add(Label::new(sentence).wrap());
+    actions
+}
+
+/// What the ladder says, in words.
+pub fn sentence(accuracy: &Accuracy) -> String {
+    let coverage = accuracy.ordinary_coverage();
+    let reference: Vec<String> = accuracy
+        .references
+        .iter()
+        .map(|reference| {
+            let what = if reference.quantity == Quantity::Direct { "direct light" } else { "all light" };
+            format!("{:.0e} for {what}", reference.rms)
+        })
+        .collect();
+    format!(
+        "The ordinary method keeps to its stated error at {:.1} % of {} sensors and efforts. The reference agrees with \
+         the second finest to {} (relative, RMS).",
+        100.0 * coverage.kept,
+        coverage.count,
+        reference.join(", ")
+    )
+}
