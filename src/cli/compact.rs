@@ -29,9 +29,10 @@ pub struct CompactArgs {
     /// What the threshold limits, for every indicatrix.
     #[arg(long, value_enum, default_value = "misplaced")]
     pub by: By,
-    /// In percent; or `archive` (0.5 % of the flux misplaced) or `normal` (1.5 %).
-    #[arg(long, default_value = "archive", value_name = "PERCENT")]
-    pub threshold: String,
+    /// In percent; or `archive` (0.5 % of the flux misplaced) or `normal` (1.5 %). By default archive, or 1 % with --by
+    /// rms or energy.
+    #[arg(long, value_name = "PERCENT")]
+    pub threshold: Option<String>,
     /// Key of the state, for files of several states; all by default.
     #[arg(long)]
     pub state: Option<String>,
@@ -72,7 +73,8 @@ pub(super) fn criterion(by: By, threshold: &str) -> anyhow::Result<Criterion> {
 /// # Errors
 /// Input that cannot be read, a threshold out of range, data that have no compact form.
 pub fn run(args: &CompactArgs) -> anyhow::Result<()> {
-    let criterion = criterion(args.by, &args.threshold)?;
+    let by_default = if args.by == By::Misplaced { "archive" } else { "1" };
+    let criterion = criterion(args.by, args.threshold.as_deref().unwrap_or(by_default))?;
     let name = args.file.display();
     let mut datasets = dataset_file::read(&args.file)?;
     if let Some(state) = &args.state {

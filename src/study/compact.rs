@@ -250,7 +250,8 @@ fn finding(function: &CompactedFunction, criterion: Criterion) -> Finding {
     Finding::info(
         "compact-storage",
         format!(
-            "{} is kept in compact form ({}): {:.1} values a number, {:.1} bytes a byte; misplaced flux {:.2} % on \
+            "{} is kept in compact form ({}): {:.1} times fewer numbers, {:.1} times fewer bytes than \
+             f32; misplaced flux {:.2} % on \
              average and {:.2} % at worst, rms {:.2} %, τ kept exactly{room}.",
             function.name.replace('_', " "),
             criterion_words(criterion),

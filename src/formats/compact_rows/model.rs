@@ -48,9 +48,9 @@ pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) ->
     }
     let mut activity = vec![0_u8; count];
     let mut sound = true;
-    for k in 1..transform.root_count() {
-        let nonzero = bits.bit(ROOT + k.min(8), levels[k] != 0);
-        levels[k] = if nonzero { magnitude(levels[k], 3, bits, &mut sound) } else { 0 };
+    for (k, level) in levels.iter_mut().enumerate().take(transform.root_count()).skip(1) {
+        let nonzero = bits.bit(ROOT + k.min(8), *level != 0);
+        *level = if nonzero { magnitude(*level, 3, bits, &mut sound) } else { 0 };
     }
     for index in 0..count {
         let block = &blocks[index];
