@@ -299,3 +299,51 @@ fn the_palette_finds_a_command_by_its_words() {
     assert_eq!(harness.state().state.maximised, Some(Tile::Lid));
     assert!(harness.state().state.palette.is_none());
 }
+
+/// Seven incidences of no lattice: with the light from the right brighter.
+fn listed_dataset(state: &str) -> String {
+    let mut text = format!(
+        "---\nformat = \"cfs-btdf 1\"\nname = \"Sample\"\nkind = \"panel\"\nstate = \"{state}\"\nquantity = \"btdf\"\n\
+         light_from = \"outside\"\nlayout = \"rings\"\nrings = [[90.0, 180.0, 4]]\nincidence = \"listed\"\n\
+         incident_mean = false\n---\n"
+    );
+    for (theta, phi, q) in
+        [(0, 0, 0.2), (35, 0, 0.3), (35, 90, 0.1), (35, 180, 0.1), (70, 45, 0.1), (70, 135, 0.1), (75, 270, 0.05)]
+    {
+        text += &format!("{theta} {phi} {q} {q} {q} {q}\n");
+    }
+    text
+}
+
+#[test]
+fn measured_states_come_in_together_and_a_click_chooses_a_measured_incidence() {
+    use cfs::app::command::Command;
+    let (mut harness, _) = window();
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["a", "b"].map(|state| {
+        let path = folder.path().join(format!("{state}.btdf.txt"));
+        std::fs::write(&path, listed_dataset(state)).unwrap();
+        path
+    });
+    harness.state_mut().apply(Command::OpenPaths(paths.to_vec()));
+    settle(&mut harness);
+    let import = harness.state().state.import.as_ref().unwrap();
+    assert!(import.failures.is_empty(), "{:?}", import.failures);
+    assert_eq!((import.datasets.len(), import.kind.as_str()), (2, "panel"));
+    harness.get_by_label("Add to catalogue").click();
+    settle(&mut harness);
+    assert_eq!(harness.state().state.product.as_ref().unwrap().states.len(), 2);
+    // Somewhere between the directions: the nearest one is chosen, not the middle of a cell.
+    let disk = harness.get_by_label("Incident hemisphere").rect();
+    // Seen from inside the right of the façade is on the left.
+    let at = disk.center() - egui::vec2(0.25 * disk.width(), 0.0);
+    harness.hover_at(at);
+    harness.run_steps(2);
+    harness.drag_at(at);
+    harness.run_steps(2);
+    harness.drop_at(at);
+    settle(&mut harness);
+    let chosen = harness.get_by_label("Incident hemisphere").value().unwrap();
+    // 0.3/sr into π of projected solid angle.
+    assert!(chosen.contains("θ 35°, φ 0°") && chosen.contains("0.942"), "{chosen}");
+}

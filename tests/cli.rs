@@ -309,3 +309,76 @@ fn results_do_not_depend_on_where_the_program_is_run() {
         .unwrap();
     assert_eq!(here.stdout, there.stdout);
 }
+
+/// Six incidences of a listed dataset on two rings; those from above send their light up, all others down.
+fn measured() -> String {
+    let mut text = String::from(
+        "---\nformat = \"cfs-btdf 1\"\nname = \"Sample\"\nquantity = \"btdf\"\nlight_from = \"outside\"\nlayout = \"rings\"\n\
+         rings = [[90.0, 150.0, 4], [150.0, 180.0, 1]]\nincidence = \"listed\"\nincident_mean = false\n---\n",
+    );
+    for (theta, phi) in [(60, 90), (60, 270), (30, 45), (30, 225), (0, 0), (80, 180)] {
+        let row = if phi == 90 { "0 0.3 0 0.01 0.02" } else { "0 0.01 0 0.2 0.02" };
+        text += &format!("{theta} {phi} {row}\n");
+    }
+    text
+}
+
+#[test]
+fn a_measured_dataset_is_described_converted_and_imported() {
+    let folder = Folder::new();
+    folder.write("a.btdf.txt", &measured());
+    let output = folder.cfs(&["info", "a.btdf.txt", "--json"]);
+    let info: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let listed = info["tau_dir_hem"].as_array().unwrap();
+    let angles: Vec<[f64; 2]> =
+        listed.iter().map(|row| ["theta_deg", "phi_deg"].map(|key| row[key].as_f64().unwrap())).collect();
+    assert_eq!(angles, [[60.0, 90.0], [60.0, 270.0], [30.0, 45.0], [30.0, 225.0], [0.0, 0.0], [80.0, 180.0]]);
+    // Sectors of a quarter between θ' 30° and 90°, and the cap: π/4 (1 − 1/4), π/4.
+    let quarter = std::f64::consts::PI * 0.75 / 4.0;
+    let expected = quarter * (0.3 + 0.01) + std::f64::consts::PI / 4.0 * 0.02;
+    assert!((listed[0]["tau"].as_f64().unwrap() - expected).abs() < 1e-12);
+    assert_eq!(info["incident_basis"], "listed");
+    let text = folder.cfs(&["info", "a.btdf.txt"]);
+    assert!(String::from_utf8_lossy(&text.stdout).contains("6 incident directions × 5 emergent cells"));
+    // There and back is the identity; the other format averages and says so.
+    assert!(folder.cfs(&["convert", "a.btdf.txt", "b.btdf.txt"]).status.success());
+    assert!(folder.cfs(&["convert", "b.btdf.txt", "c.btdf.txt"]).status.success());
+    assert_eq!(std::fs::read(folder.path("b.btdf.txt")).unwrap(), std::fs::read(folder.path("c.btdf.txt")).unwrap());
+    let xml = folder.cfs(&["convert", "a.btdf.txt", "a.xml"]);
+    assert!(xml.status.success() && String::from_utf8_lossy(&xml.stderr).contains("averaged"));
+    refused(
+        "component",
+        &folder.cfs(&["convert", "a.btdf.txt", "d.btdf.txt", "--component", "reflection_back"]),
+        &["reflection_back", "transmission_front"],
+    );
+    let second = measured().replace("layout", "state = \"open\"\nlayout");
+    folder.write("b.btdf.txt", &second);
+    let import = folder.cfs(&["catalogue", "import", "a.btdf.txt", "b.btdf.txt"]);
+    assert_eq!(String::from_utf8_lossy(&import.stdout), "sample\n");
+    let shown = folder.cfs(&["catalogue", "show", "sample", "--json"]);
+    let shown: Value = serde_json::from_slice(&shown.stdout).unwrap();
+    let keys: Vec<&str> = shown["states"].as_array().unwrap().iter().map(|s| s["key"].as_str().unwrap()).collect();
+    assert_eq!(keys, ["a", "open"]);
+    assert!(folder.cfs(&["catalogue", "validate", "a.btdf.txt"]).status.success());
+    folder.write("bad.btdf.txt", &measured().replace("30 45 0 0.01", "30 45 0 -0.01"));
+    refused("negative", &folder.cfs(&["info", "bad.btdf.txt"]), &["bad.btdf.txt", "line 13", "negative"]);
+}
+
+#[test]
+fn a_luminaire_file_is_described() {
+    let folder = Folder::new();
+    // 100 cd in every direction of the lower hemisphere: 2π·100 lm. One plane for all, γ 0, 45, 90.
+    let mut lines = vec!["IESNA:LM-63-2002", "[TEST] T1", "[MANUFAC] Maker", "[LUMINAIRE] Lamp", "TILT=NONE"];
+    lines.extend(["1 -1 1 3 1 1 2 0.5 0.25 0.1", "1 1 40", "0 45 90", "0", "100 100 100"]);
+    folder.write("lamp.ies", &(lines.join("\r\n") + "\r\n"));
+    let output = folder.cfs(&["info", "lamp.ies", "--json"]);
+    let info: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let flux = info["flux_lm"].as_f64().unwrap();
+    assert!((flux - 200.0 * std::f64::consts::PI).abs() < 1e-9, "{flux}");
+    assert_eq!((info["name"].as_str(), info["symmetry"].as_str()), (Some("Lamp"), Some("rotational")));
+    assert_eq!((info["planes"].as_u64(), info["angles"].as_u64()), (Some(1), Some(3)));
+    let text = folder.cfs(&["info", "lamp.ies"]);
+    assert!(String::from_utf8_lossy(&text.stdout).contains("628.3 lm"));
+    folder.write("bad.ldt", "nothing");
+    refused("no luminaire", &folder.cfs(&["info", "bad.ldt"]), &["bad.ldt"]);
+}

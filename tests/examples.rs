@@ -109,3 +109,23 @@ fn commented_keys_of_the_office_are_keys() {
     assert!(tried >= 10, "{tried} keys only");
     assert!(SceneFile::parse(&text.replace("# longitude", "longtude")).unwrap_err().to_string().contains("longtude"));
 }
+
+#[test]
+fn the_measured_example_is_whole_by_its_symmetry() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = succeed(folder.path(), &["info", "examples/opal.btdf.txt"]);
+    assert!(told.contains("145 incident directions × 25 emergent cells"), "{told}");
+    assert!(told.contains("137 incidences are images of the 8 measured ones") && !told.contains("warning"), "{told}");
+    let json = succeed(folder.path(), &["info", "examples/opal.btdf.txt", "--json"]);
+    let info: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let rows = info["tau_dir_hem"].as_array().unwrap();
+    assert_eq!(rows.len(), 145);
+    // The eight lines by hand: rings of π/4, π/2 and π/4 sr of projected solid angle.
+    let by_hand = |q: [f64; 3]| std::f64::consts::PI * (0.25 * q[0] + 0.5 * q[1] + 0.25 * q[2]);
+    let close = |k: usize, q| (rows[k]["tau"].as_f64().unwrap() - by_hand(q)).abs() < 1e-9;
+    assert!(close(144, OPAL_NORMAL) && close(7, OPAL_GRAZING), "{} {}", rows[144], rows[7]);
+}
+
+/// The values of the example's rings for light along the normal and at 84°.
+const OPAL_NORMAL: [f64; 3] = [0.1776, 0.1974, 0.2151];
+const OPAL_GRAZING: [f64; 3] = [0.0753, 0.0837, 0.0913];

@@ -207,6 +207,7 @@ impl App {
             manufacturer: import.manufacturer.trim().to_owned(),
             kind: import.kind.trim().to_owned(),
             tags: import.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect(),
+            provenance: import.provenance,
         };
         self.state.sheet = None;
         let number = self.state.additions.len();

@@ -2,7 +2,7 @@
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, NewProduct, Product};
+use crate::catalogue::{self, Catalogue, NewProduct, Product, Provenance};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
@@ -44,6 +44,7 @@ pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, String> {
             manufacturer: String::new(),
             kind: "ideal".to_owned(),
             tags: Vec::new(),
+            provenance: Provenance::default(),
         })?;
     }
     Ok(Arc::new(shelf))
@@ -119,6 +120,7 @@ impl Shelf for CatalogueShelf {
             manufacturer: addition.manufacturer.clone(),
             kind: addition.kind.clone(),
             tags: addition.tags.clone(),
+            provenance: addition.provenance.clone(),
             ..NewProduct::default()
         };
         self.lock().import(&datasets, meta).map(|imported| imported.key).map_err(told)

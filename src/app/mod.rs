@@ -194,9 +194,9 @@ impl eframe::App for App {
     }
 }
 
-/// Reads datasets; the error is the reader's sentence.
-fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<crate::compute::btdf::Dataset>, String> {
-    crate::formats::read_dataset(name, bytes).map_err(|error| error.to_string())
+/// Reads a dataset file; the error is the reader's sentence.
+fn read_dataset(name: &str, bytes: &[u8]) -> Result<crate::catalogue::SourceFile, String> {
+    crate::catalogue::SourceFile::read(name, bytes).map_err(|error| error.to_string())
 }
 
 /// Opens the window and returns when it is closed. `catalogue`: its file, else the user's own; `open`: files to read

@@ -1,6 +1,6 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
-use crate::catalogue::Product;
+use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::compute::lid::Facing;
 use crate::study::StudyError;
@@ -65,6 +65,8 @@ pub struct Addition {
     pub kind: String,
     /// Words to find it by.
     pub tags: Vec<String>,
+    /// Where the data come from.
+    pub provenance: Provenance,
 }
 
 /// A catalogue as the window sees it. Every error is a sentence for the user.

@@ -2,7 +2,7 @@
 
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
-use crate::catalogue::Product;
+use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
@@ -156,6 +156,7 @@ pub struct Daylight {
 }
 
 /// Which files were read and are not stored yet.
+#[derive(Debug, Default)]
 pub struct Import {
     /// File names.
     pub files: Vec<String>,
@@ -171,6 +172,8 @@ pub struct Import {
     pub kind: String,
     /// Words to find it by, separated by commas.
     pub tags: String,
+    /// Where the data come from, as the files tell.
+    pub provenance: Provenance,
 }
 
 /// The sheet over the right edge of the bench.

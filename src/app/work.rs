@@ -6,7 +6,7 @@ use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::jobs::{JobState, Lane};
 use super::shelf::{Addition, Found, Shelf};
 use super::state::{CatalogueState, Daylight, Import, PathUse, Selection, Sheet};
-use crate::catalogue::Product;
+use crate::catalogue::{Gathered, Product, SourceFile, gather};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Reads the datasets of a file: name and bytes.
-pub type ReadDataset = fn(&str, &[u8]) -> Result<Vec<Dataset>, String>;
+pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, String>;
 
 /// Files beyond this are refused before they are read. \[bytes\]
 const LARGEST_FILE: u64 = 1 << 30;
@@ -107,26 +107,28 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
         });
         return Outcome::ReadScene(path.clone(), scene);
     }
-    let mut import = Import {
-        files: Vec::new(),
-        datasets: Vec::new(),
-        failures: Vec::new(),
-        name: String::new(),
-        manufacturer: String::new(),
-        kind: String::new(),
-        tags: String::new(),
-    };
+    let mut import = Import::default();
+    let mut sources = Vec::new();
     for path in paths {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
         match read_bytes(path).and_then(|bytes| read(&name, &bytes).map_err(|error| format!("{name}: {error}"))) {
-            Ok(datasets) => import.datasets.extend(datasets.into_iter().map(Arc::new)),
+            Ok(source) => sources.push(source),
             Err(error) => import.failures.push(error),
         }
         import.files.push(name);
     }
-    if let Some(first) = import.datasets.first() {
-        import.name.clone_from(&first.name);
-        import.manufacturer.clone_from(&first.manufacturer);
+    let mut products = gather(sources, false).into_iter();
+    if let Some(Gathered { meta, datasets, .. }) = products.next() {
+        import.datasets = datasets.into_iter().map(Arc::new).collect();
+        import.name = meta.name;
+        import.manufacturer = meta.manufacturer;
+        import.kind = meta.kind;
+        import.tags = meta.tags.join(", ");
+        import.provenance = meta.provenance;
+    }
+    for other in products {
+        let (name, files) = (other.meta.name, other.meta.provenance.source_file);
+        import.failures.push(format!("{files}: another product (\"{name}\"); open it after this one"));
     }
     Outcome::Read(Box::new(import))
 }

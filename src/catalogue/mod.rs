@@ -15,6 +15,7 @@
 mod builtin;
 mod error;
 mod exchange;
+mod gather;
 mod open;
 mod product;
 mod search;
@@ -23,6 +24,7 @@ mod validate;
 
 pub use builtin::{BUILTIN_VERSION, builtin_products};
 pub use error::CatalogueError;
+pub use gather::{Gathered, SourceFile, gather};
 pub use open::{Catalogue, default_path};
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,

@@ -2,8 +2,9 @@
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error};
-use crate::compute::direction::Incident;
+use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::system::cell_mean;
+use glam::DVec3;
 
 /// Findings about energy and reciprocity of a dataset's bands. Tolerances: 0.1 % of the light (rounding of files),
 /// 5 % is not fit for use; 5 % of reciprocity is worth a warning, since measured data rarely do better.
@@ -36,13 +37,16 @@ pub fn check(dataset: &Dataset) -> Vec<Finding> {
 /// Values below zero in matrices.
 fn negative(name: &str, band: &Band, findings: &mut Vec<Finding>) {
     for component in band.components() {
-        if let Some(Btdf { scattered: Some(Scattered::Cells(matrix)), .. }) = band.get(component) {
-            let count = matrix.values().iter().filter(|value| **value < 0.0).count();
-            if count > 0 {
-                let what = component.key();
-                let message = format!("{count} values of {what} ({name}) are below zero; light cannot be.");
-                findings.push(Finding::warning("negative-values", message));
-            }
+        let below = |values: &[f64]| values.iter().filter(|value| **value < 0.0).count();
+        let count = match band.get(component).and_then(|btdf| btdf.scattered.as_ref()) {
+            Some(Scattered::Cells(matrix)) => below(matrix.values()),
+            Some(Scattered::Directions(data)) => (0..data.incident().len()).map(|k| below(&data.row(k))).sum(),
+            Some(Scattered::Lambert(_) | Scattered::Tree(_)) | None => 0,
+        };
+        if count > 0 {
+            let what = component.key();
+            let message = format!("{count} values of {what} ({name}) are below zero; light cannot be.");
+            findings.push(Finding::warning("negative-values", message));
         }
     }
 }
@@ -50,23 +54,36 @@ fn negative(name: &str, band: &Band, findings: &mut Vec<Finding>) {
 /// More light leaves than arrives?
 fn energy(name: &str, band: &Band, through: Component, back: Component, findings: &mut Vec<Finding>) {
     let Some(transmission) = band.get(through) else { return };
-    let basis = transmission.incident_basis();
-    let mut worst = (0.0, 0);
-    for index in 0..basis.len() {
-        let reflected = band.get(back).map_or(0.0, |btdf| tau_of_cell(btdf, &basis, index));
-        let total = tau_of_cell(transmission, &basis, index) + reflected;
+    let mut worst = (0.0, Dir::from_unit(DVec3::Z));
+    let mut ask = |total: f64, direction: Dir<Facade>| {
         if total > worst.0 {
-            worst = (total, index);
+            worst = (total, direction);
+        }
+    };
+    let reflected = band.get(back);
+    match &transmission.scattered {
+        // Where the data lie, in cells of whatever list.
+        Some(Scattered::Directions(data)) => {
+            for direction in data.incident() {
+                ask(transmission.tau(*direction) + reflected.map_or(0.0, |btdf| btdf.tau(*direction)), direction.0);
+            }
+        }
+        _ => {
+            let basis = transmission.incident_basis();
+            for index in 0..basis.len() {
+                let back = reflected.map_or(0.0, |btdf| tau_of_cell(btdf, &basis, index));
+                ask(tau_of_cell(transmission, &basis, index) + back, basis.cell(index).centre());
+            }
         }
     }
-    let (total, cell) = (worst.0, basis.cell(worst.1));
+    let (total, direction) = worst;
     if total > 1.001 {
         let side = if through == Component::TransmissionFront { "outside" } else { "inside" };
         let message = format!(
             "{:.1} % of the {name} light from {side} at θ {:.0}°, φ {:.0}° leaves again; more than 100 % is impossible.",
             100.0 * total,
-            cell.theta().to_degrees(),
-            cell.phi.to_degrees()
+            direction.theta().to_degrees(),
+            direction.phi().to_degrees()
         );
         findings.push(if total > 1.05 {
             Finding::error("energy-above-one", message)

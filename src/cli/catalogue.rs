@@ -1,8 +1,8 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
-use crate::catalogue::{Catalogue, NewProduct, Origin, Product, ProductFinding, Provenance, Query, check};
+use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, check, gather};
 use crate::cli::dataset_file;
-use crate::compute::btdf::{Dataset, Severity};
+use crate::compute::btdf::Severity;
 use crate::formats::package::looks_like_package;
 use anyhow::{Context, anyhow, bail};
 use serde_json::{Value, json};
@@ -25,7 +25,8 @@ pub enum Action {
     List(ListArgs),
     /// Everything about one product.
     Show(ShowArgs),
-    /// Add dataset files (as states of one product) or packages.
+    /// Add dataset files or packages. Files given together are the states of one product; .btdf.txt files are a product
+    /// a name, the functions of one state joined.
     Import(ImportArgs),
     /// Write products into a package.
     Export(ExportArgs),
@@ -63,7 +64,7 @@ pub struct ImportArgs {
     /// Dataset files, or packages (.cfsp).
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// Name of the product; the file's own by default.
+    /// Name of the product; the file's own by default. Makes one product of all files.
     #[arg(long, default_value = "")]
     pub name: String,
     /// Maker; the file's own by default.
@@ -228,41 +229,47 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
     print(&text)
 }
 
-/// Method and origin as far as the datasets' own texts tell them.
-fn provenance(files: &[(String, String)]) -> Provenance {
-    Provenance {
-        origin: Origin::Unknown,
-        source_file: files.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "),
-        // Of several files the hash of their hashes, which changes with each.
-        source_hash: match files {
-            [(_, hash)] => hash.clone(),
-            several => {
-                let all: Vec<&str> = several.iter().map(|(_, hash)| hash.as_str()).collect();
-                blake3::hash(all.join("\n").as_bytes()).to_hex().to_string()
-            }
-        },
-        ..Provenance::default()
+/// What was asked for beside what the files say; a product without a name takes the first file's, which is told.
+fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
+    let meta = &mut product.meta;
+    let over = |told: &mut String, asked: &String| {
+        if !asked.is_empty() {
+            told.clone_from(asked);
+        }
+    };
+    over(&mut meta.name, &args.name);
+    over(&mut meta.manufacturer, &args.manufacturer);
+    over(&mut meta.kind, &args.kind);
+    meta.tags.extend(args.tags.iter().cloned());
+    if meta.name.is_empty() {
+        meta.name.clone_from(&product.file_stem);
+        eprintln!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
     }
+    product
 }
 
-/// The name asked for; empty, and so the dataset's own, where it has one; else that of the file, which is told.
-fn product_name(args: &ImportArgs, datasets: &[Dataset]) -> String {
-    let nameless = args.name.is_empty() && datasets.first().is_some_and(|dataset| dataset.name.is_empty());
-    let Some(stem) = args.files.first().filter(|_| nameless).and_then(|path| path.file_stem()) else {
-        return args.name.clone();
-    };
-    let name = stem.to_string_lossy().into_owned();
-    eprintln!("note: the file gives no name; taken from the file: {name} (--name gives another)");
-    name
+/// All or none: a product that is refused takes those before it out again.
+fn import_all(catalogue: &mut Catalogue, products: Vec<Gathered>) -> anyhow::Result<Vec<Imported>> {
+    let mut imported: Vec<Imported> = Vec::new();
+    for product in products {
+        match catalogue.import(&product.datasets, product.meta) {
+            Ok(one) => imported.push(one),
+            Err(error) => {
+                for one in &imported {
+                    catalogue.remove_product(&one.key)?;
+                }
+                return Err(error.into());
+            }
+        }
+    }
+    Ok(imported)
 }
 
 fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
-    let mut datasets: Vec<Dataset> = Vec::new();
     let mut sources = Vec::new();
     let mut packages = Vec::new();
     // Everything is read before anything is stored.
     for path in &args.files {
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cfsp")) {
             let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
             if !looks_like_package(&bytes) {
@@ -270,31 +277,20 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
             }
             packages.push((path, bytes));
         } else {
-            let mut read = dataset_file::read(path)?;
-            let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
-            // Files without states make one family when given together; their names tell the states apart.
-            if args.files.len() > 1 && read.len() == 1 && read[0].state.is_empty() {
-                read[0].state = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            }
-            datasets.extend(read);
-            sources.push((name, blake3::hash(&bytes).to_hex().to_string()));
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+            let bytes = dataset_file::bytes(path)?;
+            let source = SourceFile::read(&name, &bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?;
+            sources.push(source);
         }
     }
-    if packages.len() > 1 || (!packages.is_empty() && !datasets.is_empty()) {
+    if packages.len() > 1 || (!packages.is_empty() && !sources.is_empty()) {
         bail!("one package at a time, without dataset files beside it, so that an import is one step");
     }
     let imported = if let Some((path, bytes)) = packages.first() {
         catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
     } else {
-        let meta = NewProduct {
-            name: product_name(args, &datasets),
-            manufacturer: args.manufacturer.clone(),
-            kind: args.kind.clone(),
-            tags: args.tags.clone(),
-            provenance: provenance(&sources),
-            ..NewProduct::default()
-        };
-        vec![catalogue.import(&datasets, meta)?]
+        let products = gather(sources, !args.name.is_empty());
+        import_all(catalogue, products.into_iter().map(|product| described(args, product)).collect())?
     };
     let mut text = String::new();
     for product in imported {

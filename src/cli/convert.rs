@@ -1,7 +1,8 @@
 //! `cfs convert`: between the dataset formats that the program reads and writes.
 
 use crate::cli::dataset_file;
-use crate::formats::{format_to_write, write_dataset};
+use crate::compute::btdf::Component;
+use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
 use anyhow::anyhow;
 use std::path::PathBuf;
 
@@ -15,6 +16,17 @@ pub struct ConvertArgs {
     /// Key of the state to write, for files of several states.
     #[arg(long)]
     pub state: Option<String>,
+    /// Which function to write, for formats that hold one: transmission_front, transmission_back, reflection_front or
+    /// reflection_back.
+    #[arg(long, value_parser = component)]
+    pub component: Option<Component>,
+}
+
+fn component(word: &str) -> Result<Component, String> {
+    Component::ALL.into_iter().find(|component| component.key() == word).ok_or_else(|| {
+        let keys: Vec<&str> = Component::ALL.into_iter().map(Component::key).collect();
+        format!("no function '{word}'; expected one of {}", keys.join(", "))
+    })
 }
 
 /// Reads, converts, writes.
@@ -33,7 +45,20 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
             return Err(anyhow!("{}: no state '{state}'; expected one of {}", args.input.display(), keys.join(", ")));
         }
     }
-    let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    let written = match (format, args.component, datasets.as_slice()) {
+        (_, None, all) => write_dataset(format, all),
+        (Format::BtdfText, Some(component), [one]) => btdf_text::write_component(one, component),
+        (_, Some(component), _) => {
+            return Err(anyhow!(
+                "{out_name}: --component {} for {} states in {}; expected one state, and a format that holds one function \
+                 (.btdf.txt)",
+                component.key(),
+                datasets.len(),
+                format.name()
+            ));
+        }
+    };
+    let written = written.map_err(|error| anyhow!("{out_name}: {error}"))?;
     dataset_file::write(&args.output, &written.bytes)?;
     for finding in datasets.iter().flat_map(|one| &one.findings).chain(&written.findings) {
         eprintln!("{}: {}", finding.severity.word(), finding.message);

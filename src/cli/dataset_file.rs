@@ -14,6 +14,14 @@ const MAX_BYTES: u64 = 256 << 20;
 /// # Errors
 /// One line: the file, the place in it, what is wrong, what would be right.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Dataset>> {
+    read_dataset(&path.to_string_lossy(), &bytes(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))
+}
+
+/// Reads a file that is not too large to be a dataset.
+///
+/// # Errors
+/// One line that names the file.
+pub fn bytes(path: &Path) -> anyhow::Result<Vec<u8>> {
     let name = path.display();
     let cannot = |error: std::io::Error| anyhow!("{name}: cannot be read ({error}); expected a dataset file");
     let meta = fs::metadata(path).map_err(cannot)?;
@@ -23,8 +31,7 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Dataset>> {
     if meta.len() > MAX_BYTES {
         return Err(anyhow!("{name}: {} MB; expected at most {} MB", meta.len() >> 20, MAX_BYTES >> 20));
     }
-    let bytes = fs::read(path).map_err(cannot)?;
-    read_dataset(&path.to_string_lossy(), &bytes).map_err(|error| anyhow!("{name}: {error}"))
+    fs::read(path).map_err(cannot)
 }
 
 /// Writes a file in one step: into a neighbour first, then renamed, so that nothing half-written is left.

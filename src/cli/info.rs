@@ -1,6 +1,6 @@
-//! `cfs info`: what a dataset is, and what is to be said about it.
+//! `cfs info`: what a dataset (or a luminaire file) is, and what is to be said about it.
 
-use crate::cli::dataset_file;
+use crate::cli::{dataset_file, luminaire_info};
 use crate::compute::btdf::{Btdf, Component, Dataset, Scattered, Severity, TreeRank, reciprocity_error};
 use crate::compute::direction::Incident;
 use serde_json::{Map, Value, json};
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Arguments of `cfs info`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct InfoArgs {
-    /// Dataset file, any format that the program reads.
+    /// Dataset file of any format that the program reads, or luminaire file (.ldt, .ies).
     pub file: PathBuf,
     /// One JSON object (an array for several states) instead of text.
     #[arg(long)]
@@ -23,6 +23,9 @@ pub struct InfoArgs {
 /// # Errors
 /// A file that cannot be read; the message is one line with the file's name and the place in it.
 pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
+    if let Some(text) = luminaire_info::describe(&args.file, args.json)? {
+        return print(&text);
+    }
     let datasets = dataset_file::read(&args.file)?;
     let text = if args.json {
         let mut list: Vec<Value> = datasets.iter().map(|dataset| to_json(dataset, &datasets)).collect();
@@ -31,6 +34,10 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
     } else {
         datasets.iter().map(to_text).collect::<Vec<_>>().join("\n")
     };
+    print(&text)
+}
+
+fn print(text: &str) -> anyhow::Result<()> {
     match std::io::stdout().write_all(text.as_bytes()) {
         // A reader that has seen enough (`| head`) is no error.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
@@ -79,8 +86,16 @@ fn hemispherical(dataset: &Dataset) -> Value {
     Value::Object(pairs.collect())
 }
 
-/// τ of every incident cell in the basis's own order, angles at its centre, azimuth in the basis's own counting.
+/// τ of every incident cell in the basis's own order, angles at its centre, azimuth in the basis's own counting; of
+/// every direction of a list, in its order, angles as the façade frame counts them.
 fn tau_dir_hem(btdf: &Btdf) -> Value {
+    if let Some(Scattered::Directions(data)) = &btdf.scattered {
+        let rows = data.incident().iter().map(|direction| {
+            let (theta, phi) = (direction.0.theta().to_degrees(), direction.0.phi().to_degrees());
+            json!({"theta_deg": tidy(theta), "phi_deg": tidy(phi), "tau": btdf.tau(*direction)})
+        });
+        return rows.collect::<Vec<_>>().into();
+    }
     let own = match &btdf.scattered {
         Some(Scattered::Cells(matrix)) => Some(matrix.tau_by_cell()),
         _ => None,

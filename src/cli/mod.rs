@@ -6,6 +6,7 @@ pub mod convert;
 mod dataset_file;
 pub mod info;
 pub mod lid;
+mod luminaire_info;
 mod output;
 mod progress;
 pub mod room;

@@ -4,16 +4,21 @@
 //! [`write_dataset`].
 
 pub mod bsdf_xml;
+pub mod btdf_text;
 pub mod dataset_blob;
 pub mod drawing;
 pub mod eulumdat;
+mod family;
 pub mod ies;
 pub mod lid_tables;
 mod location;
 pub mod luminaire;
+mod on_cells;
 pub mod package;
 pub mod scan;
 
+pub use btdf_text::CatalogueFields;
+pub use family::{is_one_function, merge_sides};
 pub use location::{FormatError, Location};
 
 use crate::compute::btdf::{Dataset, Finding};
@@ -23,16 +28,19 @@ use crate::compute::btdf::{Dataset, Finding};
 pub enum Format {
     /// LBNL BSDF XML: Klems matrices and tensor trees.
     BsdfXml,
+    /// Text with a TOML header, as goniophotometers and makers' scripts write it.
+    BtdfText,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::BsdfXml];
+    pub const ALL: [Self; 2] = [Self::BsdfXml, Self::BtdfText];
 
     /// Short name for messages and listings.
     pub const fn name(self) -> &'static str {
         match self {
             Self::BsdfXml => "BSDF XML",
+            Self::BtdfText => "BTDF text",
         }
     }
 
@@ -40,6 +48,7 @@ impl Format {
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::BsdfXml => &["xml"],
+            Self::BtdfText => &["btdf.txt"],
         }
     }
 
@@ -56,7 +65,21 @@ impl Format {
         if holds(b"<WindowElement") {
             return Some(Self::BsdfXml);
         }
+        if holds(b"cfs-btdf") {
+            return Some(Self::BtdfText);
+        }
         Self::from_name(name)
+    }
+
+    /// A file's name without its folder and without the extension of its format.
+    pub fn stem(name: &str) -> &str {
+        let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let lower = name.to_ascii_lowercase();
+        let extensions = Self::ALL.into_iter().flat_map(|format| format.extensions());
+        let known = extensions.filter(|ext| lower.ends_with(&format!(".{ext}"))).map(|ext| ext.len() + 1).max();
+        // ASCII lower case has the same bytes, and extensions are ASCII.
+        let cut = known.or_else(|| Some(name.len() - name.rfind('.').filter(|at| *at > 0)?)).unwrap_or(0);
+        &name[..name.len() - cut]
     }
 
     fn list() -> String {
@@ -76,8 +99,20 @@ impl Format {
 pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     match Format::sniff(name, bytes) {
         Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
+        Some(Format::BtdfText) => Ok(vec![btdf_text::read(bytes)?]),
         None if bytes.is_empty() => Err(FormatError::new(Location::file(), "an empty file", Format::list())),
         None => Err(FormatError::new(Location::file(), "an unknown format", Format::list())),
+    }
+}
+
+/// What a dataset file tells the catalogue beyond its datasets; empty for formats that tell nothing.
+///
+/// # Errors
+/// Of the reader of the file's header.
+pub fn catalogue_fields(name: &str, bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
+    match Format::sniff(name, bytes) {
+        Some(Format::BtdfText) => btdf_text::catalogue_fields(bytes),
+        Some(Format::BsdfXml) | None => Ok(CatalogueFields::default()),
     }
 }
 
@@ -97,9 +132,10 @@ pub struct Written {
 pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Written, FormatError> {
     match (format, datasets) {
         (Format::BsdfXml, [one]) => bsdf_xml::write(one),
-        (Format::BsdfXml, many) => Err(FormatError::new(
+        (Format::BtdfText, [one]) => btdf_text::write(one),
+        (Format::BsdfXml | Format::BtdfText, many) => Err(FormatError::new(
             Location::file(),
-            format!("{} states for one BSDF XML file", many.len()),
+            format!("{} states for one {} file", many.len(), format.name()),
             "exactly one state (choose it by its key)",
         )),
     }

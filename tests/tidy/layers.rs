@@ -49,7 +49,6 @@ const LAYERS: [Layer; 6] = [
             "std::path",
             "std::process",
             "rusqlite",
-            "toml",
             "egui",
             "eframe",
             "egui_plot",

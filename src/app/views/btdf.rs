@@ -8,7 +8,7 @@ use crate::app::paint::ticks::{degrees, number};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::angle::wrap_two_pi;
 use crate::compute::basis::{Cell, RingBasis};
-use crate::compute::btdf::{Btdf, Indicatrix};
+use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -52,12 +52,40 @@ fn bits(incident: Incident) -> Incidence {
     incident.0.vector().to_array().map(f64::to_bits)
 }
 
-/// τ of every incident cell, and where its centre lies on the disk.
+/// What the incident side shows: cells in grey, and the incidences that can be chosen.
 #[derive(Debug, Clone)]
 struct Incidences {
     basis: RingBasis,
+    /// τ of every cell of `basis`.
     tau: Vec<f64>,
+    /// The centres of the cells, or the directions of a list that is no lattice.
+    choices: Vec<Incident>,
+    /// Where the choices lie on the disk.
     points: Vec<[f64; 2]>,
+    /// The choices are a list; every place of the disk belongs to the nearest of them.
+    listed: bool,
+}
+
+impl Incidences {
+    fn new(btdf: &Btdf, projection: Projection) -> Self {
+        let basis = super::incident_cells(btdf);
+        let tau = basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).collect();
+        let list = super::listed(btdf);
+        let choices: Vec<Incident> = match list {
+            Some(data) => data.incident().to_vec(),
+            None => basis.cells().map(|cell| Incident(cell.centre())).collect(),
+        };
+        let points = choices.iter().map(|d| Side::Incident.disk(projection, d.0)).collect();
+        Self { basis, tau, choices, points, listed: list.is_some() }
+    }
+
+    /// The choice that a direction belongs to.
+    fn choice(&self, btdf: &Btdf, d: Dir<Facade>) -> Option<usize> {
+        match super::listed(btdf) {
+            Some(data) => data.standing_for(d),
+            None => self.basis.index(d),
+        }
+    }
 }
 
 /// The tile's own settings and pictures.
@@ -162,7 +190,17 @@ fn selection_text(btdf: &Btdf, incident: Incident) -> String {
     } else {
         String::new()
     };
-    format!("incidence {} · τ {}{parts}", direction_text(incident.0), number(tau, 3))
+    format!("incidence {} · τ {}{parts}{}", direction_text(incident.0), number(tau, 3), measured_at(btdf, incident))
+}
+
+/// Which direction the data shown belong to, where they are of single directions and another one is chosen.
+fn measured_at(btdf: &Btdf, incident: Incident) -> String {
+    let Some(Scattered::Directions(data)) = &btdf.scattered else { return String::new() };
+    let Some(own) = data.standing_for(incident.0).map(|index| data.incident()[index].0) else { return String::new() };
+    if own.dot(incident.0) > 0.5_f64.to_radians().cos() {
+        return String::new();
+    }
+    format!(" · data of {}", direction_text(own))
 }
 
 fn direction_text(d: Dir<Facade>) -> String {
@@ -260,12 +298,7 @@ fn incident_side(
     let projection = state.projection;
     let disk = place.disk;
     let response = ui.interact(disk_rect(&disk), ui.scope_id().with("incident"), Sense::click());
-    let cells = state.incidences.get((input.revision, projection), || {
-        let basis = btdf.incident_basis();
-        let tau = basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).collect();
-        let points = basis.cells().map(|cell| Side::Incident.disk(projection, cell.centre())).collect();
-        Incidences { basis, tau, points }
-    });
+    let cells = state.incidences.get((input.revision, projection), || Incidences::new(btdf, projection));
     let scale = ColourScale {
         map: ColourMap::Grey,
         ..ColourScale::up_to(cells.tau.iter().copied().fold(0.0, f64::max).max(1e-3), false, 3, ColourMap::Grey)
@@ -278,15 +311,25 @@ fn incident_side(
         }))
     });
     ui.painter().add(Shape::Mesh(mesh.clone()));
-    outline_all(ui, &disk, projection, &cells.basis, &palette);
+    if cells.listed {
+        for at in &cells.points {
+            ui.painter().circle(disk.screen(*at), 2.0, palette.face, Stroke::new(1.0, palette.ink));
+        }
+    } else {
+        outline_all(ui, &disk, projection, &cells.basis, &palette);
+    }
     let from = match place.legend {
         None if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
         _ => "where light comes from".to_owned(),
     };
     frame(ui, place, projection, ["outside", &from], &palette);
     // The chosen cell: light under dark, so that it is seen on every grey.
-    let selected = cells.basis.index(input.incident.0);
-    if let Some(index) = selected {
+    let selected = cells.choice(btdf, input.incident.0);
+    if let (true, Some(index)) = (cells.listed, selected) {
+        let at = disk.screen(cells.points[index]);
+        ui.painter().circle_stroke(at, 5.0, Stroke::new(4.0, palette.face));
+        ui.painter().circle_stroke(at, 5.0, Stroke::new(2.0, palette.first));
+    } else if let Some(index) = selected {
         let outline = outline(&disk, projection, Side::Incident, &cells.basis.cell(index));
         ui.painter().add(Shape::closed_line(outline.clone(), Stroke::new(4.0, palette.face)));
         ui.painter().add(Shape::closed_line(outline, Stroke::new(2.0, palette.first)));
@@ -295,8 +338,8 @@ fn incident_side(
         let at = disk.screen(incident_disk(projection, sun));
         ui.painter().circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
-    let mut choose = |index: usize| out.push(Action::ChooseIncidence(Incident(cells.basis.cell(index).centre())));
-    let cell_at = |at| Side::Incident.through_name(projection, disk.disk(at)).and_then(|d| cells.basis.index(d));
+    let mut choose = |index: usize| out.push(Action::ChooseIncidence(cells.choices[index]));
+    let cell_at = |at| Side::Incident.through_name(projection, disk.disk(at)).and_then(|d| cells.choice(btdf, d));
     if response.clicked() {
         response.request_focus();
         if let Some(index) = response.interact_pointer_pos().and_then(cell_at) {
@@ -323,11 +366,11 @@ fn incident_side(
     }
     tile::name(ui, &response, "Incident hemisphere", &selection_text(btdf, input.incident));
     let pointed = response.hover_pos().and_then(cell_at);
+    let pointed = pointed.map(|i| (cells.choices[i], btdf.tau(cells.choices[i])));
     if let (true, Some(legend)) = (shade, place.legend) {
-        scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|i| cells.tau[i]), &palette);
+        scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|(_, tau)| tau), &palette);
     }
-    pointed
-        .map(|i| format!("incidence {} · τ {}", direction_text(cells.basis.cell(i).centre()), number(cells.tau[i], 3)))
+    pointed.map(|(d, tau)| format!("incidence {} · τ {}", direction_text(d.0), number(tau, 3)))
 }
 
 fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<egui::Pos2> {

@@ -9,6 +9,7 @@ use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::Incident;
 use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Where the transmitted light goes, as shares of the light that arrives; their sum is τ of that situation.
@@ -144,16 +145,18 @@ fn picture(
     let disk = Disk::within(Rect::from_min_max(map.min, pos2(map.right(), legend.top())));
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
     let response = ui.interact(area, ui.scope_id().with("map"), Sense::click());
-    let basis = btdf.incident_basis();
+    let basis = super::incident_cells(btdf);
     let max = *state
         .max
         .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
     let scale = ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
     let mesh = state.mesh.get((input.revision, disk, scale.clone()), || {
         Arc::new(match &btdf.scattered {
-            Some(Scattered::Cells(_) | Scattered::Tree(_)) => disk.cells(PROJECTION, Side::Incident, &basis, |i| {
-                scale.colour(btdf.tau(Incident(basis.cell(i).centre())))
-            }),
+            Some(Scattered::Cells(_) | Scattered::Directions(_) | Scattered::Tree(_)) => {
+                disk.cells(PROJECTION, Side::Incident, &basis, |i| {
+                    scale.colour(btdf.tau(Incident(basis.cell(i).centre())))
+                })
+            }
             _ => disk.smooth(|p| {
                 let d = Side::Incident.through_name(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
                 scale.colour(d.map_or(0.0, |d| btdf.tau(Incident(d))))
@@ -286,6 +289,14 @@ pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("theta_deg,phi_deg,projected_solid_angle_sr,tau\n");
     let Some(btdf) = input.btdf else { return out };
+    if let Some(data) = super::listed(btdf) {
+        // Each direction with the part of the hemisphere that is nearest to it.
+        for (d, share) in data.incident().iter().zip(data.shares()) {
+            let (theta, phi) = (d.0.theta().to_degrees(), d.0.phi().to_degrees());
+            let _ = writeln!(out, "{theta:.4},{phi:.4},{:.9},{:.9}", PI * share, btdf.tau(*d));
+        }
+        return out;
+    }
     for cell in btdf.incident_basis().cells() {
         let d = cell.centre();
         let (theta, phi) = (d.theta().to_degrees(), d.phi().to_degrees());

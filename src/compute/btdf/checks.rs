@@ -46,6 +46,12 @@ pub fn tau_max(btdf: &Btdf) -> f64 {
             .zip(matrix.tau_by_cell())
             .map(|(cell, tau)| tau + regular(cell.theta()))
             .fold(0.0, f64::max),
+        Some(Scattered::Directions(data)) => data
+            .incident()
+            .iter()
+            .zip(data.tau_by_direction())
+            .map(|(direction, tau)| tau + regular(direction.0.theta()))
+            .fold(0.0, f64::max),
         Some(Scattered::Tree(tree)) if btdf.regular.is_none() => tree.tau_max(),
         _ => (0..=180)
             .map(|k| {

@@ -31,7 +31,7 @@ impl Indicatrices {
         if incident.is_empty() || values.len() != incident.len() * emergent.len() {
             return None;
         }
-        let twins = (0..incident.len()).any(|i| (0..i).any(|j| angle(incident[i].0, incident[j].0) < SAME_DIRECTION));
+        let twins = (0..incident.len()).any(|i| (0..i).any(|j| chord(incident[i].0, incident[j].0) < SAME_DIRECTION));
         if twins {
             return None;
         }
@@ -42,7 +42,7 @@ impl Indicatrices {
             .into_iter()
             .find(|basis| {
                 basis.len() == incident.len()
-                    && basis.cells().zip(&incident).all(|(cell, d)| angle(cell.centre(), d.0) < SAME_DIRECTION)
+                    && basis.cells().zip(&incident).all(|(cell, d)| chord(cell.centre(), d.0) < SAME_DIRECTION)
             });
         let share = lattice.as_ref().map_or_else(
             || nearest_shares(&incident),
@@ -76,6 +76,12 @@ impl Indicatrices {
     /// Directional-hemispherical transmittance at every incident direction.
     pub fn tau_by_direction(&self) -> &[f64] {
         &self.tau
+    }
+
+    /// Share of the projected hemisphere that each direction stands for: of its lattice's cell, or nearest to it. Sums
+    /// to 1.
+    pub fn shares(&self) -> &[f64] {
+        &self.share
     }
 
     /// Number of the incident direction nearest to another.
@@ -123,8 +129,9 @@ impl Indicatrices {
     }
 }
 
-fn angle(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
-    a.vector().cross(b.vector()).length().atan2(a.vector().dot(b.vector()))
+/// Chord between two directions, which is their angle while it is small. \[rad\]
+fn chord(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
+    (a.vector() - b.vector()).length()
 }
 
 fn nearest(incident: &[Incident], d: Dir<Facade>) -> usize {

@@ -5,10 +5,11 @@
 //! sampled cell by cell from their finest grid; light that goes straight on becomes the diagonal of its matrix,
 //! τ/PΩ in every cell. The Geometry element is empty.
 
-use crate::compute::basis::{AzimuthMap, Resampling, RingBasis, SquareGrid, resample_matrix};
-use crate::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree};
+use crate::compute::basis::{AzimuthMap, RingBasis};
+use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
+use crate::formats::on_cells::matrix_on;
 use std::fmt::Write as _;
 
 /// One dataset as a file. Blocks that were derived when it was read are written like the others.
@@ -134,7 +135,8 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
             Component::ReflectionFront => ("Reflection Front", "BRDF", AzimuthMap::KLEMS_FRONT),
             Component::ReflectionBack => ("Reflection Back", "BRDF", AzimuthMap::KLEMS_BACK),
         };
-        let matrix = matrix_on(btdf, &basis.clone().with_azimuth(map));
+        let basis_of_side = basis.clone().with_azimuth(map);
+        let matrix = matrix_on(btdf, &basis_of_side, &basis_of_side);
         let basis_name = escape(basis.name());
         let _ = write!(
             xml,
@@ -155,92 +157,4 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
         }
         xml.push_str("\t\t\t\t\t</ScatteringData>\n\t\t\t\t</WavelengthDataBlock>\n\t\t\t</WavelengthData>\n");
     }
-}
-
-/// Any function on the cells of a basis, incident and emergent.
-fn matrix_on(btdf: &Btdf, basis: &RingBasis) -> CellMatrix {
-    let n = basis.len();
-    let weights = basis.projected_solid_angles();
-    let mut values = match &btdf.scattered {
-        None => vec![0.0; n * n],
-        Some(Scattered::Cells(matrix)) => resample_matrix(matrix, basis, basis).values().to_vec(),
-        Some(Scattered::Directions(data)) => resample_matrix(&data.to_cells(), basis, basis).values().to_vec(),
-        Some(Scattered::Lambert(tau)) => basis
-            .cells()
-            .flat_map(|cell| {
-                let mean = ring_mean((cell.theta_min, cell.theta_max), |theta| tau.at(theta));
-                std::iter::repeat_n(mean / std::f64::consts::PI, n)
-            })
-            .collect(),
-        Some(Scattered::Tree(tree)) => tree_on(tree, basis),
-    };
-    if let Some(tau) = &btdf.regular {
-        for (k, cell) in basis.cells().enumerate() {
-            values[k * n + k] += ring_mean((cell.theta_min, cell.theta_max), |theta| tau.at(theta)) / weights[k];
-        }
-    }
-    CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values were made")
-}
-
-/// Mean over a ring by projected solid angle: midpoints in sin²θ.
-fn ring_mean((from, to): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
-    const STEPS: usize = 32;
-    let (a, b) = (from.sin().powi(2), to.sin().powi(2));
-    let theta = |k: usize| (a + (b - a) * (k as f64 + 0.5) / STEPS as f64).sqrt().asin();
-    (0..STEPS).map(|k| f(theta(k))).sum::<f64>() / STEPS as f64
-}
-
-/// Mean emergent distribution of every cell under uniform luminance of that cell. The shares of tree cells in ring
-/// cells are counted on a million directions of equal weight; every distribution is then scaled to its exact flux.
-fn tree_on(tree: &TensorTree, basis: &RingBasis) -> Vec<f64> {
-    let grid = tree.incident_grid();
-    let shares = grid_shares(grid, basis);
-    let weights = basis.projected_solid_angles();
-    let from_rings = Resampling::new(&grid.rings(), basis);
-    let tau = tree.tau_by_cell();
-    let mut values = Vec::with_capacity(basis.len() * basis.len());
-    for incident in &shares {
-        let mut illuminance = vec![0.0; grid.len()];
-        for &(cell, share) in incident {
-            illuminance[cell] = share;
-        }
-        let mut row: Vec<f64> = match tree.luminance_on_grid(&illuminance) {
-            Some(luminance) => {
-                shares.iter().map(|cell| cell.iter().map(|&(k, share)| share * luminance[k]).sum()).collect()
-            }
-            None => from_rings.apply(&tree.luminance(&illuminance).1),
-        };
-        let flux: f64 = incident.iter().map(|&(cell, share)| share * tau[cell]).sum();
-        let got: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
-        if got > 0.0 {
-            row.iter_mut().for_each(|q| *q *= flux / got);
-        }
-        values.extend(row);
-    }
-    values
-}
-
-/// For every cell of the basis the grid cells that fill it, with their shares (sum 1).
-fn grid_shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
-    const SIDE: usize = 1024;
-    let per_side = SIDE / grid.resolution();
-    let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); basis.len()];
-    for (k, cell) in grid.cells().enumerate() {
-        for direction in cell.samples(per_side) {
-            let Some(place) = basis.index(direction) else { continue };
-            match counts[place].last_mut() {
-                Some(last) if last.0 == k => last.1 += 1.0,
-                _ => counts[place].push((k, 1.0)),
-            }
-        }
-    }
-    for (place, list) in counts.iter_mut().enumerate() {
-        if list.is_empty() {
-            // A cell finer than the samples: its centre stands for it.
-            list.extend(grid.index(basis.cell(place).centre()).map(|k| (k, 1.0)));
-        }
-        let total: f64 = list.iter().map(|entry| entry.1).sum();
-        list.iter_mut().for_each(|entry| entry.1 /= total);
-    }
-    counts
 }

@@ -1,0 +1,145 @@
+//! `cfs info` of luminaire files: who, how much light, how large, which planes.
+
+use crate::cli::dataset_file;
+use crate::formats::luminaire::{Luminaire, Photometry};
+use crate::formats::{eulumdat, ies};
+use anyhow::anyhow;
+use serde_json::json;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Relative difference of intensities that still counts as symmetric.
+const SAME: f64 = 1e-4;
+
+/// Text or JSON about a luminaire file; `None` for files of other extensions.
+///
+/// # Errors
+/// A file that cannot be read; the message is one line with the file's name and the place in it.
+pub fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<String>> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let read = match extension.as_str() {
+        "ldt" => eulumdat::read,
+        "ies" => ies::read,
+        _ => return Ok(None),
+    };
+    let luminaire = read(&dataset_file::bytes(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))?;
+    Ok(Some(if as_json { serde_json::to_string_pretty(&to_json(&luminaire))? + "\n" } else { to_text(&luminaire) }))
+}
+
+const fn photometry(luminaire: &Luminaire) -> &'static str {
+    match luminaire.photometry {
+        Photometry::C => "C",
+        Photometry::B => "B",
+        Photometry::A => "A",
+    }
+}
+
+/// Zonal flux, which is defined for C-planes alone. \[lm\]
+fn flux(luminaire: &Luminaire) -> Option<f64> {
+    (luminaire.photometry == Photometry::C).then(|| luminaire.flux())
+}
+
+/// Mirror planes of the distribution, found in the numbers and not in the file's own word.
+fn symmetry(luminaire: &Luminaire) -> &'static str {
+    if luminaire.photometry != Photometry::C {
+        return "not examined";
+    }
+    let tolerance = SAME * luminaire.peak();
+    let same =
+        |a: usize, b: usize| luminaire.plane(a).iter().zip(luminaire.plane(b)).all(|(x, y)| (x - y).abs() <= tolerance);
+    let c = &luminaire.c_deg;
+    if (1..c.len()).all(|k| same(0, k)) {
+        return "rotational";
+    }
+    let mirrored = |axis: f64| {
+        (0..c.len()).all(|k| {
+            let image = (2.0 * axis - c[k]).rem_euclid(360.0);
+            let twin = c.iter().position(|other| {
+                let apart = (other - image).rem_euclid(360.0);
+                apart.min(360.0 - apart) < 1e-3
+            });
+            twin.is_some_and(|twin| same(k, twin))
+        })
+    };
+    match (mirrored(0.0), mirrored(90.0)) {
+        (true, true) => "about C0-C180 and C90-C270",
+        (true, false) => "about C0-C180",
+        (false, true) => "about C90-C270",
+        (false, false) => "none",
+    }
+}
+
+fn to_json(luminaire: &Luminaire) -> serde_json::Value {
+    let findings = luminaire
+        .findings
+        .iter()
+        .map(|finding| json!({"severity": finding.severity.word(), "code": finding.code, "message": finding.message}));
+    json!({
+        "format": luminaire.format,
+        "name": luminaire.text.name,
+        "manufacturer": luminaire.text.manufacturer,
+        "number": luminaire.text.number,
+        "lamp": luminaire.text.lamp,
+        "date": luminaire.text.date,
+        "photometry": photometry(luminaire),
+        "flux_lm": flux(luminaire),
+        "lamp_flux_lm": luminaire.lamp_flux,
+        "power_W": luminaire.power,
+        "peak_cd": luminaire.peak(),
+        "size_m": {
+            "along_c0": luminaire.opening.along_c0,
+            "along_c90": luminaire.opening.along_c90,
+            "height": luminaire.opening.height,
+        },
+        "symmetry": symmetry(luminaire),
+        "planes": luminaire.c_deg.len(),
+        "angles": luminaire.gamma_deg.len(),
+        "c_deg": luminaire.c_deg,
+        "gamma_deg": luminaire.gamma_deg,
+        "findings": findings.collect::<Vec<_>>(),
+    })
+}
+
+fn to_text(luminaire: &Luminaire) -> String {
+    let mut text = String::new();
+    let mut line = |label: &str, value: &str| {
+        if !value.is_empty() {
+            let _ = writeln!(text, "{label:<22}{value}");
+        }
+    };
+    let range = |angles: &[f64]| match angles {
+        [] => String::new(),
+        [one] => format!("{one}°"),
+        [first, .., last] => format!("{first}…{last}°"),
+    };
+    line("Name", &luminaire.text.name);
+    line("Manufacturer", &luminaire.text.manufacturer);
+    line("Number", &luminaire.text.number);
+    line("Lamp", &luminaire.text.lamp);
+    line("Date", &luminaire.text.date);
+    line("Format", &luminaire.format);
+    line("Photometry", photometry(luminaire));
+    line("Flux", &flux(luminaire).map(|flux| format!("{flux:.1} lm")).unwrap_or_default());
+    let rated = luminaire.lamp_flux.map_or_else(|| "absolute photometry".to_owned(), |flux| format!("{flux:.1} lm"));
+    line("Flux of the lamps", &rated);
+    line("Largest intensity", &format!("{:.2} cd", luminaire.peak()));
+    let opening = luminaire.opening;
+    line(
+        "Luminous opening",
+        &format!(
+            "{:.3} m along C0, {:.3} m along C90, {:.3} m high",
+            opening.along_c0, opening.along_c90, opening.height
+        ),
+    );
+    line("Symmetry", symmetry(luminaire));
+    line("Planes", &format!("{} ({})", luminaire.c_deg.len(), range(&luminaire.c_deg)));
+    line("Angles in a plane", &format!("{} ({})", luminaire.gamma_deg.len(), range(&luminaire.gamma_deg)));
+    let _ = writeln!(text, "\nFindings");
+    if luminaire.findings.is_empty() {
+        let _ = writeln!(text, "  none");
+    }
+    for finding in &luminaire.findings {
+        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+    }
+    text
+}

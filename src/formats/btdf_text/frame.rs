@@ -1,0 +1,111 @@
+//! Directions of the file and their names: the one place of this format's angle conventions.
+//!
+//! | light from | what | θ in the file | name θ′ | name φ′ |
+//! | --- | --- | --- | --- | --- |
+//! | outside | incident | 0…90 | θ | φ |
+//! | outside | transmitted | 90…180 | 180 − θ | φ + 180 |
+//! | outside | reflected | 0…90 | θ | φ + 180 |
+//! | inside | incident | 90…180 | 180 − θ | φ + 180 |
+//! | inside | transmitted | 0…90 | θ | φ |
+//! | inside | reflected | 90…180 | 180 − θ | φ |
+
+use crate::compute::angle::wrap_two_pi;
+use crate::compute::btdf::Component;
+use crate::compute::direction::{Dir, Facade};
+use std::f64::consts::PI;
+
+/// How the angles of one kind of direction are named: a mirroring of θ, a half turn of φ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Naming {
+    /// θ in the file runs 90…180.
+    pub inward: bool,
+    /// φ′ = φ + 180°.
+    pub turned: bool,
+}
+
+impl Naming {
+    /// Of the directions towards the source.
+    pub fn incident(component: Component) -> Self {
+        let inside = matches!(component, Component::TransmissionBack | Component::ReflectionBack);
+        Self { inward: inside, turned: inside }
+    }
+
+    /// Of the directions in which light leaves.
+    pub fn emergent(component: Component) -> Self {
+        match component {
+            Component::TransmissionFront => Self { inward: true, turned: true },
+            Component::TransmissionBack => Self { inward: false, turned: false },
+            Component::ReflectionFront => Self { inward: false, turned: true },
+            Component::ReflectionBack => Self { inward: true, turned: false },
+        }
+    }
+
+    /// Allowed θ of the file. \[°\]
+    pub fn range(self) -> [f64; 2] {
+        if self.inward { [90.0, 180.0] } else { [0.0, 90.0] }
+    }
+
+    /// θ′ of a θ of the file and back. \[°\]
+    pub fn theta(self, theta_deg: f64) -> f64 {
+        if self.inward { 180.0 - theta_deg } else { theta_deg }
+    }
+
+    /// φ′ − φ. \[rad\]
+    pub fn turn(self) -> f64 {
+        if self.turned { PI } else { 0.0 }
+    }
+
+    /// The name of a direction of the file; `None` when θ is out of range (by more than rounding).
+    pub fn name(self, theta_deg: f64, phi_deg: f64) -> Option<Dir<Facade>> {
+        const SLACK: f64 = 1e-6;
+        let [low, high] = self.range();
+        if !(theta_deg >= low - SLACK && theta_deg <= high + SLACK) {
+            return None;
+        }
+        let theta = self.theta(theta_deg).clamp(0.0, 90.0).to_radians();
+        Some(Dir::from_theta_phi(theta, phi_deg.to_radians() + self.turn()))
+    }
+
+    /// θ and φ in the file of a name, without the noise of the way through radians; φ = 0 on the normal. \[°\]
+    pub fn file_angles(self, name: Dir<Facade>) -> [f64; 2] {
+        let theta = tidy(name.theta().to_degrees());
+        let phi = if theta == 0.0 { 0.0 } else { tidy(wrap_two_pi(name.phi() - self.turn()).to_degrees()) };
+        [tidy(self.theta(theta)), if phi >= 360.0 { 0.0 } else { phi }]
+    }
+}
+
+/// Rounded to 1e-9, and no negative zero.
+pub(super) fn tidy(degrees: f64) -> f64 {
+    (degrees * 1e9).round() / 1e9 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_angles_survive_the_way_through_names() {
+        for component in Component::ALL {
+            for naming in [Naming::incident(component), Naming::emergent(component)] {
+                let [low, high] = naming.range();
+                for (theta, phi) in [(low + 30.0, 0.0), (high - 12.0, 90.0), (low + 7.5, 312.0)] {
+                    let name = naming.name(theta, phi).unwrap();
+                    assert!(name.vector().z >= 0.0);
+                    assert_eq!(naming.file_angles(name), [theta, phi]);
+                }
+                assert!(naming.name(low - 1.0, 0.0).is_none() && naming.name(f64::NAN, 0.0).is_none());
+            }
+        }
+    }
+
+    #[test]
+    fn names_agree_with_vectors() {
+        // A clear pane and a mirror keep their names.
+        let towards_source = Naming::incident(Component::TransmissionFront).name(40.0, 70.0).unwrap();
+        assert_eq!(Naming::emergent(Component::TransmissionFront).file_angles(towards_source), [140.0, 250.0]);
+        assert_eq!(Naming::emergent(Component::ReflectionFront).file_angles(towards_source), [40.0, 250.0]);
+        let from_inside = Naming::incident(Component::TransmissionBack).name(140.0, 250.0).unwrap();
+        assert_eq!(Naming::emergent(Component::TransmissionBack).file_angles(from_inside), [40.0, 70.0]);
+        assert_eq!(Naming::emergent(Component::ReflectionBack).file_angles(from_inside), [140.0, 70.0]);
+    }
+}

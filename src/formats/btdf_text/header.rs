@@ -1,0 +1,343 @@
+//! The TOML header: found between its two lines, checked key by key.
+
+use super::FORMAT;
+use crate::compute::btdf::Component;
+use crate::formats::location::{FormatError, Location, excerpt};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// More bytes than any header needs; bounds the work of the TOML parser.
+const MOST_HEADER: usize = 4 << 20;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Quantity {
+    Btdf,
+    Brdf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum LightFrom {
+    Outside,
+    Inside,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Layout {
+    Rings,
+    Points,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub(super) enum IncidenceChoice {
+    #[serde(rename = "tregenza-145")]
+    Tregenza,
+    #[serde(rename = "klems-145")]
+    Klems,
+    #[serde(rename = "listed")]
+    Listed,
+}
+
+impl IncidenceChoice {
+    /// As the header writes it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Tregenza => "tregenza-145",
+            Self::Klems => "klems-145",
+            Self::Listed => "listed",
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Symmetry {
+    LeftRight,
+    UpDown,
+    Both,
+    Rotational,
+}
+
+impl Symmetry {
+    /// As the header writes it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::LeftRight => "left-right",
+            Self::UpDown => "up-down",
+            Self::Both => "both",
+            Self::Rotational => "rotational",
+        }
+    }
+}
+
+/// A state key may be written as a number.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+enum Key {
+    Text(String),
+    Whole(i64),
+    Number(f64),
+}
+
+impl Key {
+    fn text(self) -> String {
+        match self {
+            Self::Text(text) => text,
+            Self::Whole(number) => number.to_string(),
+            Self::Number(number) => number.to_string(),
+        }
+    }
+}
+
+/// What a header tells the catalogue beside what a [`Dataset`](crate::compute::btdf::Dataset) holds. Empty: not told.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct CatalogueFields {
+    /// Kind of system, e.g. `venetian`.
+    pub kind: String,
+    /// Words to find it by.
+    pub tags: Vec<String>,
+    /// `measured` or `computed`.
+    pub origin: String,
+    /// Who measured or computed.
+    pub author: String,
+    /// Instrument or formula.
+    pub method: String,
+    /// When, as the file gives it.
+    pub date: String,
+    /// Which face looks into the room.
+    pub inside_face: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    #[serde(rename = "format")]
+    _format: String,
+    quantity: Quantity,
+    light_from: LightFrom,
+    layout: Layout,
+    rings: Option<Spanned<Vec<[f64; 3]>>>,
+    incidence: Spanned<IncidenceChoice>,
+    incident_mean: Option<Spanned<bool>>,
+    symmetry: Option<Symmetry>,
+    state: Option<Key>,
+    #[serde(default)]
+    name: String,
+    #[serde(default)]
+    manufacturer: String,
+    #[serde(default)]
+    description: String,
+    thickness: Option<Spanned<f64>>,
+    #[serde(default)]
+    kind: String,
+    #[serde(default)]
+    tags: Vec<String>,
+    origin: Option<Origin>,
+    #[serde(default)]
+    author: String,
+    #[serde(default)]
+    method: String,
+    #[serde(default)]
+    date: Option<Date>,
+    #[serde(default)]
+    inside_face: String,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Origin {
+    Measured,
+    Computed,
+    Unknown,
+}
+
+/// Quoted, or a TOML date.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum Date {
+    Text(String),
+    Toml(toml::value::Datetime),
+}
+
+/// The header as it is used.
+#[derive(Debug)]
+pub(super) struct Header {
+    pub component: Component,
+    pub layout: Layout,
+    /// θ from, θ to, sectors; with the line of the key.
+    pub rings: Option<(Vec<[f64; 3]>, usize)>,
+    pub incidence: IncidenceChoice,
+    pub incident_mean: bool,
+    /// The header does not say whether values are means.
+    pub mean_not_told: bool,
+    pub symmetry: Option<Symmetry>,
+    pub state: String,
+    pub name: String,
+    pub manufacturer: String,
+    pub description: String,
+    pub thickness: Option<f64>,
+    pub fields: CatalogueFields,
+}
+
+/// A header and the text behind it.
+pub(super) struct Split<'a> {
+    pub header: Header,
+    /// The records.
+    pub body: &'a str,
+    /// Number of the body's first line, from 1.
+    pub body_line: usize,
+}
+
+/// Finds and reads the header.
+pub(super) fn split(text: &str) -> Result<Split<'_>, FormatError> {
+    let fence = "a TOML header between two lines '---', then the records";
+    let mut lines = Lines { text, at: 0, line: 0 };
+    let begin = loop {
+        let Some((line, content)) = lines.next() else {
+            return Err(FormatError::new(Location::file(), "no line '---'", fence));
+        };
+        match content.trim() {
+            "---" => break lines.at,
+            "" => {}
+            other if other.starts_with('#') => {}
+            other => {
+                let found = format!("'{}' before the header", excerpt(other));
+                return Err(FormatError::new(Location::line(line), found, fence));
+            }
+        }
+    };
+    let first = lines.line + 1;
+    let end = loop {
+        let before = lines.at;
+        match lines.next() {
+            Some((_, content)) if content.trim_end() == "---" => break before,
+            Some(_) if lines.at - begin > MOST_HEADER => {
+                let found = format!("a header of more than {} MB", MOST_HEADER >> 20);
+                return Err(FormatError::new(Location::line(lines.line), found, "a second line '---' that ends it"));
+            }
+            Some(_) => {}
+            None => {
+                return Err(FormatError::new(
+                    Location::line(lines.line),
+                    "the end of the file inside the header",
+                    "a second line '---' that ends it, then the records",
+                ));
+            }
+        }
+    };
+    let header = parse(&text[begin..end], first)?;
+    Ok(Split { header, body: &text[lines.at..], body_line: lines.line + 1 })
+}
+
+/// Lines with their numbers and the offset behind them.
+struct Lines<'a> {
+    text: &'a str,
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (usize, &'a str);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let rest = &self.text[self.at..];
+        if rest.is_empty() {
+            return None;
+        }
+        let length = rest.find('\n').map_or(rest.len(), |at| at + 1);
+        self.at += length;
+        self.line += 1;
+        Some((self.line, &rest[..length]))
+    }
+}
+
+fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
+    let line_of =
+        |byte: usize| first_line + text.as_bytes()[..byte.min(text.len())].iter().filter(|b| **b == b'\n').count();
+    let told = |error: &toml::de::Error| {
+        let at = Location::line(error.span().map_or(first_line, |span| line_of(span.start))).in_element("header");
+        let message = error.message();
+        match message.split_once(", expected ") {
+            Some((found, expected)) => FormatError::new(at, found, expected),
+            None => FormatError::new(at, message, "the keys of a cfs-btdf header, as TOML"),
+        }
+    };
+    // First which format it is, so that another version is not told by its unknown keys.
+    let table: toml::Table = toml::from_str(text).map_err(|error| told(&error))?;
+    if table.get("format").and_then(toml::Value::as_str) != Some(FORMAT) {
+        let found = table
+            .get("format")
+            .map_or_else(|| "no key format".to_owned(), |v| format!("format = {}", excerpt(&v.to_string())));
+        return Err(FormatError::new(
+            Location::line(first_line).in_element("header"),
+            found,
+            format!("format = \"{FORMAT}\""),
+        ));
+    }
+    let keys: Keys = toml::from_str(text).map_err(|error| told(&error))?;
+    let at = |byte: usize, key: &str| Location::line(line_of(byte)).in_element(key);
+    let incidence = *keys.incidence.get_ref();
+    let incident_mean = keys.incident_mean.as_ref().is_some_and(|mean| *mean.get_ref());
+    if incident_mean && incidence == IncidenceChoice::Listed {
+        let byte = keys.incident_mean.as_ref().map_or(0, |mean| mean.span().start);
+        return Err(FormatError::new(
+            at(byte, "incident_mean"),
+            "means over incident cells (incident_mean = true) at listed directions, which have no cells",
+            "incident_mean = false, or incidence = \"tregenza-145\" or \"klems-145\"",
+        ));
+    }
+    if let Some(thickness) = &keys.thickness
+        && !(thickness.get_ref().is_finite() && *thickness.get_ref() >= 0.0)
+    {
+        let found = format!("a thickness of {}", thickness.get_ref());
+        return Err(FormatError::new(at(thickness.span().start, "thickness"), found, "metres, 0 or more"));
+    }
+    if keys.layout == Layout::Rings && keys.rings.is_none() {
+        return Err(FormatError::new(
+            Location::line(first_line).in_element("header"),
+            "layout = \"rings\" without the key rings",
+            "rings = [[θ from, θ to, number of sectors], …]",
+        ));
+    }
+    Ok(Header {
+        component: match (keys.quantity, keys.light_from) {
+            (Quantity::Btdf, LightFrom::Outside) => Component::TransmissionFront,
+            (Quantity::Btdf, LightFrom::Inside) => Component::TransmissionBack,
+            (Quantity::Brdf, LightFrom::Outside) => Component::ReflectionFront,
+            (Quantity::Brdf, LightFrom::Inside) => Component::ReflectionBack,
+        },
+        layout: keys.layout,
+        rings: keys.rings.map(|rings| {
+            let line = line_of(rings.span().start);
+            (rings.into_inner(), line)
+        }),
+        incidence,
+        incident_mean,
+        mean_not_told: keys.incident_mean.is_none(),
+        symmetry: keys.symmetry,
+        state: keys.state.map(Key::text).unwrap_or_default(),
+        name: keys.name,
+        manufacturer: keys.manufacturer,
+        description: keys.description,
+        thickness: keys.thickness.map(Spanned::into_inner),
+        fields: CatalogueFields {
+            kind: keys.kind,
+            tags: keys.tags,
+            origin: match keys.origin {
+                Some(Origin::Measured) => "measured".to_owned(),
+                Some(Origin::Computed) => "computed".to_owned(),
+                Some(Origin::Unknown) | None => String::new(),
+            },
+            author: keys.author,
+            method: keys.method,
+            date: match keys.date {
+                Some(Date::Text(text)) => text,
+                Some(Date::Toml(date)) => date.to_string(),
+                None => String::new(),
+            },
+            inside_face: keys.inside_face,
+        },
+    })
+}

@@ -1,0 +1,118 @@
+//! Which incident directions a file should hold, which it holds, and whether any is there twice.
+
+use super::SAME_DIRECTION;
+use super::frame::Naming;
+use super::header::IncidenceChoice;
+use super::records::Incidence;
+use crate::compute::basis::{AzimuthMap, RingBasis};
+use crate::compute::btdf::{Component, Finding};
+use crate::compute::direction::{Dir, Facade};
+use crate::formats::location::{FormatError, Location};
+
+/// The cells whose centres the incidences should be; `None` for listed ones.
+pub(super) fn lattice(choice: IncidenceChoice, component: Component, mean: bool) -> Option<RingBasis> {
+    let inside = matches!(component, Component::TransmissionBack | Component::ReflectionBack);
+    match choice {
+        IncidenceChoice::Tregenza => Some(RingBasis::tregenza()),
+        // Lists of directions are recognised in the order of the front.
+        IncidenceChoice::Klems if inside && mean => Some(RingBasis::klems_full(AzimuthMap::KLEMS_BACK)),
+        IncidenceChoice::Klems => Some(RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)),
+        IncidenceChoice::Listed => None,
+    }
+}
+
+/// Chord between two directions, which is their angle while it is small. \[rad\]
+pub(super) fn apart(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
+    (a.vector() - b.vector()).length()
+}
+
+fn repeated(again: &Incidence, before: &Incidence) -> FormatError {
+    FormatError::new(
+        Location::line(again.line),
+        format!("the incidence θ {}° φ {}° again (first in line {})", again.theta, again.phi, before.line),
+        "every incident direction once, its records together (directions within 0.1° count as one)",
+    )
+}
+
+/// For every cell of a lattice the record at its centre.
+pub(super) fn place_on(
+    list: &[Incidence],
+    basis: &RingBasis,
+    choice: IncidenceChoice,
+    naming: Naming,
+) -> Result<Vec<Option<usize>>, FormatError> {
+    let mut places = vec![None; basis.len()];
+    for (k, incidence) in list.iter().enumerate() {
+        let cell = basis.index(incidence.name).map(|index| (index, basis.cell(index).centre()));
+        let Some((index, _)) = cell.filter(|(_, centre)| apart(*centre, incidence.name) < SAME_DIRECTION) else {
+            let near = cell.map(|(_, centre)| naming.file_angles(centre));
+            let near = near.map(|[theta, phi]| format!(" (nearest: θ {theta}° φ {phi}°)")).unwrap_or_default();
+            return Err(FormatError::new(
+                Location::line(incidence.line),
+                format!("the incidence θ {}° φ {}°, none of {}{near}", incidence.theta, incidence.phi, choice.word()),
+                "directions of that lattice, or incidence = \"listed\"",
+            ));
+        };
+        if let Some(before) = places[index] {
+            return Err(repeated(incidence, &list[before]));
+        }
+        places[index] = Some(k);
+    }
+    Ok(places)
+}
+
+/// Refuses a direction that is listed twice.
+pub(super) fn distinct(list: &[Incidence]) -> Result<(), FormatError> {
+    for (k, incidence) in list.iter().enumerate() {
+        if let Some(before) = list[..k].iter().find(|other| apart(other.name, incidence.name) < SAME_DIRECTION) {
+            return Err(repeated(incidence, before));
+        }
+    }
+    Ok(())
+}
+
+/// Names the directions of a lattice that are missing.
+pub(super) fn incomplete(missing: &[Dir<Facade>], total: usize, choice: IncidenceChoice, naming: Naming) -> Finding {
+    const NAMED: usize = 6;
+    let mut names: Vec<String> = missing
+        .iter()
+        .take(NAMED)
+        .map(|name| {
+            let [theta, phi] = naming.file_angles(*name);
+            format!("θ {theta}° φ {phi}°")
+        })
+        .collect();
+    if missing.len() > NAMED {
+        names.push("…".to_owned());
+    }
+    Finding::warning(
+        "incomplete-incidence",
+        format!(
+            "{} of the {total} directions of {} are missing ({}); the dataset is kept as a list of the {} others.",
+            missing.len(),
+            choice.word(),
+            names.join(", "),
+            total - missing.len()
+        ),
+    )
+}
+
+/// Tells when parts of the hemisphere are far from any incidence of a list.
+pub(super) fn sparse(list: &[Dir<Facade>], naming: Naming) -> Option<Finding> {
+    const FAR: f64 = 20.0;
+    let nearest = |d: Dir<Facade>| list.iter().map(|other| apart(*other, d)).fold(f64::INFINITY, f64::min);
+    let (distance, direction) = RingBasis::equal_area(8)
+        .cells()
+        .map(|cell| (2.0 * (0.5 * nearest(cell.centre())).min(1.0).asin(), cell.centre()))
+        .fold((0.0, None), |worst, (distance, d)| if distance > worst.0 { (distance, Some(d)) } else { worst });
+    let direction = direction.filter(|_| distance.to_degrees() > FAR)?;
+    let [theta, phi] = naming.file_angles(direction);
+    Some(Finding::warning(
+        "sparse-incidence",
+        format!(
+            "Some incidences are {:.0}° away from any listed one (near θ {theta:.0}° φ {phi:.0}°): what happens there is \
+             not known from these data.",
+            distance.to_degrees()
+        ),
+    ))
+}

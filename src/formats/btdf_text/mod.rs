@@ -1,0 +1,43 @@
+//! Measured datasets as text, `.btdf.txt`: a TOML header between two lines `---`, then numbers, one record a line.
+//!
+//! Angles of the file are degrees in the façade frame on both sides (φ counter-clockwise seen from outside, 0 = right,
+//! 90 = up; θ from the outward normal). The incident direction points towards the source, transmitted and reflected
+//! ones point where the light goes; [`frame`] turns them into the names that [`crate::compute::direction`] defines.
+//!
+//! Read: both layouts (`rings`: means over cells; `points`: values at directions, resampled onto cells with a stated
+//! error); incidences on Tregenza's or Klems' 145 directions or any list; means over incident cells
+//! ([`Scattered::Cells`](crate::compute::btdf::Scattered::Cells)) and values at directions
+//! ([`Scattered::Directions`](crate::compute::btdf::Scattered::Directions)); transmission and reflection from either
+//! side. Missing incidences stay missing unless the header declares a symmetry. A file holds one function of one
+//! state; [`crate::formats::merge_sides`] joins the files of one state.
+//!
+//! Not read: other bands than the visible one, several headers in a file, records broken over lines.
+
+mod frame;
+mod header;
+mod incidence;
+mod points;
+mod read;
+mod records;
+mod rings;
+mod symmetry;
+mod write;
+
+pub use header::CatalogueFields;
+pub use read::{catalogue_fields, read};
+pub use write::{write, write_component};
+
+/// First words of the header's `format` key.
+pub const FORMAT: &str = "cfs-btdf 1";
+/// Beginning of [`Dataset::format`](crate::compute::btdf::Dataset::format) of what is read here.
+pub const FAMILY: &str = "cfs-btdf";
+
+/// Most values of a file, as the binary form allows.
+const MOST_VALUES: usize = 1 << 24;
+/// Most incident directions.
+const MOST_INCIDENCES: usize = 1 << 13;
+/// Most emergent cells.
+const MOST_CELLS: usize = 1 << 18;
+/// Directions nearer than this are the same (as [`Indicatrices`](crate::compute::btdf::Indicatrices) takes them).
+/// \[rad\]
+const SAME_DIRECTION: f64 = 2e-3;

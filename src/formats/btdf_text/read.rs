@@ -1,0 +1,257 @@
+//! From text to a dataset: header, records, symmetry, order, plausibility.
+
+use super::frame::Naming;
+use super::header::{CatalogueFields, Header, Layout, Split, split};
+use super::points::resample;
+use super::records::{Incidence, point_records, ring_records};
+use super::rings::{FileRings, file_rings};
+use super::symmetry::{Known, fill};
+use super::{FAMILY, MOST_INCIDENCES, MOST_VALUES, SAME_DIRECTION, incidence};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered};
+use crate::compute::direction::{Dir, Facade, Incident};
+use crate::formats::location::{FormatError, Location};
+
+/// No indicatrix is believed to send out more than this share of the light; between 1 and here a finding tells.
+const IMPOSSIBLE: f64 = 1.5;
+/// Above this the data are not fit for use.
+const PLAUSIBLE: f64 = 1.05;
+/// Up to here it is rounding.
+const ROUNDING: f64 = 1.001;
+
+/// Reads one file into one dataset with one of the four visible functions.
+///
+/// # Errors
+/// Anything that leaves the meaning of the numbers open, with line, what is there and what would be right: no header,
+/// unknown keys or words, counts that do not fit, values that are negative or no finite numbers, incidences that are
+/// given twice or lie off the lattice that the header names, more light than came.
+pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
+    let Split { header, body, body_line } = split(text(bytes)?)?;
+    let Measured { list, rows, basis, mut findings } = records(&header, body, body_line)?;
+    plausible(&header, &list, &rows, &basis, &mut findings)?;
+    let (names, rows, lattice) = complete(&header, &list, rows, &basis, &mut findings)?;
+    if header.mean_not_told {
+        let told = "The header does not say incident_mean; values are taken at the incident directions, not as means.";
+        findings.push(Finding::info("incident-mean-not-told", told));
+    }
+    let cells = basis.len();
+    let scattered = match lattice {
+        Some(lattice) if header.incident_mean => {
+            let matrix = CellMatrix::new(lattice, basis, rows).expect("a row was found for every cell");
+            Scattered::Cells(Box::new(matrix))
+        }
+        _ => {
+            let names: Vec<Incident> = names.into_iter().map(Incident).collect();
+            let data = Indicatrices::new(names, basis, rows).ok_or_else(|| {
+                FormatError::new(Location::file(), "incident directions that coincide", "directions 0.1° apart or more")
+            })?;
+            Scattered::Directions(Box::new(data))
+        }
+    };
+    findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+    let layout = match header.layout {
+        Layout::Rings => "rings",
+        Layout::Points => "points",
+    };
+    let mut dataset = Dataset {
+        name: header.name.trim().to_owned(),
+        manufacturer: header.manufacturer.trim().to_owned(),
+        description: header.description.trim().to_owned(),
+        state: header.state,
+        thickness: header.thickness,
+        format: format!("{FAMILY} {layout}"),
+        incident_basis: header.incidence.word().to_owned(),
+        emergent_basis: format!("{layout}, {cells} cells"),
+        findings,
+        ..Dataset::default()
+    };
+    dataset.visible.set(header.component, Btdf { regular: None, scattered: Some(scattered) });
+    Ok(dataset)
+}
+
+/// What the header of a file tells the catalogue beyond the dataset.
+///
+/// # Errors
+/// Of the header.
+pub fn catalogue_fields(bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
+    Ok(split(text(bytes)?)?.header.fields)
+}
+
+fn text(bytes: &[u8]) -> Result<&str, FormatError> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.strip_prefix('\u{feff}').unwrap_or(text)),
+        Err(error) => {
+            let line = bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count() + 1;
+            let found = if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+                "UTF-16 text"
+            } else {
+                "bytes that are no text"
+            };
+            Err(FormatError::new(Location::line(line), found, "UTF-8 text"))
+        }
+    }
+}
+
+/// What the file itself holds.
+struct Measured {
+    list: Vec<Incidence>,
+    rows: Vec<f64>,
+    basis: RingBasis,
+    findings: Vec<Finding>,
+}
+
+fn records(header: &Header, body: &str, line: usize) -> Result<Measured, FormatError> {
+    let (incident, emergent) = (Naming::incident(header.component), Naming::emergent(header.component));
+    let rings = match &header.rings {
+        Some((list, line)) => Some(file_rings(list, *line, emergent)?),
+        None => None,
+    };
+    let measured = match (header.layout, rings) {
+        (Layout::Rings, Some(FileRings { basis, columns })) => {
+            let (list, mut rows) = ring_records(body, line, basis.len(), incident)?;
+            if let Some(columns) = columns {
+                let sorted = rows.chunks_exact(basis.len()).flat_map(|row| columns.iter().map(|&k| row[k]));
+                rows = sorted.collect();
+            }
+            Measured { list, rows, basis, findings: Vec::new() }
+        }
+        (_, rings) => {
+            let list = point_records(body, line, incident, emergent)?;
+            let distinct: Vec<Incidence> = list.iter().map(|(incidence, _)| *incidence).collect();
+            incidence::distinct(&distinct)?;
+            if list.is_empty() {
+                return Err(no_records(line));
+            }
+            let made = resample(&list, rings, emergent)?;
+            Measured { list: distinct, rows: made.rows, basis: made.basis, findings: made.findings }
+        }
+    };
+    if measured.list.is_empty() { Err(no_records(line)) } else { Ok(measured) }
+}
+
+fn no_records(line: usize) -> FormatError {
+    FormatError::new(Location::line(line), "no records behind the header", "a line of numbers for every incidence")
+}
+
+/// More light than came? All dark?
+fn plausible(
+    header: &Header,
+    list: &[Incidence],
+    rows: &[f64],
+    basis: &RingBasis,
+    findings: &mut Vec<Finding>,
+) -> Result<(), FormatError> {
+    let weights = basis.projected_solid_angles();
+    let (mut largest, mut above) = (0.0_f64, 0);
+    for (incidence, row) in list.iter().zip(rows.chunks_exact(weights.len())) {
+        let tau: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
+        // Values are finite and not negative: a sum may overflow to infinity, but is never NaN.
+        if tau > IMPOSSIBLE {
+            let sum = if tau < 1e4 { format!("{tau:.4}") } else { format!("{tau:.3e}") };
+            return Err(FormatError::new(
+                Location::line(incidence.line),
+                format!("{sum} times the light that comes from θ {}° φ {}° leaves", incidence.theta, incidence.phi),
+                "at most 1: values q = L/E in 1/sr, without the cosine of the emergent angle",
+            ));
+        }
+        largest = largest.max(tau);
+        above += usize::from(tau > ROUNDING);
+    }
+    let (rows_of, what) = (list.len(), words(header.component));
+    if largest > ROUNDING {
+        let message =
+            format!("{what}: up to {largest:.4} of the light leaves, more than 1 at {above} of {rows_of} incidences");
+        findings.push(if largest > PLAUSIBLE {
+            Finding::error("energy-above-one", format!("{message}: unphysical."))
+        } else {
+            Finding::warning("energy-above-one", format!("{message} (measuring error)."))
+        });
+    } else if largest == 0.0 && header.component == Component::TransmissionFront {
+        findings.push(Finding::warning("opaque", "The transmission from outside is zero everywhere (opaque)."));
+    }
+    if header.component != Component::TransmissionFront {
+        findings.push(Finding::info(
+            "one-function",
+            format!(
+                "The file holds the {what} alone; to light a room the system needs its transmission from outside too."
+            ),
+        ));
+    }
+    Ok(())
+}
+
+const fn words(component: Component) -> &'static str {
+    match component {
+        Component::TransmissionFront => "transmission of light from outside",
+        Component::TransmissionBack => "transmission of light from inside",
+        Component::ReflectionFront => "reflection of light from outside",
+        Component::ReflectionBack => "reflection of light from inside",
+    }
+}
+
+/// Names, rows in their order, and the lattice whose cell centres the names are, when they are.
+type Ordered = (Vec<Dir<Facade>>, Vec<f64>, Option<RingBasis>);
+
+/// Brings the incidences into the order of their lattice, adds what a declared symmetry gives, tells what is missing.
+fn complete(
+    header: &Header,
+    list: &[Incidence],
+    rows: Vec<f64>,
+    basis: &RingBasis,
+    findings: &mut Vec<Finding>,
+) -> Result<Ordered, FormatError> {
+    let naming = Naming::incident(header.component);
+    let lattice = incidence::lattice(header.incidence, header.component, header.incident_mean);
+    let places = match &lattice {
+        Some(lattice) => Some(incidence::place_on(list, lattice, header.incidence, naming)?),
+        None => {
+            incidence::distinct(list)?;
+            None
+        }
+    };
+    let mut known = Known { names: list.iter().map(|one| one.name).collect(), rows };
+    let gaps = |places: &[Option<usize>], lattice: &RingBasis| -> Vec<Dir<Facade>> {
+        let empty = lattice.cells().zip(places).filter(|(_, place)| place.is_none());
+        empty.map(|(cell, _)| cell.centre()).collect()
+    };
+    if let Some(symmetry) = header.symmetry {
+        let missing = lattice.as_ref().zip(places.as_ref()).map(|(lattice, places)| gaps(places, lattice));
+        let most = MOST_INCIDENCES.min(MOST_VALUES / basis.len());
+        findings.extend(fill(&mut known, basis, symmetry, missing.as_deref(), most));
+    }
+    let (Some(lattice), Some(places)) = (lattice, places) else {
+        findings.extend(incidence::sparse(&known.names, naming));
+        return Ok((known.names, known.rows, None));
+    };
+    // Images of the symmetry stand behind the measured ones.
+    let images = &known.names[list.len()..];
+    let filled: Vec<Option<usize>> = lattice
+        .cells()
+        .zip(&places)
+        .map(|(cell, place)| {
+            let image = || images.iter().position(|name| incidence::apart(*name, cell.centre()) < SAME_DIRECTION);
+            place.or_else(|| image().map(|k| list.len() + k))
+        })
+        .collect();
+    let n = basis.len();
+    let order: Vec<usize> = filled.iter().copied().flatten().collect();
+    let names = order.iter().map(|&k| known.names[k]).collect();
+    let in_order = order.iter().enumerate().all(|(k, place)| k == *place) && order.len() == known.names.len();
+    let rows = if in_order {
+        known.rows
+    } else {
+        order.iter().flat_map(|&k| known.rows[k * n..(k + 1) * n].iter().copied()).collect()
+    };
+    if order.len() == lattice.len() {
+        return Ok((names, rows, Some(lattice)));
+    }
+    findings.push(incidence::incomplete(&gaps(&filled, &lattice), lattice.len(), header.incidence, naming));
+    if header.incident_mean {
+        findings.push(Finding::warning(
+            "means-as-directions",
+            "Without all cells the means over incident cells are taken as values at their centres.",
+        ));
+    }
+    findings.extend(incidence::sparse(&names, naming));
+    Ok((names, rows, None))
+}

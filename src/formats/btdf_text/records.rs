@@ -1,0 +1,177 @@
+//! The lines of numbers behind the header.
+
+use super::frame::Naming;
+use super::{MOST_INCIDENCES, MOST_VALUES};
+use crate::compute::direction::{Dir, Facade};
+use crate::formats::location::{FormatError, Location, excerpt};
+
+/// A larger luminance coefficient no cell can have that a goniophotometer resolves: all light in 0.001°. \[1/sr\]
+const LARGEST_Q: f64 = 1e9;
+
+/// One incident direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Incidence {
+    /// Line of its (first) record, from 1.
+    pub line: usize,
+    /// As the file gives it. \[°\]
+    pub theta: f64,
+    /// As the file gives it. \[°\]
+    pub phi: f64,
+    /// Its name.
+    pub name: Dir<Facade>,
+}
+
+/// A value at an emergent direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    /// Name of the emergent direction.
+    pub name: Dir<Facade>,
+    /// \[1/sr\]
+    pub q: f64,
+}
+
+/// One line of numbers, read from left to right.
+struct Line<'a> {
+    text: &'a str,
+    number: usize,
+    fields: std::str::SplitAsciiWhitespace<'a>,
+}
+
+/// Lines that hold records: comments cut off, blank lines left out.
+fn lines(body: &str, first_line: usize) -> impl Iterator<Item = Line<'_>> {
+    body.split('\n').enumerate().filter_map(move |(k, text)| {
+        let text = text.split_once('#').map_or(text, |(before, _)| before);
+        let fields = text.split_ascii_whitespace();
+        fields.clone().next().is_some().then_some(Line { text, number: first_line + k, fields })
+    })
+}
+
+impl<'a> Line<'a> {
+    fn at(&self, field: &str) -> Location {
+        // Both lie in the same text.
+        let offset = (field.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize).min(self.text.len());
+        let column = self.text.get(..offset).map_or(offset, |before| before.chars().count()) + 1;
+        Location::line_column(self.number, column)
+    }
+
+    /// A finite number that is not a value: an angle.
+    fn angle(&mut self, what: &str, expected: &str) -> Result<f64, FormatError> {
+        let Some(field) = self.fields.next() else {
+            return Err(FormatError::new(Location::line(self.number), format!("no {what}"), expected));
+        };
+        match field.parse::<f64>() {
+            Ok(number) if number.is_finite() && number.abs() <= 1e6 => Ok(number),
+            _ => Err(FormatError::new(self.at(field), format!("'{}' for {what}", excerpt(field)), expected)),
+        }
+    }
+
+    fn direction(&mut self, naming: Naming, what: &str) -> Result<(f64, f64, Dir<Facade>), FormatError> {
+        let [low, high] = naming.range();
+        let theta = self.angle(&format!("θ of the {what} direction"), &format!("degrees, {low}…{high}"))?;
+        let phi = self.angle(&format!("φ of the {what} direction"), "degrees")?;
+        let name = naming.name(theta, phi).ok_or_else(|| {
+            FormatError::new(
+                Location::line(self.number),
+                format!("θ = {theta}° of the {what} direction"),
+                format!("{low}…{high}° for this quantity and side"),
+            )
+        })?;
+        Ok((theta, phi, name))
+    }
+
+    #[cold]
+    fn bad_value(&self, field: &str) -> FormatError {
+        let found = match field.parse::<f64>() {
+            Ok(value) if value < 0.0 => format!("the negative value {}", excerpt(field)),
+            Ok(value) if value.is_finite() => format!("the value {}, which no cell can have", excerpt(field)),
+            Ok(_) => format!("'{}', not a finite number", excerpt(field)),
+            Err(_) if field.contains(',') => format!("'{}' (decimal or separating comma?)", excerpt(field)),
+            Err(_) => format!("'{}', not a number", excerpt(field)),
+        };
+        FormatError::new(self.at(field), found, "a value of 0 or more in 1/sr, like 0.0131 or 1.3e-2, blanks between")
+    }
+}
+
+/// Rings: incidences, and their values one incidence after the other in the file's order of cells.
+pub(super) fn ring_records(
+    body: &str,
+    first_line: usize,
+    cells: usize,
+    naming: Naming,
+) -> Result<(Vec<Incidence>, Vec<f64>), FormatError> {
+    let mut list = Vec::new();
+    // Two bytes a value at least: memory follows the file's length, not what it claims.
+    let mut values = Vec::with_capacity((body.len() / 2).min(145 * cells).min(MOST_VALUES));
+    for mut line in lines(body, first_line) {
+        let (theta, phi, name) = line.direction(naming, "incident")?;
+        let before = values.len();
+        for field in line.fields.by_ref() {
+            // Negative values, NaN and infinity fail the comparison as well.
+            match field.parse::<f64>() {
+                Ok(value) if (0.0..=LARGEST_Q).contains(&value) => values.push(value),
+                _ => return Err(line.bad_value(field)),
+            }
+        }
+        let found = values.len() - before;
+        if found != cells {
+            let last = if body.len() < 2 || body.ends_with('\n') { "" } else { " (a file cut off?)" };
+            return Err(FormatError::new(
+                Location::line(line.number),
+                format!("{found} values behind θ {theta}° φ {phi}°{last}"),
+                format!("{cells}, one for every cell of rings"),
+            ));
+        }
+        list.push(Incidence { line: line.number, theta, phi, name });
+        if list.len() > MOST_INCIDENCES || values.len() > MOST_VALUES {
+            return Err(too_many(line.number));
+        }
+    }
+    Ok((list, values))
+}
+
+fn too_many(line: usize) -> FormatError {
+    FormatError::new(
+        Location::line(line),
+        "more data than are read",
+        format!("at most {MOST_INCIDENCES} incidences and {MOST_VALUES} values"),
+    )
+}
+
+/// Points: incidences, each with its points.
+pub(super) fn point_records(
+    body: &str,
+    first_line: usize,
+    incident: Naming,
+    emergent: Naming,
+) -> Result<Vec<(Incidence, Vec<Point>)>, FormatError> {
+    let mut list: Vec<(Incidence, Vec<Point>)> = Vec::new();
+    let mut count = 0;
+    for mut line in lines(body, first_line) {
+        let (theta, phi, name) = line.direction(incident, "incident")?;
+        let (_, _, out) = line.direction(emergent, "emergent")?;
+        let Some(field) = line.fields.next() else {
+            return Err(FormatError::new(Location::line(line.number), "four numbers", "five: θ_e φ_e θ_a φ_a q"));
+        };
+        let q = match field.parse::<f64>() {
+            Ok(value) if (0.0..=LARGEST_Q).contains(&value) => value,
+            _ => return Err(line.bad_value(field)),
+        };
+        if let Some(field) = line.fields.next() {
+            return Err(FormatError::new(
+                line.at(field),
+                format!("a sixth number '{}'", excerpt(field)),
+                "five: θ_e φ_e θ_a φ_a q",
+            ));
+        }
+        let point = Point { name: out, q };
+        match list.last_mut() {
+            Some((last, points)) if last.theta == theta && last.phi == phi => points.push(point),
+            _ => list.push((Incidence { line: line.number, theta, phi, name }, vec![point])),
+        }
+        count += 1;
+        if list.len() > MOST_INCIDENCES || count > MOST_VALUES / 2 {
+            return Err(too_many(line.number));
+        }
+    }
+    Ok(list)
+}

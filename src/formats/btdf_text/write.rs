@@ -1,0 +1,280 @@
+//! Writing: layout `rings`, one function of one state a file.
+//!
+//! Values are written with all the digits that they have. Incident and emergent cells keep their own rings where the
+//! file can say them: sectors with one centred on φ = 0. Everything else is averaged: incidence over Klems' cells,
+//! emergence over rings of 5° or the own rings with turned sectors; a finding tells.
+
+use super::FORMAT;
+use super::frame::{Naming, tidy};
+use super::points::even_rings;
+use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
+use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Scattered};
+use crate::compute::direction::{Dir, Facade};
+use crate::formats::Written;
+use crate::formats::location::{FormatError, Location};
+use crate::formats::on_cells::matrix_on;
+use std::f64::consts::PI;
+use std::fmt::Write as _;
+
+/// The dataset's transmission from outside as a file, or, without one, its first function. Findings tell what else it
+/// holds; [`write_component`] writes that.
+///
+/// # Errors
+/// A dataset without any visible function.
+pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
+    let components = dataset.visible.components();
+    let Some(first) = components.first() else {
+        return Err(FormatError::new(Location::file(), "a dataset without visible functions", "at least one to write"));
+    };
+    let mut written = write_component(dataset, *first)?;
+    for component in &components[1..] {
+        let name = component.key().replace('_', " ");
+        written.findings.push(Finding::info(
+            "function-not-written",
+            format!(
+                "{name}: not written; a file of this format holds one function, here the {}.",
+                first.key().replace('_', " ")
+            ),
+        ));
+    }
+    Ok(written)
+}
+
+/// One of the dataset's functions as a file.
+///
+/// # Errors
+/// A function that the dataset has not.
+pub fn write_component(dataset: &Dataset, component: Component) -> Result<Written, FormatError> {
+    let Some(btdf) = dataset.visible.get(component) else {
+        let have: Vec<&str> = dataset.visible.components().into_iter().map(Component::key).collect();
+        return Err(FormatError::new(
+            Location::file(),
+            format!("a dataset without {}", component.key()),
+            format!("one of: {}", have.join(", ")),
+        ));
+    };
+    let mut findings = Vec::new();
+    let table = Table::of(btdf, component, &mut findings);
+    if dataset.derived.contains(&component) {
+        findings
+            .push(Finding::info("derived-written", "The function was derived; the file gives it like measured data."));
+    }
+    if dataset.solar.is_some() {
+        findings.push(Finding::info("solar-not-written", "The solar band has no place in the format."));
+    }
+    let mut text = String::new();
+    head(&mut text, dataset, component, &table);
+    table.records(&mut text, Naming::incident(component));
+    Ok(Written { bytes: text.into_bytes(), findings })
+}
+
+/// What the file will hold: in its own order.
+struct Table {
+    incidence: &'static str,
+    mean: bool,
+    names: Vec<Dir<Facade>>,
+    emergent: RingBasis,
+    /// One row an incidence, in the order of `emergent`.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn of(btdf: &Btdf, component: Component, findings: &mut Vec<Finding>) -> Self {
+        let mut tell = |code, text: String| findings.push(Finding::info(code, text));
+        let made;
+        let (mut table, emergent) = match &btdf.scattered {
+            Some(Scattered::Directions(data)) if btdf.regular.is_none() => {
+                let rows = (0..data.incident().len()).map(|k| data.row(k).into_owned()).collect();
+                let names = data.incident().iter().map(|d| d.0).collect();
+                let incidence = lattice_word(data.lattice());
+                (Self { incidence, mean: false, names, emergent: data.emergent().clone(), rows }, data.emergent())
+            }
+            Some(Scattered::Cells(matrix)) if btdf.regular.is_none() => {
+                (Self::of_matrix(matrix, &mut tell), matrix.emergent())
+            }
+            other => {
+                let from = match other {
+                    Some(Scattered::Tree(_)) => "a tensor tree",
+                    Some(Scattered::Lambert(_)) => "a diffuse function",
+                    Some(Scattered::Directions(_) | Scattered::Cells(_)) => "cells and light that goes straight on",
+                    None => "light that goes straight on",
+                };
+                let incident = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+                made = matrix_on(btdf, &incident, &even_rings(5_f64.to_radians()));
+                tell("resampled", format!("{from}, averaged over Klems' 145 incident cells and emergent rings of 5°."));
+                if btdf.regular.is_some() {
+                    tell(
+                        "regular-in-cells",
+                        "Light that goes straight on is spread over its incident cell (10° to 15°).".to_owned(),
+                    );
+                }
+                (Self::of_matrix(&made, &mut tell), made.emergent())
+            }
+        };
+        let own = emergent.clone();
+        table.emergent = file_basis(&own, Naming::emergent(component));
+        match same_places(&own, &table.emergent) {
+            Some(places) => {
+                table.rows.iter_mut().for_each(|row| *row = places.iter().map(|&k| row[k]).collect());
+            }
+            None => {
+                let resampling = Resampling::new(&own, &table.emergent);
+                table.rows.iter_mut().for_each(|row| *row = resampling.apply(row));
+                tell(
+                    "resampled",
+                    "Emergent sectors were turned by parts of a cell, since a file's first sector is centred on φ = 0."
+                        .to_owned(),
+                );
+            }
+        }
+        table.sort(Naming::incident(component));
+        table
+    }
+
+    fn of_matrix(matrix: &CellMatrix, tell: &mut impl FnMut(&'static str, String)) -> Self {
+        let names: Vec<Dir<Facade>> = matrix.incident().cells().map(|cell| cell.centre()).collect();
+        let rows = (0..names.len()).map(|k| matrix.row(k).to_vec()).collect();
+        let lattice = [RingBasis::tregenza(), RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)]
+            .into_iter()
+            .find(|basis| same_places(matrix.incident(), basis).is_some());
+        if lattice.is_none() {
+            tell(
+                "means-as-directions",
+                format!(
+                    "Means over the {} incident cells of {} are written as values at their centres: the format knows means \
+                     for Tregenza's and Klems' 145 cells alone.",
+                    names.len(),
+                    matrix.incident().name()
+                ),
+            );
+        }
+        Self {
+            incidence: lattice_word(lattice.as_ref()),
+            mean: lattice.is_some(),
+            names,
+            emergent: matrix.emergent().clone(),
+            rows,
+        }
+    }
+
+    /// Lattices in the order that their definition gives them in the file's angles: Tregenza's rows from the horizon,
+    /// Klems' rings from the normal, φ rising.
+    fn sort(&mut self, naming: Naming) {
+        if self.incidence == "listed" {
+            return;
+        }
+        let key = |name: &Dir<Facade>| {
+            let ring = (name.theta().to_degrees() * 100.0).round();
+            (if self.incidence == "tregenza-145" { -ring } else { ring }, naming.file_angles(*name)[1])
+        };
+        let mut order: Vec<usize> = (0..self.names.len()).collect();
+        let keys: Vec<(f64, f64)> = self.names.iter().map(key).collect();
+        order.sort_by(|&a, &b| keys[a].0.total_cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
+        self.names = order.iter().map(|&k| self.names[k]).collect();
+        self.rows = order.iter().map(|&k| std::mem::take(&mut self.rows[k])).collect();
+    }
+
+    fn records(&self, text: &mut String, naming: Naming) {
+        for (name, row) in self.names.iter().zip(&self.rows) {
+            let [theta, phi] = naming.file_angles(*name);
+            let _ = write!(text, "{theta} {phi}");
+            for q in row {
+                // Shortest digits that read back as the same number.
+                let _ = if *q == 0.0 || *q >= 1e-3 { write!(text, " {q}") } else { write!(text, " {q:e}") };
+            }
+            text.push('\n');
+        }
+    }
+}
+
+fn lattice_word(lattice: Option<&RingBasis>) -> &'static str {
+    match lattice {
+        Some(basis) if basis.rings() == RingBasis::tregenza().rings() => "tregenza-145",
+        Some(_) => "klems-145",
+        None => "listed",
+    }
+}
+
+/// The own rings, counted as a file counts them.
+fn file_basis(own: &RingBasis, naming: Naming) -> RingBasis {
+    let rings: Vec<Ring> = own.rings().iter().map(|ring| Ring { first_phi: 0.0, ..*ring }).collect();
+    RingBasis::new(own.name(), rings, AzimuthMap { sign: 1.0, offset: naming.turn() })
+        .expect("the rings divided the hemisphere before")
+}
+
+/// For every cell of `target` the same cell of `source`; `None` when any is cut otherwise.
+fn same_places(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
+    if source.len() != target.len() {
+        return None;
+    }
+    target
+        .cells()
+        .map(|cell| {
+            let index = source.index(cell.centre())?;
+            let other = source.cell(index);
+            let turn = (cell.phi - other.phi).rem_euclid(2.0 * PI);
+            let same = (cell.theta_min - other.theta_min).abs() < 1e-9
+                && (cell.theta_max - other.theta_max).abs() < 1e-9
+                && (cell.width - other.width).abs() < 1e-9
+                && (cell.width > 1.99 * PI || turn.min(2.0 * PI - turn) < 1e-9);
+            same.then_some(index)
+        })
+        .collect()
+}
+
+fn head(text: &mut String, dataset: &Dataset, component: Component, table: &Table) {
+    let naming = Naming::emergent(component);
+    let mut line = |key: &str, value: &str| {
+        let _ = writeln!(text, "{key} = {value}");
+    };
+    line("format", &quoted(FORMAT));
+    line("name", &quoted(&dataset.name));
+    line("manufacturer", &quoted(&dataset.manufacturer));
+    if !dataset.description.is_empty() {
+        line("description", &quoted(&dataset.description));
+    }
+    if let Some(thickness) = dataset.thickness {
+        line("thickness", &format!("{thickness:?}"));
+    }
+    let (quantity, side) = match component {
+        Component::TransmissionFront => ("btdf", "outside"),
+        Component::TransmissionBack => ("btdf", "inside"),
+        Component::ReflectionFront => ("brdf", "outside"),
+        Component::ReflectionBack => ("brdf", "inside"),
+    };
+    line("quantity", &quoted(quantity));
+    line("light_from", &quoted(side));
+    if !dataset.state.is_empty() {
+        line("state", &quoted(&dataset.state));
+    }
+    line("layout", "\"rings\"");
+    let rings = table.emergent.rings().iter().map(|ring| {
+        let limits = [ring.theta_min, ring.theta_max].map(|theta| tidy(naming.theta(tidy(theta.to_degrees()))));
+        format!("[{:?}, {:?}, {}]", limits[0].min(limits[1]), limits[0].max(limits[1]), ring.sectors)
+    });
+    line("rings", &format!("[{}]", rings.collect::<Vec<_>>().join(", ")));
+    line("incidence", &quoted(table.incidence));
+    line("incident_mean", if table.mean { "true" } else { "false" });
+    text.insert_str(0, "---\n");
+    text.push_str("---\n");
+}
+
+/// A TOML basic string on one line.
+fn quoted(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

@@ -1,0 +1,108 @@
+//! Any function as a matrix between the cells of two bases: what writers of cell formats make of functions that are
+//! not on their cells.
+
+use crate::compute::basis::{Resampling, RingBasis, SquareGrid, resample_matrix};
+use crate::compute::btdf::{Btdf, CellMatrix, Scattered, TensorTree};
+use std::f64::consts::PI;
+
+/// Means over incident and emergent cells; flux is kept. Light that goes straight on fills the emergent cells that its
+/// incident cell covers. Single incident directions stand for the cells around them.
+pub(super) fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
+    let n = emergent.len();
+    let mut values = match &btdf.scattered {
+        None => vec![0.0; incident.len() * n],
+        Some(Scattered::Cells(matrix)) => resample_matrix(matrix, incident, emergent).values().to_vec(),
+        Some(Scattered::Directions(data)) => resample_matrix(&data.to_cells(), incident, emergent).values().to_vec(),
+        Some(Scattered::Lambert(tau)) => incident
+            .cells()
+            .flat_map(|cell| {
+                let mean = ring_mean((cell.theta_min, cell.theta_max), |theta| tau.at(theta));
+                std::iter::repeat_n(mean / PI, n)
+            })
+            .collect(),
+        Some(Scattered::Tree(tree)) => tree_on(tree, incident, emergent),
+    };
+    if let Some(tau) = &btdf.regular {
+        let mean: Vec<f64> = incident
+            .cells()
+            .map(|cell| {
+                ring_mean((cell.theta_min, cell.theta_max), |theta| tau.at(theta)) / cell.projected_solid_angle()
+            })
+            .collect();
+        if incident == emergent {
+            (0..n).for_each(|k| values[k * n + k] += mean[k]);
+        } else {
+            let overlaps = Resampling::new(incident, emergent);
+            for o in 0..n {
+                for &(i, share) in overlaps.shares(o) {
+                    values[i * n + o] += share * mean[i];
+                }
+            }
+        }
+    }
+    CellMatrix::new(incident.clone(), emergent.clone(), values).expect("a row was made for every incident cell")
+}
+
+/// Mean over a ring by projected solid angle: midpoints in sin²θ.
+fn ring_mean((from, to): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
+    const STEPS: usize = 32;
+    let (a, b) = (from.sin().powi(2), to.sin().powi(2));
+    let theta = |k: usize| (a + (b - a) * (k as f64 + 0.5) / STEPS as f64).sqrt().asin();
+    (0..STEPS).map(|k| f(theta(k))).sum::<f64>() / STEPS as f64
+}
+
+/// Mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of tree cells in
+/// ring cells are counted on a million directions of equal weight; every distribution is then scaled to its exact flux.
+fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis) -> Vec<f64> {
+    let grid = tree.incident_grid();
+    let inward = grid_shares(grid, incident);
+    let outward = if incident == emergent { inward.clone() } else { grid_shares(grid, emergent) };
+    let weights = emergent.projected_solid_angles();
+    let from_rings = Resampling::new(&grid.rings(), emergent);
+    let tau = tree.tau_by_cell();
+    let mut values = Vec::with_capacity(incident.len() * emergent.len());
+    for cells in &inward {
+        let mut illuminance = vec![0.0; grid.len()];
+        for &(cell, share) in cells {
+            illuminance[cell] = share;
+        }
+        let mut row: Vec<f64> = match tree.luminance_on_grid(&illuminance) {
+            Some(luminance) => {
+                outward.iter().map(|cell| cell.iter().map(|&(k, share)| share * luminance[k]).sum()).collect()
+            }
+            None => from_rings.apply(&tree.luminance(&illuminance).1),
+        };
+        let flux: f64 = cells.iter().map(|&(cell, share)| share * tau[cell]).sum();
+        let got: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
+        if got > 0.0 {
+            row.iter_mut().for_each(|q| *q *= flux / got);
+        }
+        values.extend(row);
+    }
+    values
+}
+
+/// For every cell of the basis the grid cells that fill it, with their shares (sum 1).
+fn grid_shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
+    const SIDE: usize = 1024;
+    let per_side = SIDE / grid.resolution();
+    let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); basis.len()];
+    for (k, cell) in grid.cells().enumerate() {
+        for direction in cell.samples(per_side) {
+            let Some(place) = basis.index(direction) else { continue };
+            match counts[place].last_mut() {
+                Some(last) if last.0 == k => last.1 += 1.0,
+                _ => counts[place].push((k, 1.0)),
+            }
+        }
+    }
+    for (place, list) in counts.iter_mut().enumerate() {
+        if list.is_empty() {
+            // A cell finer than the samples: its centre stands for it.
+            list.extend(grid.index(basis.cell(place).centre()).map(|k| (k, 1.0)));
+        }
+        let total: f64 = list.iter().map(|entry| entry.1).sum();
+        list.iter_mut().for_each(|entry| entry.1 /= total);
+    }
+    counts
+}
