@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 fn import(files: &[PathBuf]) -> CatalogueArgs {
     let args = ImportArgs {
+        compact: None,
         files: files.to_vec(),
         name: "Imported".into(),
         manufacturer: String::new(),

@@ -7,6 +7,7 @@ use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::ies::IesEdition;
+use crate::study::compact::stored_by_default;
 use crate::study::control::pick_state;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::scene_file::{ControlMode, SystemKeys};
@@ -114,7 +115,7 @@ impl Shelf for CatalogueShelf {
     }
 
     fn add(&self, addition: &Addition) -> Result<String, String> {
-        let datasets: Vec<Dataset> = addition.datasets.iter().map(|dataset| Dataset::clone(dataset)).collect();
+        let datasets: Vec<Dataset> = addition.datasets.iter().map(|dataset| stored_by_default(dataset)).collect();
         let meta = NewProduct {
             name: addition.name.clone(),
             manufacturer: addition.manufacturer.clone(),

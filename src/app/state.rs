@@ -263,6 +263,7 @@ pub fn first_scene() -> SceneFile {
             size: [3.0, 1.8],
             system: SystemKeys::Catalogue { key: String::new(), state: None },
             reflectance: ApertureReflectance::default(),
+            structure: None,
         }],
         site: SiteKeys {
             azimuth: 180.0,

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use rusqlite::OptionalExtension;
 
 /// Raised whenever the built-in products change; a file with a lower number gets the new ones.
-pub const BUILTIN_VERSION: i64 = 1;
+pub const BUILTIN_VERSION: i64 = 2;
 
 /// Refractive index of soda-lime glass.
 const GLASS: f64 = 1.52;
@@ -59,6 +59,15 @@ impl Make {
             Self::Spreading(sheet) => sheet.band(),
             Self::LaserCut(panel) => Some(panel.band()),
             Self::Slats(slats) => slats.band(),
+        }
+    }
+
+    /// Period of what is to be seen of it. \[m\]
+    fn structure(&self) -> Option<f64> {
+        match self {
+            Self::Slats(slats) => Some(slats.spacing),
+            Self::LaserCut(panel) => Some(panel.spacing),
+            _ => None,
         }
     }
 
@@ -269,6 +278,7 @@ pub fn builtin_products() -> Vec<(NewProduct, Vec<Dataset>)> {
                 state: key.clone(),
                 visible: make.band().expect("parameters of built-in products are in range"),
                 findings: make.findings(),
+                structure: make.structure(),
                 ..Dataset::default()
             });
             let datasets = datasets.collect();

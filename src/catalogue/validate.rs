@@ -39,7 +39,7 @@ fn negative(name: &str, band: &Band, findings: &mut Vec<Finding>) {
     for component in band.components() {
         let below = |values: &[f64]| values.iter().filter(|value| **value < 0.0).count();
         let count = match band.get(component).and_then(|btdf| btdf.scattered.as_ref()) {
-            Some(Scattered::Cells(matrix)) => below(matrix.values()),
+            Some(Scattered::Cells(matrix)) => below(&matrix.values()),
             Some(Scattered::Directions(data)) => (0..data.incident().len()).map(|k| below(&data.row(k))).sum(),
             Some(Scattered::Lambert(_) | Scattered::Tree(_)) | None => 0,
         };

@@ -1,7 +1,8 @@
 //! What can be typed.
 
 use super::{
-    catalogue::CatalogueArgs, convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs, info::InfoArgs,
+    lid::LidArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
 
@@ -18,9 +19,11 @@ Examples:
   cfs --open blind.xml                  the window, with a dataset to import or a scene to show
   cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
   cfs room office.toml --out office.csv illuminance at every sensor
+  cfs accuracy office.toml              error against run time of every method for this scene
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
+  cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
   cfs catalogue list --search blind     products, built in and your own
 
 On bad input every command ends with status 2 and one line that says what would be right."
@@ -42,6 +45,8 @@ pub struct Arguments {
 pub enum Command {
     /// Illuminance at every sensor of a scene
     Room(RoomArgs),
+    /// Error against run time of a scene, by method and effort
+    Accuracy(AccuracyArgs),
     /// Luminous-intensity distribution of an aperture as a luminaire file
     Lid(LidArgs),
     /// Luminances of the 145 Tregenza patches of the sky dome
@@ -50,6 +55,8 @@ pub enum Command {
     Info(InfoArgs),
     /// A dataset in another format
     Convert(ConvertArgs),
+    /// What the compact form of a dataset saves and costs
+    Compact(CompactArgs),
     /// List, show, import, export, validate products
     Catalogue(CatalogueArgs),
 }

@@ -2,8 +2,10 @@
 
 use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, check, gather};
 use crate::cli::dataset_file;
-use crate::compute::btdf::Severity;
+use crate::compute::btdf::{Dataset, Severity};
+use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
+use crate::study::compact::{Storage, stored_as, stored_by_default};
 use anyhow::{Context, anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -76,6 +78,20 @@ pub struct ImportArgs {
     /// Word to find it by; may be given several times.
     #[arg(long = "tag")]
     pub tags: Vec<String>,
+    /// How values are kept; by default without loss below 1 MB, else as `archive`.
+    #[arg(long, value_enum)]
+    pub compact: Option<Compactness>,
+}
+
+/// How the values of indicatrices are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Compactness {
+    /// At most 0.5 % of the flux of any indicatrix misplaced
+    Archive,
+    /// At most 1.5 % of the flux of any indicatrix misplaced
+    Normal,
+    /// Every value, rounded to 7 digits
+    Lossless,
 }
 
 /// Arguments of `cfs catalogue export`.
@@ -248,6 +264,17 @@ fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     product
 }
 
+/// A dataset in the form that the catalogue is to keep.
+fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
+    let storage = match args.compact {
+        None => return Ok(stored_by_default(dataset)),
+        Some(Compactness::Lossless) => Storage::Lossless,
+        Some(Compactness::Archive) => Storage::Compact(Criterion::ARCHIVE),
+        Some(Compactness::Normal) => Storage::Compact(Criterion::NORMAL),
+    };
+    stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
+}
+
 /// All or none: a product that is refused takes those before it out again.
 fn import_all(catalogue: &mut Catalogue, products: Vec<Gathered>) -> anyhow::Result<Vec<Imported>> {
     let mut imported: Vec<Imported> = Vec::new();
@@ -286,11 +313,19 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     if packages.len() > 1 || (!packages.is_empty() && !sources.is_empty()) {
         bail!("one package at a time, without dataset files beside it, so that an import is one step");
     }
+    if args.compact.is_some() && !packages.is_empty() {
+        bail!("--compact is for dataset files; a package keeps the form that its data have");
+    }
     let imported = if let Some((path, bytes)) = packages.first() {
         catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
     } else {
         let products = gather(sources, !args.name.is_empty());
-        import_all(catalogue, products.into_iter().map(|product| described(args, product)).collect())?
+        let stored = products.into_iter().map(|product| {
+            let mut product = described(args, product);
+            product.datasets = product.datasets.iter().map(|d| kept(args, d)).collect::<anyhow::Result<_>>()?;
+            Ok(product)
+        });
+        import_all(catalogue, stored.collect::<anyhow::Result<_>>()?)?
     };
     let mut text = String::new();
     for product in imported {

@@ -1,7 +1,9 @@
 //! The command line: arguments in, files and tables out, no display needed.
 
+pub mod accuracy;
 mod args;
 pub mod catalogue;
+pub mod compact;
 pub mod convert;
 mod dataset_file;
 pub mod info;
@@ -25,10 +27,12 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     let library = Library::with_catalogue(catalogue);
     match command {
         Command::Room(args) => room::run(args, &library),
+        Command::Accuracy(args) => accuracy::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Compact(args) => compact::run(args),
         Command::Catalogue(args) => catalogue::run(args, catalogue),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::output::{number, print, write_file};
 use super::progress::TerminalProgress;
-use crate::study::{RoomResult, Session, load_scene, system::SystemLibrary};
+use crate::study::{RoomResult, Scene, Session, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::path::PathBuf;
@@ -14,7 +14,9 @@ use std::path::PathBuf;
   cfs room office.toml --out office.csv      the same into a file
   cfs room office.toml --json                with the plan: what ran, what was left out and why, and how long it took
 
-Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error).")]
+Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error).
+Notes on standard error: sensors that lie too near to a blind or panel to see its mean alone, and what error was reached
+where the scene asks for one.")]
 pub struct RoomArgs {
     /// Scene file (TOML)
     pub scene: PathBuf,
@@ -31,6 +33,7 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     let scene = load_scene(&args.scene, library)?;
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
+    notes(&scene, &result);
     let mut csv = String::from("x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx\n");
     for row in &result.sensors {
         let total = row.total();
@@ -44,15 +47,46 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
         write_file(path, csv.as_bytes())?;
     }
     if args.json {
-        print(&format!("{:#}\n", to_json(&result)))?;
+        print(&format!("{:#}\n", to_json(&scene, &result)))?;
     } else if args.out.is_none() {
         print(&csv)?;
     }
     Ok(())
 }
 
-fn to_json(result: &RoomResult) -> serde_json::Value {
+/// What a person should know beside the numbers, on standard error.
+fn notes(scene: &Scene, result: &RoomResult) {
+    for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
+        if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
+            eprintln!(
+                "note: {count} of {} sensors lie nearer than {distance:.3} m to aperture {}, where they would see the \
+                 slats or cuts of {} one by one; the data hold its mean alone",
+                scene.sensors.len(),
+                number + 1,
+                aperture.system.label
+            );
+        }
+    }
+    if let Some(target) = scene.error_target {
+        let (reached, target) = (100.0 * result.reached(), 100.0 * target);
+        let word = if reached <= target { "reached" } else { "not reached" };
+        eprintln!(
+            "note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error"
+        );
+    }
+}
+
+fn to_json(scene: &Scene, result: &RoomResult) -> serde_json::Value {
     json!({
+        "near_field": { "method": scene.near_field.word(), "effort": scene.near_field.effort() },
+        "error_target": scene.error_target,
+        "reached": result.reached(),
+        "apertures": scene.apertures.iter().zip(scene.too_near()).map(|(one, too_near)| json!({
+            "system": one.system.label,
+            "structure_m": one.structure,
+            "homogeneity_distance_m": one.homogeneity_distance(),
+            "sensors_nearer": too_near,
+        })).collect::<Vec<_>>(),
         "flux_lm": result.flux.value,
         "flux_error_lm": result.flux.error,
         "flux_gap": result.flux_gap,

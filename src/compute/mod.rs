@@ -27,3 +27,4 @@ pub mod quadrature;
 pub mod room;
 pub mod sky;
 pub mod system;
+pub mod wavelet;

@@ -1,7 +1,8 @@
 //! The compact binary form of a [`Dataset`](crate::compute::btdf::Dataset), as the catalogue and exchange packages keep it.
 //!
 //! `CFSD`, a version byte, then fields in a fixed order, little-endian; texts and lists carry their length. Values of
-//! cell matrices are rounded to f32 (relative 6e-8), split into their four byte planes and compressed with zstd.
+//! cell matrices are rounded to f32 (relative 6e-8), split into their four byte planes and compressed with zstd; or they
+//! are in compact form already ([`super::compact_rows`]) and keep it.
 //! Equal datasets have equal bytes, so that the BLAKE3 hash of a blob names its content.
 
 mod read;
@@ -43,6 +44,11 @@ pub enum BlobError {
 /// The BLAKE3 hash of a blob as 64 hexadecimal digits: the name of its content.
 pub fn content_hash(blob: &[u8]) -> String {
     blake3::hash(blob).to_hex().to_string()
+}
+
+/// Bytes that indicatrices take without loss (f32, byte planes, zstd), each on its own as it would be read alone.
+pub fn lossless_bytes(rows: usize, row: impl Fn(usize) -> Vec<f64>) -> usize {
+    (0..rows).map(|index| zstd::bulk::compress(&split_planes(&row(index)), 19).map_or(0, |bytes| bytes.len())).sum()
 }
 
 /// Two bytes planes apart: byte k of every value in a row, which compresses far better than values one by one.

@@ -1,8 +1,9 @@
 //! Line drawings with a little text, written as SVG or as PNG. Enough for diagrams that need no window.
 //!
-//! Coordinates are pixels, x right, y down. The PNG is drawn without a font library: digits and the few letters that
-//! diagrams need come from a table of 5 × 7 dots; other characters leave a gap.
+//! Coordinates are pixels, x right, y down. The PNG is drawn without a font library, with the letters of
+//! [`dot_font`](super::dot_font); other characters leave a gap.
 
+use super::dot_font::glyph;
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::fmt::Write as _;
 
@@ -162,33 +163,6 @@ impl Raster {
                 }
             }
         }
-    }
-}
-
-/// Rows of five dots, the leftmost in the highest bit.
-fn glyph(c: char) -> [u8; 7] {
-    match c {
-        '0' => [14, 17, 19, 21, 25, 17, 14],
-        '1' => [4, 12, 4, 4, 4, 4, 14],
-        '2' => [14, 17, 1, 2, 4, 8, 31],
-        '3' => [31, 2, 4, 2, 1, 17, 14],
-        '4' => [2, 6, 10, 18, 31, 2, 2],
-        '5' => [31, 16, 30, 1, 1, 17, 14],
-        '6' => [6, 8, 16, 30, 17, 17, 14],
-        '7' => [31, 1, 2, 4, 8, 8, 8],
-        '8' => [14, 17, 17, 14, 17, 17, 14],
-        '9' => [14, 17, 17, 15, 1, 2, 12],
-        'C' => [14, 17, 16, 16, 16, 17, 14],
-        'c' => [0, 0, 14, 16, 16, 17, 14],
-        'd' => [1, 1, 13, 19, 17, 17, 15],
-        'e' => [0, 0, 14, 17, 31, 16, 14],
-        'l' => [12, 4, 4, 4, 4, 4, 14],
-        'm' => [0, 0, 26, 21, 21, 17, 17],
-        '-' => [0, 0, 0, 31, 0, 0, 0],
-        '.' => [0, 0, 0, 0, 0, 12, 12],
-        ',' => [0, 0, 0, 0, 12, 4, 8],
-        '°' => [12, 18, 18, 12, 0, 0, 0],
-        _ => [0; 7],
     }
 }
 

@@ -5,13 +5,16 @@
 
 pub mod bsdf_xml;
 pub mod btdf_text;
+pub mod compact_rows;
 pub mod dataset_blob;
+mod dot_font;
 pub mod drawing;
 pub mod eulumdat;
 mod family;
 pub mod ies;
 pub mod lid_tables;
 mod location;
+pub mod log_chart;
 pub mod luminaire;
 mod on_cells;
 pub mod package;
@@ -97,6 +100,12 @@ impl Format {
 /// # Errors
 /// Of the reader; or an unknown format.
 pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
+    if bytes.starts_with(dataset_blob::MAGIC) {
+        let read = dataset_blob::decode(bytes);
+        let error =
+            |e: dataset_blob::BlobError| FormatError::new(Location::file(), e.to_string(), "a whole .cfsd file");
+        return Ok(vec![read.map_err(error)?]);
+    }
     match Format::sniff(name, bytes) {
         Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
         Some(Format::BtdfText) => Ok(vec![btdf_text::read(bytes)?]),

@@ -2,11 +2,15 @@
 //!
 //! [`scene_file`] is the text as typed, [`scene`] what it means, [`plan`] what it needs, [`session`] the answers.
 
+pub mod accuracy;
+pub mod accuracy_plot;
 pub mod cache;
+pub mod compact;
 pub mod control;
 mod error;
 pub mod library;
 pub mod luminaire_file;
+pub mod near_field;
 pub mod plan;
 pub mod scene;
 pub mod scene_file;

@@ -56,6 +56,7 @@ impl Plan {
             regular,
             if regular { "a system lets light straight on" } else { "no system lets light straight on" },
         );
+        plan.add("near field", true, &format!("{}: {}", scene.near_field.word(), scene.near_field.effort()));
         let reflects = scene.room.floor > 0.0
             || scene.room.walls > 0.0
             || scene.room.ceiling > 0.0

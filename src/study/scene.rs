@@ -1,6 +1,7 @@
 //! The scene as it is meant: keys judged together, systems loaded, everything in the units and frames of `compute`.
 
 use super::error::StudyError;
+use super::near_field::near_field;
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, ControlMode, Interpolation, RoomKeys, SceneFile, SensorKeys, SurfaceKey,
     SystemKeys,
@@ -13,6 +14,7 @@ use crate::compute::lid::Facing;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
+use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
 use glam::DVec3;
 use std::path::Path;
@@ -30,6 +32,15 @@ pub struct SceneAperture {
     pub system: Arc<System>,
     /// Diffuse reflectance of the room side.
     pub reflectance: f64,
+    /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
+    pub structure: Option<f64>,
+}
+
+impl SceneAperture {
+    /// Sensors nearer than this see the structure, which the data do not hold; `None` where it is not known. \[m\]
+    pub fn homogeneity_distance(&self) -> Option<f64> {
+        self.structure.map(homogeneity::distance)
+    }
 }
 
 /// A resolved scene.
@@ -57,6 +68,8 @@ pub struct Scene {
     pub error_target: Option<f64>,
     /// Between and inside the dataset's directions.
     pub interpolation: Interpolation,
+    /// How an aperture's light is integrated at a sensor.
+    pub near_field: NearField,
 }
 
 impl SceneFile {
@@ -106,7 +119,11 @@ impl Scene {
                 }
                 ApertureReflectance::Dataset => system.dataset.room_side_reflectance().unwrap_or(0.0),
             };
-            list.push(SceneAperture { aperture, system, reflectance });
+            let structure = match keys.structure {
+                Some(period) => Some(within(&format!("aperture[{}].structure", index + 1), period, 1e-9, 100.0, " m")?),
+                None => system.dataset.structure,
+            };
+            list.push(SceneAperture { aperture, system, reflectance, structure });
         }
         if let Some(target) = file.compute.error_target {
             within("compute.error_target", target, 1e-8, 1.0, "")?;
@@ -123,7 +140,18 @@ impl Scene {
             interreflection: file.compute.interreflection,
             error_target: file.compute.error_target,
             interpolation: file.compute.interpolation,
+            near_field: near_field(file.compute.near_field, file.compute.near_field_samples)?,
         })
+    }
+
+    /// Sensors before an aperture's structure, by aperture: how many lie nearer than its homogeneity distance.
+    pub fn too_near(&self) -> Vec<usize> {
+        let nearer = |one: &SceneAperture| {
+            one.homogeneity_distance().map_or(0, |limit| {
+                self.sensors.iter().filter(|sensor| one.aperture.distance(sensor.position) < limit).count()
+            })
+        };
+        self.apertures.iter().map(nearer).collect()
     }
 
     /// The outside as one aperture faces it.

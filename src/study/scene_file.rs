@@ -3,6 +3,7 @@
 //! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². What the keys mean together is
 //! [`super::scene`]'s business.
 
+use super::near_field::NearFieldKey;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -80,6 +81,9 @@ pub struct ApertureKeys {
     /// Room-side diffuse reflectance, or "dataset".
     #[serde(default)]
     pub reflectance: ApertureReflectance,
+    /// Period of the visible structure (pitch of slats or cuts) where the dataset does not say or says it wrong. \[m\]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub structure: Option<f64>,
 }
 
 /// `aperture.reflectance`: a number, or "dataset".
@@ -419,10 +423,21 @@ pub struct ComputeKeys {
     pub error_target: Option<f64>,
     /// Between and inside the dataset's directions.
     pub interpolation: Interpolation,
+    /// How an aperture's light is integrated at a sensor.
+    pub near_field: NearFieldKey,
+    /// Effort of the methods that have one: point luminaires in all, random points a sensor, cells along each angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub near_field_samples: Option<usize>,
 }
 
 impl Default for ComputeKeys {
     fn default() -> Self {
-        Self { interreflection: true, error_target: None, interpolation: Interpolation::Auto }
+        Self {
+            interreflection: true,
+            error_target: None,
+            interpolation: Interpolation::Auto,
+            near_field: NearFieldKey::SolidAngle,
+            near_field_samples: None,
+        }
     }
 }

@@ -1,35 +1,32 @@
 //! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
+mod interreflected;
+
 use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
+use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
+use crate::compute::btdf::Scattered;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::{Emission, Lid};
+use crate::compute::incidence::grid::Grid;
+use crate::compute::incidence::model::Model;
+use crate::compute::lid::{Emission, Lid, sun_grid};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::direct::{self, Reception, Sensor};
-use crate::compute::room::first_bounce::{PatchWeights, first_illuminance};
-use crate::compute::room::mesh::Mesh;
+use crate::compute::room::first_bounce::PatchWeights;
+use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Numbers of patches of the two meshes whose results are extrapolated, by the relative error asked for.
-const fn patches(error_target: Option<f64>) -> [usize; 2] {
-    match error_target {
-        Some(target) if target < 1e-3 => [900, 3600],
-        Some(target) if target < 4e-3 => [450, 1800],
-        _ => [220, 900],
-    }
-}
-
-/// Relative accuracy asked of the cubature at every sensor. Its error estimate is on the safe side by two to three
-/// digits, so that the ordinary value costs no digit that anyone sees.
+/// Relative accuracy asked of the cubature at every sensor: half of what the scene asks for, the rest is for the light
+/// itself and for interreflection. Without a target, what costs no digit that anyone sees.
 fn cubature(error_target: Option<f64>) -> f64 {
-    error_target.map_or(2e-4, |target| (0.03 * target).clamp(1e-10, 1e-4))
+    error_target.map_or(2e-4, |target| (0.5 * target).clamp(1e-10, 0.1))
 }
 
 /// Steps that a room reports: emission, direct light, two meshes.
@@ -67,6 +64,18 @@ pub struct RoomResult {
     pub plan: Plan,
 }
 
+/// Sensors darker than this share of the mean do not count for what was reached: light that nobody sees.
+const DARK: f64 = 0.01;
+
+impl RoomResult {
+    /// The largest relative error stated among the sensors that are not in the dark (1 % of the mean); 0 without light.
+    pub fn reached(&self) -> f64 {
+        let mean = self.sensors.iter().map(|s| s.total().value).sum::<f64>() / self.sensors.len().max(1) as f64;
+        let lit = self.sensors.iter().map(SensorResult::total).filter(|e| e.value > DARK * mean);
+        lit.map(|e| e.error / e.value).fold(0.0, f64::max)
+    }
+}
+
 /// The light of one aperture.
 #[derive(Debug, Clone)]
 pub struct LidResult {
@@ -81,9 +90,10 @@ pub struct LidResult {
 /// Caches. One for the life of a program; shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
-    gather: Cache<Vec<Vec<f64>>>,
+    gather: Cache<Vec<[Vec<f64>; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
+    models: Cache<(Model, Grid)>,
 }
 
 impl Default for Session {
@@ -95,14 +105,20 @@ impl Default for Session {
 impl Session {
     /// Empty caches.
     pub const fn new() -> Self {
-        Self { rooms: Cache::new(8), gather: Cache::new(8), reception: Cache::new(16), patches: Cache::new(24) }
+        Self {
+            rooms: Cache::new(8),
+            gather: Cache::new(8),
+            reception: Cache::new(16),
+            patches: Cache::new(24),
+            models: Cache::new(6),
+        }
     }
 
     /// The light of one aperture (eq 5). `aperture` counts from 0 and must exist.
     pub fn lid(&self, scene: &Scene, aperture: usize, progress: &dyn Progress) -> Result<LidResult, StudyError> {
         check(progress)?;
         let facing = scene.facing(aperture);
-        let emission = emission(scene, aperture);
+        let emission = self.emission(scene, aperture);
         let geometry = &scene.apertures[aperture].aperture;
         Ok(LidResult {
             lid: emission.lid(&facing, geometry.size),
@@ -111,11 +127,34 @@ impl Session {
         })
     }
 
+    /// What an aperture emits under the scene's outside.
+    fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
+        let system = &scene.apertures[aperture].system;
+        let btdf = system.dataset.transmission().expect("a resolved scene has only systems with transmission data");
+        let facing = scene.facing(aperture);
+        let Some(Scattered::Directions(data)) = &btdf.scattered else {
+            return Emission::new(btdf, &facing);
+        };
+        if scene.interpolation == Interpolation::Patch {
+            return Emission::new(btdf, &facing);
+        }
+        let compute = || {
+            let model = Model::new(Arc::clone(data));
+            let grid = sun_grid(&model);
+            Ok::<_, std::convert::Infallible>((model, grid))
+        };
+        // The model keeps the data alive, so that no others can have their address.
+        match self.models.get(vec![Arc::as_ptr(data) as u64], compute) {
+            Ok(entry) => Emission::interpolated(btdf, &entry.0, &entry.1, &facing),
+            Err(never) => match never {},
+        }
+    }
+
     /// Illuminance at every sensor.
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
-        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| emission(scene, index)).collect();
+        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect();
         let flux = emissions
             .iter()
             .enumerate()
@@ -132,7 +171,7 @@ impl Session {
 
         let clock = Instant::now();
         let (interreflected, flux_gap) = if plan.runs("interreflection") {
-            self.interreflected(scene, &emissions, progress)?
+            self.interreflected(scene, &emissions, &direct, progress)?
         } else {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
         };
@@ -158,6 +197,20 @@ impl Session {
             check(progress)?;
             let aperture = &scene.apertures[index].aperture;
             let facing = scene.facing(index);
+            if scene.near_field != NearField::SolidAngle {
+                let method =
+                    Integrator::new(scene.near_field, aperture, emission, &facing, Tolerance::relative(relative));
+                let part: Vec<Estimate> = scene
+                    .sensors
+                    .par_iter()
+                    .map(|sensor| {
+                        check(progress)?;
+                        Ok(method.illuminance(sensor))
+                    })
+                    .collect::<Result<_, StudyError>>()?;
+                sums.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
+                continue;
+            }
             let basis = emission.cells.as_ref().map(|light| Arc::clone(&light.basis));
             let mut key = aperture_key(scene, index);
             key.extend(sensor_key(scene));
@@ -190,107 +243,6 @@ impl Session {
         }
         Ok(sums)
     }
-
-    /// Two meshes, extrapolated to none (the error of patches of constant exitance is of second order in their size).
-    fn interreflected(
-        &self,
-        scene: &Scene,
-        emissions: &[Emission],
-        progress: &dyn Progress,
-    ) -> Result<(Vec<Estimate>, f64), StudyError> {
-        let mut levels = Vec::with_capacity(2);
-        let mut gap = 0.0_f64;
-        let counts = patches(scene.error_target);
-        for (level, count) in counts.into_iter().enumerate() {
-            check(progress)?;
-            let (illuminances, level_gap) = self.level(scene, emissions, count, 3 - level, progress)?;
-            levels.push(illuminances);
-            gap = gap.max(level_gap);
-            progress.advance("interreflection", 3 + level, STEPS);
-        }
-        // What extrapolation leaves: of the order of a permille with 900 patches, falling with their area.
-        let rest = 0.9 / counts[1] as f64;
-        let estimates = levels[0]
-            .iter()
-            .zip(&levels[1])
-            .map(|(coarse, fine)| {
-                let value = (fine + (fine - coarse) / 3.0).max(0.0);
-                // More than what was added: near the opening the first order is not yet all of the error.
-                Estimate::new(value, (fine - coarse).abs() / 2.0 + (rest + 0.2 * gap) * value)
-            })
-            .collect();
-        Ok((estimates, gap))
-    }
-
-    fn level(
-        &self,
-        scene: &Scene,
-        emissions: &[Emission],
-        count: usize,
-        order: usize,
-        progress: &dyn Progress,
-    ) -> Result<(Vec<f64>, f64), StudyError> {
-        let mut room_key = vec![count as u64];
-        room_key.extend(bits(scene.room.size.to_array()));
-        room_key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
-        for index in 0..scene.apertures.len() {
-            room_key.extend(aperture_key(scene, index));
-            room_key.push(scene.apertures[index].reflectance.to_bits());
-        }
-        let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
-        let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.reflectance).collect();
-        let radiosity = self.rooms.get(room_key.clone(), || {
-            let mesh = Mesh::with_about(&scene.room, &geometry, &reflectances, count)?;
-            Radiosity::new(mesh).map_err(StudyError::from)
-        })?;
-        check(progress)?;
-        let mut gather_key = room_key.clone();
-        gather_key.extend(sensor_key(scene));
-        let gather = self.gather.get(gather_key, || {
-            Ok::<_, StudyError>(
-                scene.sensors.par_iter().map(|s| radiosity.gather_weights(s.position, s.normal)).collect(),
-            )
-        })?;
-        let mut first = vec![0.0; radiosity.mesh.patches.len()];
-        let mut gap = 0.0_f64;
-        for (index, emission) in emissions.iter().enumerate() {
-            check(progress)?;
-            let facing = scene.facing(index);
-            let weights = |basis: &Arc<RingBasis>| {
-                let mut key = room_key.clone();
-                key.extend([index as u64, order as u64]);
-                key.extend(basis_key(Some(basis)));
-                let compute = || {
-                    Ok::<_, std::convert::Infallible>(PatchWeights::new(
-                        &radiosity.mesh,
-                        &geometry[index],
-                        Arc::clone(basis),
-                        order,
-                    ))
-                };
-                match self.patches.get(key, compute) {
-                    Ok(weights) => weights,
-                    Err(never) => match never {},
-                }
-            };
-            let (part, part_gap) = first_illuminance(&radiosity, index, &geometry[index], emission, &facing, &weights);
-            gap = gap.max(part_gap);
-            for (sum, e) in first.iter_mut().zip(part) {
-                *sum += e;
-            }
-        }
-        check(progress)?;
-        let exitance = radiosity.exitance(&first);
-        let at_sensors =
-            gather.par_iter().map(|weights| weights.iter().zip(&exitance).map(|(w, b)| w * b).sum()).collect();
-        Ok((at_sensors, gap))
-    }
-}
-
-fn emission(scene: &Scene, aperture: usize) -> Emission {
-    let system = &scene.apertures[aperture].system;
-    let btdf = system.dataset.transmission().expect("a resolved scene has only systems with transmission data");
-    Emission::new(btdf, &scene.facing(aperture))
 }
 
 fn check(progress: &dyn Progress) -> Result<(), Cancelled> {

@@ -7,6 +7,7 @@ use cfs::compute::btdf::{
 };
 use cfs::compute::direction::Incident;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 fn angular() -> impl Strategy<Value = AngularTransmittance> {
     prop_oneof![
@@ -49,7 +50,7 @@ fn directions() -> impl Strategy<Value = Scattered> {
         let incident: Vec<Incident> = lattice.cells().take(most).map(|cell| Incident(cell.centre())).collect();
         let value = |k: usize| f64::from((k as u32).wrapping_mul(seed) as f32 / u32::MAX as f32);
         let values = (0..incident.len() * emergent.len()).map(value).collect();
-        Scattered::Directions(Box::new(Indicatrices::new(incident, emergent, values).unwrap()))
+        Scattered::Directions(Arc::new(Indicatrices::new(incident, emergent, values).unwrap()))
     })
 }
 
@@ -105,6 +106,7 @@ pub fn dataset() -> impl Strategy<Value = Dataset> {
                 incident_basis: t[5].clone(),
                 emergent_basis: t[6].clone(),
                 thickness,
+                structure: None,
                 visible,
                 solar: solar.then_some(infrared),
                 derived: if turned { vec![Component::TransmissionBack] } else { vec![] },

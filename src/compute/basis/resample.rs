@@ -98,7 +98,11 @@ pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &Rin
         return matrix.clone();
     }
     if let (Some(i), Some(o)) = (same_cells(matrix.incident(), incident), same_cells(matrix.emergent(), emergent)) {
-        let values = i.iter().flat_map(|&i| o.iter().map(move |&o| matrix.row(i)[o])).collect();
+        let values = i.iter().flat_map(|&i| {
+            let row = matrix.row(i);
+            o.iter().map(move |&o| row[o])
+        });
+        let values = values.collect();
         return CellMatrix::new(incident.clone(), emergent.clone(), values).expect("as many cells as before");
     }
     let inward = Resampling::new(matrix.incident(), incident);
@@ -109,7 +113,7 @@ pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &Rin
     for i in 0..incident.len() {
         mean.fill(0.0);
         for &(cell, share) in inward.shares(i) {
-            for (m, q) in mean.iter_mut().zip(matrix.row(cell)) {
+            for (m, q) in mean.iter_mut().zip(matrix.row(cell).iter()) {
                 *m += share * q;
             }
         }

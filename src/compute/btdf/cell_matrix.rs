@@ -1,15 +1,19 @@
 //! Scattering between the cells of two bases.
 
+use super::rows::Rows;
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};
+use crate::compute::wavelet::{CompactError, CompactRows, Criterion};
+use std::borrow::Cow;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// q for every pair of an incident and an emergent cell, stored as one indicatrix after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellMatrix {
     incident: RingBasis,
     emergent: RingBasis,
-    values: Vec<f64>,
+    rows: Rows,
     /// τ of each incident cell.
     tau: Vec<f64>,
 }
@@ -24,7 +28,26 @@ impl CellMatrix {
         let weight = emergent.projected_solid_angles();
         let tau =
             values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
-        Some(Self { incident, emergent, values, tau })
+        Some(Self { incident, emergent, rows: Rows::Plain(values), tau })
+    }
+
+    /// From indicatrices in compact form, one an incident cell; they stay compact, and τ is what they keep.
+    /// `None` when the count does not fit.
+    pub fn from_compact(incident: RingBasis, rows: Arc<CompactRows>) -> Option<Self> {
+        (rows.len() == incident.len()).then(|| {
+            let tau = (0..rows.len()).map(|row| rows.tau(row)).collect();
+            Self { incident, emergent: rows.basis().clone(), rows: Rows::Compact(rows), tau }
+        })
+    }
+
+    /// The same data in compact form: τ is kept, everything else as well as the criterion says.
+    ///
+    /// # Errors
+    /// Values that have no compact form.
+    pub fn compacted(&self, criterion: Criterion) -> Result<Self, CompactError> {
+        let row = |i| self.row(i).into_owned();
+        let rows = CompactRows::compress(&self.emergent, self.incident.len(), row, criterion)?;
+        Ok(Self::from_compact(self.incident.clone(), Arc::new(rows)).expect("a row was made for every incident cell"))
     }
 
     /// The incident cells.
@@ -38,13 +61,23 @@ impl CellMatrix {
     }
 
     /// All values, one indicatrix after the other. \[1/sr\]
-    pub fn values(&self) -> &[f64] {
-        &self.values
+    pub fn values(&self) -> Cow<'_, [f64]> {
+        self.rows.all()
     }
 
-    /// The indicatrix of one incident cell. \[1/sr\]
-    pub fn row(&self, incident: usize) -> &[f64] {
-        &self.values[incident * self.emergent.len()..(incident + 1) * self.emergent.len()]
+    /// The indicatrix of one incident cell. \[1/sr\] Made when asked for where the data are held in compact form.
+    pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
+        self.rows.row(incident, self.emergent.len())
+    }
+
+    /// One value: incident cell, emergent cell. \[1/sr\]
+    pub fn value(&self, incident: usize, emergent: usize) -> f64 {
+        self.rows.value(incident, emergent, self.emergent.len())
+    }
+
+    /// The compact form, where the data are held in it.
+    pub fn compact_rows(&self) -> Option<&Arc<CompactRows>> {
+        self.rows.compact()
     }
 
     /// Directional-hemispherical transmittance of every incident cell, in the basis's order.
@@ -55,7 +88,7 @@ impl CellMatrix {
     /// q of the cells that hold the two directions; 0 outside all cells. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.incident.index(incident.0), self.emergent.index(emergent.through_name())) {
-            (Some(i), Some(o)) => self.row(i)[o],
+            (Some(i), Some(o)) => self.value(i, o),
             _ => 0.0,
         }
     }
@@ -74,9 +107,9 @@ impl CellMatrix {
     pub fn luminance(&self, illuminance: &[f64]) -> Vec<f64> {
         assert_eq!(illuminance.len(), self.incident.len(), "one illuminance an incident cell");
         let mut luminance = vec![0.0; self.emergent.len()];
-        for (row, &e) in self.values.chunks_exact(self.emergent.len()).zip(illuminance) {
+        for (i, &e) in illuminance.iter().enumerate() {
             if e != 0.0 {
-                for (l, q) in luminance.iter_mut().zip(row) {
+                for (l, q) in luminance.iter_mut().zip(self.row(i).iter()) {
                     *l += q * e;
                 }
             }
@@ -88,10 +121,11 @@ impl CellMatrix {
     /// transpose. The 180° turn that files need lies in the bases' azimuth maps.
     pub fn reversed(&self) -> Self {
         let (n_in, n_out) = (self.incident.len(), self.emergent.len());
-        let mut values = vec![0.0; self.values.len()];
+        let given = self.values();
+        let mut values = vec![0.0; given.len()];
         for i in 0..n_in {
             for o in 0..n_out {
-                values[o * n_in + i] = self.values[i * n_out + o];
+                values[o * n_in + i] = given[i * n_out + o];
             }
         }
         Self::new(self.emergent.clone(), self.incident.clone(), values).expect("a transpose has as many values")

@@ -25,9 +25,11 @@ pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
     let back_out: Vec<usize> =
         front.incident().cells().map(|cell| back.emergent().index(cell.centre())).collect::<Option<_>>()?;
     let (mut difference, mut sum) = (0.0, 0.0);
+    let back_values = back.values();
     for i in 0..n_in {
+        let row = front.row(i);
         for o in 0..n_out {
-            let (f, b) = (front.row(i)[o], back.row(back_in[o])[back_out[i]]);
+            let (f, b) = (row[o], back_values[back_in[o] * n_in + back_out[i]]);
             difference += w_in[i] * w_out[o] * (f - b).abs();
             sum += w_in[i] * w_out[o] * 0.5 * (f + b);
         }

@@ -85,6 +85,8 @@ pub struct Dataset {
     pub state: String,
     /// Thickness of the system where it is known. \[m\]
     pub thickness: Option<f64>,
+    /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
+    pub structure: Option<f64>,
     /// The format it was read from, e.g. `bsdf-xml klems`; empty for closed forms.
     pub format: String,
     /// Names of the bases as the file gives them.

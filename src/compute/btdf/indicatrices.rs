@@ -4,10 +4,13 @@
 //! directions: what happens there is the business of [`crate::compute::incidence`].
 
 use super::CellMatrix;
+use super::rows::Rows;
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use crate::compute::wavelet::{CompactError, CompactRows, Criterion};
 use std::borrow::Cow;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// q at single incident directions, each on the same emergent cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +18,7 @@ pub struct Indicatrices {
     incident: Vec<Incident>,
     lattice: Option<RingBasis>,
     emergent: RingBasis,
-    values: Vec<f64>,
+    rows: Rows,
     tau: Vec<f64>,
     /// Share of the projected hemisphere that each direction stands for; sums to 1.
     share: Vec<f64>,
@@ -28,16 +31,44 @@ impl Indicatrices {
     /// From values in 1/sr, `values[i · emergent.len() + o]`: incident direction i, emergent cell o (by through-name).
     /// `None` when the count does not fit, without directions, or when two directions coincide.
     pub fn new(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
-        if incident.is_empty() || values.len() != incident.len() * emergent.len() {
+        if values.len() != incident.len() * emergent.len() {
+            return None;
+        }
+        let weight = emergent.projected_solid_angles();
+        let tau =
+            values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
+        Self::with_rows(incident, emergent, Rows::Plain(values), tau)
+    }
+
+    /// From indicatrices in compact form, one an incident direction; they stay compact, and τ is what they keep.
+    /// `None` when the count does not fit, without directions, or when two directions coincide.
+    pub fn from_compact(incident: Vec<Incident>, rows: Arc<CompactRows>) -> Option<Self> {
+        if rows.len() != incident.len() {
+            return None;
+        }
+        let tau = (0..rows.len()).map(|row| rows.tau(row)).collect();
+        Self::with_rows(incident, rows.basis().clone(), Rows::Compact(rows), tau)
+    }
+
+    /// The same data in compact form: τ is kept, everything else as well as the criterion says.
+    ///
+    /// # Errors
+    /// Values that have no compact form.
+    pub fn compacted(&self, criterion: Criterion) -> Result<Self, CompactError> {
+        let row = |i| self.row(i).into_owned();
+        let rows = CompactRows::compress(&self.emergent, self.incident.len(), row, criterion)?;
+        let tau = (0..rows.len()).map(|row| rows.tau(row)).collect();
+        Ok(Self { rows: Rows::Compact(Arc::new(rows)), tau, ..self.clone() })
+    }
+
+    fn with_rows(incident: Vec<Incident>, emergent: RingBasis, rows: Rows, tau: Vec<f64>) -> Option<Self> {
+        if incident.is_empty() {
             return None;
         }
         let twins = (0..incident.len()).any(|i| (0..i).any(|j| chord(incident[i].0, incident[j].0) < SAME_DIRECTION));
         if twins {
             return None;
         }
-        let weight = emergent.projected_solid_angles();
-        let tau =
-            values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
         let lattice = [RingBasis::tregenza(), RingBasis::klems_full(crate::compute::basis::AzimuthMap::KLEMS_FRONT)]
             .into_iter()
             .find(|basis| {
@@ -48,7 +79,7 @@ impl Indicatrices {
             || nearest_shares(&incident),
             |basis| basis.projected_solid_angles().iter().map(|w| w / PI).collect(),
         );
-        Some(Self { incident, lattice, emergent, values, tau, share })
+        Some(Self { incident, lattice, emergent, rows, tau, share })
     }
 
     /// The incident directions.
@@ -67,10 +98,14 @@ impl Indicatrices {
         &self.emergent
     }
 
-    /// The indicatrix of one incident direction. \[1/sr\]
+    /// The indicatrix of one incident direction. \[1/sr\] Made when asked for where the data are held in compact form.
     pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
-        let n = self.emergent.len();
-        Cow::Borrowed(&self.values[incident * n..(incident + 1) * n])
+        self.rows.row(incident, self.emergent.len())
+    }
+
+    /// The compact form, where the data are held in it.
+    pub fn compact_rows(&self) -> Option<&Arc<CompactRows>> {
+        self.rows.compact()
     }
 
     /// Directional-hemispherical transmittance at every incident direction.
@@ -113,7 +148,7 @@ impl Indicatrices {
     /// q without interpolation, of the direction that stands for `incident`. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.standing_for(incident.0), self.emergent.index(emergent.through_name())) {
-            (Some(i), Some(o)) => self.row(i)[o],
+            (Some(i), Some(o)) => self.rows.value(i, o, self.emergent.len()),
             _ => 0.0,
         }
     }

@@ -12,6 +12,7 @@ mod finding;
 mod ideal;
 mod indicatrices;
 mod pyramid;
+mod rows;
 mod tensor_emission;
 mod tensor_reversal;
 mod tensor_tree;
@@ -28,6 +29,7 @@ pub use zones::zone_shares;
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};
+use std::sync::Arc;
 
 /// The scattered part of a BTDF or BRDF.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +39,7 @@ pub enum Scattered {
     /// A value for every pair of an incident and an emergent cell.
     Cells(Box<CellMatrix>),
     /// An indicatrix for every one of a list of incident directions.
-    Directions(Box<Indicatrices>),
+    Directions(Arc<Indicatrices>),
     /// A tensor tree of rank 3 or 4 on Shirley–Chiu squares.
     Tree(Box<TensorTree>),
 }

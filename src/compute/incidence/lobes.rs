@@ -77,6 +77,12 @@ impl Lobe {
         points
     }
 
+    /// Width of the data's cells around it: the root of their mean solid angle. \[rad\]
+    pub fn cell_width(&self, grid: &Grid) -> f64 {
+        let (sum, count) = self.cells(grid).fold((0.0, 0), |(sum, count), (i, _)| (sum + grid.solid[i], count + 1));
+        (sum / f64::from(count.max(1))).sqrt()
+    }
+
     /// Value in a direction, linear between cells. \[1/sr\]
     pub fn at(&self, grid: &Grid, d: DVec3) -> f64 {
         if d.z <= 0.0 {

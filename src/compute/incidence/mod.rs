@@ -15,5 +15,6 @@ pub mod grid;
 pub mod lattice;
 pub mod lobes;
 pub mod model;
+pub mod raster;
 pub mod response;
 pub mod superpose;

@@ -5,6 +5,7 @@ use super::grazing::Grazing;
 use super::grid::Grid;
 use super::lattice::{Lattice, Place, tangent_step};
 use super::lobes::{Lobe, Splitter};
+use super::raster::Raster;
 use super::response::{Responses, gradient, lift};
 use crate::compute::btdf::Indicatrices;
 use crate::compute::direction::{Dir, Facade};
@@ -21,15 +22,28 @@ pub struct Copy {
     pub lobe: usize,
     /// Where its centre goes (through-name).
     pub centre: DVec3,
-    /// Its share of the incident flux.
+    /// Its share of the incident flux; more than 0.
     pub flux: f64,
+    /// The share by linear interpolation alone.
+    pub linear: f64,
+}
+
+/// A base of the data and its weight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Base {
+    /// Incident direction that it comes from.
+    pub vertex: usize,
+    /// Its weight, fluxes interpolated as well as can be.
+    pub factor: f64,
+    /// Its weight by linear interpolation alone.
+    pub linear: f64,
 }
 
 /// An indicatrix as a recipe: bases of the data with factors, and copies of lobes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Recipe {
-    /// Incident directions and factors of their bases.
-    pub bases: Vec<(usize, f64)>,
+    /// Bases.
+    pub bases: Vec<Base>,
     /// Lobes.
     pub copies: Vec<Copy>,
 }
@@ -41,8 +55,8 @@ pub struct Model {
     pub(super) lattice: Lattice,
     pub(super) lobes: Vec<Vec<Lobe>>,
     pub(super) responses: Responses,
-    /// The lobes as values at points.
-    points: Vec<Vec<Lobe>>,
+    /// The lobes as pictures.
+    rasters: Vec<Vec<Raster>>,
     base_flux: Vec<f64>,
     /// By vertex, lobe (the base behind the last) and neighbour: what the edge adds to linear interpolation of the
     /// flux, where the lobe is at both ends.
@@ -161,8 +175,8 @@ impl Model {
                 (bumps, followed)
             })
             .unzip();
-        let points = lobes.par_iter().map(|list| list.iter().map(|lobe| lobe.sharpened(&grid)).collect()).collect();
-        Self { data, grid, lattice, lobes, responses, points, base_flux, bumps, followed, grazing }
+        let rasters = lobes.par_iter().map(|list| list.iter().map(|lobe| Raster::new(&grid, lobe)).collect()).collect();
+        Self { data, grid, lattice, lobes, responses, rasters, base_flux, bumps, followed, grazing }
     }
 
     /// The emergent cells.
@@ -201,7 +215,7 @@ impl Model {
     }
 
     /// Bases blended, their flux interpolated to second order.
-    fn bases(&self, used: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    fn bases(&self, used: &[(usize, f64)]) -> Vec<Base> {
         let linear: f64 = used.iter().map(|&(v, w)| w * self.base_flux[v]).sum();
         let mut flux = linear;
         for (k, &(a, wa)) in used.iter().enumerate() {
@@ -211,7 +225,7 @@ impl Model {
             }
         }
         let factor = if linear > 0.0 { (flux / linear).max(0.0) } else { 1.0 };
-        used.iter().map(|&(v, w)| (v, w * factor)).collect()
+        used.iter().map(|&(vertex, w)| Base { vertex, factor: w * factor, linear: w }).collect()
     }
 
     /// Place of `to` in the neighbours of `from`.
@@ -284,7 +298,8 @@ impl Model {
             let lobe = &self.lobes[v][l];
             let step = (d - points[v]).truncate();
             let centre = lift(lobe.centre.truncate() + self.responses.jacobian[v][l] * step);
-            copies.push(Copy { vertex: v, lobe: l, centre, flux: flux * w * lobe.flux / linear });
+            let share = w * lobe.flux / linear;
+            copies.push(Copy { vertex: v, lobe: l, centre, flux: flux * share, linear: linear * share });
         }
     }
 
@@ -293,38 +308,28 @@ impl Model {
         let factor: f64 = (0..3)
             .map(|k| place.weights[k] * self.grazing[place.vertices[k]].map_or(1.0, |g| g.factor(place.beyond)))
             .sum();
-        recipe.bases.iter_mut().for_each(|(_, f)| *f *= factor);
-        recipe.copies.iter_mut().for_each(|copy| copy.flux *= factor);
+        recipe
+            .bases
+            .iter_mut()
+            .for_each(|base| (base.factor, base.linear) = (base.factor * factor, base.linear * factor));
+        recipe.copies.retain(|_| factor > 0.0);
+        recipe.copies.iter_mut().for_each(|copy| (copy.flux, copy.linear) = (copy.flux * factor, copy.linear * factor));
     }
 
-    /// Adds `scale` times the copies of a recipe to a luminance on the emergent cells.
-    pub fn add_copies(
-        &self,
-        recipe: &Recipe,
-        scale: f64,
-        (target, points): (&Grid, usize),
-        luminance: &mut [f64],
-        scratch: &mut Vec<(u32, f64)>,
-    ) {
-        for copy in &recipe.copies {
-            self.moved(copy, target, points, scratch);
-            for &(cell, q) in scratch.iter() {
-                luminance[cell as usize] += scale * q;
-            }
-        }
+    /// Diameter of the narrowest lobe; infinite without lobes. \[rad\]
+    pub fn narrowest_lobe(&self) -> f64 {
+        self.lobes.iter().flatten().map(|lobe| 2.0 * lobe.radius).fold(f64::INFINITY, f64::min)
     }
 
     /// A moved lobe on the emergent cells: turned from its own centre to the copy's, its flux kept exactly. `points`²
     /// directions a cell.
     pub fn moved(&self, copy: &Copy, target: &Grid, points: usize, out: &mut Vec<(u32, f64)>) {
         out.clear();
-        let lobe = &self.points[copy.vertex][copy.lobe];
-        // Turns directions about the copy's centre back to those about the lobe's.
-        let back = glam::DQuat::from_rotation_arc(copy.centre, lobe.centre);
-        let back = glam::DMat3::from_quat(back);
+        let lobe = &self.lobes[copy.vertex][copy.lobe];
+        let picture = self.rasters[copy.vertex][copy.lobe].turned(copy.centre);
         let mut flux = 0.0;
         target.within(copy.centre, lobe.radius + 0.04, |cell| {
-            let q = target.cell_mean(cell, points, |d| lobe.at(&self.grid, back * d));
+            let q = target.cell_mean(cell, points, |d| picture.at(d));
             if q > 0.0 {
                 flux += q * target.projected[cell];
                 out.push((cell as u32, q));

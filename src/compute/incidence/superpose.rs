@@ -1,70 +1,152 @@
-//! Diffuse light through interpolated indicatrices (eq 12): the outside in sub-patches finer than the incident
-//! lattice, each with its own recipe.
+//! Light through interpolated indicatrices: diffuse light (eq 12) in sub-patches finer than the incident lattice,
+//! the sun (eq 16) at its own place.
+//!
+//! Beside the luminance stands a doubt of it: what the same light would be with fluxes interpolated in straight lines
+//! and, under the sun, on the data's own cells, less what it is. Its integral at a sensor tells how much the answer there
+//! hangs on what lies between the data.
 
 use super::grid::Grid;
 use super::model::Model;
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
-/// Rings of the sub-patches: equal steps of θ, so that borders fall on whole multiples and the horizon of a façade
-/// runs between sectors.
+/// Luminance on emergent cells and the doubt of it. \[cd/m²\]
+#[derive(Debug, Clone, PartialEq)]
+pub struct Light {
+    /// By cell.
+    pub luminance: Vec<f64>,
+    /// Signed difference to the simpler interpolation.
+    pub doubt: Vec<f64>,
+}
+
+impl Light {
+    /// No light.
+    pub fn dark(cells: usize) -> Self {
+        Self { luminance: vec![0.0; cells], doubt: vec![0.0; cells] }
+    }
+
+    /// The same on cells that lie within these.
+    pub fn on(self, own: &Grid, target: &Grid) -> Self {
+        if own.basis() == target.basis() {
+            return self;
+        }
+        let parent = parents(own, target);
+        let copy = |values: &[f64]| parent.iter().map(|&k| values[k]).collect();
+        Self { luminance: copy(&self.luminance), doubt: copy(&self.doubt) }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.luminance.iter_mut().zip(&other.luminance).for_each(|(sum, x)| *sum += x);
+        self.doubt.iter_mut().zip(&other.doubt).for_each(|(sum, x)| *sum += x);
+    }
+}
+
+/// The cell of `own` that holds each cell of `target`.
+fn parents(own: &Grid, target: &Grid) -> Vec<usize> {
+    target.centre.iter().map(|&d| own.basis().index(Dir::from_unit(d)).unwrap_or(0)).collect()
+}
+
+/// Sub-patches of about `step` \[rad\]: rings of equal height, in sectors whose borders fall on right, up, left and down,
+/// so that the horizon of a façade runs between them.
 pub fn sub_patches(step: f64) -> RingBasis {
-    let count = (0.5 * std::f64::consts::PI / step).round().max(1.0) as usize;
-    let step = 0.5 * std::f64::consts::PI / count as f64;
+    let count = (0.5 * PI / step).round().max(1.0) as usize;
+    let step = 0.5 * PI / count as f64;
     let rings = (0..count)
         .map(|i| {
             let (theta_min, theta_max) = (i as f64 * step, (i + 1) as f64 * step);
-            // Sectors about as wide as high, a multiple of four: borders at right, up, left, down.
-            let around = 2.0 * std::f64::consts::PI * (0.5 * (theta_min + theta_max)).sin() / step;
+            let around = 2.0 * PI * (0.5 * (theta_min + theta_max)).sin() / step;
             let sectors = 4 * ((around / 4.0).round().max(1.0) as usize);
-            Ring { theta_min, theta_max, sectors, first_phi: std::f64::consts::PI / sectors as f64 }
+            Ring { theta_min, theta_max, sectors, first_phi: PI / sectors as f64 }
         })
         .collect();
     RingBasis::new("sub-patches", rings, AzimuthMap::FACADE).expect("equal steps rise from 0 to 90°")
 }
 
-/// Luminance of the emergent cells from the illuminance through every sub-patch. \[cd/m²\]
-pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Vec<f64> {
+/// Sub-patches that one thread adds up at a time: fixed, so that the sum does not depend on the number of threads.
+const CHUNK: usize = 256;
+
+/// Luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.
+pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Light {
     let cells = model.grid().basis().len();
     let count = model.lattice().points().len();
-    // Fixed chunks: the sum does not depend on the number of threads.
-    let parts: Vec<(Vec<f64>, Vec<f64>)> = illuminance
-        .par_chunks(512)
+    let total: f64 = illuminance.iter().sum();
+    let parts: Vec<(Light, Vec<[f64; 2]>)> = illuminance
+        .par_chunks(CHUNK)
         .enumerate()
         .map(|(chunk, list)| {
-            let (mut luminance, mut bases) = (vec![0.0; cells], vec![0.0; count]);
+            let (mut light, mut bases) = (Light::dark(cells), vec![[0.0; 2]; count]);
             let mut scratch = Vec::new();
-            for (k, &e) in list.iter().enumerate().filter(|(_, e)| **e > 0.0) {
-                let d: Dir<Facade> = patches.cell(chunk * 512 + k).centre();
+            for (k, &e) in list.iter().enumerate().filter(|(_, e)| **e > 1e-9 * total) {
+                let d: Dir<Facade> = patches.cell(chunk * CHUNK + k).centre();
                 let recipe = model.recipe(d);
-                recipe.bases.iter().for_each(|&(v, w)| bases[v] += w * e);
-                model.add_copies(&recipe, e, (model.grid(), 1), &mut luminance, &mut scratch);
+                for base in &recipe.bases {
+                    bases[base.vertex][0] += base.factor * e;
+                    bases[base.vertex][1] += (base.linear - base.factor) * e;
+                }
+                for copy in &recipe.copies {
+                    let doubt = copy.linear / copy.flux - 1.0;
+                    model.moved(copy, model.grid(), 1, &mut scratch);
+                    for &(cell, q) in &scratch {
+                        light.luminance[cell as usize] += e * q;
+                        light.doubt[cell as usize] += e * q * doubt;
+                    }
+                }
             }
-            (luminance, bases)
+            (light, bases)
         })
         .collect();
-    let (mut luminance, mut bases) = (vec![0.0; cells], vec![0.0; count]);
-    for (l, b) in parts {
-        luminance.iter_mut().zip(l).for_each(|(sum, x)| *sum += x);
-        bases.iter_mut().zip(b).for_each(|(sum, x)| *sum += x);
+    let (mut light, mut bases) = (Light::dark(cells), vec![[0.0; 2]; count]);
+    for (part, own) in parts {
+        light.add(&part);
+        bases.iter_mut().zip(own).for_each(|(sum, x)| *sum = [sum[0] + x[0], sum[1] + x[1]]);
     }
-    for (vertex, &e) in bases.iter().enumerate().filter(|(_, e)| **e > 0.0) {
-        luminance.iter_mut().zip(model.base(vertex)).for_each(|(sum, q)| *sum += e * q);
+    for (vertex, &[e, doubt]) in bases.iter().enumerate().filter(|(_, e)| e[0] > 0.0) {
+        for (cell, q) in model.base(vertex).into_iter().enumerate() {
+            light.luminance[cell] += e * q;
+            light.doubt[cell] += doubt * q;
+        }
     }
-    luminance
+    light
 }
 
-/// Luminance of the emergent cells from the sun. \[cd/m²\]
-pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> Vec<f64> {
-    let mut luminance = vec![0.0; target.basis().len()];
-    let parent: Vec<usize> =
-        target.centre.iter().map(|&d| model.grid().basis().index(Dir::from_unit(d)).unwrap_or(0)).collect();
+/// Luminance of the cells of `target` (which lie within the data's own) from the sun. `points`² directions a cell.
+pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> Light {
+    let mut light = Light::dark(target.basis().len());
+    let parent = parents(model.grid(), target);
     let recipe = model.recipe(direction);
-    for &(vertex, w) in &recipe.bases {
-        let base = model.base(vertex);
-        luminance.iter_mut().zip(&parent).for_each(|(sum, &k)| *sum += illuminance * w * base[k]);
+    for base in &recipe.bases {
+        let q = model.base(base.vertex);
+        for (cell, &k) in parent.iter().enumerate() {
+            light.luminance[cell] += illuminance * base.factor * q[k];
+            light.doubt[cell] += illuminance * (base.linear - base.factor) * q[k];
+        }
     }
-    model.add_copies(&recipe, illuminance, (target, points), &mut luminance, &mut Vec::new());
-    luminance
+    let mut scratch = Vec::new();
+    let mut coarse = Vec::new();
+    let mut lobes = Light::dark(target.basis().len());
+    for copy in &recipe.copies {
+        model.moved(copy, target, points, &mut scratch);
+        for &(cell, q) in &scratch {
+            lobes.luminance[cell as usize] += illuminance * q;
+            lobes.doubt[cell as usize] += illuminance * q * copy.linear / copy.flux;
+        }
+    }
+    if target.basis().len() > parent.len().min(model.grid().basis().len()) {
+        // Means over the data's own cells: what they alone can tell.
+        coarse.resize(model.grid().basis().len(), [0.0; 2]);
+        for (cell, &k) in parent.iter().enumerate() {
+            coarse[k][0] += lobes.doubt[cell] * target.projected[cell];
+            coarse[k][1] += target.projected[cell];
+        }
+        for (cell, &k) in parent.iter().enumerate() {
+            lobes.doubt[cell] = coarse[k][0] / coarse[k][1];
+        }
+    }
+    for (cell, l) in lobes.luminance.iter().enumerate() {
+        light.luminance[cell] += l;
+        light.doubt[cell] += lobes.doubt[cell] - l;
+    }
+    light
 }

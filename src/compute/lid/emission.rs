@@ -62,6 +62,9 @@ pub struct CellLight {
     pub diffuse: Vec<f64>,
     /// From the sun's scattered light.
     pub sun: Vec<f64>,
+    /// Doubt of the sum of both, signed, by cell; empty where there is none: what a simpler interpolation between the
+    /// data would add. \[cd/m²\]
+    pub doubtful: Vec<f64>,
     /// Error of the luminances, relative.
     pub relative_error: f64,
 }
@@ -127,6 +130,7 @@ impl Emission {
                 emission.cells = Some(CellLight {
                     basis: Arc::new(matrix.emergent().clone()),
                     diffuse: matrix.luminance(&values),
+                    doubtful: Vec::new(),
                     sun: if sun.is_empty() { vec![0.0; matrix.emergent().len()] } else { sun },
                     relative_error: relative(emission.incident_diffuse),
                 });
@@ -152,6 +156,7 @@ impl Emission {
                     basis: Arc::new(data.emergent().clone()),
                     diffuse,
                     sun,
+                    doubtful: Vec::new(),
                     relative_error: relative(emission.incident_diffuse),
                 });
             }
@@ -165,6 +170,7 @@ impl Emission {
                     basis: Arc::new(basis),
                     diffuse,
                     sun,
+                    doubtful: Vec::new(),
                     relative_error: relative(emission.incident_diffuse) + TREE_CELL_ERROR,
                 });
             }

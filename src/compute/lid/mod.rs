@@ -2,8 +2,10 @@
 
 pub mod c_gamma;
 mod emission;
+mod interpolated;
 
 pub use emission::{CellLight, Emission, Facing};
+pub use interpolated::sun_grid;
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};

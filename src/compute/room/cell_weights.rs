@@ -40,6 +40,8 @@ struct Polygon {
     range: [f64; 2],
     /// Relative azimuths of the vertices.
     azimuths: Vec<f64>,
+    /// Nearest and farthest distance from the pole.
+    radii: [f64; 2],
 }
 
 impl Polygon {
@@ -76,7 +78,19 @@ impl Polygon {
             }
             range
         };
-        Some(Self { edges, distance, reference, range, azimuths })
+        let farthest = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let nearest = if pole_inside {
+            0.0
+        } else {
+            let from_edge = |i: usize| {
+                let (p, q) = (vertices[i], vertices[(i + 1) % vertices.len()]);
+                (p + (q - p) * (-p.dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0)).length()
+            };
+            (0..vertices.len()).map(from_edge).fold(f64::INFINITY, f64::min)
+        };
+        // Widened by rounding: a ring that is only touched may be looked at or not, it adds nothing.
+        let radii = [nearest * (1.0 - 1e-12), farthest * (1.0 + 1e-12)];
+        Some(Self { edges, distance, reference, range, azimuths, radii })
     }
 
     /// The interval of distances from the pole along a relative azimuth, with the edges that bound it.
@@ -113,6 +127,9 @@ impl Polygon {
         let inner = self.distance * ring.theta_min.tan();
         let outer =
             if ring.theta_max < 0.5 * PI - 1e-12 { self.distance * ring.theta_max.tan() } else { f64::INFINITY };
+        if inner >= self.radii[1] || outer <= self.radii[0] {
+            return;
+        }
         let [first, last] = self.range;
         let width = 2.0 * PI / ring.sectors as f64;
         breaks.clear();

@@ -59,7 +59,8 @@ pub fn illuminance(
     if let Some(light) = &emission.cells {
         let e: f64 =
             reception.cells.iter().zip(light.diffuse.iter().zip(&light.sun)).map(|(w, (d, s))| w * (d + s)).sum();
-        sum += Estimate::new(e, e * light.relative_error);
+        let doubt: f64 = reception.cells.iter().zip(&light.doubtful).map(|(w, l)| w * l).sum();
+        sum += Estimate::new(e, e * light.relative_error + doubt.abs());
     }
     if let Some(tau) = &emission.regular {
         if let Some(view) = aperture.view(sensor.position, sensor.normal) {
@@ -75,7 +76,12 @@ pub fn illuminance(
 }
 
 /// Unscattered sun at a sensor: the share of the disc seen through the opening. \[lx\]
-fn sun_through(sensor: &Sensor, aperture: &Aperture, emission: &Emission, facing: &Facing<'_>) -> f64 {
+pub(in crate::compute::room) fn sun_through(
+    sensor: &Sensor,
+    aperture: &Aperture,
+    emission: &Emission,
+    facing: &Facing<'_>,
+) -> f64 {
     let Some(sun) = facing.sun.filter(|_| emission.beam_tau > 0.0) else {
         return 0.0;
     };

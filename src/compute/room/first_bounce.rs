@@ -1,14 +1,18 @@
 //! What every surface of the room receives directly from an aperture: the right-hand side of the interreflection.
 
-use super::aperture::Aperture;
-use super::beam::lit_shares;
+use super::aperture::{Aperture, View};
+use super::beam::landing;
 use super::direct::{Reception, Sensor};
-use super::mesh::Mesh;
-use super::radiosity::Radiosity;
-use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
+use super::mesh::{Mesh, Patch, Wall};
+use super::polygon::projected_solid_angle;
+use super::radiosity::{Radiosity, dot};
+use super::through::Prospect;
+use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
+use crate::compute::btdf::AngularTransmittance;
+use crate::compute::direction::Surface;
 use crate::compute::lid::{Emission, Facing};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::{Frame, incident_illuminances_within};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -26,31 +30,61 @@ pub struct PatchWeights {
     received: Vec<f64>,
 }
 
+/// Gauss points along each side of a patch: one where the patch is small against its distance from the opening, up to
+/// three beside it.
+fn points_a_side(patch: &Patch, wall: &Wall, aperture: &Aperture) -> usize {
+    let [low, _, high, _] = patch.corners(wall);
+    let centre = 0.5 * (low + high);
+    let corners = aperture.corners();
+    let nearest = centre.clamp(corners[0].min(corners[2]), corners[0].max(corners[2]));
+    // The slack keeps decisions the same for a room in another unit.
+    let ratio = (high - low).length() / centre.distance(nearest) - 1e-9;
+    match ratio {
+        r if r < 0.35 => 1,
+        r if r < 1.0 => 2,
+        _ => 3,
+    }
+}
+
+/// Points of a patch with their share of its area.
+fn samples<'a>(
+    patch: &'a Patch,
+    wall: &'a Wall,
+    rules: &'a [Vec<(f64, f64)>],
+    order: usize,
+) -> impl Iterator<Item = (DVec3, f64)> + 'a {
+    let rule = &rules[order];
+    let [a, b] = patch.extent;
+    rule.iter().flat_map(move |&(s, ws)| {
+        rule.iter().map(move |&(t, wt)| (wall.point(a[0] + (a[1] - a[0]) * s, b[0] + (b[1] - b[0]) * t), ws * wt))
+    })
+}
+
+/// Gauss rules by their number of points.
+fn rules(most: usize) -> Vec<Vec<(f64, f64)>> {
+    (0..=most).map(gauss_legendre).collect()
+}
+
 impl PatchWeights {
-    /// Gauss points of `order`² a patch.
-    pub fn new(mesh: &Mesh, aperture: &Aperture, basis: Arc<RingBasis>, order: usize) -> Self {
-        let rule = gauss_legendre(order);
+    /// Of all patches that see the aperture's room side.
+    pub fn new(mesh: &Mesh, aperture: &Aperture, basis: Arc<RingBasis>) -> Self {
+        let rules = rules(3);
         let rows: Vec<Vec<f64>> = mesh
             .patches
             .par_iter()
             .map(|patch| {
                 let wall = &mesh.walls[patch.wall];
                 let mut row = Vec::new();
-                for &(s, ws) in &rule {
-                    for &(t, wt) in &rule {
-                        let [a, b] = patch.extent;
-                        let position = wall.point(a[0] + (a[1] - a[0]) * s, b[0] + (b[1] - b[0]) * t);
-                        let sensor = Sensor { position, normal: wall.normal };
-                        if aperture.view(position, wall.normal).is_none() {
-                            continue;
-                        }
-                        let reception = Reception::new(&sensor, aperture, Some(&basis));
-                        if row.is_empty() {
-                            row = vec![0.0; basis.len()];
-                        }
-                        for (sum, weight) in row.iter_mut().zip(&reception.cells) {
-                            *sum += ws * wt * weight;
-                        }
+                for (position, share) in samples(patch, wall, &rules, points_a_side(patch, wall, aperture)) {
+                    if aperture.view(position, wall.normal).is_none() {
+                        continue;
+                    }
+                    let reception = Reception::new(&Sensor { position, normal: wall.normal }, aperture, Some(&basis));
+                    if row.is_empty() {
+                        row = vec![0.0; basis.len()];
+                    }
+                    for (sum, weight) in row.iter_mut().zip(&reception.cells) {
+                        *sum += share * weight;
                     }
                 }
                 row
@@ -73,7 +107,7 @@ impl PatchWeights {
     /// Mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the aperture;
     /// and by how much that scaling was, relative.
     fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
-        let received: f64 = self.received.iter().zip(luminance).map(|(r, l)| r * l).sum();
+        let received = dot(&self.received, luminance);
         if received <= 0.0 {
             return (vec![0.0; self.rows.len()], 0.0);
         }
@@ -85,18 +119,17 @@ impl PatchWeights {
             .map(|((r, c), l)| if *c > 0.0 { r / c * l } else { 0.0 })
             .sum();
         let scale = left / received;
-        let first = self.rows.iter().map(|row| scale * row.iter().zip(luminance).map(|(w, l)| w * l).sum::<f64>());
+        let first = self.rows.iter().map(|row| if row.is_empty() { 0.0 } else { scale * dot(row, luminance) });
         (first.collect(), (scale - 1.0).abs())
     }
 }
 
-/// Relative accuracy of the light of [`through_basis`]'s cells; their size costs more.
-const THROUGH_ACCURACY: f64 = 1e-4;
+/// More cells than this are merged before they meet the patches, which cannot tell them apart.
+const MOST_CELLS: usize = 600;
 
-/// The cells in which the outside seen straight through is handed to the patches: about 400, of equal projected solid
-/// angle but for finer ones around the normal, where the far end of a deep room looks; their borders hold the façade's
-/// horizon. Sensors see the outside unquantised.
-pub fn through_basis() -> RingBasis {
+/// About 400 cells of equal projected solid angle but for finer ones around the normal, where the far end of a deep room
+/// looks; their borders hold the façade's horizon.
+fn merged_basis() -> RingBasis {
     let limits = [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
     let sectors = [4, 8, 12, 12, 20, 28, 36, 44, 52, 60, 68, 76];
     let rings = limits
@@ -109,60 +142,173 @@ pub fn through_basis() -> RingBasis {
             first_phi: PI / sectors as f64,
         })
         .collect();
-    RingBasis::new("through", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
+    RingBasis::new("merged", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
 }
 
-/// Mean direct illuminance of every patch from one aperture, and the relative error of its flux. \[lx\]
-pub fn first_illuminance(
-    radiosity: &Radiosity,
-    index: usize,
-    aperture: &Aperture,
-    emission: &Emission,
-    facing: &Facing<'_>,
-    weights: &dyn Fn(&Arc<RingBasis>) -> Arc<PatchWeights>,
-) -> (Vec<f64>, f64) {
-    let mesh = &radiosity.mesh;
-    let mut first = vec![0.0; mesh.patches.len()];
-    let mut error = 0.0_f64;
-    let mut add = |(part, part_error): (Vec<f64>, f64)| {
-        for (sum, e) in first.iter_mut().zip(part) {
-            *sum += e;
+/// Direct illuminance of the fine patches, means. \[lx\]
+pub struct FirstLight {
+    /// Sky, ground and scattered light.
+    pub diffuse: Vec<f64>,
+    /// The sun's unscattered beam.
+    pub beam: Vec<f64>,
+    /// Outlines lit by the beam: wall, corners in the wall's own coordinates, and what is reflected there at once.
+    /// \[lm/m²\]
+    pub outlines: Vec<(usize, Vec<DVec2>, f64)>,
+    /// Largest relative gap between the flux that left and the flux that was found, before it was closed.
+    pub gap: f64,
+}
+
+impl FirstLight {
+    /// None.
+    pub fn dark(patches: usize) -> Self {
+        Self { diffuse: vec![0.0; patches], beam: vec![0.0; patches], outlines: Vec::new(), gap: 0.0 }
+    }
+
+    /// Adds the light of one aperture.
+    pub fn add(
+        &mut self,
+        radiosity: &Radiosity,
+        index: usize,
+        aperture: &Aperture,
+        emission: &Emission,
+        facing: &Facing<'_>,
+        weights: &dyn Fn(&Arc<RingBasis>) -> Arc<PatchWeights>,
+    ) {
+        let mesh = &radiosity.nested.fine;
+        if emission.uniform.value > 0.0 {
+            let exitance = PI * emission.uniform.value;
+            for (sum, e) in self.diffuse.iter_mut().zip(radiosity.illuminance_from_aperture(index)) {
+                *sum += exitance * e;
+            }
         }
-        error = error.max(part_error);
-    };
-    if emission.uniform.value > 0.0 {
-        let emitters: Vec<(usize, f64)> = (0..mesh.patches.len())
-            .filter(|&i| mesh.patches[i].aperture == Some(index))
-            .map(|i| (i, PI * emission.uniform.value))
-            .collect();
-        add((radiosity.illuminance_from(&emitters), 0.0));
-    }
-    if let Some(light) = &emission.cells {
-        let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
-        add(weights(&light.basis).illuminance(&luminance));
-    }
-    if let Some(tau) = &emission.regular {
-        let basis = Arc::new(through_basis());
-        let frame = Frame::of_aperture(facing.orientation, facing.surface);
-        let luminance: Vec<f64> = incident_illuminances_within(facing.outside, &basis, &frame, THROUGH_ACCURACY)
-            .into_iter()
-            .zip(basis.cells())
-            .map(|(e, cell)| {
-                let middle = (0.5 * (cell.theta_min.sin().powi(2) + cell.theta_max.sin().powi(2))).sqrt().asin();
-                e.value / cell.projected_solid_angle() * tau.at(middle)
-            })
-            .collect();
-        add(weights(&basis).illuminance(&luminance));
-        if let Some(sun) = facing.sun_direction().filter(|sun| emission.beam_tau > 0.0 && sun.vector().z > 0.0) {
-            let direction = facing.surface.room_dir(sun).vector();
-            let flux = emission.beam_tau * emission.incident_sun * aperture.area();
-            let shares = lit_shares(mesh, aperture, direction);
-            let cosine = |i: usize| mesh.walls[mesh.patches[i].wall].normal.dot(direction).max(0.0);
-            let landed: f64 = shares.iter().enumerate().map(|(i, s)| s * mesh.patches[i].area * cosine(i)).sum();
-            if landed > 0.0 {
-                add((shares.iter().enumerate().map(|(i, s)| s * cosine(i) * flux / landed).collect(), 0.0));
+        if let Some(light) = &emission.cells {
+            let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
+            let part = if light.basis.len() > MOST_CELLS {
+                let merged = Arc::new(merged_basis());
+                let luminance = Resampling::new(&light.basis, &merged).apply(&luminance);
+                weights(&merged).illuminance(&luminance)
+            } else {
+                weights(&light.basis).illuminance(&luminance)
+            };
+            self.add_diffuse(part);
+        }
+        if let Some(tau) = &emission.regular {
+            self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
+            if let Some(sun) = facing.sun_direction().filter(|sun| emission.beam_tau > 0.0 && sun.vector().z > 0.0) {
+                let direction = facing.surface.room_dir(sun).vector();
+                let flux = emission.beam_tau * emission.incident_sun * aperture.area();
+                let landing = landing(mesh, aperture, direction);
+                let cosine = |i: usize| mesh.walls[mesh.patches[i].wall].normal.dot(direction).max(0.0);
+                let landed: f64 =
+                    landing.shares.iter().enumerate().map(|(i, s)| s * mesh.patches[i].area * cosine(i)).sum();
+                if landed > 0.0 {
+                    let scale = flux / landed;
+                    for (i, share) in landing.shares.iter().enumerate() {
+                        self.beam[i] += share * scale * cosine(i);
+                    }
+                    let reflected = |wall: usize, rho: f64| rho * scale * mesh.walls[wall].normal.dot(direction);
+                    self.outlines.extend(
+                        landing.outlines.into_iter().map(|(wall, outline, rho)| (wall, outline, reflected(wall, rho))),
+                    );
+                }
             }
         }
     }
-    (first, error)
+
+    fn add_diffuse(&mut self, (part, gap): (Vec<f64>, f64)) {
+        for (sum, e) in self.diffuse.iter_mut().zip(part) {
+            *sum += e;
+        }
+        self.gap = self.gap.max(gap);
+    }
+}
+
+/// Mean illuminance of every patch from the outside seen straight through the opening, scaled to the flux that enters;
+/// and by how much that scaling was, relative.
+fn outside_seen(
+    mesh: &Mesh,
+    aperture: &Aperture,
+    emission: &Emission,
+    facing: &Facing<'_>,
+    tau: &AngularTransmittance,
+) -> (Vec<f64>, f64) {
+    let prospect = Prospect { outside: facing.outside, orientation: facing.orientation, surface: facing.surface };
+    let rules = rules(8);
+    let mut first: Vec<f64> = mesh
+        .patches
+        .par_iter()
+        .map(|patch| {
+            let wall = &mesh.walls[patch.wall];
+            samples(patch, wall, &rules, points_a_side(patch, wall, aperture))
+                .map(|(position, share)| {
+                    let view = aperture.view(position, wall.normal);
+                    view.map_or(0.0, |view| share * seen_from(&view, &prospect, tau, &rules))
+                })
+                .sum()
+        })
+        .collect();
+    // What goes straight on, without the beam and what scatters.
+    let mut straight = emission.clone();
+    (straight.beam_tau, straight.cells, straight.uniform) = (0.0, None, Default::default());
+    let flux = straight.exitance(facing).value * aperture.area();
+    let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
+    if received <= 0.0 {
+        return (first, 0.0);
+    }
+    let scale = flux / received;
+    first.iter_mut().for_each(|e| *e *= scale);
+    (first, (scale - 1.0).abs())
+}
+
+/// Illuminance at a point that has all of the opening in front of it: ground in closed form where nothing depends on
+/// the angle, the sky by a Gauss rule in the two angles of profile, in which the opening's near field is smooth.
+fn seen_from(view: &View, prospect: &Prospect<'_>, tau: &AngularTransmittance, rules: &[Vec<(f64, f64)>]) -> f64 {
+    let uniform = if let AngularTransmittance::Constant(tau) = tau { Some(*tau) } else { None };
+    let mut sum = 0.0;
+    let mut bands = vec![view.y];
+    if prospect.surface == Surface::Facade {
+        // The horizon of the point cuts the opening.
+        let [low, high] = view.y;
+        let level = 0.0_f64.clamp(low, high);
+        bands = vec![[level, high]];
+        match uniform {
+            Some(tau) => {
+                let below = View { y: [low, level], ..*view };
+                let ground = tau * prospect.outside.ground_luminance();
+                if ground > 0.0 && level > low {
+                    sum += ground * projected_solid_angle(&below.corners(), view.normal);
+                }
+            }
+            None => bands.push([low, level]),
+        }
+    }
+    if let Some(tau) = uniform.filter(|_| prospect.outside.is_uniform_above_horizon()) {
+        let luminance = prospect.luminance(prospect.surface.facade_from_room(DVec3::Z));
+        let above = View { y: bands[0], ..*view };
+        return sum + tau * luminance * projected_solid_angle(&above.corners(), view.normal);
+    }
+    let angle = |x: f64| (x / view.distance).atan();
+    let [a0, a1] = view.x.map(angle);
+    for band in bands {
+        let [b0, b1] = band.map(angle);
+        if b1 - b0 < 1e-12 {
+            continue;
+        }
+        let order = |width: f64| ((2.0 + 4.0 * width - 1e-9).ceil() as usize).min(rules.len() - 1);
+        let mut part = 0.0;
+        for &(s, ws) in &rules[order(a1 - a0)] {
+            let x = (a0 + (a1 - a0) * s).tan();
+            for &(t, wt) in &rules[order(b1 - b0)] {
+                let y = (b0 + (b1 - b0) * t).tan();
+                let square = 1.0 + x * x + y * y;
+                let d = DVec3::new(x, y, 1.0) / square.sqrt();
+                let tau = uniform.unwrap_or_else(|| tau.at(d.z.acos()));
+                // dω = dx dy / r³ with dx = (1 + x²) da.
+                let solid = (1.0 + x * x) * (1.0 + y * y) / (square * square.sqrt());
+                part += ws * wt * solid * view.normal.dot(d).max(0.0) * tau * prospect.luminance(d);
+            }
+        }
+        sum += part * (a1 - a0) * (b1 - b0);
+    }
+    sum
 }

@@ -1,4 +1,7 @@
-//! The surfaces of the box, cut into rectangular patches that end at the apertures' borders.
+//! The surfaces of the box, cut into rectangular patches that end at the apertures' borders, in three nested densities.
+//!
+//! Patches are smaller near the surfaces that hold apertures, where the first light changes fastest. Nested densities
+//! let one table of exchange areas serve all three, and their differences tell the error of the finest.
 
 use super::aperture::Aperture;
 use crate::compute::direction::Surface;
@@ -58,8 +61,9 @@ pub struct Mesh {
     pub patches: Vec<Patch>,
 }
 
-/// Most patches of a room: two dense matrices of their number are kept, 0.6 GB at this limit.
-pub const MOST_PATCHES: usize = 6000;
+/// Most patches of a room. Exchange areas are kept between them and the patches of twice their size: 0.1 GB at this
+/// limit.
+pub const MOST_PATCHES: usize = 8000;
 
 /// The borders of the apertures cut the walls into more patches than can be balanced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -93,36 +97,58 @@ impl Patch {
     }
 }
 
-impl Mesh {
-    /// About `count` patches; `aperture_reflectance` of the room side of each aperture.
+/// The same room in three densities; each patch of one lies in one patch of the next.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nested {
+    /// Patches that emit and receive; cells of the next density are made of up to 2 × 2 of these.
+    pub fine: Mesh,
+    /// Patches between which light is balanced.
+    pub coarse: Mesh,
+    /// As coarse to `coarse` as that is to `fine`; tells the error.
+    pub coarser: Mesh,
+    /// For every fine patch the coarse one that holds it.
+    pub coarse_of_fine: Vec<usize>,
+    /// For every coarse patch the coarser one that holds it.
+    pub coarser_of_coarse: Vec<usize>,
+}
+
+impl Nested {
+    /// About `count` fine patches; `aperture_reflectance` of the room side of each aperture.
     ///
     /// The borders of apertures are lines on all walls that share the axis. Where they alone cut a long room into
-    /// rows of many more patches than asked for, the step grows until there are at most 2.5 `count`.
+    /// rows of more patches than asked for, the step grows until there are at most 2.5 `count`.
     pub fn with_about(
         room: &BoxRoom,
         apertures: &[Aperture],
         aperture_reflectance: &[f64],
         count: usize,
     ) -> Result<Self, TooManyPatches> {
-        let mut step = Self::step_for(room, count);
-        let number = |step: f64| {
-            let [x, y, z] = lines(room, apertures, step).map(|lines| lines.len() - 1);
-            2 * (x * y + y * z + z * x)
-        };
-        let coarsest = number(f64::INFINITY);
+        let segments = Segments::new(room, apertures);
+        let coarsest = segments.patches(f64::INFINITY);
         if coarsest > MOST_PATCHES {
             return Err(TooManyPatches { apertures: apertures.len(), patches: coarsest });
         }
-        let allowed = (5 * count / 2).max(coarsest);
-        while number(step) > allowed {
-            step *= 1.1;
+        let s = room.size;
+        let mut step = 0.8 * (2.0 * (s.x * s.y + s.y * s.z + s.z * s.x) / count as f64).sqrt();
+        let allowed = (5 * count / 4).min(MOST_PATCHES).max(coarsest);
+        while segments.patches(step) > allowed {
+            step *= 1.03;
         }
-        Ok(Self::new(room, apertures, aperture_reflectance, step))
+        let [coarser, coarse, fine] =
+            segments.lines(step).map(|lines| Mesh::from_lines(room, apertures, aperture_reflectance, &lines));
+        let (coarse_of_fine, coarser_of_coarse) = (coarse.holders(&fine), coarser.holders(&coarse));
+        Ok(Self { fine, coarse, coarser, coarse_of_fine, coarser_of_coarse })
     }
+}
 
-    /// Patches of about `step` \[m\] in both directions; `aperture_reflectance` of the room side of each aperture.
-    pub fn new(room: &BoxRoom, apertures: &[Aperture], aperture_reflectance: &[f64], step: f64) -> Self {
-        let lines = lines(room, apertures, step);
+impl Mesh {
+    /// Patches between given rising lines along x, y and z, which hold the apertures' borders.
+    pub fn from_lines(
+        room: &BoxRoom,
+        apertures: &[Aperture],
+        aperture_reflectance: &[f64],
+        lines: &[Vec<f64>; 3],
+    ) -> Self {
         let sides = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
         let mut mesh = Self { walls: Vec::with_capacity(6), patches: Vec::new() };
         for (number, (axis, high)) in sides.into_iter().enumerate() {
@@ -170,42 +196,146 @@ impl Mesh {
         mesh
     }
 
-    /// The step that gives about `count` patches.
-    pub fn step_for(room: &BoxRoom, count: usize) -> f64 {
-        let s = room.size;
-        (2.0 * (s.x * s.y + s.y * s.z + s.z * s.x) / count as f64).sqrt()
+    /// For every patch of a finer mesh with the same lines and more, the patch that holds it.
+    fn holders(&self, finer: &Self) -> Vec<usize> {
+        let mut holders = Vec::with_capacity(finer.patches.len());
+        for (wall, fine) in self.walls.iter().zip(&finer.walls) {
+            let [a, b] = [0, 1].map(|side| holding_intervals(&wall.lines[side], &fine.lines[side]));
+            let n1 = wall.lines[1].len() - 1;
+            holders.extend(a.iter().flat_map(|i| b.iter().map(move |j| wall.first + i * n1 + j)));
+        }
+        holders
     }
 }
 
-/// Grid lines along x, y and z.
-fn lines(room: &BoxRoom, apertures: &[Aperture], step: f64) -> [Vec<f64>; 3] {
-    let mut cuts: [Vec<f64>; 3] = Default::default();
-    for aperture in apertures {
-        let corners = aperture.corners();
-        for (axis, cuts) in cuts.iter_mut().enumerate() {
-            if (corners[2][axis] - corners[0][axis]).abs() > 0.0 {
-                cuts.extend([corners[0][axis], corners[2][axis]]);
+/// For every interval of `fine` the interval of `coarse` that holds its middle.
+fn holding_intervals(coarse: &[f64], fine: &[f64]) -> Vec<usize> {
+    fine.windows(2).map(|pair| coarse.partition_point(|line| *line <= 0.5 * (pair[0] + pair[1])) - 1).collect()
+}
+
+/// The pieces between forced lines along x, y and z.
+struct Segments {
+    axes: [Axis; 3],
+}
+
+/// One axis: forced lines, and how the step widens away from an end that holds apertures.
+struct Axis {
+    cuts: Vec<f64>,
+    length: f64,
+    /// Distance from the end with apertures over which the step stays small; `None`: even steps. \[m\]
+    near: Option<f64>,
+    /// The apertures lie at the far end.
+    reversed: bool,
+}
+
+impl Segments {
+    fn new(room: &BoxRoom, apertures: &[Aperture]) -> Self {
+        let mut cuts: [Vec<f64>; 3] = Default::default();
+        for aperture in apertures {
+            let corners = aperture.corners();
+            for (axis, cuts) in cuts.iter_mut().enumerate() {
+                if (corners[2][axis] - corners[0][axis]).abs() > 0.0 {
+                    cuts.extend([corners[0][axis], corners[2][axis]]);
+                }
+            }
+        }
+        // The first light falls off over the aperture's own width.
+        let near = |surface: Surface, length: f64| {
+            apertures
+                .iter()
+                .filter(|aperture| aperture.surface == surface)
+                .map(|aperture| (0.7 * aperture.area().sqrt()).max(0.1 * length))
+                .min_by(f64::total_cmp)
+        };
+        let axes = [0, 1, 2].map(|axis| {
+            let length = room.size[axis];
+            let (near, reversed) = match axis {
+                1 => (near(Surface::Facade, length), false),
+                2 => (near(Surface::Roof, length), true),
+                _ => (None, false),
+            };
+            Axis { cuts: forced_lines(length, &mut cuts[axis]), length, near, reversed }
+        });
+        Self { axes }
+    }
+
+    /// Number of fine patches at a step.
+    fn patches(&self, step: f64) -> usize {
+        let [x, y, z] = [0, 1, 2].map(|a| self.axes[a].parts(step).iter().sum::<usize>());
+        2 * (x * y + y * z + z * x)
+    }
+
+    /// Lines of the three densities, coarsest first.
+    fn lines(&self, step: f64) -> [[Vec<f64>; 3]; 3] {
+        [4, 2, 1].map(|every| [0, 1, 2].map(|a| self.axes[a].lines(step, every)))
+    }
+}
+
+impl Axis {
+    /// Position in units of the local step's widening, and back.
+    fn stretched(&self, x: f64) -> f64 {
+        match self.near {
+            None => x,
+            Some(near) => {
+                let depth = if self.reversed { self.length - x } else { x };
+                let s = (near + 0.4 * self.length) * (depth / near).ln_1p();
+                if self.reversed { -s } else { s }
             }
         }
     }
-    [0, 1, 2].map(|axis| grid_lines(room.size[axis], step, &mut cuts[axis]))
+
+    fn unstretched(&self, s: f64) -> f64 {
+        match self.near {
+            None => s,
+            Some(near) => {
+                let s = if self.reversed { -s } else { s };
+                let depth = near * (s / (near + 0.4 * self.length)).exp_m1();
+                if self.reversed { self.length - depth } else { depth }
+            }
+        }
+    }
+
+    /// Fine parts of every segment: multiples of four, but two or one where the segment is shorter than that.
+    fn parts(&self, step: f64) -> Vec<usize> {
+        self.cuts
+            .windows(2)
+            .map(|pair| {
+                // The slack keeps decisions the same for a room in another unit.
+                let wanted = (self.stretched(pair[1]) - self.stretched(pair[0])) / step - 1e-9;
+                if wanted <= 0.75 {
+                    1
+                } else if wanted <= 2.4 {
+                    2
+                } else {
+                    4 * (wanted / 4.0 - 0.15).ceil().max(1.0) as usize
+                }
+            })
+            .collect()
+    }
+
+    /// Every so many of the fine lines of each segment.
+    fn lines(&self, step: f64, every: usize) -> Vec<f64> {
+        let mut lines = vec![0.0];
+        for (pair, parts) in self.cuts.windows(2).zip(self.parts(step)) {
+            let (from, to) = (self.stretched(pair[0]), self.stretched(pair[1]));
+            let kept = (parts / every).max(1);
+            // The same expression for the same line in all densities.
+            lines.extend(
+                (1..kept).map(|k| self.unstretched(from + (to - from) * ((k * parts / kept) as f64 / parts as f64))),
+            );
+            lines.push(pair[1]);
+        }
+        lines
+    }
 }
 
-fn grid_lines(length: f64, step: f64, cuts: &mut Vec<f64>) -> Vec<f64> {
-    // Cuts closer than rounding to each other or to the ends are the same line.
+/// 0, the apertures' borders, and the length. Borders closer than rounding to each other or to the ends are the same
+/// line.
+fn forced_lines(length: f64, cuts: &mut Vec<f64>) -> Vec<f64> {
     let slack = 1e-9 * length;
     cuts.retain(|c| *c > slack && *c < length - slack);
-    cuts.push(0.0);
-    cuts.push(length);
+    cuts.extend([0.0, length]);
     cuts.sort_unstable_by(f64::total_cmp);
     cuts.dedup_by(|b, a| *b - *a < slack);
-    let mut lines = vec![0.0];
-    for pair in cuts.windows(2) {
-        let parts = ((pair[1] - pair[0]) / step - 1e-9).ceil().max(1.0) as usize;
-        lines.extend((1..=parts).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / parts as f64));
-    }
-    if let Some(last) = lines.last_mut() {
-        *last = length;
-    }
-    lines
+    std::mem::take(cuts)
 }

@@ -1,222 +1,216 @@
-//! Interreflection between diffuse surfaces: closed-form exchange areas, one Cholesky factorisation per mesh, any
-//! number of right-hand sides.
+//! Interreflection between diffuse surfaces: closed-form exchange areas, one small Cholesky factorisation, any number of
+//! first illuminances.
 //!
-//! With B = ρE the balance E = E₀ + Fρ E becomes the symmetric positive definite system (A/ρ − AF) B = A E₀ over all
-//! patches that reflect. It is factored, not iterated: at ρ = 0.99 iterations need thousands of sweeps.
+//! With B = ρE the balance E = E₀ + Fρ E is solved for what arrives after reflection alone, R = E₁ + Fρ R with
+//! E₁ = Fρ E₀. E₀ changes fast and lives on fine patches, from which E₁ is exact; R is smooth and is balanced between
+//! patches of twice the size (Galerkin), then handed back to the fine ones by one more exchange (Sloan's iterate). The
+//! symmetric positive definite system (A/ρ − AF) b = A E₁, b = ρR, is factored, not iterated: at ρ = 0.99 iterations need
+//! thousands of sweeps.
+//!
+//! The same with all patches twice as large comes from sums of the same exchange areas. The error is of second order in
+//! the size, so a third of the difference is added, and the difference tells what remains.
 
-use super::form_factor::{parallel_corner, perpendicular_corner};
-use super::mesh::{Mesh, Wall};
-use super::polygon::{clip, vector_solid_angle};
+use super::exchange::Exchange;
+use super::mesh::{Mesh, Nested};
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
-use glam::DVec3;
-use std::f64::consts::PI;
+
+/// Most of the light that all surfaces together may reflect, as a mean over their area. Beyond, the answer depends
+/// mainly on what is not known about them, and 1 has none.
+pub const MOST_REFLECTANCE: f64 = 0.999;
 
 /// A meshed room, ready to answer for any first illuminance.
 pub struct Radiosity {
     /// The patches.
-    pub mesh: Mesh,
-    /// Patches with ρ > 0.
-    active: Vec<usize>,
-    factor: Option<Llt<f64>>,
-    exchange: Exchange,
+    pub nested: Nested,
+    level: Level,
+    coarser: Level,
     /// Largest deviation of Σ_j F_ij from 1.
     pub closure: f64,
 }
 
-/// A·F of all pairs of patches, row by row. \[m²\]
-struct Exchange {
-    count: usize,
-    values: Vec<f64>,
+/// Balance on one mesh, light from and to the next finer one.
+struct Level {
+    exchange: Exchange,
+    /// Receiving patches: area and reflectance.
+    area: Vec<f64>,
+    reflectance: Vec<f64>,
+    /// For every emitting patch the receiving one that holds it.
+    holder: Vec<usize>,
+    /// Receiving patches with ρ > 0.
+    active: Vec<usize>,
+    factor: Option<Llt<f64>>,
 }
 
-/// No light is ever absorbed: the balance has no solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("every surface reflects all light and no aperture absorbs any: the illuminance grows without limit")]
-pub struct NothingAbsorbs;
+/// Exitance of all patches, from two densities. \[lm/m²\]
+pub struct Exitance {
+    /// Of the fine patches.
+    pub fine: Vec<f64>,
+    /// Of the coarse patches, computed without the fine ones but for the first illuminance.
+    pub coarse: Vec<f64>,
+}
+
+/// So little light is absorbed that the balance has no meaningful solution.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "the surfaces reflect {mean} of all light as a mean over their area (allowed: up to {MOST_REFLECTANCE}): with next to \
+     nothing absorbed the illuminance grows without limit; lower a reflectance of the room or of an aperture's room side"
+)]
+pub struct NothingAbsorbs {
+    /// Mean reflectance, weighted by area.
+    pub mean: f64,
+}
 
 impl Radiosity {
-    /// Computes and factors. Memory: two dense matrices of the number of patches.
-    pub fn new(mesh: Mesh) -> Result<Self, NothingAbsorbs> {
-        let exchange = Exchange::new(&mesh);
-        let closure = mesh
+    /// Computes and factors. Memory: a dense matrix of coarse by fine patches.
+    pub fn new(nested: Nested) -> Result<Self, NothingAbsorbs> {
+        let total: f64 = nested.fine.patches.iter().map(|patch| patch.area).sum();
+        let absorbed: f64 = nested.fine.patches.iter().map(|patch| patch.area * (1.0 - patch.reflectance)).sum();
+        if absorbed < (1.0 - MOST_REFLECTANCE) * (1.0 - 1e-9) * total {
+            return Err(NothingAbsorbs { mean: 1.0 - absorbed / total });
+        }
+        let exchange = Exchange::new(&nested.coarse, &nested.fine);
+        let closure = nested
+            .coarse
             .patches
             .iter()
             .enumerate()
             .map(|(i, patch)| (exchange.row(i).iter().sum::<f64>() / patch.area - 1.0).abs())
             .fold(0.0, f64::max);
-        let active: Vec<usize> = (0..mesh.patches.len()).filter(|&i| mesh.patches[i].reflectance > 0.0).collect();
-        let factor = if active.is_empty() {
-            None
-        } else {
-            // One thread: the result must not depend on their number.
-            faer::set_global_parallelism(faer::Par::Seq);
-            let matrix = Mat::from_fn(active.len(), active.len(), |r, c| {
-                let (i, j) = (active[r], active[c]);
-                let diagonal = if i == j { mesh.patches[i].area / mesh.patches[i].reflectance } else { 0.0 };
-                diagonal - exchange.row(i)[j]
-            });
-            Some(matrix.llt(Side::Lower).map_err(|_not_positive| NothingAbsorbs)?)
-        };
-        Ok(Self { mesh, active, factor, exchange, closure })
+        let coarser = exchange.gathered(
+            Some(&nested.coarser_of_coarse),
+            nested.coarser.patches.len(),
+            &nested.coarse_of_fine,
+            nested.coarse.patches.len(),
+        );
+        let singular = NothingAbsorbs { mean: 1.0 - absorbed / total };
+        let coarser = Level::new(coarser, &nested.coarser, &nested.coarser_of_coarse).ok_or(singular)?;
+        let level = Level::new(exchange, &nested.coarse, &nested.coarse_of_fine).ok_or(singular)?;
+        Ok(Self { nested, level, coarser, closure })
     }
 
-    /// Exitance B of every patch from the first illuminance E₀ of every patch. \[lm/m²\]
-    pub fn exitance(&self, first: &[f64]) -> Vec<f64> {
-        let mut exitance = vec![0.0; self.mesh.patches.len()];
-        if let Some(factor) = &self.factor {
-            let rhs = Mat::from_fn(self.active.len(), 1, |r, _| {
-                let i = self.active[r];
-                self.mesh.patches[i].area * first[i]
-            });
-            let solution = factor.solve(&rhs);
-            for (r, &i) in self.active.iter().enumerate() {
-                exitance[i] = solution[(r, 0)].max(0.0);
+    /// Exitance of every patch from the first illuminance E₀ of the fine ones, with `apart` of that left out of the first
+    /// reflection (but not of the following ones).
+    pub fn exitance(&self, first: &[f64], apart: &[f64]) -> Exitance {
+        let reflected = |level: &Level, mesh: &Mesh, first: &[f64], apart: &[f64]| -> Vec<f64> {
+            let after = level.after_reflection(mesh, first);
+            mesh.patches
+                .iter()
+                .enumerate()
+                .map(|(i, patch)| patch.reflectance * (first[i] - apart[i] + after[i]))
+                .collect()
+        };
+        let mean = |values: &[f64]| self.level.means(&self.nested.fine, values);
+        Exitance {
+            fine: reflected(&self.level, &self.nested.fine, first, apart),
+            coarse: reflected(&self.coarser, &self.nested.coarse, &mean(first), &mean(apart)),
+        }
+    }
+
+    /// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection.
+    pub fn illuminance_from_aperture(&self, aperture: usize) -> Vec<f64> {
+        let mut first = vec![0.0; self.nested.fine.patches.len()];
+        for (i, emitter) in self.nested.coarse.patches.iter().enumerate() {
+            if emitter.aperture == Some(aperture) {
+                for (e, af) in first.iter_mut().zip(self.level.exchange.row(i)) {
+                    *e += af;
+                }
             }
         }
-        exitance
-    }
-
-    /// Mean illuminance of every patch from patches of given exitance, no reflection. \[lx\]
-    pub fn illuminance_from(&self, emitters: &[(usize, f64)]) -> Vec<f64> {
-        let mut first = vec![0.0; self.mesh.patches.len()];
-        for &(j, exitance) in emitters {
-            for ((e, af), patch) in first.iter_mut().zip(self.exchange.row(j)).zip(&self.mesh.patches) {
-                *e += af * exitance / patch.area;
-            }
+        for (e, patch) in first.iter_mut().zip(&self.nested.fine.patches) {
+            *e /= patch.area;
         }
         first
     }
-
-    /// Weights w with E_interreflected = Σ w_j B_j at a point (configuration factors).
-    pub fn gather_weights(&self, position: DVec3, normal: DVec3) -> Vec<f64> {
-        let mut kept = Vec::with_capacity(8);
-        self.mesh
-            .patches
-            .iter()
-            .map(|patch| {
-                if patch.reflectance == 0.0 {
-                    return 0.0;
-                }
-                let wall = &self.mesh.walls[patch.wall];
-                let corners = patch.corners(wall).map(|c| c - position);
-                let in_front = corners.map(|c| normal.dot(c) > 0.0);
-                let sum = if in_front == [true; 4] {
-                    vector_solid_angle(&corners)
-                } else if in_front == [false; 4] {
-                    return 0.0;
-                } else {
-                    clip(&corners, normal, &mut kept);
-                    vector_solid_angle(&kept)
-                };
-                sum.dot(normal).abs() / PI
-            })
-            .collect()
-    }
 }
 
-impl Exchange {
-    fn new(mesh: &Mesh) -> Self {
-        let count = mesh.patches.len();
-        let mut exchange = Self { count, values: vec![0.0; count * count] };
-        for i in 0..mesh.walls.len() {
-            for j in i + 1..mesh.walls.len() {
-                if mesh.walls[i].axis == mesh.walls[j].axis {
-                    exchange.parallel(&mesh.walls[i], &mesh.walls[j]);
-                } else {
-                    exchange.perpendicular(&mesh.walls[i], &mesh.walls[j]);
-                }
-            }
-        }
-        exchange
-    }
-
-    fn row(&self, i: usize) -> &[f64] {
-        &self.values[i * self.count..(i + 1) * self.count]
-    }
-
-    fn set(&mut self, i: usize, j: usize, value: f64) {
-        self.values[i * self.count + j] = value;
-        self.values[j * self.count + i] = value;
-    }
-
-    fn parallel(&mut self, a: &Wall, b: &Wall) {
-        let z = (a.position - b.position).abs();
-        let table = CornerTable::new([&a.lines[0], &b.lines[0], &a.lines[1], &b.lines[1]], |x0, x1, y0, y1| {
-            parallel_corner(x0 - x1, y0 - y1, z)
-        });
-        let [n0, n1] = [a.lines[0].len() - 1, a.lines[1].len() - 1];
-        for i0 in 0..n0 {
-            for i1 in 0..n1 {
-                for j0 in 0..n0 {
-                    for j1 in 0..n1 {
-                        let value = table.fourth_difference([i0, j0, i1, j1]);
-                        self.set(a.first + i0 * n1 + i1, b.first + j0 * n1 + j1, value);
-                    }
-                }
-            }
-        }
-    }
-
-    fn perpendicular(&mut self, a: &Wall, b: &Wall) {
-        // The common axis runs along both walls; the other axis of a wall is counted from the line where they meet.
-        let common = 3 - a.axis - b.axis;
-        let place = |wall: &Wall| usize::from(wall.along[1] == common);
-        let (pa, pb) = (place(a), place(b));
-        let across = |wall: &Wall, p: usize, meets: f64| -> Vec<f64> {
-            wall.lines[1 - p].iter().map(|line| (line - meets).abs()).collect()
+impl Level {
+    /// `None` when the system is singular.
+    fn new(exchange: Exchange, receivers: &Mesh, holder: &[usize]) -> Option<Self> {
+        let area: Vec<f64> = receivers.patches.iter().map(|patch| patch.area).collect();
+        let reflectance: Vec<f64> = receivers.patches.iter().map(|patch| patch.reflectance).collect();
+        let active: Vec<usize> = (0..area.len()).filter(|&i| reflectance[i] > 0.0).collect();
+        let factor = if active.is_empty() {
+            None
+        } else {
+            let square = exchange.gathered(None, area.len(), holder, area.len());
+            // One thread: the result must not depend on their number.
+            faer::set_global_parallelism(faer::Par::Seq);
+            let matrix = Mat::from_fn(active.len(), active.len(), |r, c| {
+                // The lower half is what counts; its transpose differs by rounding.
+                let (i, j) = (active[r.max(c)], active[r.min(c)]);
+                let diagonal = if i == j { area[i] / reflectance[i] } else { 0.0 };
+                diagonal - square.row(i)[j]
+            });
+            Some(matrix.llt(Side::Lower).ok()?)
         };
-        let (xa, yb) = (across(a, pa, b.position), across(b, pb, a.position));
-        let table = CornerTable::new([&a.lines[pa], &b.lines[pb], &xa, &yb], |u0, u1, x, y| {
-            perpendicular_corner(u0 - u1, x, y)
-        });
-        let index = |wall: &Wall, p: usize, along: usize, across: usize| {
-            let n1 = wall.lines[1].len() - 1;
-            wall.first + if p == 0 { along * n1 + across } else { across * n1 + along }
+        Some(Self { exchange, area, reflectance, holder: holder.to_vec(), active, factor })
+    }
+
+    /// Means over the receiving patches of what is known on the emitting ones.
+    fn means(&self, emitters: &Mesh, values: &[f64]) -> Vec<f64> {
+        let mut means = vec![0.0; self.area.len()];
+        for ((patch, &holder), value) in emitters.patches.iter().zip(&self.holder).zip(values) {
+            means[holder] += patch.area * value;
+        }
+        means.iter_mut().zip(&self.area).for_each(|(mean, area)| *mean /= area);
+        means
+    }
+
+    /// R on the emitting patches from E₀ on them.
+    fn after_reflection(&self, emitters: &Mesh, first: &[f64]) -> Vec<f64> {
+        let mut result = vec![0.0; first.len()];
+        let Some(factor) = &self.factor else {
+            return result;
         };
-        for i in 0..a.lines[pa].len() - 1 {
-            for k in 0..xa.len() - 1 {
-                for j in 0..b.lines[pb].len() - 1 {
-                    for l in 0..yb.len() - 1 {
-                        let value = table.fourth_difference([i, j, k, l]);
-                        self.set(index(a, pa, i, k), index(b, pb, j, l), value);
-                    }
+        let emitted: Vec<f64> = emitters.patches.iter().zip(first).map(|(patch, e)| patch.reflectance * e).collect();
+        // A·E₁
+        let once: Vec<f64> = (0..self.area.len()).map(|i| dot(self.exchange.row(i), &emitted)).collect();
+        let rhs = Mat::from_fn(self.active.len(), 1, |r, _| once[self.active[r]]);
+        let solution = factor.solve(&rhs);
+        // Exitance of the receiving patches by E₀ + R.
+        let mut exitance: Vec<f64> =
+            self.means(emitters, first).iter().zip(&self.reflectance).map(|(e, rho)| rho * e).collect();
+        let mut returned = vec![0.0; self.area.len()];
+        for (r, &i) in self.active.iter().enumerate() {
+            let b = solution[(r, 0)].max(0.0);
+            exitance[i] += b;
+            returned[i] = b / self.reflectance[i];
+        }
+        for (i, b) in exitance.iter().enumerate() {
+            if *b != 0.0 {
+                for (r, af) in result.iter_mut().zip(self.exchange.row(i)) {
+                    *r += af * b;
                 }
             }
         }
-    }
-}
-
-/// Corner values over four lists of lines.
-struct CornerTable {
-    stride: [usize; 4],
-    values: Vec<f64>,
-}
-
-impl CornerTable {
-    fn new(lines: [&[f64]; 4], corner: impl Fn(f64, f64, f64, f64) -> f64) -> Self {
-        let [n0, n1, n2, n3] = lines.map(<[f64]>::len);
-        let mut values = Vec::with_capacity(n0 * n1 * n2 * n3);
-        for &a in lines[0] {
-            for &b in lines[1] {
-                for &c in lines[2] {
-                    for &d in lines[3] {
-                        values.push(corner(a, b, c, d));
-                    }
-                }
-            }
+        // The means stay those of the balance, which knows E₁ from the fine patches.
+        let mut shift = vec![0.0; self.area.len()];
+        for ((r, patch), &holder) in result.iter_mut().zip(&emitters.patches).zip(&self.holder) {
+            shift[holder] += *r;
+            *r /= patch.area;
         }
-        Self { stride: [n1 * n2 * n3, n2 * n3, n3, 1], values }
+        for (i, shift) in shift.iter_mut().enumerate() {
+            *shift = if self.reflectance[i] > 0.0 { returned[i] - *shift / self.area[i] } else { 0.0 };
+        }
+        for (r, &holder) in result.iter_mut().zip(&self.holder) {
+            *r += shift[holder];
+        }
+        result
     }
+}
 
-    /// Differences over the cells that begin at the given lines; both orders of summation give the same sign, and an
-    /// exchange area is positive.
-    fn fourth_difference(&self, cell: [usize; 4]) -> f64 {
-        let base: usize = cell.iter().zip(&self.stride).map(|(i, s)| i * s).sum();
-        let [a, b, c, d] = self.stride;
-        let second = |at: usize| self.values[at + c + d] - self.values[at + c] - self.values[at + d] + self.values[at];
-        (second(base + a + b) - second(base + a) - second(base + b) + second(base)).abs()
+/// Four running sums: the same order everywhere, and no chain of additions.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a4.zip(b4) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
     }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]
@@ -225,6 +219,7 @@ mod tests {
     use super::super::mesh::BoxRoom;
     use super::*;
     use crate::compute::direction::Surface;
+    use glam::DVec3;
 
     fn room(rho: f64) -> BoxRoom {
         BoxRoom { size: DVec3::new(4.0, 6.0, 3.0), floor: rho, walls: rho, ceiling: rho }
@@ -234,11 +229,16 @@ mod tests {
         Aperture { surface: Surface::Facade, corner: DVec3::new(0.3, 0.0, 0.8), size: [2.5, 1.7] }
     }
 
+    fn radiosity(room: &BoxRoom, apertures: &[Aperture], rho: f64, count: usize) -> Radiosity {
+        let reflectances = vec![rho; apertures.len()];
+        Radiosity::new(Nested::with_about(room, apertures, &reflectances, count).unwrap()).unwrap()
+    }
+
     #[test]
     fn every_patch_sees_the_whole_room() {
-        for (size, step) in [([4.0, 6.0, 3.0], 0.7), ([100.0, 1.0, 1.0], 0.6), ([0.1, 0.1, 10.0], 0.1)] {
+        for size in [[4.0, 6.0, 3.0], [100.0, 1.0, 1.0], [0.1, 0.1, 10.0]] {
             let room = BoxRoom { size: DVec3::from_array(size), ..room(0.5) };
-            let radiosity = Radiosity::new(Mesh::new(&room, &[], &[], step)).unwrap();
+            let radiosity = radiosity(&room, &[], 0.0, 600);
             assert!(radiosity.closure < 1e-9, "{size:?}: {}", radiosity.closure);
         }
     }
@@ -247,47 +247,48 @@ mod tests {
     fn uniform_light_and_reflectance_give_the_infinite_series() {
         // E = E₀/(1 − ρ) everywhere, in any box, when E₀ and ρ are the same everywhere.
         for rho in [0.3, 0.9, 0.99, 0.999] {
-            let mesh = Mesh::new(&room(rho), &[window()], &[rho], 0.8);
-            let radiosity = Radiosity::new(mesh).unwrap();
-            let exitance = radiosity.exitance(&vec![100.0; radiosity.mesh.patches.len()]);
-            for b in exitance {
+            let radiosity = radiosity(&room(rho), &[window()], rho, 500);
+            let patches = radiosity.nested.fine.patches.len();
+            let exitance = radiosity.exitance(&vec![100.0; patches], &vec![0.0; patches]);
+            for b in exitance.fine.iter().chain(&exitance.coarse) {
                 assert!((b / rho * (1.0 - rho) / 100.0 - 1.0).abs() < 1e-8, "{rho}: {b}");
             }
         }
     }
 
     #[test]
-    fn a_point_sees_configuration_factors_that_sum_to_one() {
-        let radiosity = Radiosity::new(Mesh::new(&room(0.5), &[window()], &[0.1], 0.9)).unwrap();
-        for normal in [DVec3::Z, DVec3::NEG_X, DVec3::new(0.3, 0.5, -0.4).normalize()] {
-            let sum: f64 = radiosity.gather_weights(DVec3::new(1.1, 2.3, 0.85), normal).iter().sum();
-            assert!((sum - 1.0).abs() < 1e-12, "{normal}: {sum}");
+    fn flux_that_enters_is_absorbed() {
+        for rho in [0.7, 0.99, 0.999] {
+            let radiosity = radiosity(&room(rho), &[window()], 0.2, 700);
+            let mut first = radiosity.illuminance_from_aperture(0);
+            first.iter_mut().for_each(|e| *e *= 1000.0);
+            let exitance = radiosity.exitance(&first, &vec![0.0; first.len()]);
+            let absorbed: f64 = radiosity
+                .nested
+                .fine
+                .patches
+                .iter()
+                .zip(&exitance.fine)
+                .map(|(patch, b)| patch.area * b / patch.reflectance * (1.0 - patch.reflectance))
+                .sum();
+            assert!((absorbed / (1000.0 * window().area()) - 1.0).abs() < 1e-9, "{rho}: {absorbed}");
         }
     }
 
     #[test]
-    fn flux_that_enters_is_absorbed() {
-        let (rho, rho_window) = (0.7, 0.2);
-        let mesh = Mesh::new(&room(rho), &[window()], &[rho_window], 0.5);
-        let radiosity = Radiosity::new(mesh).unwrap();
-        let emitters: Vec<(usize, f64)> = (0..radiosity.mesh.patches.len())
-            .filter(|&i| radiosity.mesh.patches[i].aperture.is_some())
-            .map(|i| (i, 1000.0))
-            .collect();
-        let first = radiosity.illuminance_from(&emitters);
-        let exitance = radiosity.exitance(&first);
-        let absorbed: f64 = radiosity
-            .mesh
-            .patches
-            .iter()
-            .zip(&exitance)
-            .map(|(patch, b)| patch.area * b / patch.reflectance * (1.0 - patch.reflectance))
-            .sum();
-        assert!((absorbed / (1000.0 * window().area()) - 1.0).abs() < 1e-9, "{absorbed}");
-    }
-
-    #[test]
-    fn a_room_that_absorbs_nothing_is_refused() {
-        assert!(Radiosity::new(Mesh::new(&room(1.0), &[], &[], 2.0)).is_err());
+    fn one_surface_that_absorbs_is_enough_and_none_is_refused() {
+        let mirror = BoxRoom { floor: 0.5, ..room(1.0) };
+        let radiosity = radiosity(&mirror, &[], 0.0, 400);
+        let patches = &radiosity.nested.fine.patches;
+        let exitance = radiosity.exitance(&vec![1.0; patches.len()], &vec![0.0; patches.len()]);
+        let floor: f64 = patches.iter().zip(&exitance.fine).filter(|(p, _)| p.wall == 0).map(|(p, b)| p.area * b).sum();
+        // All that enters, 1 lm/m² on every surface, ends in the floor, which absorbs as much as it emits.
+        let entered: f64 = patches.iter().map(|patch| patch.area).sum();
+        assert!((floor / entered - 1.0).abs() < 1e-9, "{floor} {entered}");
+        for rho in [1.0, 0.9995] {
+            let nested = Nested::with_about(&room(rho), &[window()], &[rho], 300).unwrap();
+            let refused = Radiosity::new(nested).err().unwrap().to_string();
+            assert!(refused.contains("0.999"), "{refused}");
+        }
     }
 }

@@ -136,6 +136,21 @@ impl Outside {
         Ok(self)
     }
 
+    /// The same with every luminance times a factor, ground and skyline included; negative factors count as 0.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let factor = factor.max(0.0);
+        let mut outside = self.clone();
+        for luminance in [
+            &mut outside.scale,
+            &mut outside.diffuse_horizontal,
+            &mut outside.ground_luminance,
+            &mut outside.skyline_luminance,
+        ] {
+            *luminance *= factor;
+        }
+        outside
+    }
+
     /// Luminance seen in a direction. \[cd/m²\] Altitude below 0: ground; below the skyline: skyline; else sky.
     #[inline]
     pub fn luminance(&self, d: Dir<World>) -> f64 {

@@ -139,7 +139,7 @@ impl Spreading {
         let haze_tau: Vec<f64> = tau.iter().map(|t| haze.max(0.0) * t).collect();
         let lobe = balanced(&basis, &gaussian_kernel(&basis, self.spread), &lobe_tau);
         let diffuse = separable(&basis, &haze_tau);
-        let values = lobe.values().iter().zip(diffuse.values()).map(|(a, b)| a + b).collect();
+        let values = lobe.values().iter().zip(diffuse.values().iter()).map(|(a, b)| a + b).collect();
         let matrix = CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values for n cells");
         let regular = if self.regular > 0.0 { Some(table(|theta| self.regular * scale * clear(theta))) } else { None };
         // What a clear sheet mirrors stays mirrored; the rest of what does not pass is absorbed or thrown back.

@@ -148,9 +148,10 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
              \t\t\t\t\t<ScatteringDataType>{kind}</ScatteringDataType>\n\t\t\t\t\t<ScatteringData>\n"
         );
         let n = basis.len();
+        let values = matrix.values();
         for o in 0..n {
             for i in 0..n {
-                let q = matrix.values()[i * n + o];
+                let q = values[i * n + o];
                 let _ = if q == 0.0 { write!(xml, "0,\t") } else { write!(xml, "{q:.9e},\t") };
             }
             xml.push('\n');

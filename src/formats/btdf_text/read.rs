@@ -11,6 +11,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered};
 use crate::compute::direction::{Dir, Facade, Incident};
 use crate::formats::location::{FormatError, Location};
+use std::sync::Arc;
 
 /// No indicatrix is believed to send out more than this share of the light; between 1 and here a finding tells.
 const IMPOSSIBLE: f64 = 1.5;
@@ -45,7 +46,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
             let data = Indicatrices::new(names, basis, rows).ok_or_else(|| {
                 FormatError::new(Location::file(), "incident directions that coincide", "directions 0.1° apart or more")
             })?;
-            Scattered::Directions(Box::new(data))
+            Scattered::Directions(Arc::new(data))
         }
     };
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));

@@ -7,10 +7,12 @@ use crate::compute::btdf::{
     TreeAxes, TreeNode, TreeRank,
 };
 use crate::compute::direction::{Dir, Incident};
+use crate::compute::wavelet::CompactRows;
+use crate::formats::compact_rows::RowFile;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::io::Read;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// Most values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences over 2°.
 const MOST_VALUES: usize = 1 << 24;
@@ -48,6 +50,13 @@ pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     }
     dataset.derived = input.components()?;
     dataset.findings = input.findings()?;
+    if bytes.len() - input.at == size_of::<f64>() {
+        let period = input.number()?;
+        if period <= 0.0 {
+            return input.invalid(format!("a structure of period {period} m"));
+        }
+        dataset.structure = Some(period);
+    }
     match bytes.len() - input.at {
         0 => Ok(dataset),
         rest => Err(BlobError::Trailing(rest)),
@@ -146,7 +155,9 @@ impl<'a> Reader<'a> {
             1 => Some(Scattered::Lambert(self.angular()?)),
             2 => Some(Scattered::Cells(Box::new(self.cells()?))),
             3 => Some(Scattered::Tree(Box::new(self.tree()?))),
-            4 => Some(Scattered::Directions(Box::new(self.directions()?))),
+            4 => Some(Scattered::Directions(Arc::new(self.directions(false)?))),
+            5 => Some(Scattered::Cells(Box::new(self.compact_cells()?))),
+            6 => Some(Scattered::Directions(Arc::new(self.directions(true)?))),
             other => return self.invalid(format!("kind {other} of scattering, which this version does not know")),
         };
         Ok(Btdf { regular, scattered })
@@ -190,7 +201,24 @@ impl<'a> Reader<'a> {
         CellMatrix::new(incident, emergent, values).map_or_else(|| self.invalid("values do not fit the cells"), Ok)
     }
 
-    fn directions(&mut self) -> Result<Indicatrices, BlobError> {
+    fn compact_cells(&mut self) -> Result<CellMatrix, BlobError> {
+        let (incident, emergent) = (self.basis()?, self.basis()?);
+        let rows = self.compact(incident.len(), emergent)?;
+        CellMatrix::from_compact(incident, rows).map_or_else(|| self.invalid("rows do not fit the cells"), Ok)
+    }
+
+    /// `count` rows in compact form.
+    fn compact(&mut self, count: usize, emergent: RingBasis) -> Result<Arc<CompactRows>, BlobError> {
+        if count.saturating_mul(emergent.len()) > MOST_VALUES {
+            return self.invalid(format!("{count} compact rows of {} cells (at most {MOST_VALUES})", emergent.len()));
+        }
+        let length = self.count(1)?;
+        let bytes = self.take(length)?;
+        let rows = RowFile::open(emergent, count, bytes).and_then(RowFile::into_rows);
+        rows.map(Arc::new).or_else(|what| self.invalid(what))
+    }
+
+    fn directions(&mut self, compact: bool) -> Result<Indicatrices, BlobError> {
         let count = self.count(24)?;
         if count > MOST_DIRECTIONS {
             return self.invalid(format!("{count} incident directions (at most {MOST_DIRECTIONS})"));
@@ -205,9 +233,14 @@ impl<'a> Reader<'a> {
             })
             .collect::<Result<Vec<_>, _>>()?;
         let emergent = self.basis()?;
-        let values = self.values(incident.len(), emergent.len())?;
-        Indicatrices::new(incident, emergent, values)
-            .map_or_else(|| self.invalid("values do not fit the directions, or two directions coincide"), Ok)
+        let data = if compact {
+            let rows = self.compact(incident.len(), emergent)?;
+            Indicatrices::from_compact(incident, rows)
+        } else {
+            let values = self.values(incident.len(), emergent.len())?;
+            Indicatrices::new(incident, emergent, values)
+        };
+        data.map_or_else(|| self.invalid("values do not fit the directions, or two directions coincide"), Ok)
     }
 
     /// `rows` × `columns` packed values.

@@ -6,6 +6,8 @@ use crate::compute::btdf::{
     AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, Severity, TensorTree,
     TreeAxes, TreeNode, TreeRank,
 };
+use crate::compute::wavelet::CompactRows;
+use crate::formats::compact_rows;
 
 /// Bytes of a dataset. The same dataset always gives the same bytes.
 pub fn encode(dataset: &Dataset) -> Vec<u8> {
@@ -33,6 +35,10 @@ pub fn encode(dataset: &Dataset) -> Vec<u8> {
     }
     out.byte(mask(dataset.derived.iter().copied()));
     out.findings(&dataset.findings);
+    // Only where it is known: other datasets keep the bytes, and with them the name, that they always had.
+    if let Some(structure) = dataset.structure {
+        out.number(structure);
+    }
     out.0
 }
 
@@ -89,20 +95,30 @@ impl Writer {
                 self.angular(tau);
             }
             Some(Scattered::Cells(matrix)) => {
-                self.byte(2);
+                let compact = matrix.compact_rows();
+                self.byte(if compact.is_some() { 5 } else { 2 });
                 self.basis(matrix.incident());
                 self.basis(matrix.emergent());
-                self.values(matrix.values());
+                match compact {
+                    Some(rows) => self.compact(rows),
+                    None => self.values(&matrix.values()),
+                }
             }
             Some(Scattered::Directions(data)) => {
-                self.byte(4);
+                let compact = data.compact_rows();
+                self.byte(if compact.is_some() { 6 } else { 4 });
                 self.count(data.incident().len());
                 for direction in data.incident() {
                     direction.0.vector().to_array().into_iter().for_each(|x| self.number(x));
                 }
                 self.basis(data.emergent());
-                let values: Vec<f64> = (0..data.incident().len()).flat_map(|i| data.row(i).into_owned()).collect();
-                self.values(&values);
+                match compact {
+                    Some(rows) => self.compact(rows),
+                    None => {
+                        let rows = 0..data.incident().len();
+                        self.values(&rows.flat_map(|i| data.row(i).into_owned()).collect::<Vec<f64>>());
+                    }
+                }
             }
             Some(Scattered::Tree(tree)) => {
                 self.byte(3);
@@ -136,6 +152,12 @@ impl Writer {
             self.count(ring.sectors);
             self.number(ring.first_phi);
         }
+    }
+
+    fn compact(&mut self, rows: &CompactRows) {
+        let bytes = compact_rows::write(rows);
+        self.count(bytes.len());
+        self.0.extend(bytes);
     }
 
     fn values(&mut self, values: &[f64]) {
@@ -189,12 +211,17 @@ fn is_front_turned(front: &Btdf, back: &Btdf) -> bool {
     let (Some(Scattered::Cells(f)), Some(Scattered::Cells(b))) = (&front.scattered, &back.scattered) else {
         return false;
     };
+    // What is compact keeps its own bytes.
+    if b.compact_rows().is_some() {
+        return false;
+    }
     let same_cells = f.incident() == b.emergent() && f.emergent() == b.incident();
     // As stored: what is read back is written the same again.
     let same = |a: f64, b: f64| (a as f32).to_bits() == (b as f32).to_bits();
     let turned = |f: &CellMatrix, b: &CellMatrix| {
         let (n, m) = (f.incident().len(), f.emergent().len());
-        (0..n).all(|i| (0..m).all(|o| same(f.values()[i * m + o], b.values()[o * n + i])))
+        let (f, b) = (f.values(), b.values());
+        (0..n).all(|i| (0..m).all(|o| same(f[i * m + o], b[o * n + i])))
     };
     front.regular == back.regular && same_cells && turned(f, b)
 }

@@ -1,0 +1,156 @@
+//! Exchange areas A·F between the patches of two nested meshes of one box, from shared tables of corner values.
+//!
+//! A pair of walls needs the corner function only at the combinations of its lines' differences: lines along the common
+//! axis count by their distance alone, so that many combinations are one.
+
+use super::form_factor::{parallel_corner, perpendicular_corner};
+use super::mesh::{Mesh, Wall};
+
+/// A·F of every receiving patch (row) and emitting patch (column). \[m²\]
+pub struct Exchange {
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Exchange {
+    /// Between the patches of `receivers` and those of `emitters`, two meshes of the same box.
+    pub fn new(receivers: &Mesh, emitters: &Mesh) -> Self {
+        let columns = emitters.patches.len();
+        let mut exchange = Self { columns, values: vec![0.0; receivers.patches.len() * columns] };
+        for a in &receivers.walls {
+            for b in &emitters.walls {
+                if a.axis != b.axis {
+                    exchange.perpendicular(a, b);
+                } else if a.position != b.position {
+                    exchange.parallel(a, b);
+                }
+            }
+        }
+        exchange
+    }
+
+    /// Of one receiving patch, by emitting patch. \[m²\]
+    pub fn row(&self, receiver: usize) -> &[f64] {
+        &self.values[receiver * self.columns..(receiver + 1) * self.columns]
+    }
+
+    /// Number of receiving patches.
+    pub fn rows(&self) -> usize {
+        self.values.len() / self.columns.max(1)
+    }
+
+    /// Sums over groups: `row_of[i]` and `column_of[j]` say into which row and column of the result each goes.
+    pub fn gathered(&self, row_of: Option<&[usize]>, rows: usize, column_of: &[usize], columns: usize) -> Self {
+        let mut values = vec![0.0; rows * columns];
+        for i in 0..self.rows() {
+            let to = row_of.map_or(i, |of| of[i]) * columns;
+            for (&column, af) in column_of.iter().zip(self.row(i)) {
+                values[to + column] += af;
+            }
+        }
+        Self { columns, values }
+    }
+
+    fn parallel(&mut self, a: &Wall, b: &Wall) {
+        let z = (a.position - b.position).abs();
+        let [x, y] = [0, 1].map(|side| Differences::new(&a.lines[side], &b.lines[side]));
+        let table: Vec<f64> =
+            x.values.iter().flat_map(|&x| y.values.iter().map(move |&y| parallel_corner(x, y, z))).collect();
+        let width = y.values.len();
+        let (b0, b1) = (b.lines[0].len() - 1, b.lines[1].len() - 1);
+        for i in 0..a.lines[0].len() - 1 {
+            for j in 0..a.lines[1].len() - 1 {
+                let row = a.first + i * (a.lines[1].len() - 1) + j;
+                for k in 0..b0 {
+                    let base = row * self.columns + b.first + k * b1;
+                    let at = [x.at(i, k), x.at(i + 1, k), x.at(i, k + 1), x.at(i + 1, k + 1)].map(|x| x * width);
+                    let out = &mut self.values[base..base + b1];
+                    for (l, af) in out.iter_mut().enumerate() {
+                        let sum = |y: usize| table[at[0] + y] - table[at[1] + y] - table[at[2] + y] + table[at[3] + y];
+                        *af = (sum(y.at(j, l)) - sum(y.at(j + 1, l)) - sum(y.at(j, l + 1)) + sum(y.at(j + 1, l + 1)))
+                            .abs();
+                    }
+                }
+            }
+        }
+    }
+
+    fn perpendicular(&mut self, a: &Wall, b: &Wall) {
+        // The common axis runs along both walls; the other axis of a wall is counted from the line where they meet.
+        let common = 3 - a.axis - b.axis;
+        let place = |wall: &Wall| usize::from(wall.along[1] == common);
+        let (pa, pb) = (place(a), place(b));
+        let across = |wall: &Wall, p: usize, meets: f64| -> Vec<f64> {
+            wall.lines[1 - p].iter().map(|line| (line - meets).abs()).collect()
+        };
+        let (xa, yb) = (across(a, pa, b.position), across(b, pb, a.position));
+        let u = Differences::new(&a.lines[pa], &b.lines[pb]);
+        // Second differences in the two distances from the common edge, for every distance along it.
+        let (na, nb) = (xa.len() - 1, yb.len() - 1);
+        let mut second = vec![0.0; u.values.len() * na * nb];
+        let mut corner = vec![0.0; xa.len() * yb.len()];
+        for (&u, second) in u.values.iter().zip(second.chunks_exact_mut(na * nb)) {
+            for (&x, row) in xa.iter().zip(corner.chunks_exact_mut(yb.len())) {
+                for (&y, value) in yb.iter().zip(row) {
+                    *value = perpendicular_corner(u, x, y);
+                }
+            }
+            for k in 0..na {
+                for l in 0..nb {
+                    let at = k * yb.len() + l;
+                    second[k * nb + l] =
+                        corner[at] - corner[at + 1] - corner[at + yb.len()] + corner[at + yb.len() + 1];
+                }
+            }
+        }
+        let index = |wall: &Wall, p: usize, along: usize, across: usize| {
+            let n1 = wall.lines[1].len() - 1;
+            wall.first + if p == 0 { along * n1 + across } else { across * n1 + along }
+        };
+        for i in 0..a.lines[pa].len() - 1 {
+            for j in 0..b.lines[pb].len() - 1 {
+                let at = [u.at(i, j), u.at(i + 1, j), u.at(i, j + 1), u.at(i + 1, j + 1)].map(|u| u * na * nb);
+                for k in 0..na {
+                    let row = index(a, pa, i, k) * self.columns;
+                    for l in 0..nb {
+                        let cell = k * nb + l;
+                        let value =
+                            second[at[0] + cell] - second[at[1] + cell] - second[at[2] + cell] + second[at[3] + cell];
+                        self.values[row + index(b, pb, j, l)] = value.abs();
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Distinct distances between the lines of two lists.
+struct Differences {
+    values: Vec<f64>,
+    /// Index of each pair's distance.
+    index: Vec<usize>,
+    width: usize,
+}
+
+impl Differences {
+    fn new(a: &[f64], b: &[f64]) -> Self {
+        let length = a.last().copied().unwrap_or(0.0);
+        let mut order: Vec<(f64, usize)> =
+            a.iter().flat_map(|a| b.iter().map(move |b| (a - b).abs())).enumerate().map(|(i, d)| (d, i)).collect();
+        order.sort_by(|p, q| p.0.total_cmp(&q.0));
+        let mut values: Vec<f64> = Vec::new();
+        let mut index = vec![0; order.len()];
+        for (distance, pair) in order {
+            // Rounding of lines that stand at equal distances; small against every difference that matters.
+            if values.last().is_none_or(|last| distance - last > 4.0 * f64::EPSILON * length) {
+                values.push(distance);
+            }
+            index[pair] = values.len() - 1;
+        }
+        Self { values, index, width: b.len() }
+    }
+
+    fn at(&self, a: usize, b: usize) -> usize {
+        self.index[a * self.width + b]
+    }
+}

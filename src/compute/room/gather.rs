@@ -1,0 +1,185 @@
+//! What a point receives from each patch of the room: configuration factors from shared corner values.
+//!
+//! The vector ∫ω dω over a rectangle is a second difference of one corner function of its plane, so every line crossing
+//! of a wall is evaluated once. Patches cut by the point's own plane are clipped.
+//! Reference: Lambert's edge sum for a rectangle parallel to two axes.
+
+use super::mesh::{Mesh, Patch, Wall};
+use super::polygon::{clip, projected_solid_angle, vector_solid_angle};
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// Weights w with E = Σ w_j B_j at a point from all patches of exitance B_j, whatever they reflect.
+pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec<f64> {
+    let mut weights = vec![0.0; mesh.patches.len()];
+    let mut row = Vec::new();
+    let mut next = Vec::new();
+    let mut kept = Vec::with_capacity(8);
+    for wall in &mesh.walls {
+        let distance = wall.normal.dot(position - wall.point(0.0, 0.0));
+        if distance <= 0.0 {
+            continue;
+        }
+        let [lines_a, lines_b] = &wall.lines;
+        let n1 = lines_b.len() - 1;
+        let origin = [position[wall.along[0]], position[wall.along[1]]];
+        // Components of the sensor's normal along the wall's axes and against its normal.
+        let n = DVec3::new(normal[wall.along[0]], normal[wall.along[1]], -normal.dot(wall.normal));
+        let front = |a: f64, b: f64| n.dot(DVec3::new(a - origin[0], b - origin[1], distance)) > 0.0;
+        let corner = |a: f64, b: f64| corner_vector(a - origin[0], b - origin[1], distance).dot(n);
+        row.clear();
+        row.extend(lines_b.iter().map(|&b| (corner(lines_a[0], b), front(lines_a[0], b))));
+        for (i, &a) in lines_a.iter().enumerate().skip(1) {
+            next.clear();
+            next.extend(lines_b.iter().map(|&b| (corner(a, b), front(a, b))));
+            for j in 0..n1 {
+                let at = wall.first + (i - 1) * n1 + j;
+                let corners = [row[j], row[j + 1], next[j], next[j + 1]];
+                let seen = corners.iter().filter(|c| c.1).count();
+                weights[at] = match seen {
+                    4 => (corners[0].0 - corners[1].0 - corners[2].0 + corners[3].0).max(0.0) / PI,
+                    0 => 0.0,
+                    _ => {
+                        let corners = mesh.patches[at].corners(wall).map(|c| c - position);
+                        clip(&corners, normal, &mut kept);
+                        vector_solid_angle(&kept).dot(normal).abs() / PI
+                    }
+                };
+            }
+            std::mem::swap(&mut row, &mut next);
+        }
+    }
+    weights
+}
+
+/// [`configuration_factors`] for an exitance that varies within the patches: near the point each patch is taken with the
+/// slopes that its neighbours give it, its mean kept.
+///
+/// A patch close to the point covers much of what the point sees, and a constant there errs in first order of its size.
+pub fn reconstructing_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec<f64> {
+    let mut weights = configuration_factors(mesh, position, normal);
+    for wall in &mesh.walls {
+        let distance = wall.normal.dot(position - wall.point(0.0, 0.0));
+        if distance <= 0.0 {
+            continue;
+        }
+        let counts = [wall.lines[0].len() - 1, wall.lines[1].len() - 1];
+        let index = |cell: [usize; 2]| wall.first + cell[0] * counts[1] + cell[1];
+        for i in 0..counts[0] {
+            for j in 0..counts[1] {
+                let at = index([i, j]);
+                let patch = &mesh.patches[at];
+                let size = [patch.extent[0][1] - patch.extent[0][0], patch.extent[1][1] - patch.extent[1][0]];
+                let gap = [0, 1].map(|side| {
+                    let x = position[wall.along[side]];
+                    x - x.clamp(patch.extent[side][0], patch.extent[side][1])
+                });
+                let away = DVec3::new(gap[0], gap[1], distance).length();
+                // The slack keeps decisions the same for a room in another unit.
+                let ratio = size[0].max(size[1]) / away - 1e-9;
+                if ratio < NEAR || weights[at] == 0.0 {
+                    continue;
+                }
+                let moments = moments(wall, patch, position, normal, ((4.0 * ratio).ceil() as usize).clamp(2, 12));
+                for side in 0..2 {
+                    // The slope between the neighbours' middles, as far as they are of the same surface.
+                    let neighbour = |step: isize| {
+                        let mut cell = [i, j];
+                        cell[side] = cell[side].checked_add_signed(step).filter(|k| *k < counts[side])?;
+                        let other = &mesh.patches[index(cell)];
+                        (other.aperture == patch.aperture)
+                            .then(|| (index(cell), 0.5 * (other.extent[side][0] + other.extent[side][1])))
+                    };
+                    let own = (at, 0.5 * (patch.extent[side][0] + patch.extent[side][1]));
+                    let (low, high) = (neighbour(-1).unwrap_or(own), neighbour(1).unwrap_or(own));
+                    if high.1 > low.1 {
+                        let slope = moments[side] / (high.1 - low.1);
+                        weights[high.0] += slope;
+                        weights[low.0] -= slope;
+                    }
+                }
+            }
+        }
+    }
+    weights
+}
+
+/// Size of a patch over its distance from which its slopes count.
+const NEAR: f64 = 0.5;
+
+/// ∫ (x − x̄) dF over a patch along both its sides, by parts of the patch. \[m\]
+fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: usize) -> [f64; 2] {
+    let line = |side: usize, k: usize| {
+        let [from, to] = patch.extent[side];
+        from + (to - from) * k as f64 / parts as f64
+    };
+    let mut sums = [0.0; 2];
+    for i in 0..parts {
+        for j in 0..parts {
+            let cell = [[line(0, i), line(0, i + 1)], [line(1, j), line(1, j + 1)]];
+            let [a, b] = cell;
+            let corners = [(a[0], b[0]), (a[1], b[0]), (a[1], b[1]), (a[0], b[1])];
+            let corners = corners.map(|(a, b)| wall.point(a, b) - position);
+            let factor = projected_solid_angle(&corners, normal) / PI;
+            for side in 0..2 {
+                let middle = 0.5 * (patch.extent[side][0] + patch.extent[side][1]);
+                sums[side] += factor * (0.5 * (cell[side][0] + cell[side][1]) - middle);
+            }
+        }
+    }
+    sums
+}
+
+/// The same from one polygon on a wall, given by its corners in the wall's own two coordinates.
+pub fn polygon_factor(wall: &Wall, polygon: &[DVec2], position: DVec3, normal: DVec3) -> f64 {
+    if wall.normal.dot(position - wall.point(0.0, 0.0)) <= 0.0 {
+        return 0.0;
+    }
+    let corners: Vec<DVec3> = polygon.iter().map(|p| wall.point(p.x, p.y) - position).collect();
+    projected_solid_angle(&corners, normal) / PI
+}
+
+/// ∫ω dω over the quadrant of a plane at distance d that ends in the corner (x, y), but for parts that cancel in
+/// second differences.
+fn corner_vector(x: f64, y: f64, d: f64) -> DVec3 {
+    let (rx, ry) = ((x * x + d * d).sqrt(), (y * y + d * d).sqrt());
+    let (alpha, beta) = ((y / rx).atan() / rx, (x / ry).atan() / ry);
+    0.5 * DVec3::new(-d * alpha, -d * beta, x * alpha + y * beta)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::aperture::Aperture;
+    use super::super::mesh::{BoxRoom, Nested};
+    use super::*;
+    use crate::compute::direction::Surface;
+
+    #[test]
+    fn corner_sums_agree_with_lamberts_edge_sum_and_close() {
+        let room = BoxRoom { size: DVec3::new(4.0, 6.0, 3.0), floor: 0.2, walls: 0.5, ceiling: 0.7 };
+        let window = Aperture { surface: Surface::Facade, corner: DVec3::new(0.3, 0.0, 0.8), size: [2.5, 1.7] };
+        let mesh = Nested::with_about(&room, &[window], &[0.0], 500).unwrap().fine;
+        for normal in [DVec3::Z, DVec3::NEG_X, DVec3::new(0.3, 0.5, -0.4).normalize()] {
+            for position in [DVec3::new(1.1, 2.3, 0.85), DVec3::new(0.01, 0.02, 2.99)] {
+                let weights = configuration_factors(&mesh, position, normal);
+                let sum: f64 = weights.iter().sum();
+                assert!((sum - 1.0).abs() < 1e-12, "{normal}: {sum}");
+                for (patch, w) in mesh.patches.iter().zip(&weights) {
+                    let corners = patch.corners(&mesh.walls[patch.wall]).map(|c| c - position);
+                    let exact = projected_solid_angle(&corners, normal) / PI;
+                    assert!((w - exact).abs() < 1e-13 + 1e-9 * exact, "{normal} {position}: {w} {exact}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_on_a_wall_sees_nothing_of_it() {
+        let room = BoxRoom { size: DVec3::splat(2.0), floor: 0.5, walls: 0.5, ceiling: 0.5 };
+        let mesh = Nested::with_about(&room, &[], &[], 300).unwrap().fine;
+        let weights = configuration_factors(&mesh, DVec3::new(0.7, 0.9, 0.0), DVec3::Z);
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        let floor = mesh.patches.iter().zip(&weights).filter(|(patch, _)| patch.wall == 0);
+        assert!(floor.map(|(_, w)| *w).sum::<f64>() == 0.0);
+    }
+}

@@ -1,0 +1,75 @@
+//! From which distance an aperture with a visible structure (slats, cuts) may be taken for homogeneous: the report's
+//! Figure 20 as a number to print with every result.
+//!
+//! BTDF data describe one luminance for the whole area. A blind is bright lines, and a sensor close to it sees lines.
+//! The deviation falls off within about one period and is below 1 % from about three periods on, as long as the lines
+//! lie as often above as below their mean. Where the first line lies half a period off (a slat just at the sill), the
+//! aperture is as if moved by that much, which no distance heals.
+
+/// Periods from which on the deviation of centred lines is below 1 %.
+const PERIODS: f64 = 3.0;
+
+/// Distance from the aperture from which on its structure of this period may be neglected. \[m\]
+pub fn distance(period: f64) -> f64 {
+    PERIODS * period
+}
+
+/// Relative deviation of horizontal Lambertian lines from a homogeneous area of the same flux and height, at a horizontal
+/// sensor at sill height, `distance` before the area. The lines lie at (k + `phase`) · `period` up to the height; phase
+/// 0.5 centres them. \[m\] `None` without room for a single line or for lengths that are not above 0.
+///
+/// In the vertical section: E of a line at height y goes with y d/(y² + d²)², of the area with h²/(2 d (h² + d²)).
+pub fn deviation(period: f64, height: f64, distance: f64, phase: f64) -> Option<f64> {
+    let lines = (height / period).round();
+    if !(period > 0.0 && distance > 0.0 && (1.0..1e6).contains(&lines) && (0.0..=1.0).contains(&phase)) {
+        return None;
+    }
+    let line = |y: f64| y * distance / (y * y + distance * distance).powi(2);
+    let mean = (0..lines as usize).map(|k| line((k as f64 + phase) * period)).sum::<f64>() / lines;
+    let area = height / (2.0 * distance * (height * height + distance * distance));
+    Some(mean / area - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Deviation of centred lines on an area 1 m high. [%]
+    fn centred(period: f64, at: f64) -> f64 {
+        100.0 * deviation(period, 1.0, at, 0.5).unwrap().abs()
+    }
+
+    #[test]
+    fn deviations_of_figure_20() {
+        // Computed beforehand by another program: period, then % at 0.1, 0.3 and 1 m.
+        for (period, expected) in [(0.2, [18.0, 5.0, 0.8]), (0.1, [12.0, 1.1, 0.2]), (0.05, [2.4, 0.3, 0.05])] {
+            for (at, percent) in [0.1, 0.3, 1.0].into_iter().zip(expected) {
+                let got = centred(period, at);
+                assert!((got - percent).abs() < 0.05 * percent + 0.05, "{period} m at {at} m: {got} {percent}");
+            }
+        }
+    }
+
+    #[test]
+    fn below_one_per_cent_from_the_stated_distance_on() {
+        for period in [0.01, 0.05, 0.072, 0.1, 0.2] {
+            let from = distance(period);
+            for step in 0..200 {
+                let at = from * 1.03_f64.powi(step);
+                // The finite height shows up far away: lines of one fifth of the height are no fine structure.
+                assert!(centred(period, at) < 1.2, "{period} m at {at} m: {} %", centred(period, at));
+            }
+            assert!(centred(period, 0.5 * period) > 1.0, "{period}");
+        }
+    }
+
+    #[test]
+    fn fine_lines_become_the_area() {
+        assert!(centred(1e-4, 0.1) < 1e-3);
+        // Off by half a period: as if the area were moved, at any distance.
+        let moved = deviation(0.1, 1.0, 3.0, 1.0).unwrap();
+        assert!(moved > 0.05, "{moved}");
+        assert_eq!(deviation(3.0, 1.0, 1.0, 0.5), None);
+        assert_eq!(deviation(0.0, 1.0, 1.0, 0.5), None);
+    }
+}

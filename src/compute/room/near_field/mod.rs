@@ -1,0 +1,127 @@
+//! Ways to integrate an aperture's light at a sensor (eq 17), to choose from and to compare.
+//!
+//! The ordinary way is [`NearField::SolidAngle`]: [`super::direct`] with the closed forms of [`super::cell_weights`] and
+//! the error-controlled cubature of [`super::through`]. The others are what programs commonly do, kept so that their
+//! error and their run time can be seen beside it: point luminaires ([`subdivision`]), Monte Carlo ([`monte_carlo`]) and
+//! summed-area tables over two profile angles ([`profile_table`]). They integrate the diffuse light and the scattered
+//! sun; the sun's unscattered beam has no luminance that could be sampled and goes the exact way in all of them.
+
+pub mod homogeneity;
+pub mod monte_carlo;
+pub mod profile_table;
+pub mod subdivision;
+
+use super::aperture::{Aperture, View};
+use super::direct::{self, Reception, Sensor};
+use crate::compute::direction::{Dir, Emergent};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::{Emission, Facing, Lid};
+use crate::compute::quadrature::Tolerance;
+use glam::DVec3;
+use profile_table::ProfileTable;
+
+/// How eq 17 is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum NearField {
+    /// Exact on cells, error-controlled where the outside is seen through.
+    #[default]
+    SolidAngle,
+    /// Point luminaires, `Some([m, n])` of them along x_F and y_F; `None`: parts cut until each is nearer to a point
+    /// than the photometric distance asks for, five times its largest dimension.
+    Subdivision(Option<[usize; 2]>),
+    /// So many random points, drawn evenly over the solid angle of the aperture.
+    MonteCarlo(usize),
+    /// Tables with so many cells along each of two profile angles.
+    ProfileTable(usize),
+}
+
+impl NearField {
+    /// The word used in scenes and results.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::SolidAngle => "solid-angle",
+            Self::Subdivision(_) => "subdivision",
+            Self::MonteCarlo(_) => "monte-carlo",
+            Self::ProfileTable(_) => "profile-table",
+        }
+    }
+
+    /// The effort in words.
+    pub fn effort(self) -> String {
+        match self {
+            Self::SolidAngle => "closed forms on cells, adaptive cubature where the outside is seen through".into(),
+            Self::Subdivision(None) => "point luminaires, distance ≥ 5 × largest dimension".into(),
+            Self::Subdivision(Some([m, n])) => format!("{m} × {n} point luminaires"),
+            Self::MonteCarlo(samples) => format!("{samples} random points a sensor"),
+            Self::ProfileTable(cells) => format!("tables of {cells} × {cells} cells"),
+        }
+    }
+}
+
+/// A method made ready for the light of one aperture under one outside.
+pub struct Integrator<'a> {
+    method: NearField,
+    aperture: &'a Aperture,
+    emission: &'a Emission,
+    facing: &'a Facing<'a>,
+    lid: Lid,
+    /// Relative error of the light itself.
+    relative_error: f64,
+    /// Of the resolution asked for and of half of it.
+    tables: Option<[ProfileTable; 2]>,
+    tolerance: Tolerance,
+}
+
+impl<'a> Integrator<'a> {
+    /// What a method prepares once for all sensors. `tolerance` is for [`NearField::SolidAngle`] alone.
+    pub fn new(
+        method: NearField,
+        aperture: &'a Aperture,
+        emission: &'a Emission,
+        facing: &'a Facing<'a>,
+        tolerance: Tolerance,
+    ) -> Self {
+        let lid = emission.lid(facing, aperture.size);
+        let exitance = emission.exitance(facing);
+        let relative_error = if exitance.value > 0.0 { exitance.error / exitance.value } else { 0.0 };
+        let tables = if let NearField::ProfileTable(cells) = method {
+            let luminance = |twin: Dir<_>| lid.luminance(Emergent::from_through_name(twin));
+            Some([cells, cells.div_ceil(2)].map(|n| ProfileTable::new(n, luminance)))
+        } else {
+            None
+        };
+        Self { method, aperture, emission, facing, lid, relative_error, tables, tolerance }
+    }
+
+    /// Illuminance at a sensor, sun included. \[lx\] The error is what the method itself can tell; see its module.
+    pub fn illuminance(&self, sensor: &Sensor) -> Estimate {
+        if self.method == NearField::SolidAngle {
+            let basis = self.emission.cells.as_ref().map(|light| &*light.basis);
+            let reception = Reception::new(sensor, self.aperture, basis);
+            return direct::illuminance(sensor, self.aperture, &reception, self.emission, self.facing, self.tolerance);
+        }
+        let Some(view) = self.aperture.view(sensor.position, sensor.normal) else {
+            return Estimate::default();
+        };
+        let luminance =
+            |to: DVec3| Dir::new(to).map_or(0.0, |twin| self.lid.luminance(Emergent::from_through_name(twin)));
+        let diffuse = match (self.method, &self.tables) {
+            (NearField::Subdivision(Some(parts)), _) => subdivision::fixed(&view, parts, luminance),
+            (NearField::Subdivision(None), _) => subdivision::by_distance(&view, luminance),
+            (NearField::MonteCarlo(samples), _) => {
+                monte_carlo::illuminance(&view, samples, monte_carlo::seed(sensor, self.aperture), luminance)
+            }
+            (_, Some([fine, coarse])) => profile_table::illuminance(&view, fine, coarse),
+            (_, None) => Estimate::default(),
+        };
+        let sun = direct::sun_through(sensor, self.aperture, self.emission, self.facing);
+        let rounding = 1e-12 * (diffuse.value + sun).abs();
+        Estimate::new(diffuse.value + sun, diffuse.error + self.relative_error * diffuse.value.abs() + rounding)
+    }
+}
+
+/// cosθ_F max(0, n·ω)/r² of a point of the aperture, given as the vector towards it. \[1/m²\]
+fn kernel(view: &View, to: DVec3) -> f64 {
+    let square = to.length_squared();
+    view.distance * view.normal.dot(to).max(0.0) / (square * square)
+}

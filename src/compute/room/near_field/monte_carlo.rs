@@ -1,0 +1,115 @@
+//! Monte Carlo over the aperture with importance sampling: points are drawn with the density cosθ_F/r² on the area,
+//! which is evenly over its solid angle, so that grazing and near sensors have a finite variance. What remains is the
+//! variance of the luminance and of the sensor's cosine.
+//!
+//! The error is the standard error of the mean: two of three results lie within it. A lobe that no point hits is not
+//! in the value, and not in the error either.
+//!
+//! Reference: Ureña, Fajardo and King, An area-preserving parametrization for spherical rectangles (2013).
+
+use super::kernel;
+use crate::compute::estimate::Estimate;
+use crate::compute::room::aperture::{Aperture, View};
+use crate::compute::room::direct::Sensor;
+use crate::compute::room::polygon::clip;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Below this solid angle \[sr\] its closed form loses digits; points are then drawn evenly over the area, which from so
+/// far is the same.
+const SMALL: f64 = 1e-7;
+
+/// Numbers that follow from a seed alone: SplitMix64 (Steele, Lea and Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// 0 ≤ number < 1.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A seed of its own for each sensor and aperture, the same on every run and for any number of threads.
+pub fn seed(sensor: &Sensor, aperture: &Aperture) -> u64 {
+    let [p, n, c] = [sensor.position, sensor.normal, aperture.corner].map(|v: DVec3| v.to_array());
+    let numbers = p.into_iter().chain(n).chain(c).chain(aperture.size);
+    numbers.fold(0x5EED, |seed, number| SplitMix(seed ^ number.to_bits()).next())
+}
+
+/// Mean over `samples` points and its standard error. `luminance` is asked with vectors towards the aperture, façade
+/// frame, of any length. \[lx\]
+pub fn illuminance(view: &View, samples: usize, seed: u64, luminance: impl Fn(DVec3) -> f64) -> Estimate {
+    // Points behind the sensor's plane give nothing: only the box round what lies before it is sampled.
+    let mut seen = Vec::with_capacity(6);
+    clip(&view.corners(), view.normal, &mut seen);
+    if seen.len() < 3 {
+        return Estimate::default();
+    }
+    let range = |axis: usize| {
+        seen.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[axis]), high.max(p[axis])])
+    };
+    let (x, y) = (range(0), range(1));
+    let sampler = SphericalRectangle::new(x, y, view.distance);
+    let mut random = SplitMix(seed);
+    let (mut mean, mut squares) = (0.0, 0.0);
+    for count in 1..=samples {
+        let (u, v) = (random.unit(), random.unit());
+        let (to, weight) = if sampler.solid_angle > SMALL {
+            let to = sampler.point(u, v);
+            (to, sampler.solid_angle * view.normal.dot(to).max(0.0) / to.length())
+        } else {
+            let to = DVec3::new(x[0] + (x[1] - x[0]) * u, y[0] + (y[1] - y[0]) * v, view.distance);
+            (to, (x[1] - x[0]) * (y[1] - y[0]) * kernel(view, to))
+        };
+        let value = if weight > 0.0 { weight * luminance(to) } else { 0.0 };
+        // Welford's recurrence: no digits lost to the difference of large sums.
+        let step = value - mean;
+        mean += step / count as f64;
+        squares += step * (value - mean);
+    }
+    let count = samples as f64;
+    Estimate::new(mean, (squares / (count * (count - 1.0).max(1.0))).sqrt())
+}
+
+/// The rectangle x × y at z = distance, seen from the origin, parametrised by its solid angle.
+struct SphericalRectangle {
+    x: [f64; 2],
+    y: [f64; 2],
+    distance: f64,
+    b0: f64,
+    b1: f64,
+    k: f64,
+    solid_angle: f64,
+}
+
+impl SphericalRectangle {
+    fn new(x: [f64; 2], y: [f64; 2], distance: f64) -> Self {
+        // The paper's frame looks along −z.
+        let corner = |x: f64, y: f64| DVec3::new(x, y, -distance);
+        let (v00, v01, v10, v11) = (corner(x[0], y[0]), corner(x[0], y[1]), corner(x[1], y[0]), corner(x[1], y[1]));
+        let normals = [v00.cross(v10), v10.cross(v11), v11.cross(v01), v01.cross(v00)].map(DVec3::normalize_or_zero);
+        let angle = |i: usize, j: usize| (-normals[i].dot(normals[j])).clamp(-1.0, 1.0).acos();
+        let k = 2.0 * PI - angle(2, 3) - angle(3, 0);
+        let solid_angle = angle(0, 1) + angle(1, 2) - k;
+        Self { x, y, distance, b0: normals[0].z, b1: normals[2].z, k, solid_angle }
+    }
+
+    fn point(&self, u: f64, v: f64) -> DVec3 {
+        let (sin, cos) = (u * self.solid_angle + self.k).sin_cos();
+        let f = (cos * self.b0 - self.b1) / sin;
+        let cu = (f.signum() / f.hypot(self.b0)).clamp(-1.0, 1.0);
+        let x = (cu * self.distance / (1.0 - cu * cu).max(0.0).sqrt()).max(self.x[0]).min(self.x[1]);
+        let d = x.hypot(self.distance);
+        let [h0, h1] = self.y.map(|y| y / d.hypot(y));
+        let h = h0 + v * (h1 - h0);
+        let y = (h * d / (1.0 - h * h).max(0.0).sqrt()).max(self.y[0]).min(self.y[1]);
+        DVec3::new(x, y, self.distance)
+    }
+}

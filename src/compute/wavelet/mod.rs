@@ -1,0 +1,43 @@
+//! Spherical wavelets: indicatrices in few numbers, τ kept exactly (the report's §3.1, eq 14–15, and its Figure 11).
+//!
+//! ```text
+//!  cells ─ Hierarchy ─ Transform ─► coefficients ─ QuantisedRow ─► CompactRows ─► formats::compact_rows (bytes)
+//! ```
+//!
+//! # What was chosen, and why
+//!
+//! The report puts indicatrices on a triangle quadtree and uses the Haar wavelets of Schröder and Sweldens (1995). Here
+//! the wavelets live on the cells of the data themselves, halved down from the hemisphere, and are orthonormal under
+//! the cells' projected solid angles: nothing is resampled, all values come back when nothing is dropped, Σ w q² = Σ c²,
+//! and one coefficient is τ. Besides Haar (constants) the wavelets may be blind to what is linear or quadratic in the
+//! direction ([`Order`]); every indicatrix takes the order that is smallest.
+//!
+//! Values given for every number kept at 1 % rms, cells of 1°, thresholds alone (quantised in brackets):
+//!
+//! | | triangles, Haar | triangles, linear | rings, Haar | rings, linear | rings, quadratic |
+//! | --- | --- | --- | --- | --- | --- |
+//! | light-redirecting glass | 14.4 (12.2) | 30.7 (27.0) | 12.6 (10.9) | **32.6 (27.5)** | 33.4 (28.6) |
+//! | the same, 2 % noise | 8.8 (6.8) | 20.7 (17.1) | 7.6 (6.2) | **21.8 (18.3)** | 21.2 (18.0) |
+//! | diffusing glass | 7.5 (6.1) | 278 (234) | 5.8 (4.7) | 248 (210) | **1146 (1031)** |
+//! | the same, 2 % noise | 3.8 (3.1) | 6.4 (5.3) | 3.4 (2.9) | 6.3 (5.2) | **6.8 (5.6)** |
+//! | a lobe of 2° | 109 (86) | 59 (46) | **138 (111)** | 98 (74) | 69 (56) |
+//!
+//! So the tree matters little and the order much: smooth parts are what Haar is bad at, single peaks what it is best
+//! at. [`TriangleTree`] with [`Order::Constant`] remains for comparison with the report.
+//!
+//! Steps may follow the support W of a wavelet as (W/W_all)^−β. For a square norm β = 0 is best; for misplaced flux,
+//! which forgives large errors on small places, β = 0.3 saves up to a tenth of the bytes.
+
+mod compact;
+mod hierarchy;
+mod quantise;
+mod report;
+mod transform;
+mod triangles;
+
+pub use compact::{CompactError, CompactRows, MOST_CELLS, ORDERS, RowDecoder};
+pub use hierarchy::{CellPoint, Group, Hierarchy};
+pub use quantise::{Criterion, QuantisedRow};
+pub use report::CompactReport;
+pub use transform::{Order, Transform};
+pub use triangles::{Overlap, Triangle, TriangleTree};

@@ -1,0 +1,170 @@
+//! One indicatrix in few numbers: quantised coefficients, the step found by bisection so that a stated error is kept.
+
+use super::transform::Transform;
+
+/// What must not be exceeded by the indicatrix that comes back, quantisation, clamping and rescaling included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Criterion {
+    /// Share of the flux that goes elsewhere: ½∫|f̃ − f| cosθ dω / τ.
+    Misplaced(f64),
+    /// √(∫(f̃ − f)² cosθ dω / ∫f² cosθ dω).
+    Rms(f64),
+    /// Share of the energy Σc² = ∫f² cosθ dω that is dropped: the square of [`Self::Rms`].
+    Energy(f64),
+}
+
+impl Criterion {
+    /// 0.5 % of the flux misplaced: for keeping.
+    pub const ARCHIVE: Self = Self::Misplaced(0.005);
+    /// 1.5 % of the flux misplaced.
+    pub const NORMAL: Self = Self::Misplaced(0.015);
+
+    /// The threshold as it was given.
+    pub const fn threshold(self) -> f64 {
+        match self {
+            Self::Misplaced(e) | Self::Rms(e) | Self::Energy(e) => e,
+        }
+    }
+
+    /// Can it be asked for? Thresholds from 1e-6 to below 1 (energy: 1e-12).
+    pub fn is_valid(self) -> bool {
+        let least = if matches!(self, Self::Energy(_)) { 1e-12 } else { 1e-6 };
+        (least..1.0).contains(&self.threshold())
+    }
+
+    /// Error of one indicatrix in the criterion's own measure; 0 for a dark one.
+    pub fn error(self, weights: &[f64], given: &[f64], back: &[f64]) -> f64 {
+        match self {
+            Self::Misplaced(_) => {
+                let tau: f64 = weights.iter().zip(given).map(|(w, f)| w * f).sum();
+                let moved: f64 = weights.iter().zip(given.iter().zip(back)).map(|(w, (f, b))| w * (f - b).abs()).sum();
+                if tau > 0.0 { 0.5 * moved / tau } else { 0.0 }
+            }
+            Self::Rms(_) | Self::Energy(_) => {
+                let all: f64 = weights.iter().zip(given).map(|(w, f)| w * f * f).sum();
+                let off: f64 =
+                    weights.iter().zip(given.iter().zip(back)).map(|(w, (f, b))| w * (f - b) * (f - b)).sum();
+                let energy = if all > 0.0 { off / all } else { 0.0 };
+                if matches!(self, Self::Energy(_)) { energy } else { energy.sqrt() }
+            }
+        }
+    }
+}
+
+/// Quantised coefficients of one indicatrix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuantisedRow {
+    /// ∫f cosθ dω, kept as it is.
+    pub tau: f64,
+    /// log₂ of the step in sixteenths.
+    pub step: i16,
+    /// A whole number a coefficient; the first, which stands for τ, is 0.
+    pub levels: Vec<i32>,
+}
+
+/// Steps an octave.
+const STEPS: f64 = 16.0;
+/// Least magnitude that is not dropped, in steps. Above one half: what is nearly dropped costs more than it gives.
+const DEAD_ZONE: f64 = 0.62;
+/// Largest magnitude in steps.
+const LARGEST: f64 = 16_777_216.0;
+
+/// The step of a number of sixteenths of an octave.
+pub(crate) fn step_of(number: i16) -> f64 {
+    (f64::from(number) / STEPS).exp2()
+}
+
+/// How steps follow the support of a wavelet: step · (W/W_all)^−β. With β = 0 all coefficients have the same error, which
+/// is best for a square norm. Misplaced flux forgives large errors on small places.
+pub(crate) fn step_factors(transform: &Transform, exponent: f64) -> Vec<f64> {
+    let all = transform.weight();
+    transform.supports().into_iter().map(|support| (support / all).powf(-exponent)).collect()
+}
+
+impl QuantisedRow {
+    /// Rounds coefficients to whole steps.
+    pub(crate) fn new(tau: f64, coefficients: &[f64], factors: &[f64], step: i16) -> Self {
+        let unit = step_of(step);
+        let level = |(c, factor): (&f64, &f64)| {
+            let x = c / (unit * factor);
+            let magnitude = if x.abs() < DEAD_ZONE { 0.0 } else { x.abs().round().clamp(1.0, LARGEST) };
+            magnitude.copysign(x) as i32
+        };
+        let mut levels: Vec<i32> = coefficients.iter().zip(factors).map(level).collect();
+        levels[0] = 0;
+        Self { tau, step, levels }
+    }
+
+    /// Numbers that differ from 0, τ among them.
+    pub fn count(&self) -> usize {
+        usize::from(self.tau != 0.0) + self.levels.iter().filter(|level| **level != 0).count()
+    }
+
+    /// Coefficients in their unit.
+    pub(crate) fn coefficients(&self, transform: &Transform, factors: &[f64]) -> Vec<f64> {
+        let unit = step_of(self.step);
+        let mut out: Vec<f64> =
+            self.levels.iter().zip(factors).map(|(&level, factor)| f64::from(level) * unit * factor).collect();
+        out[0] = self.tau / transform.weight().sqrt();
+        out
+    }
+
+    /// The indicatrix: nothing negative, and with its τ to rounding. Also the share of cells that were negative before.
+    pub(crate) fn restore(&self, transform: &Transform, factors: &[f64], weights: &[f64]) -> (Vec<f64>, f64) {
+        if self.tau <= 0.0 {
+            return (vec![0.0; transform.len()], 0.0);
+        }
+        let mut values = transform.inverse(&self.coefficients(transform, factors));
+        let mut negative = 0;
+        let mut flux = 0.0;
+        for (value, weight) in values.iter_mut().zip(weights) {
+            if *value < 0.0 {
+                *value = 0.0;
+                negative += 1;
+            }
+            flux += weight * *value;
+        }
+        let scale = self.tau / flux;
+        if scale.is_finite() && scale > 0.0 {
+            values.iter_mut().for_each(|value| *value *= scale);
+        } else {
+            // Only from coefficients that no data has: so large that τ drowns in their rounding.
+            values.fill(self.tau / transform.weight());
+        }
+        (values, f64::from(negative) / transform.len() as f64)
+    }
+}
+
+/// The coarsest quantisation that keeps the criterion; a dark indicatrix has no coefficients.
+pub(crate) fn quantise(
+    transform: &Transform,
+    factors: &[f64],
+    weights: &[f64],
+    given: &[f64],
+    criterion: Criterion,
+) -> QuantisedRow {
+    let tau: f64 = weights.iter().zip(given).map(|(w, f)| w * f).sum();
+    let coefficients = transform.forward(given);
+    let largest = coefficients[1..].iter().zip(&factors[1..]).map(|(c, f)| c.abs() / f).fold(0.0, f64::max);
+    if tau <= 0.0 || largest <= 0.0 {
+        return QuantisedRow { tau, step: 0, levels: vec![0; given.len()] };
+    }
+    let fits = |step: i16| {
+        let row = QuantisedRow::new(tau, &coefficients, factors, step);
+        let (back, _) = row.restore(transform, factors, weights);
+        (criterion.error(weights, given, &back) <= criterion.threshold()).then_some(row)
+    };
+    // From "all dropped" down to what 24 bits hold.
+    let top = ((2.0 * largest).log2() * STEPS).ceil().clamp(-2800.0, 3200.0) as i16;
+    let floor = top - 23 * STEPS as i16;
+    let (mut low, mut high) = (floor, top);
+    let mut best = None;
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        match fits(middle) {
+            Some(row) => (low, best) = (middle, Some(row)),
+            None => high = middle,
+        }
+    }
+    best.unwrap_or_else(|| QuantisedRow::new(tau, &coefficients, factors, floor))
+}

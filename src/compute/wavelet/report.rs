@@ -1,0 +1,70 @@
+//! What the compact form of a dataset saves and what it costs.
+
+use super::compact::CompactRows;
+use super::quantise::Criterion;
+
+/// Saved numbers and errors of all indicatrices of one function. Dark ones (τ = 0) come back as they are and are left
+/// out of means.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CompactReport {
+    /// Indicatrices.
+    pub rows: usize,
+    /// Emergent cells of each.
+    pub cells: usize,
+    /// Numbers kept: coefficients that are not 0, and one τ a row.
+    pub numbers: usize,
+    /// √(∫(f̃ − f)² / ∫f²) over all rows together.
+    pub rms: f64,
+    /// The same for the worst row.
+    pub rms_worst: f64,
+    /// Largest |f̃ − f| of any cell over the largest f of its row.
+    pub largest: f64,
+    /// ½∫|f̃ − f| cosθ dω / τ, mean of the rows.
+    pub misplaced: f64,
+    /// The same for the worst row.
+    pub misplaced_worst: f64,
+    /// Largest |τ̃ − τ| / τ.
+    pub tau_error: f64,
+    /// Share of cells that were negative before clamping, mean of the rows.
+    pub negative: f64,
+}
+
+impl CompactReport {
+    /// Compares rows with what they were made of; `row` gives the latter.
+    pub fn new(compact: &CompactRows, row: impl Fn(usize) -> Vec<f64>) -> Self {
+        let weights = compact.basis().projected_solid_angles();
+        let mut report =
+            Self { rows: compact.len(), cells: weights.len(), numbers: compact.numbers(), ..Self::default() };
+        let (mut off, mut all, mut lit) = (0.0, 0.0, 0.0_f64);
+        for index in 0..compact.len() {
+            let given = row(index);
+            let (back, negative) = compact.restored(index);
+            let sum = |f: &dyn Fn(usize) -> f64| weights.iter().enumerate().map(|(k, w)| w * f(k)).sum::<f64>();
+            let (tau, tau_back) = (sum(&|k| given[k]), sum(&|k| back[k]));
+            if tau <= 0.0 {
+                continue;
+            }
+            lit += 1.0;
+            off += sum(&|k| (back[k] - given[k]).powi(2));
+            all += sum(&|k| given[k].powi(2));
+            let misplaced = Criterion::ARCHIVE.error(&weights, &given, &back);
+            report.misplaced += misplaced;
+            report.misplaced_worst = report.misplaced_worst.max(misplaced);
+            report.rms_worst = report.rms_worst.max(Criterion::Rms(1e-2).error(&weights, &given, &back));
+            let peak = given.iter().copied().fold(0.0, f64::max);
+            let largest = given.iter().zip(&back).map(|(g, b)| (g - b).abs()).fold(0.0, f64::max);
+            report.largest = report.largest.max(largest / peak);
+            report.tau_error = report.tau_error.max((tau_back - tau).abs() / tau);
+            report.negative += negative;
+        }
+        report.rms = if all > 0.0 { (off / all).sqrt() } else { 0.0 };
+        report.misplaced /= lit.max(1.0);
+        report.negative /= lit.max(1.0);
+        report
+    }
+
+    /// Values given for every number kept.
+    pub fn ratio(&self) -> f64 {
+        (self.rows * self.cells) as f64 / self.numbers.max(1) as f64
+    }
+}

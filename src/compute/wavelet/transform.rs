@@ -1,0 +1,393 @@
+//! The orthonormal transform: multiwavelets with weights on a tree of cells.
+//!
+//! Every group of cells keeps as many *scaling functions* as the chosen [`Order`] has polynomials, orthonormal under
+//! Σ w f g with w = projected solid angle; what they cannot express of the functions of the groups inside is left to
+//! *wavelets*. With the constant alone this is the weighted Haar transform (Schröder and Sweldens 1995; SOHO of Lessig
+//! and Fiume 2008 for triangles). With x, y, z of the direction as well, wavelets vanish on everything that is linear
+//! in the direction (Alpert 1993, here on points of arbitrary weight). The first scaling function is the constant, so
+//! that one coefficient holds τ, whatever happens to the others.
+
+use super::hierarchy::{Group, Hierarchy};
+use glam::DVec3;
+
+/// What a group of cells expresses without wavelets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// Constants: Haar.
+    Constant,
+    /// Functions linear in the direction: 1, x, y, z.
+    Linear,
+    /// Functions quadratic in the direction, nine of them on the sphere.
+    Quadratic,
+}
+
+impl Order {
+    /// Number of its polynomials.
+    pub const fn functions(self) -> usize {
+        match self {
+            Self::Constant => 1,
+            Self::Linear => 4,
+            Self::Quadratic => 9,
+        }
+    }
+}
+
+/// One group: an orthonormal matrix from what its parts keep to what it keeps and its wavelets.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Block {
+    /// Generations from the root.
+    pub level: u32,
+    /// The block that it is part of; itself for the root.
+    pub parent: u32,
+    /// First block inside, and how many; none: its parts are cells.
+    pub first_child: u32,
+    pub children: u32,
+    /// ∫cosθ dω of all its cells. \[sr\]
+    pub weight: f64,
+    /// Where its wavelets' coefficients begin.
+    pub wavelets: u32,
+    inputs: u32,
+    kept: u32,
+    input_at: u32,
+    kept_at: u32,
+    matrix_at: usize,
+}
+
+impl Block {
+    /// Number of its wavelets.
+    pub fn wavelet_count(&self) -> usize {
+        (self.inputs - self.kept) as usize
+    }
+}
+
+/// The transform for one tree of cells.
+#[derive(Debug, Clone)]
+pub struct Transform {
+    root_weight: Vec<f64>,
+    /// Cells in the order of the tree, with the root of the weight of each.
+    order: Vec<u32>,
+    blocks: Vec<Block>,
+    matrices: Vec<f64>,
+    kept: usize,
+}
+
+/// A column that keeps less than this of its length after what is already there was taken away is no new function.
+const INDEPENDENT: f64 = 1e-6;
+
+/// Powers of x, y, z: those of the orders, then one degree more. The wavelets follow them as far as they go, which
+/// gathers what is smooth in few of them. On the sphere z² is no function of its own.
+const POWERS: [[i32; 3]; 16] = [
+    [0, 0, 0],
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+    [2, 0, 0],
+    [1, 1, 0],
+    [0, 2, 0],
+    [1, 0, 1],
+    [0, 1, 1],
+    [3, 0, 0],
+    [2, 1, 0],
+    [1, 2, 0],
+    [0, 3, 0],
+    [2, 0, 1],
+    [1, 1, 1],
+    [0, 2, 1],
+];
+
+impl Transform {
+    /// Prepares the matrices.
+    pub fn new(hierarchy: &Hierarchy, order: Order) -> Self {
+        let mut builder = Builder {
+            hierarchy,
+            functions: order.functions(),
+            order: Vec::with_capacity(hierarchy.cells.len()),
+            groups: Vec::new(),
+        };
+        builder.number(&hierarchy.root);
+        let root_weight = hierarchy.cells.iter().map(|cell| cell.weight.sqrt()).collect();
+        builder.finish(root_weight)
+    }
+
+    /// Number of cells, and of coefficients.
+    pub fn len(&self) -> usize {
+        self.root_weight.len()
+    }
+
+    /// True without cells; never for a hierarchy of a basis.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Blocks, coarse to fine; parents before their parts.
+    pub(crate) fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// Coefficients that are no wavelets: what the root keeps. The first is the constant's.
+    pub fn root_count(&self) -> usize {
+        self.blocks.first().map_or(0, |root| root.kept as usize)
+    }
+
+    /// Σ w of all cells. \[sr\]
+    pub fn weight(&self) -> f64 {
+        self.blocks.first().map_or(0.0, |root| root.weight)
+    }
+
+    /// ∫cosθ dω of the group to which each coefficient belongs. \[sr\]
+    pub fn supports(&self) -> Vec<f64> {
+        let mut supports = vec![self.weight(); self.len()];
+        for block in &self.blocks {
+            let from = block.wavelets as usize;
+            supports[from..from + block.wavelet_count()].fill(block.weight);
+        }
+        supports
+    }
+
+    /// Coefficients of a function given by its cell means; Σ w f² = Σ c².
+    pub fn forward(&self, values: &[f64]) -> Vec<f64> {
+        assert_eq!(values.len(), self.len(), "one value a cell");
+        let leaves: Vec<f64> =
+            self.order.iter().map(|&cell| values[cell as usize] * self.root_weight[cell as usize]).collect();
+        let mut kept = vec![0.0; self.kept];
+        let mut coefficients = vec![0.0; self.len()];
+        for (index, block) in self.blocks.iter().enumerate().rev() {
+            let (n, m) = (block.inputs as usize, block.kept as usize);
+            let matrix = &self.matrices[block.matrix_at..block.matrix_at + n * n];
+            let from = block.input_at as usize;
+            let (head, tail) = kept.split_at_mut(if block.children == 0 { 0 } else { from });
+            let input = if block.children == 0 { &leaves[from..from + n] } else { &tail[..n] };
+            let dot =
+                |row: usize| -> f64 { matrix[row * n..(row + 1) * n].iter().zip(input).map(|(a, b)| a * b).sum() };
+            let wavelets = block.wavelets as usize;
+            for row in m..n {
+                coefficients[wavelets + row - m] = dot(row);
+            }
+            let outputs: Vec<f64> = (0..m).map(dot).collect();
+            let at = block.kept_at as usize;
+            if block.children == 0 { &mut tail[at..at + m] } else { &mut head[at..at + m] }.copy_from_slice(&outputs);
+            if index == 0 {
+                coefficients[..m].copy_from_slice(&outputs);
+            }
+        }
+        coefficients
+    }
+
+    /// Cell means of a function given by its coefficients.
+    pub fn inverse(&self, coefficients: &[f64]) -> Vec<f64> {
+        assert_eq!(coefficients.len(), self.len(), "one coefficient a cell");
+        let mut leaves = vec![0.0; self.len()];
+        let mut kept = vec![0.0; self.kept];
+        let root = self.root_count();
+        kept[..root].copy_from_slice(&coefficients[..root]);
+        for block in &self.blocks {
+            let (n, m) = (block.inputs as usize, block.kept as usize);
+            let matrix = &self.matrices[block.matrix_at..block.matrix_at + n * n];
+            let from = block.input_at as usize;
+            let (head, tail) = kept.split_at_mut(if block.children == 0 { self.kept } else { from });
+            let output = if block.children == 0 { &mut leaves[from..from + n] } else { &mut tail[..n] };
+            let at = block.kept_at as usize;
+            let wavelets = block.wavelets as usize;
+            let inputs = head[at..at + m].iter().chain(&coefficients[wavelets..wavelets + n - m]);
+            for (row, &c) in inputs.enumerate() {
+                if c != 0.0 {
+                    output.iter_mut().zip(&matrix[row * n..(row + 1) * n]).for_each(|(o, q)| *o += c * q);
+                }
+            }
+        }
+        let mut values = vec![0.0; self.len()];
+        for (&cell, leaf) in self.order.iter().zip(leaves) {
+            values[cell as usize] = leaf / self.root_weight[cell as usize];
+        }
+        values
+    }
+}
+
+/// A group while the tree is numbered.
+struct Numbered {
+    level: u32,
+    parent: u32,
+    /// Range of `order`.
+    cells: [usize; 2],
+    children: Vec<u32>,
+}
+
+struct Builder<'a> {
+    hierarchy: &'a Hierarchy,
+    functions: usize,
+    order: Vec<u32>,
+    groups: Vec<Numbered>,
+}
+
+impl Builder<'_> {
+    /// Breadth first, so that the parts of a group stand side by side.
+    fn number(&mut self, root: &Group) {
+        fn cells(group: &Group, out: &mut Vec<u32>) {
+            match group {
+                Group::Cells(list) => out.extend(list),
+                Group::Groups(list) => list.iter().for_each(|inner| cells(inner, out)),
+            }
+        }
+        cells(root, &mut self.order);
+        let mut queue = std::collections::VecDeque::from([(root, 0, 0, 0)]);
+        while let Some((group, level, parent, first)) = queue.pop_front() {
+            let index = self.groups.len() as u32;
+            let mut count = 0;
+            let mut from = first;
+            if let Group::Groups(list) = group {
+                for inner in list {
+                    queue.push_back((inner, level + 1, index, from));
+                    from += size(inner);
+                }
+                count = from - first;
+            } else if let Group::Cells(list) = group {
+                count = list.len();
+            }
+            if index > 0 {
+                self.groups[parent as usize].children.push(index);
+            }
+            self.groups.push(Numbered { level, parent, cells: [first, first + count], children: Vec::new() });
+        }
+    }
+
+    fn finish(self, root_weight: Vec<f64>) -> Transform {
+        let count = self.groups.len();
+        // Scaling functions of every group on its cells, one vector a function; dropped when the parent has its own.
+        let mut functions: Vec<Vec<Vec<f64>>> = vec![Vec::new(); count];
+        let mut matrices: Vec<Vec<Vec<f64>>> = vec![Vec::new(); count];
+        for index in (0..count).rev() {
+            let group = &self.groups[index];
+            let cells = &self.order[group.cells[0]..group.cells[1]];
+            let column = self.columns(cells, &root_weight);
+            // Coordinates of a function on the cells in what the parts keep.
+            let project = |column: &[f64]| -> Vec<f64> {
+                if group.children.is_empty() {
+                    return column.to_vec();
+                }
+                let mut out = Vec::new();
+                for &child in &group.children {
+                    let range = self.groups[child as usize].cells;
+                    let part = &column[range[0] - group.cells[0]..range[1] - group.cells[0]];
+                    out.extend(functions[child as usize].iter().map(|f| dot(f, part)));
+                }
+                out
+            };
+            let n = match group.children.as_slice() {
+                [] => cells.len(),
+                children => children.iter().map(|&child| functions[child as usize].len()).sum(),
+            };
+            let mut rows: Vec<Vec<f64>> = Vec::with_capacity(n);
+            let mut kept = 0;
+            for (k, power) in POWERS.iter().enumerate() {
+                if rows.len() < n
+                    && let Some(row) = independent(project(&column(power)), &rows)
+                {
+                    rows.push(row);
+                    kept += usize::from(k < self.functions);
+                }
+            }
+            for k in 0..n {
+                if rows.len() < n {
+                    let mut unit = vec![0.0; n];
+                    unit[k] = 1.0;
+                    rows.extend(independent(unit, &rows));
+                }
+            }
+            let scaling = rows[..kept].iter().map(|row| {
+                let mut on_cells = vec![0.0; cells.len()];
+                if group.children.is_empty() {
+                    on_cells.copy_from_slice(row);
+                } else {
+                    let mut at = 0;
+                    for &child in &group.children {
+                        let range = self.groups[child as usize].cells;
+                        let place = &mut on_cells[range[0] - group.cells[0]..range[1] - group.cells[0]];
+                        for f in &functions[child as usize] {
+                            place.iter_mut().zip(f).for_each(|(o, f)| *o += row[at] * f);
+                            at += 1;
+                        }
+                    }
+                }
+                on_cells
+            });
+            functions[index] = scaling.collect();
+            for &child in &group.children {
+                // The lengths are still needed, the values are not.
+                functions[child as usize].iter_mut().for_each(|f| *f = Vec::new());
+            }
+            matrices[index] = rows;
+        }
+        self.lay_out(root_weight, &functions, matrices)
+    }
+
+    /// Polynomials about the group's middle, times √w, by their [`POWERS`].
+    fn columns(&self, cells: &[u32], root_weight: &[f64]) -> impl Fn(&[i32; 3]) -> Vec<f64> {
+        let points = &self.hierarchy.cells;
+        let weight: f64 = cells.iter().map(|&cell| points[cell as usize].weight).sum();
+        let middle: DVec3 =
+            cells.iter().map(|&c| points[c as usize].centre * points[c as usize].weight).sum::<DVec3>() / weight;
+        let about: Vec<(f64, DVec3)> =
+            cells.iter().map(|&cell| (root_weight[cell as usize], points[cell as usize].centre - middle)).collect();
+        move |power| {
+            let value = |(root, d): &(f64, DVec3)| root * d.x.powi(power[0]) * d.y.powi(power[1]) * d.z.powi(power[2]);
+            about.iter().map(value).collect()
+        }
+    }
+
+    fn lay_out(self, root_weight: Vec<f64>, functions: &[Vec<Vec<f64>>], rows: Vec<Vec<Vec<f64>>>) -> Transform {
+        let mut blocks: Vec<Block> = Vec::with_capacity(self.groups.len());
+        let mut matrices = Vec::new();
+        let (mut kept_at, mut wavelets) = (0, functions.first().map_or(0, Vec::len) as u32);
+        for ((group, functions), rows) in self.groups.iter().zip(functions).zip(&rows) {
+            let kept = functions.len() as u32;
+            let cells = &self.order[group.cells[0]..group.cells[1]];
+            blocks.push(Block {
+                level: group.level,
+                parent: group.parent,
+                first_child: group.children.first().copied().unwrap_or_default(),
+                children: group.children.len() as u32,
+                weight: cells.iter().map(|&cell| self.hierarchy.cells[cell as usize].weight).sum(),
+                wavelets,
+                inputs: rows.len() as u32,
+                kept,
+                input_at: group.cells[0] as u32,
+                kept_at,
+                matrix_at: matrices.len(),
+            });
+            rows.iter().for_each(|row| matrices.extend(row));
+            kept_at += kept;
+            wavelets += rows.len() as u32 - kept;
+        }
+        for index in 0..blocks.len() {
+            if blocks[index].children > 0 {
+                blocks[index].input_at = blocks[blocks[index].first_child as usize].kept_at;
+            }
+        }
+        Transform { root_weight, order: self.order, blocks, matrices, kept: kept_at as usize }
+    }
+}
+
+fn size(group: &Group) -> usize {
+    match group {
+        Group::Cells(list) => list.len(),
+        Group::Groups(list) => list.iter().map(size).sum(),
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// What of a vector is orthogonal to the rows, of unit length; `None` when nothing is left.
+fn independent(mut vector: Vec<f64>, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let before = dot(&vector, &vector).sqrt();
+    // Twice is enough (Kahan, Parlett); a third time for columns that are almost dependent.
+    for _ in 0..3 {
+        for row in rows {
+            let c = dot(&vector, row);
+            vector.iter_mut().zip(row).for_each(|(v, r)| *v -= c * r);
+        }
+    }
+    let length = dot(&vector, &vector).sqrt();
+    (length > INDEPENDENT * before && length > 0.0).then(|| vector.into_iter().map(|v| v / length).collect())
+}

@@ -1,0 +1,368 @@
+//! Datasets in compact form, with what that changes in a room.
+//!
+//! The standard room is 4 × 6 × 3 m with a façade aperture of 4 × 2 m, its sill at 1 m, and 8 × 12 sensors at 0.85 m.
+//! Illuminances are direct ones, each incident direction standing for its cell: what is compared is two forms of the
+//! same data, not two ways between incident directions.
+
+use crate::compute::angle::Bearing;
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered};
+use crate::compute::direction::{Dir, Facade, Orientation, Surface};
+use crate::compute::room::aperture::Aperture;
+use crate::compute::room::direct::{Reception, Sensor};
+use crate::compute::sky::{Distribution, Frame, Outside, incident_illuminances};
+use crate::compute::wavelet::{CompactError, CompactReport, CompactRows, Criterion};
+use crate::formats::{compact_rows, dataset_blob};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// How a dataset is to be stored.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Storage {
+    /// Every value (rounded to f32 in the catalogue).
+    Lossless,
+    /// In compact form.
+    Compact(Criterion),
+}
+
+/// Datasets that take less than this without loss are kept without loss, unless told otherwise. \[bytes\]
+pub const LOSSLESS_BELOW: usize = 1 << 20;
+
+impl Storage {
+    /// What is done when nobody chooses: nothing is lost of what is small.
+    pub fn default_for(dataset: &Dataset) -> Self {
+        if dataset_blob::encode(dataset).len() < LOSSLESS_BELOW {
+            Self::Lossless
+        } else {
+            Self::Compact(Criterion::ARCHIVE)
+        }
+    }
+}
+
+/// Change of light in the standard room under one outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoomEffect {
+    /// Which outside.
+    pub outside: String,
+    /// Share of the flux of the luminous-intensity distribution that goes elsewhere: ½Σ|ΔΦ| / ΣΦ.
+    pub lid_misplaced: f64,
+    /// Σ|ΔE| / ΣE over the sensors.
+    pub illuminance: f64,
+    /// Largest |ΔE| / max(E, 1 % of the mean).
+    pub illuminance_worst: f64,
+    /// Mean illuminance of the sensors before. \[lx\]
+    pub mean_illuminance: f64,
+}
+
+/// One function of a dataset in compact form.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CompactedFunction {
+    /// Which function, e.g. `visible transmission_front`.
+    pub name: String,
+    /// Numbers and errors.
+    pub report: CompactReport,
+    /// Bytes without loss: f32, byte planes, zstd.
+    pub bytes_lossless: usize,
+    /// Bytes in compact form.
+    pub bytes: usize,
+    /// Bytes in memory while in use.
+    pub bytes_in_use: usize,
+    /// What it changes in the standard room; for transmission of visible light from outside.
+    pub effects: Vec<RoomEffect>,
+}
+
+impl CompactedFunction {
+    /// Bytes of plain f32 values for every byte kept.
+    pub fn byte_ratio(&self) -> f64 {
+        (4 * self.report.rows * self.report.cells) as f64 / self.bytes.max(1) as f64
+    }
+}
+
+/// A dataset in compact form, and what became of each of its functions.
+#[derive(Debug, Clone)]
+pub struct Compacted {
+    /// The dataset; functions that have no compact form (closed forms, tensor trees) are as they were.
+    pub dataset: Dataset,
+    /// Those in compact form.
+    pub functions: Vec<CompactedFunction>,
+}
+
+/// Indicatrices that can be compact: on cells or at single directions.
+#[derive(Clone, Copy)]
+enum Data<'a> {
+    Cells(&'a CellMatrix),
+    Directions(&'a Indicatrices),
+}
+
+impl<'a> Data<'a> {
+    fn of(btdf: &'a Btdf) -> Option<Self> {
+        match &btdf.scattered {
+            Some(Scattered::Cells(matrix)) => Some(Self::Cells(matrix)),
+            Some(Scattered::Directions(data)) => Some(Self::Directions(data)),
+            _ => None,
+        }
+    }
+
+    fn compacted(self, criterion: Criterion) -> Result<(Scattered, Arc<CompactRows>), CompactError> {
+        let taken = |rows: Option<&Arc<CompactRows>>| Arc::clone(rows.expect("the compact form was just made"));
+        Ok(match self {
+            Self::Cells(matrix) => {
+                let made = matrix.compacted(criterion)?;
+                let rows = taken(made.compact_rows());
+                (Scattered::Cells(Box::new(made)), rows)
+            }
+            Self::Directions(data) => {
+                let made = data.compacted(criterion)?;
+                let rows = taken(made.compact_rows());
+                (Scattered::Directions(std::sync::Arc::new(made)), rows)
+            }
+        })
+    }
+
+    fn row(self, index: usize) -> Cow<'a, [f64]> {
+        match self {
+            Self::Cells(matrix) => matrix.row(index),
+            Self::Directions(data) => data.row(index),
+        }
+    }
+
+    fn emergent(self) -> &'a RingBasis {
+        match self {
+            Self::Cells(matrix) => matrix.emergent(),
+            Self::Directions(data) => data.emergent(),
+        }
+    }
+
+    /// Incident cells, each with the row that stands for it.
+    fn incident(self) -> (RingBasis, Vec<Option<usize>>) {
+        match self {
+            Self::Cells(matrix) => (matrix.incident().clone(), (0..matrix.incident().len()).map(Some).collect()),
+            Self::Directions(data) => {
+                let cells = data.lattice().cloned().unwrap_or_else(|| RingBasis::equal_area(40));
+                let rows = cells.cells().map(|cell| data.standing_for(cell.centre())).collect();
+                (cells, rows)
+            }
+        }
+    }
+
+    fn standing_for(self, d: Dir<Facade>) -> Option<usize> {
+        match self {
+            Self::Cells(matrix) => matrix.incident().index(d),
+            Self::Directions(data) => data.standing_for(d),
+        }
+    }
+
+    fn is_compact(self) -> bool {
+        match self {
+            Self::Cells(matrix) => matrix.compact_rows().is_some(),
+            Self::Directions(data) => data.compact_rows().is_some(),
+        }
+    }
+}
+
+/// Brings every function on cells or at single directions into compact form.
+///
+/// # Errors
+/// Values that have no compact form; a threshold out of range.
+pub fn compact(dataset: &Dataset, criterion: Criterion) -> Result<Compacted, CompactError> {
+    let mut made = dataset.clone();
+    let mut functions = Vec::new();
+    compact_band("visible", &dataset.visible, &mut made.visible, criterion, &mut functions)?;
+    if let (Some(given), Some(band)) = (&dataset.solar, &mut made.solar) {
+        compact_band("solar", given, band, criterion, &mut functions)?;
+    }
+    if dataset.derived.contains(&Component::TransmissionBack) {
+        // What was derived by reciprocity is derived again, and so takes no place.
+        turn_back(&mut made.visible, &mut functions);
+        made.solar.iter_mut().for_each(|band| turn_back(band, &mut Vec::new()));
+    }
+    Ok(Compacted { dataset: made, functions })
+}
+
+fn turn_back(band: &mut Band, functions: &mut Vec<CompactedFunction>) {
+    if let Some(Btdf { regular, scattered: Some(Scattered::Cells(front)) }) = &band.transmission_front {
+        let scattered = Some(Scattered::Cells(Box::new(front.reversed())));
+        band.transmission_back = Some(Btdf { regular: regular.clone(), scattered });
+        functions.retain(|function| !function.name.ends_with(Component::TransmissionBack.key()));
+    }
+}
+
+fn compact_band(
+    name: &str,
+    given: &Band,
+    made: &mut Band,
+    criterion: Criterion,
+    functions: &mut Vec<CompactedFunction>,
+) -> Result<(), CompactError> {
+    for component in given.components() {
+        let Some(btdf) = given.get(component) else { continue };
+        let Some(data) = Data::of(btdf).filter(|data| !data.is_compact()) else { continue };
+        let (scattered, rows) = data.compacted(criterion)?;
+        let back = Btdf { regular: btdf.regular.clone(), scattered: Some(scattered) };
+        let effects = match Data::of(&back) {
+            Some(after) if name == "visible" && component == Component::TransmissionFront => room_effects(data, after),
+            _ => Vec::new(),
+        };
+        functions.push(CompactedFunction {
+            name: format!("{name} {}", component.key()),
+            report: CompactReport::new(&rows, |index| data.row(index).into_owned()),
+            bytes_lossless: dataset_blob::lossless_bytes(rows.len(), |index| data.row(index).into_owned()),
+            bytes: compact_rows::write(&rows).len(),
+            bytes_in_use: rows.bytes_in_use(),
+            effects,
+        });
+        made.set(component, back);
+    }
+    Ok(())
+}
+
+/// The dataset as it is to be stored, with what is to be said about it.
+///
+/// # Errors
+/// As [`compact`].
+pub fn stored_as(dataset: &Dataset, storage: Storage) -> Result<Dataset, CompactError> {
+    let Storage::Compact(criterion) = storage else { return Ok(dataset.clone()) };
+    let Compacted { mut dataset, functions } = compact(dataset, criterion)?;
+    dataset.findings.extend(functions.iter().map(|function| finding(function, criterion)));
+    Ok(dataset)
+}
+
+/// The dataset as it is stored when nobody chooses. Data that have no compact form are kept without loss, and that is
+/// said.
+pub fn stored_by_default(dataset: &Dataset) -> Dataset {
+    stored_as(dataset, Storage::default_for(dataset)).unwrap_or_else(|error| {
+        let mut kept = dataset.clone();
+        kept.findings.push(Finding::info("lossless-storage", format!("Kept without loss: {error}.")));
+        kept
+    })
+}
+
+fn finding(function: &CompactedFunction, criterion: Criterion) -> Finding {
+    let report = &function.report;
+    let worst = function.effects.iter().map(|effect| effect.illuminance).fold(0.0, f64::max);
+    let room = if function.effects.is_empty() {
+        String::new()
+    } else {
+        format!("; illuminance in the standard room changes by {:.2} % or less on average", 100.0 * worst)
+    };
+    Finding::info(
+        "compact-storage",
+        format!(
+            "{} is kept in compact form ({}): {:.1} values a number, {:.1} bytes a byte; misplaced flux {:.2} % on \
+             average and {:.2} % at worst, rms {:.2} %, τ kept exactly{room}.",
+            function.name.replace('_', " "),
+            criterion_words(criterion),
+            report.ratio(),
+            function.byte_ratio(),
+            100.0 * report.misplaced,
+            100.0 * report.misplaced_worst,
+            100.0 * report.rms,
+        ),
+    )
+}
+
+/// A criterion in words.
+pub fn criterion_words(criterion: Criterion) -> String {
+    let percent = 100.0 * criterion.threshold();
+    match criterion {
+        Criterion::Misplaced(_) => format!("at most {percent} % of the flux misplaced"),
+        Criterion::Rms(_) => format!("at most {percent} % rms"),
+        Criterion::Energy(e) => {
+            format!("at most {percent} % of the energy Σc² dropped, that is {:.3} % rms", 100.0 * e.sqrt())
+        }
+    }
+}
+
+/// The standard room's aperture.
+const APERTURE: Aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.0, 0.0, 1.0), size: [4.0, 2.0] };
+/// Suns: altitude and bearing from the façade's normal. \[°\]
+const SUNS: [(f64, f64); 3] = [(20.0, 0.0), (45.0, 30.0), (60.0, -40.0)];
+/// Illuminance of a plane that faces the sun. \[lx\]
+const DIRECT_NORMAL: f64 = 80_000.0;
+
+fn sensors() -> Vec<Sensor> {
+    let at = |k: usize, count: usize, size: f64| (k as f64 + 0.5) * size / count as f64;
+    let place = |k: usize| DVec3::new(at(k % 8, 8, 4.0), at(k / 8, 12, 6.0), 0.85);
+    (0..96).map(|k| Sensor { position: place(k), normal: DVec3::Z }).collect()
+}
+
+/// Illuminances of the standard room's sensors from emergent luminances on cells. \[lx\]
+#[derive(Debug)]
+pub struct StandardRoom {
+    receptions: Vec<Reception>,
+    weights: Vec<f64>,
+}
+
+impl StandardRoom {
+    /// For light on the cells of a basis.
+    pub fn new(basis: &RingBasis) -> Self {
+        let receptions = sensors().par_iter().map(|sensor| Reception::new(sensor, &APERTURE, Some(basis))).collect();
+        Self { receptions, weights: basis.projected_solid_angles() }
+    }
+
+    /// Illuminance of each of the 8 × 12 sensors. \[lx\]
+    pub fn illuminances(&self, luminance: &[f64]) -> Vec<f64> {
+        let at = |reception: &Reception| reception.cells.iter().zip(luminance).map(|(w, l)| w * l).sum();
+        self.receptions.iter().map(at).collect()
+    }
+
+    /// Compares two emergent luminances.
+    pub fn effect(&self, outside: String, before: &[f64], after: &[f64]) -> RoomEffect {
+        let flux: f64 = self.weights.iter().zip(before).map(|(w, l)| w * l).sum();
+        let moved: f64 = self.weights.iter().zip(before.iter().zip(after)).map(|(w, (b, a))| w * (b - a).abs()).sum();
+        let (e, e_after) = (self.illuminances(before), self.illuminances(after));
+        let total: f64 = e.iter().sum();
+        let mean = total / e.len() as f64;
+        let changes = || e.iter().zip(&e_after).map(|(b, a)| (a - b).abs());
+        let share = |part: f64, all: f64| if all > 0.0 { part / all } else { 0.0 };
+        RoomEffect {
+            outside,
+            lid_misplaced: share(0.5 * moved, flux),
+            illuminance: share(changes().sum(), total),
+            illuminance_worst: changes().zip(&e).map(|(c, e)| share(c, e.max(0.01 * mean))).fold(0.0, f64::max),
+            mean_illuminance: mean,
+        }
+    }
+}
+
+/// Illuminance that each row of a dataset stands for, under the overcast sky (CIE type 16, 10 klx, ground 0.2) and
+/// three suns. \[lx\] Rows, illuminances.
+pub fn standard_outsides(
+    incident: &RingBasis,
+    row_of_cell: &[Option<usize>],
+    row_of: impl Fn(Dir<Facade>) -> Option<usize>,
+) -> Vec<(String, Vec<(usize, f64)>)> {
+    let orientation = Orientation::new(Bearing::from_degrees(180.0));
+    let overcast = Distribution::cie(16, Dir::from_unit(DVec3::Z)).expect("type 16 is the traditional overcast sky");
+    let overcast = Outside::new(overcast, 10_000.0).and_then(|sky| sky.with_ground(0.2, 0.0));
+    let overcast = overcast.expect("10 klx over ground of 0.2 is an outside");
+    let frame = Frame::of_aperture(orientation, Surface::Facade);
+    let illuminance = incident_illuminances(&overcast, incident, &frame);
+    let rows = row_of_cell.iter().zip(illuminance).filter_map(|(row, e)| row.map(|row| (row, e.value)));
+    let mut out = vec![("overcast".to_owned(), rows.collect())];
+    for (altitude, aside) in SUNS {
+        let world = Dir::from_altitude_bearing(f64::to_radians(altitude), Bearing::from_degrees(180.0 + aside));
+        let direction = Surface::Facade.facade_dir(orientation.room_from_world(world));
+        let rows = row_of(direction).map(|row| (row, DIRECT_NORMAL * direction.vector().z));
+        out.push((format!("sun {altitude}° high, {aside}° aside"), rows.into_iter().collect()));
+    }
+    out
+}
+
+fn room_effects(before: Data<'_>, after: Data<'_>) -> Vec<RoomEffect> {
+    let room = StandardRoom::new(before.emergent());
+    let (cells, rows) = before.incident();
+    let luminance = |data: Data<'_>, light: &[(usize, f64)]| {
+        let mut sum = vec![0.0; data.emergent().len()];
+        for &(row, e) in light {
+            sum.iter_mut().zip(data.row(row).iter()).for_each(|(l, q)| *l += q * e);
+        }
+        sum
+    };
+    standard_outsides(&cells, &rows, |d| before.standing_for(d))
+        .into_iter()
+        .map(|(name, light)| room.effect(name, &luminance(before, &light), &luminance(after, &light)))
+        .collect()
+}
