@@ -162,9 +162,9 @@ impl<'a> Spreader<'a> {
             if footprint.distance(self.target.centre[cell], centre) > reach + 2.0 * self.target.solid[cell].sqrt() {
                 continue;
             }
-            *q = self.target.cell_mean(cell, directions, |d| {
-                points.iter().map(|&(p, flux)| flux * footprint.at(d, p, back)).sum()
-            });
+            *q = self
+                .target
+                .cell_mean(cell, directions, |d| points.iter().map(|&(p, flux)| flux * footprint.at(d, p, back)).sum());
         }
         out
     }
@@ -211,7 +211,7 @@ fn turn_of(response: DMat2) -> DMat2 {
 struct Footprint {
     kernel: Kernel,
     cos_reach: f64,
-    /// Furthest that it spreads: in angle when round, in direction cosines as a patch.
+    /// Furthest that it spreads: as a chord when round, in direction cosines as a patch.
     reach: f64,
     /// The patch's direction, its limits in sin²θ and half its width in azimuth.
     own: DVec2,
@@ -226,13 +226,14 @@ impl Footprint {
         let own = patch.centre().vector().truncate();
         let (inner, outer, half) = (limits[0].sqrt(), limits[1].sqrt(), 0.5 * patch.width);
         let corners = [inner, outer].map(|r| (own - r * DVec2::from_angle(patch.phi + half)).length());
+        let chord = |angle: f64| 2.0 * (0.5 * angle.min(PI)).sin();
         let reach = match kernel {
-            Kernel::Cone(angle) => angle,
-            Kernel::Gaussian(sigma) => 6.0 * sigma,
+            Kernel::Cone(angle) => chord(angle),
+            Kernel::Gaussian(sigma) => chord(6.0 * sigma),
             _ if patch.is_cap() => outer,
             _ => corners[0].max(corners[1]).max((own.length() - inner).abs()).max((outer - own.length()).abs()),
         };
-        let cos_reach = reach.min(PI).cos();
+        let cos_reach = if let Kernel::Cone(angle) = kernel { angle.min(PI).cos() } else { -1.0 };
         Self { kernel, cos_reach, reach, own, limits, axis: DVec2::from_angle(patch.phi), half }
     }
 
@@ -240,7 +241,7 @@ impl Footprint {
     fn distance(&self, a: DVec3, b: DVec3) -> f64 {
         match self.kernel {
             Kernel::Patch => (a - b).truncate().length(),
-            _ => a.cross(b).length().atan2(a.dot(b)),
+            _ => a.distance(b),
         }
     }
 

@@ -137,7 +137,8 @@ impl Lattice {
             _ => Some((cosine, place)),
         };
         let single = |p: usize| Place { triangle: None, vertices: [p; 3], weights: [1.0, 0.0, 0.0], beyond: 0.0 };
-        let vertices = (0..self.points.len()).filter(|p| Some(*p) != self.left_out).map(|p| (self.points[p].dot(d), single(p)));
+        let vertices =
+            (0..self.points.len()).filter(|p| Some(*p) != self.left_out).map(|p| (self.points[p].dot(d), single(p)));
         let on_edge = |&[p, q]: &[usize; 2]| {
             // Foot of the arc from d at right angles to the edge's great circle.
             let (a, b) = (self.points[p], self.points[q]);

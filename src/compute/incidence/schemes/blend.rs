@@ -61,11 +61,7 @@ impl Blend {
         }
         for copy in &recipe.copies {
             let from = model.lobes[copy.vertex][copy.lobe].centre;
-            blend.push(
-                Shape::Lobe(copy.vertex, copy.lobe),
-                DQuat::from_rotation_arc(from, copy.centre),
-                copy.flux,
-            );
+            blend.push(Shape::Lobe(copy.vertex, copy.lobe), DQuat::from_rotation_arc(from, copy.centre), copy.flux);
         }
         blend
     }

@@ -51,14 +51,8 @@ impl SunScheme {
     ];
 
     /// All but the automatic one.
-    pub const PLAIN: [Self; 6] = [
-        Self::Nearest,
-        Self::DisplacedNearest,
-        Self::Superposed,
-        Self::MatchedLobes,
-        Self::Responses,
-        Self::Transport,
-    ];
+    pub const PLAIN: [Self; 6] =
+        [Self::Nearest, Self::DisplacedNearest, Self::Superposed, Self::MatchedLobes, Self::Responses, Self::Transport];
 
     /// The word for it in scenes and on the command line.
     pub fn key(self) -> &'static str {
@@ -209,8 +203,7 @@ impl Schemes {
         let choices = self.choices();
         let mut blend = Blend::default();
         for own in SunScheme::PLAIN {
-            let share: f64 =
-                between.used.iter().filter(|(v, _)| choices.at_vertex(*v) == own).map(|(_, w)| w).sum();
+            let share: f64 = between.used.iter().filter(|(v, _)| choices.at_vertex(*v) == own).map(|(_, w)| w).sum();
             if share > 0.0 {
                 blend.add(&self.plain(own, &between), share);
             }
@@ -245,7 +238,7 @@ impl Schemes {
         Between::new(&self.model, &place, self.model.recipe(incident), incident.vector()).tau
     }
 
-    /// Share of the transmitted flux that a scheme is expected to misplace for an incident direction.
+    /// Share of the transmitted flux that a scheme is stated to misplace for an incident direction; continuous in it.
     pub fn predicted_error(&self, scheme: SunScheme, incident: Dir<Facade>) -> f64 {
         self.choices().predicted_error(scheme, &self.model.lattice.locate(incident))
     }

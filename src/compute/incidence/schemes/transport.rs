@@ -192,10 +192,7 @@ mod tests {
             if n == 0 {
                 return vec![vec![]];
             }
-            orders(n - 1)
-                .into_iter()
-                .flat_map(|o| (0..n).map(move |k| [&o[..k], &[n - 1], &o[k..]].concat()))
-                .collect()
+            orders(n - 1).into_iter().flat_map(|o| (0..n).map(move |k| [&o[..k], &[n - 1], &o[k..]].concat())).collect()
         }
         for _ in 0..20 {
             let cost: Vec<f64> = (0..36).map(|_| random()).collect();
