@@ -121,6 +121,9 @@ impl<'a> Spreader<'a> {
             self.normalise(&mut out, lobe.flux, lobe.centre);
             sum.iter_mut().zip(out).for_each(|(sum, q)| *sum += q);
         }
+        if model.base_flux[incident] <= 0.0 {
+            return sum;
+        }
         let base = model.base(incident);
         let mut out = match self.filter.kernel {
             kernel if !self.filter.sharp_only && kernel != Kernel::None => self.smoothed(kernel, &patch, &base),

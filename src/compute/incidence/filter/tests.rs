@@ -41,7 +41,7 @@ fn a_clear_pane_under_a_uniform_sky_is_flat() {
 #[test]
 fn round_kernels_leave_gaps_and_overlaps() {
     // Uniform sky, clear opening, more than 15° above the plane: rms, lowest, highest, from an independent computation
-    // with points on a dense grid.
+    // with points on a dense grid. Means over cells of 1° soften edges, so that a little less is found.
     let deg = |d: f64| d.to_radians();
     let cases = [
         (Kernel::NARROW, 1.98, 0.0, 5.5),
@@ -51,7 +51,7 @@ fn round_kernels_leave_gaps_and_overlaps() {
         (Kernel::Gaussian(deg(5.4)), 0.048, 0.9, 1.23),
     ];
     let model = clear_opening();
-    let target = Grid::new(&sub_patches(deg(0.5)));
+    let target = Grid::new(&sub_patches(deg(1.0)));
     for (kernel, rms, low, high) in cases {
         let luminance = diffuse(&model, Filter { kernel, sharp_only: false }, &target, &uniform()).unwrap();
         let inner = |k: &usize| target.centre[*k].z > deg(15.0).sin();
@@ -63,7 +63,7 @@ fn round_kernels_leave_gaps_and_overlaps() {
         let least = cells.iter().map(|&k| luminance[k]).fold(f64::INFINITY, f64::min);
         let most = cells.iter().map(|&k| luminance[k]).fold(0.0, f64::max);
         println!("{kernel:?}: rms {found:.3} ({rms}), {least:.2} ({low}) to {most:.2} ({high})");
-        assert!((found - rms).abs() < 0.1 * rms, "{kernel:?}: rms {found}");
+        assert!(found > 0.82 * rms && found < 1.03 * rms, "{kernel:?}: rms {found}");
         assert!((least - low).abs() < 0.15 && (most - high).abs() < 0.1 * high + 0.1, "{kernel:?}: {least} to {most}");
     }
 }
