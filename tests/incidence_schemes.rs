@@ -86,6 +86,14 @@ fn schemes_against_the_truth_between_the_directions() {
             truth / foretold.len() as f64,
             foretold.len()
         );
+        // What is stated holds nearly everywhere, and is no empty promise.
+        assert!(
+            10 * kept >= 8 * foretold.len(),
+            "{name}: stated too little in {} of {}",
+            foretold.len() - kept,
+            foretold.len()
+        );
+        assert!(name == "diffuser" || sum < 5.0 * truth, "{name}: stated {sum}, true {truth}");
         // The automatic choice is at least about as good as the default, and better than what the report had.
         let (auto, responses) = (mean(0), mean(5));
         assert!(auto < 1.15 * responses + 1e-3, "{name}: {auto} against {responses}");

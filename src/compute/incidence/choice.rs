@@ -362,7 +362,7 @@ impl Collector {
             *sum += flux;
         }
         let total: f64 = sums.iter().map(|(_, f)| f).sum();
-        sums.into_iter().filter(|(_, f)| *f > 0.0).map(|(at, f)| (at.normalize(), f / total)).collect()
+        sums.into_iter().filter(|(_, f)| *f > 0.0).map(|(at, f)| (at.normalize_or(DVec3::Z), f / total)).collect()
     }
 }
 

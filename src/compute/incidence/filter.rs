@@ -189,7 +189,7 @@ impl<'a> Spreader<'a> {
                 }
                 Offset::Angle(step) => {
                     let (x, y) = d.any_orthonormal_pair();
-                    let e = (*d + x * step.x + y * step.y).normalize();
+                    let e = (*d + x * step.x + y * step.y).normalize_or(*d);
                     if e.z > 0.0 { value(e) } else { 0.0 }
                 }
             });

@@ -37,7 +37,7 @@ pub(super) fn blend(schemes: &Schemes, between: &Between) -> Blend {
                 }
             }
             let turn = if to.length() > 1e-9 {
-                DQuat::from_rotation_arc(lobe.centre, to.normalize())
+                DQuat::from_rotation_arc(lobe.centre, to.normalize_or(lobe.centre))
             } else {
                 DQuat::IDENTITY
             };

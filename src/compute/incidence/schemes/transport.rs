@@ -50,7 +50,7 @@ pub(super) fn blend(schemes: &Schemes, between: &Between) -> Blend {
             for (j, &(n, wn)) in sharp.iter().enumerate().filter(|(j, _)| *j != i) {
                 to += schemes.clusters[n][plans[i][j][p]].centre * wn;
             }
-            let to = if to.length() > 1e-9 { to.normalize() } else { cluster.centre };
+            let to = if to.length() > 1e-9 { to.normalize_or(cluster.centre) } else { cluster.centre };
             blend.push(Shape::Spot(cluster.spread), DQuat::from_rotation_arc(DVec3::Z, to), share);
         }
     }
@@ -88,7 +88,7 @@ fn cut(mut points: Vec<Point>, cuts: usize, out: &mut Vec<Cluster>) {
         let cell = points.iter().map(|p| p.cell * p.flux).sum::<f64>() / flux;
         // A box of width w has w/√12; half the width makes neighbouring spots flow together.
         let spread = (2.25 * 0.5 * variance.element_sum() + 0.09 * cell).sqrt();
-        out.push(Cluster { centre: mean.normalize(), spread });
+        out.push(Cluster { centre: mean.normalize_or(DVec3::Z), spread });
         return;
     }
     let axis = (0..3).max_by(|&a, &b| variance[a].total_cmp(&variance[b])).unwrap_or(0);

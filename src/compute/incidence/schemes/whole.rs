@@ -40,7 +40,7 @@ fn nearest_vertex(schemes: &Schemes, between: &Between) -> Option<usize> {
 /// Weighted mean of the flux centroids; `None` where they cancel.
 fn centroid(schemes: &Schemes, between: &Between) -> Option<DVec3> {
     let sum: DVec3 = between.used.iter().filter_map(|&(v, w)| schemes.centroid[v].map(|c| c * w)).sum();
-    (sum.length() > 1e-9).then(|| sum.normalize())
+    sum.try_normalize().filter(|_| sum.length() > 1e-9)
 }
 
 fn turn(schemes: &Schemes, vertex: usize, to: Option<DVec3>) -> DQuat {
