@@ -25,6 +25,11 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Adds how a choice was made during the work.
+    pub fn note(&mut self, name: &'static str, reason: &str) {
+        self.stages.push(Stage { name, runs: true, reason: reason.to_owned(), time: Duration::ZERO });
+    }
+
     /// Looks at a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut plan = Self::default();

@@ -11,9 +11,7 @@ use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Scattered;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::incidence::grid::Grid;
-use crate::compute::incidence::model::Model;
-use crate::compute::lid::{Emission, Lid, sun_grid};
+use crate::compute::lid::{Emission, Interpolator, Lid};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::direct::{self, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
@@ -94,7 +92,7 @@ pub struct Session {
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
-    models: Cache<(Model, Grid)>,
+    interpolators: Cache<Interpolator>,
 }
 
 impl Default for Session {
@@ -111,7 +109,7 @@ impl Session {
             gather: Cache::new(8),
             reception: Cache::new(16),
             patches: Cache::new(24),
-            models: Cache::new(6),
+            interpolators: Cache::new(6),
         }
     }
 
@@ -139,14 +137,13 @@ impl Session {
         if scene.interpolation == Interpolation::Patch {
             return Emission::new(btdf, &facing);
         }
-        let compute = || {
-            let model = Model::new(Arc::clone(data));
-            let grid = sun_grid(&model);
-            Ok::<_, std::convert::Infallible>((model, grid))
-        };
-        // The model keeps the data alive, so that no others can have their address.
-        match self.models.get(vec![Arc::as_ptr(data) as u64], compute) {
-            Ok(entry) => Emission::interpolated(btdf, &entry.0, &entry.1, &facing),
+        let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
+        // The interpolator keeps the data alive, so that no others can have their address.
+        match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {
+            Ok(own) => {
+                let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
+                Emission::interpolated(btdf, &own, schemes, &facing)
+            }
             Err(never) => match never {},
         }
     }
@@ -162,6 +159,9 @@ impl Session {
             .map(|(i, emission)| emission.exitance(&scene.facing(i)) * scene.apertures[i].aperture.area())
             .sum();
         plan.spend("emission", clock.elapsed());
+        for note in emissions.iter().flat_map(|emission| &emission.notes) {
+            plan.note("interpolation", note);
+        }
         check(progress)?;
         progress.advance("direct light", 1, STEPS);
 

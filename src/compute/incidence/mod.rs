@@ -14,9 +14,14 @@
 //! | `response` | which lobe is the same one at a neighbour, and how it moves |
 //! | `flux` | fluxes between the directions: cubics and kinks |
 //! | `grazing` | beyond the last row |
+//! | `choice` | which scheme suits which triangle, by leaving out |
+//! | `filter` | the matched filter for diffuse light |
+//! | `schemes` | other ways between the directions, side by side |
 //! | `model` | the indicatrix of any incident direction |
 //! | `superpose` | sky and sun through it |
 
+pub mod choice;
+pub mod filter;
 pub mod flux;
 pub mod grazing;
 pub mod grid;
@@ -25,6 +30,9 @@ pub mod lobes;
 pub mod model;
 pub mod raster;
 pub mod response;
+#[cfg(test)]
+mod samples;
+pub mod schemes;
 pub mod superpose;
 #[cfg(test)]
 mod synthetic;

@@ -62,9 +62,9 @@ pub struct CellLight {
     pub diffuse: Vec<f64>,
     /// From the sun's scattered light.
     pub sun: Vec<f64>,
-    /// Doubt of the sum of both, signed, by cell; empty where there is none: what a simpler interpolation between the
-    /// data would add. \[cd/m²\]
-    pub doubtful: Vec<f64>,
+    /// Doubts of the sum of both, each signed and by cell: what a simpler interpolation between the data would add, what
+    /// the place of a lobe is worth. Independent of one another. \[cd/m²\]
+    pub doubts: Vec<Vec<f64>>,
     /// Error of the luminances, relative.
     pub relative_error: f64,
 }
@@ -84,6 +84,8 @@ pub struct Emission {
     pub incident_diffuse: Estimate,
     /// Illuminance of the outside face by the sun. \[lx\]
     pub incident_sun: f64,
+    /// How it was found where there was a choice, in sentences.
+    pub notes: Vec<String>,
 }
 
 impl Emission {
@@ -99,6 +101,7 @@ impl Emission {
             beam_tau: 0.0,
             incident_diffuse: Estimate::default(),
             incident_sun,
+            notes: Vec::new(),
         };
         if let (Some(tau), Some(sun)) = (&btdf.regular, sun_direction) {
             emission.beam_tau = tau.at(sun.theta().min(0.5 * PI));
@@ -130,7 +133,7 @@ impl Emission {
                 emission.cells = Some(CellLight {
                     basis: Arc::new(matrix.emergent().clone()),
                     diffuse: matrix.luminance(&values),
-                    doubtful: Vec::new(),
+                    doubts: Vec::new(),
                     sun: if sun.is_empty() { vec![0.0; matrix.emergent().len()] } else { sun },
                     relative_error: relative(emission.incident_diffuse),
                 });
@@ -156,7 +159,7 @@ impl Emission {
                     basis: Arc::new(data.emergent().clone()),
                     diffuse,
                     sun,
-                    doubtful: Vec::new(),
+                    doubts: Vec::new(),
                     relative_error: relative(emission.incident_diffuse),
                 });
             }
@@ -170,7 +173,7 @@ impl Emission {
                     basis: Arc::new(basis),
                     diffuse,
                     sun,
-                    doubtful: Vec::new(),
+                    doubts: Vec::new(),
                     relative_error: relative(emission.incident_diffuse) + TREE_CELL_ERROR,
                 });
             }

@@ -3,11 +3,14 @@
 
 use super::{CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::Btdf;
+use crate::compute::btdf::{Btdf, Indicatrices};
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Estimate;
+use crate::compute::incidence::filter::{self, Filter, Kernel};
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::Model;
-use crate::compute::incidence::superpose;
+use crate::compute::incidence::schemes::{DiffuseScheme, Schemes, SunScheme};
+use crate::compute::incidence::superpose::{self, Light};
 use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -21,10 +24,10 @@ const SUN_CELL: f64 = 1.3 * PI / 180.0;
 /// Points a side of a cell at which a lobe of the sun is taken.
 const SUN_POINTS: usize = 2;
 /// What interpolation between the incident directions leaves after its own doubts, relative; seen on analytic systems.
-const REST: f64 = 4e-3;
+const REST: f64 = 5e-3;
 
 /// The emergent cells that the sun's light is put on: the data's own, cut where they are wide.
-pub fn sun_grid(model: &Model) -> Grid {
+fn sun_grid(model: &Model) -> Grid {
     let basis = model.grid().basis();
     let mean = (2.0 * PI / basis.len() as f64).sqrt();
     // Wide lobes need no more than some cells across.
@@ -33,54 +36,135 @@ pub fn sun_grid(model: &Model) -> Grid {
     if parts == 1 { model.grid().clone() } else { Grid::new(&basis.refined(parts)) }
 }
 
+/// What stays the same for one set of indicatrices whatever shines on it.
+pub struct Interpolator {
+    schemes: Schemes,
+    sun_grid: Grid,
+}
+
+impl Interpolator {
+    /// Splits the indicatrices and follows their lobes.
+    pub fn new(data: Arc<Indicatrices>) -> Self {
+        let model = Arc::new(Model::new(data));
+        Self { sun_grid: sun_grid(&model), schemes: Schemes::new(model) }
+    }
+
+    /// The schemes between incident directions.
+    pub fn schemes(&self) -> &Schemes {
+        &self.schemes
+    }
+
+    fn model(&self) -> &Model {
+        self.schemes.model()
+    }
+
+    /// Sky and ground by a scheme, and what to say of it.
+    fn diffuse(&self, scheme: DiffuseScheme, facing: &Facing<'_>) -> (Estimate, Light, String) {
+        let model = self.model();
+        let frame = Frame::of_aperture(facing.orientation, facing.surface);
+        let received = |cells: &RingBasis| {
+            let received = incident_illuminances_within(facing.outside, cells, &frame, 1e-4);
+            let values: Vec<f64> = received.iter().map(|e| e.value).collect();
+            (received.into_iter().sum::<Estimate>(), values)
+        };
+        let kernel = match scheme {
+            DiffuseScheme::Auto | DiffuseScheme::Shift => None,
+            DiffuseScheme::Patch => Some(Kernel::None),
+            DiffuseScheme::FilterNarrow => Some(Kernel::NARROW),
+            DiffuseScheme::FilterMatched => Some(Kernel::MATCHED),
+            DiffuseScheme::FilterWide => Some(Kernel::WIDE),
+            DiffuseScheme::FilterPatch => Some(Kernel::Patch),
+        };
+        if let (Some(kernel), Some(lattice)) = (kernel, model.lattice_cells()) {
+            let (total, values) = received(lattice);
+            let filter = Filter { kernel, sharp_only: kernel == Kernel::Patch };
+            if let Some(luminance) = filter::diffuse(model, filter, model.grid(), &values) {
+                let light = Light { luminance, ..Light::dark(model.grid().basis().len()) };
+                return (total, light, format!("{}, as asked for; what it costs is not estimated", scheme.key()));
+            }
+        }
+        let patches = superpose::sub_patches(SUB_PATCH);
+        let (total, values) = received(&patches);
+        if total.value <= 0.0 {
+            return (total, Light::dark(model.grid().basis().len()), "no diffuse light".into());
+        }
+        let note = match kernel {
+            None => "sub-patches of 2.5°, each with its own indicatrix".into(),
+            Some(_) => format!("sub-patches: the data's directions are no lattice that {} is made for", scheme.key()),
+        };
+        (total, superpose::diffuse(model, &patches, &values), note)
+    }
+
+    /// The sun by a scheme, and why this one.
+    fn sun(&self, scheme: SunScheme, direction: Dir<Facade>, illuminance: f64) -> (Light, String) {
+        let model = self.model();
+        let mut light = superpose::sun(model, direction, illuminance, &self.sun_grid, SUN_POINTS);
+        let place = model.lattice().locate(direction);
+        let mut note = format!("{}, as asked for", scheme.key());
+        let mut own = scheme;
+        if scheme == SunScheme::Auto {
+            let choices = self.schemes.choices();
+            let all = place.vertices.iter().zip(place.weights).filter(|(_, w)| *w > 0.0);
+            if all.map(|(&v, _)| choices.at_vertex(v)).all(|at_vertex| at_vertex == SunScheme::Responses) {
+                own = SunScheme::Responses;
+            }
+            note = place.triangle.map_or_else(
+                || "beyond the last row of incident directions: as on its border".into(),
+                |triangle| choices.triangles()[triangle].reason.clone(),
+            );
+        }
+        if own != SunScheme::Responses {
+            let q = self.schemes.coefficient(own, direction, &self.sun_grid, SUN_POINTS);
+            let other: Vec<f64> = q.iter().map(|q| q * illuminance).collect();
+            light.shifts.push(light.luminance.iter().zip(&other).map(|(a, b)| a - b).collect());
+            light.luminance = other;
+        }
+        (light, note)
+    }
+}
+
 impl Emission {
     /// What the room side of a system emits, interpolated between its incident directions.
-    /// `sun_grid` is [`sun_grid`] of the model.
-    pub fn interpolated(btdf: &Btdf, model: &Model, sun_grid: &Grid, facing: &Facing<'_>) -> Self {
-        let frame = Frame::of_aperture(facing.orientation, facing.surface);
+    pub fn interpolated(
+        btdf: &Btdf,
+        interpolator: &Interpolator,
+        (sun_scheme, diffuse_scheme): (SunScheme, DiffuseScheme),
+        facing: &Facing<'_>,
+    ) -> Self {
         let incident_sun = facing.sun_illuminance();
-        let sun = facing.sun_direction().filter(|_| incident_sun > 0.0);
-        let patches = superpose::sub_patches(SUB_PATCH);
-        let illuminance = incident_illuminances_within(facing.outside, &patches, &frame, 1e-4);
-        let incident_diffuse: Estimate = illuminance.iter().copied().sum();
-        let values: Vec<f64> = illuminance.iter().map(|e| e.value).collect();
-        let diffuse = if incident_diffuse.value > 0.0 {
-            superpose::diffuse(model, &patches, &values)
-        } else {
-            superpose::Light::dark(model.grid().basis().len())
-        };
-        let mut emission = Self {
-            uniform: Estimate::default(),
-            cells: None,
-            regular: btdf.regular.clone(),
-            beam_tau: 0.0,
-            incident_diffuse,
-            incident_sun,
-        };
-        let basis: Arc<RingBasis>;
-        let (light, sunlight) = match sun {
+        let (incident_diffuse, diffuse, note) = interpolator.diffuse(diffuse_scheme, facing);
+        let mut notes = vec![format!("diffuse light: {note}")];
+        let own = interpolator.model().grid();
+        let mut beam_tau = 0.0;
+        let (grid, diffuse, sun) = match facing.sun_direction().filter(|_| incident_sun > 0.0) {
             Some(direction) => {
                 if let Some(tau) = &btdf.regular {
-                    emission.beam_tau = tau.at(direction.theta().min(0.5 * PI));
+                    beam_tau = tau.at(direction.theta().min(0.5 * PI));
                 }
-                basis = Arc::new(sun_grid.basis().clone());
-                let light = superpose::sun(model, direction, incident_sun, sun_grid, SUN_POINTS);
-                (diffuse.on(model.grid(), sun_grid), light)
+                let (light, note) = interpolator.sun(sun_scheme, direction, incident_sun);
+                notes.push(format!("sun: {note}"));
+                (&interpolator.sun_grid, diffuse.on(own, &interpolator.sun_grid), light)
             }
-            None => {
-                basis = Arc::new(model.grid().basis().clone());
-                let dark = superpose::Light::dark(basis.len());
-                (diffuse, dark)
-            }
+            None => (own, diffuse, Light::dark(own.basis().len())),
         };
         let relative = if incident_diffuse.value > 0.0 { incident_diffuse.error / incident_diffuse.value } else { 0.0 };
-        emission.cells = Some(CellLight {
-            basis,
-            doubtful: light.doubt.iter().zip(&sunlight.doubt).map(|(a, b)| a + b).collect(),
-            diffuse: light.luminance,
-            sun: sunlight.luminance,
+        let mut doubts = sun.shifts;
+        doubts.push(diffuse.doubt.iter().zip(&sun.doubt).map(|(a, b)| a + b).collect());
+        let cells = CellLight {
+            basis: Arc::new(grid.basis().clone()),
+            diffuse: diffuse.luminance,
+            sun: sun.luminance,
+            doubts,
             relative_error: relative + REST,
-        });
-        emission
+        };
+        Self {
+            uniform: Estimate::default(),
+            cells: Some(cells),
+            regular: btdf.regular.clone(),
+            beam_tau,
+            incident_diffuse,
+            incident_sun,
+            notes,
+        }
     }
 }

@@ -5,7 +5,7 @@ mod emission;
 mod interpolated;
 
 pub use emission::{CellLight, Emission, Facing};
-pub use interpolated::sun_grid;
+pub use interpolated::Interpolator;
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};

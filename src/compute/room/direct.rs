@@ -59,8 +59,9 @@ pub fn illuminance(
     if let Some(light) = &emission.cells {
         let e: f64 =
             reception.cells.iter().zip(light.diffuse.iter().zip(&light.sun)).map(|(w, (d, s))| w * (d + s)).sum();
-        let doubt: f64 = reception.cells.iter().zip(&light.doubtful).map(|(w, l)| w * l).sum();
-        sum += Estimate::new(e, e * light.relative_error + doubt.abs());
+        let at_sensor = |doubt: &Vec<f64>| reception.cells.iter().zip(doubt).map(|(w, l)| w * l).sum::<f64>();
+        let doubt = light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
+        sum += Estimate::new(e, e * light.relative_error + doubt);
     }
     if let Some(tau) = &emission.regular {
         if let Some(view) = aperture.view(sensor.position, sensor.normal) {
