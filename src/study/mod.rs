@@ -14,6 +14,7 @@ pub mod near_field;
 pub mod plan;
 pub mod scene;
 pub mod scene_file;
+mod scheme_words;
 pub mod session;
 pub mod sky;
 pub mod sun_position;

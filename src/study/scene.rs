@@ -11,6 +11,7 @@ use super::system::{System, SystemLibrary};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Orientation, Surface};
+use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use crate::compute::lid::Facing;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::reflecting_cells;
@@ -83,6 +84,10 @@ pub struct Scene {
     pub error_target: Option<f64>,
     /// Between and inside the dataset's directions.
     pub interpolation: Interpolation,
+    /// Between the dataset's incident directions, for the sun.
+    pub sun_interpolation: SunScheme,
+    /// Between the dataset's incident directions, for sky and ground.
+    pub diffuse_interpolation: DiffuseScheme,
     /// How an aperture's light is integrated at a sensor.
     pub near_field: NearField,
 }
@@ -164,6 +169,8 @@ impl Scene {
             interreflection: file.compute.interreflection,
             error_target: file.compute.error_target,
             interpolation: file.compute.interpolation,
+            sun_interpolation: file.compute.sun_interpolation,
+            diffuse_interpolation: file.compute.diffuse_interpolation,
             near_field: near_field(file.compute.near_field, file.compute.near_field_samples)?,
         })
     }

@@ -4,6 +4,7 @@
 //! [`super::scene`]'s business.
 
 use super::near_field::NearFieldKey;
+use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -443,6 +444,12 @@ pub struct ComputeKeys {
     pub error_target: Option<f64>,
     /// Between and inside the dataset's directions.
     pub interpolation: Interpolation,
+    /// Between incident directions, for the sun.
+    #[serde(with = "super::scheme_words::sun")]
+    pub sun_interpolation: SunScheme,
+    /// Between incident directions, for sky and ground.
+    #[serde(with = "super::scheme_words::diffuse")]
+    pub diffuse_interpolation: DiffuseScheme,
     /// How an aperture's light is integrated at a sensor.
     pub near_field: NearFieldKey,
     /// Effort of the methods that have one: point luminaires in all, random points a sensor, cells along each angle.
@@ -459,6 +466,8 @@ impl Default for ComputeKeys {
             interreflection: true,
             error_target: None,
             interpolation: Interpolation::Auto,
+            sun_interpolation: SunScheme::Auto,
+            diffuse_interpolation: DiffuseScheme::Auto,
             near_field: NearFieldKey::SolidAngle,
             near_field_samples: None,
             back_reflection: BackReflectionMode::Auto,

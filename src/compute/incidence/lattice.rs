@@ -21,6 +21,8 @@ pub struct Lattice {
     border: Vec<[usize; 2]>,
     neighbours: Vec<Vec<usize>>,
     on_border: Vec<bool>,
+    /// A direction without part in the triangles.
+    left_out: Option<usize>,
 }
 
 /// A direction between at most three incident directions.
@@ -51,9 +53,14 @@ impl HasPosition for Node {
 impl Lattice {
     /// Triangulates. Fewer than three directions, or all on one circle through the pole, have no triangles.
     pub fn new(incident: &[Incident]) -> Self {
+        Self::without(incident, None)
+    }
+
+    /// The same as if one direction were not there; it keeps its number, without neighbours.
+    pub fn without(incident: &[Incident], left_out: Option<usize>) -> Self {
         let points: Vec<DVec3> = incident.iter().map(|d| d.0.vector()).collect();
         let mut delaunay: DelaunayTriangulation<Node> = DelaunayTriangulation::new();
-        for (index, d) in incident.iter().enumerate() {
+        for (index, d) in incident.iter().enumerate().filter(|(index, _)| Some(*index) != left_out) {
             let (theta, phi) = (d.0.theta(), d.0.phi());
             let phi = phi + TIE * theta * ((2.0 * phi).sin() + 0.1);
             let radius = (0.5 * theta).tan();
@@ -85,7 +92,7 @@ impl Lattice {
             }
         }
         neighbours.iter_mut().for_each(|list| list.sort_unstable());
-        Self { points, triangles, border, neighbours, on_border }
+        Self { points, triangles, border, neighbours, on_border, left_out }
     }
 
     /// The directions as unit vectors, façade frame.
@@ -130,7 +137,7 @@ impl Lattice {
             _ => Some((cosine, place)),
         };
         let single = |p: usize| Place { triangle: None, vertices: [p; 3], weights: [1.0, 0.0, 0.0], beyond: 0.0 };
-        let vertices = (0..self.points.len()).map(|p| (self.points[p].dot(d), single(p)));
+        let vertices = (0..self.points.len()).filter(|p| Some(*p) != self.left_out).map(|p| (self.points[p].dot(d), single(p)));
         let on_edge = |&[p, q]: &[usize; 2]| {
             // Foot of the arc from d at right angles to the edge's great circle.
             let (a, b) = (self.points[p], self.points[q]);

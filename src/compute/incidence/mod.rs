@@ -7,8 +7,13 @@
 //! | `lobes` | an indicatrix as base and lobes |
 //! | `response` | how lobes move and change with the incidence |
 //! | `flux` | fluxes between the directions |
+//! | `choice` | which scheme suits which triangle, by leaving out |
+//! | `filter` | the matched filter for diffuse light |
+//! | `schemes` | other ways between the directions, side by side |
 //! | `model` | the indicatrix of any incident direction |
 
+pub mod choice;
+pub mod filter;
 pub mod flux;
 pub mod grazing;
 pub mod grid;
@@ -17,4 +22,7 @@ pub mod lobes;
 pub mod model;
 pub mod raster;
 pub mod response;
+#[cfg(test)]
+mod samples;
+pub mod schemes;
 pub mod superpose;

@@ -51,13 +51,14 @@ pub struct Recipe {
 /// Everything that interpolation between incident directions needs.
 pub struct Model {
     pub(super) data: Arc<Indicatrices>,
-    pub(super) grid: Grid,
+    pub(super) grid: Arc<Grid>,
     pub(super) lattice: Lattice,
     pub(super) lobes: Vec<Vec<Lobe>>,
     pub(super) responses: Responses,
     /// The lobes as pictures.
-    rasters: Vec<Vec<Raster>>,
-    base_flux: Vec<f64>,
+    pub(super) rasters: Vec<Vec<Raster>>,
+    /// Share of the incident flux in the base of every incident direction.
+    pub(super) base_flux: Vec<f64>,
     /// By vertex, lobe (the base behind the last) and neighbour: what the edge adds to linear interpolation of the
     /// flux, where the lobe is at both ends.
     bumps: Vec<Vec<Vec<Option<Bump>>>>,
@@ -154,16 +155,33 @@ impl Model {
         let splitter = Splitter::new(&grid);
         let lobes: Vec<Vec<Lobe>> =
             (0..data.incident().len()).into_par_iter().map(|i| splitter.lobes(&grid, &data.row(i))).collect();
-        let responses = Responses::new(&lattice, &lobes);
         let base_flux: Vec<f64> = (0..lobes.len())
             .map(|i| (data.tau_by_direction()[i] - lobes[i].iter().map(|lobe| lobe.flux).sum::<f64>()).max(0.0))
             .collect();
+        let rasters = lobes.par_iter().map(|list| list.iter().map(|lobe| Raster::new(&grid, lobe)).collect()).collect();
+        let fitted = Self::fitted(data, Arc::new(grid), lattice, (lobes, base_flux), |_| true);
+        Self { rasters, ..fitted }
+    }
+
+    /// Follows split indicatrices over a lattice. Fluxes between directions are only found where a vertex is `wanted`;
+    /// recipes there are complete, but nothing can be drawn.
+    pub(super) fn fitted(
+        data: Arc<Indicatrices>,
+        grid: Arc<Grid>,
+        lattice: Lattice,
+        (lobes, base_flux): (Vec<Vec<Lobe>>, Vec<f64>),
+        wanted: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
+        let responses = Responses::new(&lattice, &lobes);
         let grazing: Vec<Option<Grazing>> =
             (0..lobes.len()).map(|v| Grazing::new(&lattice, data.tau_by_direction(), v)).collect();
         let (lobe_flux, base) = (LobeFlux(&lobes, &responses, &grazing), BaseFlux(&base_flux, &grazing));
         let (bumps, followed) = (0..lobes.len())
             .into_par_iter()
             .map(|v| {
+                if !wanted(v) {
+                    return Default::default();
+                }
                 let mut bumps: Vec<_> = (0..lobes[v].len()).map(|l| bumps_of(&lattice, &lobe_flux, v, l)).collect();
                 bumps.push(bumps_of(&lattice, &base, v, 0));
                 let followed: Vec<_> = (0..lobes[v].len())
@@ -175,8 +193,7 @@ impl Model {
                 (bumps, followed)
             })
             .unzip();
-        let rasters = lobes.par_iter().map(|list| list.iter().map(|lobe| Raster::new(&grid, lobe)).collect()).collect();
-        Self { data, grid, lattice, lobes, responses, rasters, base_flux, bumps, followed, grazing }
+        Self { data, grid, lattice, lobes, responses, rasters: Vec::new(), base_flux, bumps, followed, grazing }
     }
 
     /// The emergent cells.

@@ -44,8 +44,12 @@ impl Raster {
 
     /// The picture turned to another centre.
     pub fn turned(&self, centre: DVec3) -> Turned<'_> {
-        let turn = glam::DQuat::from_rotation_arc(self.z, centre);
-        Turned { raster: self, x: turn * self.x, y: turn * self.y, z: centre }
+        self.turned_by(glam::DQuat::from_rotation_arc(self.z, centre))
+    }
+
+    /// The picture turned.
+    pub fn turned_by(&self, turn: glam::DQuat) -> Turned<'_> {
+        Turned { raster: self, x: turn * self.x, y: turn * self.y, z: turn * self.z }
     }
 }
 

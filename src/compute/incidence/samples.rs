@@ -1,0 +1,119 @@
+//! Systems with a closed form at every incident direction, for tests: what was measured of them, and the truth between.
+
+use super::grid::Grid;
+use super::model::Model;
+use super::superpose::sub_patches;
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::Indicatrices;
+use crate::compute::direction::Incident;
+use glam::DVec3;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Lobes as (share, direction, spread \[rad\]) and a diffuse share.
+type Parts = (Vec<(f64, DVec3, f64)>, f64);
+
+/// A system and its emergent cells.
+pub struct Sample {
+    /// The cells.
+    pub grid: Grid,
+    /// What a direction becomes.
+    pub parts: fn(DVec3) -> Parts,
+}
+
+fn pane(z: f64) -> f64 {
+    0.9 * (1.0 - (1.0 - z).powi(5))
+}
+
+/// 4° cells.
+fn cells() -> Grid {
+    Grid::new(&sub_patches(4_f64.to_radians()))
+}
+
+/// A clear pane whose lobe has a spread of 3°.
+pub fn clear() -> Sample {
+    Sample { grid: cells(), parts: |d| (vec![(pane(d.z), d, 3_f64.to_radians())], 0.0) }
+}
+
+/// A laser-cut panel: a straight and a mirrored lobe with shares that change with the profile angle.
+pub fn panel() -> Sample {
+    let parts = |d: DVec3| {
+        let y = d.y / 1.5;
+        let t = y.abs() / (1.0 - (d.x / 1.5).powi(2) - y * y).sqrt() / 0.7;
+        let share = 1.0 - (1.0 - t.rem_euclid(2.0)).abs();
+        let (f, sigma) = (pane(d.z), 3_f64.to_radians());
+        (vec![((1.0 - share) * f, d, sigma), (share * f, DVec3::new(d.x, -d.y, d.z), sigma)], 0.0)
+    };
+    Sample { grid: cells(), parts }
+}
+
+/// Slats tilted by 20° with a cut-off, and diffuse light off them.
+pub fn slats() -> Sample {
+    let parts = |d: DVec3| {
+        let psi = d.y.atan2(d.z);
+        let direct = (1.0 - 80.0 / 72.0 * (20_f64.to_radians() + psi).sin().abs() / psi.cos()).max(0.0);
+        (vec![(direct, d, 3_f64.to_radians())], 0.35 * (1.0 - direct))
+    };
+    Sample { grid: cells(), parts }
+}
+
+/// A diffuser.
+pub fn diffuser() -> Sample {
+    Sample { grid: cells(), parts: |d| (vec![], 0.5 / 0.9 * pane(d.z)) }
+}
+
+/// Opaque in the lower half, clear above: rows without any light beside rows with.
+pub fn half_blind() -> Sample {
+    let parts = |d: DVec3| if d.y > 0.1 { (vec![(0.8, d, 3_f64.to_radians())], 0.0) } else { (vec![], 0.0) };
+    Sample { grid: cells(), parts }
+}
+
+impl Sample {
+    /// q on the cells, the flux of every part exact. \[1/sr\]
+    pub fn row(&self, d: DVec3) -> Vec<f64> {
+        let (lobes, diffuse) = (self.parts)(d);
+        let mut row = vec![diffuse / PI; self.grid.centre.len()];
+        for (share, centre, sigma) in lobes {
+            let mut cells = Vec::new();
+            self.grid.within(centre, 5.0 * sigma, |cell| {
+                let q = self.grid.cell_mean(cell, 4, |e| ((e.dot(centre) - 1.0) / (sigma * sigma)).exp());
+                cells.push((cell, q));
+            });
+            let flux: f64 = cells.iter().map(|&(cell, q)| q * self.grid.projected[cell]).sum();
+            cells.iter().for_each(|&(cell, q)| row[cell] += q * share / flux);
+        }
+        row
+    }
+
+    /// Share of flux misplaced by an indicatrix on the cells, on cells of 7.5°, blurred.
+    pub fn misplaced(&self, d: DVec3, q: &[f64]) -> f64 {
+        let compare = Grid::new(&sub_patches(7.5_f64.to_radians()));
+        let picture = |q: &[f64]| {
+            let mut flux = vec![0.0; compare.centre.len()];
+            for ((q, w), &c) in q.iter().zip(&self.grid.projected).zip(&self.grid.centre) {
+                for (ring, k, _, share) in compare.around_rings(c) {
+                    flux[compare.basis().first_cell(ring) + k] += q * w * share;
+                }
+            }
+            flux.iter_mut().zip(&compare.projected).for_each(|(f, w)| *f /= w);
+            compare.blurred(&flux)
+        };
+        let (a, b) = (picture(q), picture(&self.row(d)));
+        let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
+            a.iter().zip(&b).zip(&compare.projected).map(|((a, b), w)| f(*a, *b) * w).sum()
+        };
+        0.5 * sum(&|a, b| (a - b).abs()) / sum(&|_, b| b)
+    }
+}
+
+/// What a goniophotometer with 145 directions sees of it.
+pub fn data(sample: &Sample) -> Indicatrices {
+    let incident: Vec<Incident> = RingBasis::tregenza().cells().map(|cell| Incident(cell.centre())).collect();
+    let values = incident.iter().flat_map(|d| sample.row(d.0.vector())).collect();
+    Indicatrices::new(incident, sample.grid.basis().clone(), values).unwrap()
+}
+
+/// The model over it.
+pub fn model(sample: &Sample) -> Model {
+    Model::new(Arc::new(data(sample)))
+}

@@ -1,0 +1,73 @@
+//! Words of the scene file for the ways between incident directions: `compute` knows the words, serde stays out of it.
+
+use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
+use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+/// One clear sentence: which key, what it says, what it may say.
+fn unknown<'a>(key: &str, word: &str, allowed: impl Iterator<Item = &'a str>) -> String {
+    let list: Vec<String> = allowed.map(|word| format!("\"{word}\"")).collect();
+    format!("compute.{key}: \"{word}\" is not known (allowed: {})", list.join(", "))
+}
+
+/// `compute.sun_interpolation`
+pub mod sun {
+    use super::*;
+
+    /// The scheme's word.
+    pub fn serialize<S: Serializer>(scheme: &SunScheme, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(scheme.key())
+    }
+
+    /// The word's scheme; an error lists the words.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SunScheme, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let allowed = SunScheme::ALL.into_iter().map(SunScheme::key);
+        SunScheme::from_key(&word).ok_or_else(|| D::Error::custom(unknown("sun_interpolation", &word, allowed)))
+    }
+}
+
+/// `compute.diffuse_interpolation`
+pub mod diffuse {
+    use super::*;
+
+    /// The scheme's word.
+    pub fn serialize<S: Serializer>(scheme: &DiffuseScheme, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(scheme.key())
+    }
+
+    /// The word's scheme; an error lists the words.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DiffuseScheme, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let allowed = DiffuseScheme::ALL.into_iter().map(DiffuseScheme::key);
+        DiffuseScheme::from_key(&word).ok_or_else(|| D::Error::custom(unknown("diffuse_interpolation", &word, allowed)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::scene_file::ComputeKeys;
+
+    #[test]
+    fn words_are_read_and_written_back() {
+        let keys: ComputeKeys =
+            toml::from_str("sun_interpolation = \"matched-lobes\"\ndiffuse_interpolation = \"filter-wide\"").unwrap();
+        assert_eq!(keys.sun_interpolation, SunScheme::MatchedLobes);
+        assert_eq!(keys.diffuse_interpolation, DiffuseScheme::FilterWide);
+        let text = toml::to_string(&keys).unwrap();
+        assert_eq!(toml::from_str::<ComputeKeys>(&text).unwrap(), keys);
+        let default: ComputeKeys = toml::from_str("").unwrap();
+        assert_eq!(default.sun_interpolation, SunScheme::Auto);
+        assert_eq!(default.diffuse_interpolation, DiffuseScheme::Auto);
+    }
+
+    #[test]
+    fn an_unknown_word_is_answered_with_the_key_and_all_words() {
+        let error = toml::from_str::<ComputeKeys>("sun_interpolation = \"closest\"").unwrap_err().to_string();
+        assert!(error.contains("compute.sun_interpolation") && error.contains("\"closest\""), "{error}");
+        SunScheme::ALL.iter().for_each(|s| assert!(error.contains(s.key()), "{error}"));
+        let error = toml::from_str::<ComputeKeys>("diffuse_interpolation = \"\"").unwrap_err().to_string();
+        assert!(error.contains("compute.diffuse_interpolation"), "{error}");
+        DiffuseScheme::ALL.iter().for_each(|s| assert!(error.contains(s.key()), "{error}"));
+    }
+}
