@@ -23,7 +23,11 @@ pub fn situations() -> [(&'static str, Place); 4] {
     ]
 }
 
-/// The open aperture in data of rising density of incidence. The last needs no data.
+/// The finest of the measured data.
+pub const FINEST: &str = "directions: 145, cells of 1.2°";
+
+/// The open aperture in data of rising density, as cells and as seen by an instrument with a beam of 2° (standard
+/// deviation). The last needs no data.
 pub fn resolutions() -> Vec<(&'static str, Arc<Dataset>)> {
     let klems = |basis: fn(AzimuthMap) -> RingBasis| systems::open_cells(&basis(AzimuthMap::KLEMS_FRONT));
     [
@@ -31,9 +35,10 @@ pub fn resolutions() -> Vec<(&'static str, Arc<Dataset>)> {
         ("cells: Klems full, 145", klems(RingBasis::klems_full)),
         ("cells: equal area, 576", systems::open_cells(&RingBasis::equal_area(12))),
         ("cells: equal area, 2304", systems::open_cells(&RingBasis::equal_area(24))),
-        ("directions: 36", systems::open_measured(&RingBasis::equal_area(3))),
-        ("directions: Tregenza, 145", systems::open_measured(&RingBasis::tregenza())),
-        ("directions: 576", systems::open_measured(&RingBasis::equal_area(12))),
+        ("directions: 36, cells of 1.2°", systems::open_measured(&RingBasis::equal_area(3), 72, systems::clear_2)),
+        ("directions: 145, cells of 3.7°", systems::open_measured(&RingBasis::tregenza(), 24, systems::clear_2)),
+        ("directions: 145, cells of 1.9°", systems::open_measured(&RingBasis::tregenza(), 48, systems::clear_2)),
+        (FINEST, systems::open_measured(&RingBasis::tregenza(), 72, systems::clear_2)),
         ("regular transmission", systems::open()),
     ]
     .into_iter()
@@ -139,9 +144,9 @@ pub fn table() -> Result<Vec<Line>> {
 /// Intensity normalised to 1000 lm along the vertical section through the sun: angles from the normal in degrees, up
 /// (roof: towards the sun's side) negative. \[cd\]
 pub fn section(intensity: impl Fn(Dir<Facade>) -> f64, towards: f64) -> Vec<[f64; 2]> {
-    (-180..=180)
+    (-90..=90)
         .map(|k| {
-            let angle = 0.5 * f64::from(k);
+            let angle = f64::from(k);
             let v = DVec3::new(0.0, towards * angle.to_radians().sin(), angle.to_radians().cos());
             [angle, intensity(Dir::from_unit(v))]
         })

@@ -93,7 +93,7 @@ fn figure_8() -> Result<Figure> {
     let mut panels = Vec::new();
     let mut table = Table::new("system,kernel,angle_deg,luminance_of_mean");
     let mut key = Vec::new();
-    for (name, law) in [("clear glazing", systems::clear as systems::Law), ("scattering pane", systems::scattering)] {
+    for (name, law) in [("clear glazing", systems::clear_2 as systems::Law), ("scattering pane", systems::scattering)] {
         let list = data::superposed(law, systems::UNIFORM)?;
         let mut lines = Vec::new();
         for (k, one) in list.iter().enumerate() {
@@ -124,18 +124,17 @@ fn figure_8() -> Result<Figure> {
 }
 
 fn figure_9() -> Result<Figure> {
-    let list = data::superposed(systems::clear, systems::OVERCAST)?;
-    let mut table = Table::new("way,theta_deg,phi_deg,luminance_cd_m2");
+    let list = data::superposed(systems::clear_2, systems::OVERCAST)?;
+    let mut table = Table::new("way,misplaced_flux,uneven_within_78_deg,darkest_cd_m2,mean_cd_m2,brightest_cd_m2");
     let mut pictures = Vec::new();
     let mut key = Vec::new();
     for one in list.iter().filter(|one| [KERNELS[0].0, KERNELS[2].0, KERNELS[4].0, KERNELS[5].0].contains(&one.name)) {
         let title = one.name.replace("12°", "");
         pictures.push(Disc::new(title.trim(), |d| on_cells(&one.grid, &one.luminance, d)));
         key.push(format!("{} {}", one.name, percent(one.misplaced)));
-        for (cell, l) in one.grid.basis().cells().zip(&one.luminance) {
-            let [theta, phi] = [cell.theta(), cell.phi].map(f64::to_degrees);
-            table.row(&[one.name], &[(10.0 * theta).round() / 10.0, (10.0 * phi).round() / 10.0, l.round()]);
-        }
+        let mean = one.luminance.iter().sum::<f64>() / one.luminance.len() as f64;
+        let [low, high] = one.luminance.iter().fold([f64::INFINITY, 0.0], |[a, b], l| [l.min(a), l.max(b)]);
+        table.row(&[one.name], &[one.misplaced, one.unevenness, low, mean, high]);
     }
     // Each with its own scale: the spots of the first would leave the others dark.
     let rows: Vec<Vec<Disc>> = vec![pictures];
@@ -157,7 +156,7 @@ fn discs_own_scale(rows: Vec<Vec<Disc>>) -> Result<Vec<u8>> {
             let mut lit: Vec<f64> = disc.values.iter().copied().filter(|v| v.is_finite()).collect();
             lit.sort_by(f64::total_cmp);
             let top = lit.get(lit.len().saturating_sub(1) * 99 / 100).copied().unwrap_or(1.0).max(1e-12);
-            disc.values.iter_mut().for_each(|v| *v = (*v / top).min(1.0));
+            disc.values.iter_mut().for_each(|v| *v = if *v > top { 1.0 } else { *v / top });
             disc
         });
         row.collect::<Vec<Disc>>()
@@ -263,27 +262,29 @@ fn figure_19() -> Result<Figure> {
 }
 
 fn figure_20() -> Result<Figure> {
-    let mut table = Table::new("period_m,distance_m,lines_over_even,closed_form");
+    let mut table = Table::new("period_m,distance_m,spots_over_even,closed_form,lines_over_even,closed_form");
     let (mut panels, mut key) = (Vec::new(), Vec::new());
     for period in [0.2, 0.1] {
         let lines = rooms::lines(period)?;
-        for [d, share, truth] in &lines.points {
-            table.row(&[], &[period, *d, *share, *truth]);
+        for [d, spots, truth, wide, endless] in &lines.points {
+            table.row(&[], &[period, *d, *spots, *truth, *wide, *endless]);
         }
         let at = |x: f64| {
             let row = lines.points.iter().find(|p| p[0] >= x).map_or(1.0, |p| p[1]);
             percent((row - 1.0).abs())
         };
         key.push(format!(
-            "period {period} m: {} at 0.1 m, {} at 0.3 m, {} at 1 m; even area to be trusted from {} m",
+            "period {period} m, spots: {} at 0.1 m, {} at 0.3 m, {} at 1 m; even area to be trusted from {} m",
             at(0.0999),
             at(0.299),
             at(0.999),
             rounded(lines.trusted)
         ));
         let drawn = vec![
-            Line::new("closed form, endless lines", 5, column(&lines.points, 2)).wide(),
-            Line::new("lines by the program", 1, column(&lines.points, 1)),
+            Line::new("spots, closed form", 5, column(&lines.points, 2)).wide(),
+            Line::new("spots by the program", 2, column(&lines.points, 1)),
+            Line::new("lines, closed form", 6, column(&lines.points, 4)).wide(),
+            Line::new("lines by the program", 1, column(&lines.points, 3)),
             Line::new("even area", 0, lines.points.iter().map(|p| [p[0], 1.0]).collect()),
             Line::new("trusted from here", 3, vec![[lines.trusted, 0.0], [lines.trusted, 1.5]]),
         ];
@@ -298,7 +299,7 @@ fn figure_20() -> Result<Figure> {
     Ok(Figure {
         file: "fig20-lines",
         number: "20",
-        shows: "illuminance at sill height before an opening of bright lines over that before an even area of the same flux",
+        shows: "illuminance at sill height before bright spots above each other, and before bright lines, over that before an even area of the same flux",
         key: key.join("; "),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
@@ -314,7 +315,8 @@ fn figure_21() -> Result<Figure> {
     }
     let mut panels = Vec::new();
     let klems = Arc::new(systems::open_cells(&RingBasis::klems_full(cfs::compute::basis::AzimuthMap::KLEMS_FRONT)));
-    let (measured, diffuser) = (rooms::tregenza_data(), Arc::new(systems::diffuser()));
+    let diffuser = Arc::new(systems::diffuser());
+    let measured = Arc::new(systems::open_measured(&RingBasis::tregenza(), 72, systems::clear_2));
     for (name, place) in outlines::situations() {
         let towards = if name.starts_with("roof") { -1.0 } else { 1.0 };
         let mut drawn = Vec::new();
@@ -340,11 +342,12 @@ fn figure_21() -> Result<Figure> {
             let line = lines.iter().find(|line| line.situation == name && line.resolution.contains(what));
             line.map_or(f64::NAN, |line| line.misplaced)
         };
-        let series = ["directions: 36", "Tregenza", "directions: 576"].map(|what| percent(off(what))).join(" / ");
+        let series =
+            ["145, cells of 3.7", "145, cells of 1.9", "145, cells of 1.2"].map(|what| percent(off(what))).join(" / ");
         let cells = ["quarter", "full", "2304"].map(|what| percent(off(what))).join(" / ");
         key.push(format!(
-            "{name}: diffuser within {}; open aperture, misplaced flux: 36/145/576 directions {series}, 41/145/2304 cells \
-             {cells}, regular {}",
+            "{name}: diffuser within {}; open aperture, misplaced flux: 145 directions on cells of 3.7°/1.9°/1.2° {series}, \
+             41/145/2304 cells {cells}, regular {}",
             percent(outlines::diffuser_deviation(&place)?),
             percent(off("regular")),
         ));

@@ -86,39 +86,44 @@ pub fn shadow_deviation(altitude: f64, profile: &Profile) -> f64 {
     profile.points.iter().map(|[x, share]| (share - truth(*x)).abs()).fold(0.0, f64::max)
 }
 
-/// Figure 20: illuminance of a horizontal plane at sill height by lines over that by an even area of the same flux.
+/// Figure 20: illuminance of a horizontal plane at sill height over that by an even area of the same flux.
 pub struct Lines {
     pub period: f64,
-    /// Distance \[m\]; share by the program; share by the closed form of endless lines.
-    pub points: Vec<[f64; 3]>,
+    /// Distance \[m\]; share by spots, their closed form; share by endless lines, their closed form.
+    pub points: Vec<[f64; 5]>,
     /// Distance from which on the even area may be trusted. \[m\]
     pub trusted: f64,
 }
 
-/// Lines of light 1 mm high, every `period` on an opening 1 m high and 60 m wide.
+/// Spots above each other, as the report has them, on an opening 1 m high: 1 mm high, every `period`; and the same as
+/// lines 60 m wide.
 pub fn lines(period: f64) -> Result<Lines> {
     const LINE: f64 = 1e-3;
     let distances: Vec<f64> = (0..=60).map(|k| 0.05 * 60_f64.powf(f64::from(k) / 60.0)).collect();
     let count = (1.0 / period).round() as usize;
-    let even = Place {
-        size: [60.0, 10.0, 3.0],
-        apertures: vec![(Surface::Facade, [0.0, 1.0], [60.0, 1.0])],
-        ground: 1.0,
-        ..systems::side_lit(systems::UNIFORM, along(30.0, 1.0, distances.iter().copied()))
-    };
-    let strip = |k: usize| (Surface::Facade, [0.0, 1.0 + (k as f64 + 0.5) * period - 0.5 * LINE], [60.0, LINE]);
-    let cut = Place { apertures: (0..count).map(strip).collect(), ..even.clone() };
     let system = Arc::new(systems::diffuser());
-    let (whole, parts) = (totals(&even.room(&system)?), totals(&cut.room(&system)?));
-    let points = distances
-        .iter()
-        .zip(whole.iter().zip(&parts))
-        .map(|(&d, (whole, parts))| {
-            let truth = 1.0 + homogeneity::deviation(period, 1.0, d, 0.5).unwrap_or(0.0);
-            [d, parts * period / LINE / whole, truth]
-        })
-        .collect();
-    Ok(Lines { period, points, trusted: homogeneity::distance(period) })
+    let shares = |width: f64| -> Result<Vec<f64>> {
+        let left = 30.0 - 0.5 * width;
+        let even = Place {
+            size: [60.0, 10.0, 3.0],
+            apertures: vec![(Surface::Facade, [left, 1.0], [width, 1.0])],
+            ground: 1.0,
+            ..systems::side_lit(systems::UNIFORM, along(30.0, 1.0, distances.iter().copied()))
+        };
+        let strip = |k: usize| (Surface::Facade, [left, 1.0 + (k as f64 + 0.5) * period - 0.5 * LINE], [width, LINE]);
+        let cut = Place { apertures: (0..count).map(strip).collect(), ..even.clone() };
+        let (whole, parts) = (totals(&even.room(&system)?), totals(&cut.room(&system)?));
+        Ok(whole.iter().zip(&parts).map(|(whole, parts)| parts * period / LINE / whole).collect())
+    };
+    let (spots, wide) = (shares(LINE)?, shares(60.0)?);
+    let points = distances.iter().enumerate().map(|(k, &d)| {
+        let truth = 1.0 + homogeneity::deviation(period, 1.0, d, 0.5).unwrap_or(0.0);
+        // Endless lines: E of each goes with y d/(y² + d²)^1.5, of the area with 1 − d/√(1 + d²).
+        let line = |y: f64| y * d / (y * y + d * d).powf(1.5);
+        let sum: f64 = (0..count).map(|k| line((k as f64 + 0.5) * period)).sum();
+        [d, spots[k], truth, wide[k], sum * period / (1.0 - d / 1_f64.hypot(d))]
+    });
+    Ok(Lines { period, points: points.collect(), trusted: homogeneity::distance(period) })
 }
 
 /// Figure 25: a depth, and illuminance there in the open aperture, from closed form and from 145 directions.
@@ -184,9 +189,9 @@ fn spread_of(data: &Dataset, altitude: f64) -> f64 {
     (0.5 * moment / flux).sqrt()
 }
 
-/// The open aperture measured at Tregenza's directions.
+/// The open aperture measured at Tregenza's directions with a beam of 1° on cells of 1.9°.
 pub fn tregenza_data() -> Arc<Dataset> {
-    Arc::new(systems::open_measured(&RingBasis::tregenza()))
+    Arc::new(systems::open_measured(&RingBasis::tregenza(), 48, systems::clear))
 }
 
 /// One curve of Figures 23 and 24.

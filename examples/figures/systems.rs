@@ -33,6 +33,11 @@ pub fn clear(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 1_f64.to_radians() }], 0.0)
 }
 
+/// The same with a beam of 2°.
+pub fn clear_2(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
+    (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 2_f64.to_radians() }], 0.0)
+}
+
 /// A pane that scatters about the straight direction, standard deviation 10°.
 pub fn scattering(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 0.9, centre: d.vector(), sigma: 10_f64.to_radians() }], 0.0)
@@ -123,9 +128,9 @@ pub fn open_cells(basis: &RingBasis) -> Dataset {
     dataset("open, by cells", Btdf::from_cells(matrix))
 }
 
-/// The open aperture measured at a lattice of directions, emergent cells of about 1.5°.
-pub fn open_measured(lattice: &RingBasis) -> Dataset {
-    of_directions("open, measured", measured(lattice, &RingBasis::equal_area(48), clear))
+/// The open aperture measured at a lattice of directions, `rings` of emergent cells.
+pub fn open_measured(lattice: &RingBasis, rings: usize, law: Law) -> Dataset {
+    of_directions("open, measured", measured(lattice, &RingBasis::equal_area(rings), law))
 }
 
 /// A beam at altitude `altitude` straight before the façade, spread in altitude alone as a normal distribution.
