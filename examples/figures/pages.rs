@@ -1,0 +1,437 @@
+//! From numbers to pictures, tables and one line of what to remember.
+
+use crate::Figure;
+use crate::chart::{Disc, Line, Panel, discs, sheet};
+use crate::indicatrices::{self as data, KERNELS};
+use crate::{outlines, rooms, systems};
+use anyhow::Result;
+use cfs::compute::basis::RingBasis;
+use cfs::compute::direction::{Dir, Emergent, Facade};
+use cfs::compute::incidence::grid::Grid;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+/// All figures in the report's order.
+pub const ALL: [fn() -> Result<Figure>; 11] = [
+    figure_7, figure_8, figure_9, figure_11, figure_12, figure_19, figure_20, figure_21, figure_23, figure_24,
+    figure_25,
+];
+
+/// A table's head and rows.
+struct Table(String);
+
+impl Table {
+    fn new(head: &str) -> Self {
+        Self(format!("{head}\n"))
+    }
+
+    fn row(&mut self, words: &[&str], numbers: &[f64]) {
+        let words = words.iter().map(|word| format!("\"{word}\""));
+        let row: Vec<String> = words.chain(numbers.iter().map(|n| rounded(*n))).collect();
+        let _ = writeln!(self.0, "{}", row.join(","));
+    }
+}
+
+/// Six significant digits.
+fn rounded(n: f64) -> String {
+    if n == 0.0 || !n.is_finite() {
+        return format!("{n}");
+    }
+    let digits = (5 - n.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let text = format!("{n:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn percent(x: f64) -> String {
+    format!("{} %", rounded((1e5 * x).round() / 1e3))
+}
+
+/// Column of rows with the first column.
+fn column<const N: usize>(rows: &[[f64; N]], k: usize) -> Vec<[f64; 2]> {
+    rows.iter().map(|row| [row[0], row[k]]).collect()
+}
+
+fn on_cells(grid: &Grid, values: &[f64], d: Dir<Facade>) -> f64 {
+    grid.basis().index(d).map_or(0.0, |k| values[k])
+}
+
+fn figure_7() -> Result<Figure> {
+    let sections = data::sections()?;
+    let (mut panels, mut spectra) = (Vec::new(), Vec::new());
+    let mut table = Table::new("sky,quantity,angle_deg_or_per_deg,luminance,patch_mean,mean_within_6_deg");
+    let mut key = Vec::new();
+    for s in &sections {
+        let axes = ["angle from the zenith towards the sun [°]", "L / L max"];
+        let lines = vec![
+            Line::new("luminance", 0, column(&s.points, 1)),
+            Line::new("mean of its patch", 2, column(&s.points, 2)),
+            Line::new("mean within 6°", 1, column(&s.points, 3)),
+        ];
+        panels.push(Panel::new(s.name, axes, lines));
+        let lines = vec![
+            Line::new("luminance", 0, column(&s.spectrum, 1)),
+            Line::new("means of patches", 2, column(&s.spectrum, 2)),
+        ];
+        spectra.push(Panel::new("amplitudes", ["frequency [1/°]", "amplitude"], lines));
+        s.points.iter().for_each(|p| table.row(&[s.name, "section"], p));
+        s.spectrum.iter().for_each(|p| table.row(&[s.name, "spectrum"], p));
+        key.push(format!("{}: {}", s.name, percent(s.lost)));
+    }
+    panels.extend(spectra);
+    Ok(Figure {
+        file: "fig07-outside",
+        number: "7",
+        shows: "sections through luminances over a roof, before and after averaging over Tregenza patches; amplitudes of \
+                their Fourier transform",
+        key: format!("share of the variance finer than 24°: {}", key.join("; ")),
+        picture: ("svg", sheet(&panels, 3).to_svg().into_bytes()),
+        table: table.0,
+    })
+}
+
+fn figure_8() -> Result<Figure> {
+    let mut panels = Vec::new();
+    let mut table = Table::new("system,kernel,angle_deg,luminance_of_mean");
+    let mut key = Vec::new();
+    for (name, law) in [("clear glazing", systems::clear_2 as systems::Law), ("scattering pane", systems::scattering)] {
+        let list = data::superposed(law, systems::UNIFORM)?;
+        let mut lines = Vec::new();
+        for (k, one) in list.iter().enumerate() {
+            let mean = one.luminance.iter().sum::<f64>() / one.luminance.len() as f64;
+            let section = outlines::section(|d| on_cells(&one.grid, &one.luminance, d) / mean, 1.0);
+            section.iter().for_each(|p| table.row(&[name, one.name], p));
+            lines.push(Line::new(one.name, k, section));
+        }
+        let words: Vec<String> = list.iter().map(|one| format!("{} {}", one.name, percent(one.unevenness))).collect();
+        key.push(format!("{name}: {}", words.join(", ")));
+        let filtered = lines.split_off(1);
+        let mut unfiltered =
+            Panel::new(format!("{name}, unfiltered"), ["angle from the normal [°]", "L / mean"], lines);
+        unfiltered.y[1] = unfiltered.y[1].min(6.0);
+        let mut panel = Panel::new(format!("{name}, filtered"), ["angle from the normal [°]", "L / mean"], filtered);
+        panel.y[1] = 2.0;
+        panels.extend([unfiltered, panel]);
+    }
+    Ok(Figure {
+        file: "fig08-kernels",
+        number: "8",
+        shows: "indicatrices of 145 directions added up under uniform light: no filter, the report's kernels (narrow, \
+                matched, wide), kernels with the shape of the patches, and shift-and-weight, which is what the program uses",
+        key: format!("unevenness of what should be even (standard deviation / mean): {}", key.join("; ")),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
+        table: table.0,
+    })
+}
+
+fn figure_9() -> Result<Figure> {
+    let list = data::superposed(systems::clear_2, systems::OVERCAST)?;
+    let mut table = Table::new("way,misplaced_flux,uneven_within_78_deg,darkest_cd_m2,mean_cd_m2,brightest_cd_m2");
+    let mut pictures = Vec::new();
+    let mut key = Vec::new();
+    for one in list.iter().filter(|one| [KERNELS[0].0, KERNELS[2].0, KERNELS[4].0, KERNELS[5].0].contains(&one.name)) {
+        let title = one.name.replace("12°", "");
+        pictures.push(Disc::new(title.trim(), |d| on_cells(&one.grid, &one.luminance, d)));
+        key.push(format!("{} {}", one.name, percent(one.misplaced)));
+        let mean = one.luminance.iter().sum::<f64>() / one.luminance.len() as f64;
+        let [low, high] = one.luminance.iter().fold([f64::INFINITY, 0.0], |[a, b], l| [l.min(a), l.max(b)]);
+        table.row(&[one.name], &[one.misplaced, one.unevenness, low, mean, high]);
+    }
+    // Each with its own scale: the spots of the first would leave the others dark.
+    let rows: Vec<Vec<Disc>> = vec![pictures];
+    Ok(Figure {
+        file: "fig09-rooflight",
+        number: "9",
+        shows: "luminance of a clear rooflight under the CIE overcast sky from its indicatrices at 145 directions, seen along \
+                the normal",
+        key: format!("misplaced flux against eq 20: {}", key.join(", ")),
+        picture: ("png", discs_own_scale(rows)?),
+        table: table.0,
+    })
+}
+
+/// Discs of one row, each scaled by its 99th percentile.
+fn discs_own_scale(rows: Vec<Vec<Disc>>) -> Result<Vec<u8>> {
+    let scaled = rows.into_iter().map(|row| {
+        let row = row.into_iter().map(|mut disc| {
+            let mut lit: Vec<f64> = disc.values.iter().copied().filter(|v| v.is_finite()).collect();
+            lit.sort_by(f64::total_cmp);
+            let top = lit.get(lit.len().saturating_sub(1) * 99 / 100).copied().unwrap_or(1.0).max(1e-12);
+            disc.values.iter_mut().for_each(|v| *v = if *v > top { 1.0 } else { *v / top });
+            disc
+        });
+        row.collect::<Vec<Disc>>()
+    });
+    Ok(discs(&scaled.collect::<Vec<_>>(), 1.0)?)
+}
+
+fn figure_11() -> Result<Figure> {
+    let mut table = Table::new("system,threshold,ratio,rms,misplaced_flux,largest_of_peak,tau_error");
+    let mut key = Vec::new();
+    let mut rows = Vec::new();
+    for (name, set) in data::compressed_systems() {
+        let (list, first) = data::compressions(name, &set)?;
+        for one in &list {
+            let r = &one.report;
+            table.row(&[one.system, one.criterion], &[r.ratio(), r.rms, r.misplaced, r.largest, r.tau_error]);
+        }
+        let ratios: Vec<String> =
+            list.iter().map(|one| format!("{} {:.1}", one.criterion, one.report.ratio())).collect();
+        key.push(format!("{name}: {}", ratios.join(", ")));
+        let grid = Grid::new(set.emergent());
+        let given = set.row(0).into_owned();
+        let ratio = list.first().map_or(0.0, |one| one.report.ratio());
+        rows.push(vec![
+            Disc::new("measured", |d| on_cells(&grid, &given, d)),
+            Disc::new(format!("{ratio:.0} to 1"), |d| on_cells(&grid, &first, d)),
+            Disc::new("difference x 5", |d| 5.0 * (on_cells(&grid, &given, d) - on_cells(&grid, &first, d)).abs()),
+        ]);
+    }
+    Ok(Figure {
+        file: "fig11-compression",
+        number: "11",
+        shows: "values given for every number kept, noise of 2 % in the data; pictures: incidence at θ 42°, φ 90° and the same \
+                from 1 % dropped energy (Σc², which is 10 % rms), top the glass, bottom the diffuser",
+        key: key.join("; "),
+        picture: ("png", discs(&rows, 0.5)?),
+        table: table.0,
+    })
+}
+
+fn figure_12() -> Result<Figure> {
+    let between = data::between();
+    let mut table = Table::new("scheme,misplaced_flux,foretold_by_leaving_out");
+    let disc = |title: &str, values: &[f64]| Disc::new(title, |d| on_cells(&between.grid, values, d));
+    let mut first: Vec<Disc> =
+        between.around.iter().map(|(weight, q)| disc(&format!("data, weight {weight:.2}"), q)).collect();
+    first.push(disc("truth", &between.truth));
+    let (mut rows, mut key) = (vec![first], Vec::new());
+    let mut shown = Vec::new();
+    for (name, q, error, foretold) in &between.schemes {
+        table.row(&[name], &[*error, *foretold]);
+        key.push(format!("{name} {} (foretold {})", percent(*error), percent(*foretold)));
+        if *name != "auto" {
+            shown.push(disc(&name.replace('-', " "), q));
+        }
+    }
+    let second = shown.split_off(3);
+    rows.extend([shown, second]);
+    Ok(Figure {
+        file: "fig12-sun-between",
+        number: "12",
+        shows: "light-redirecting glass, known at 145 directions, for a sun between three of them: the data around, the truth, \
+                and every scheme",
+        key: format!("misplaced flux: {}", key.join(", ")),
+        picture: ("png", discs(&rows, 0.5)?),
+        table: table.0,
+    })
+}
+
+fn figure_19() -> Result<Figure> {
+    let mut table = Table::new("altitude_deg,beam,distance_m,share_of_full");
+    let (mut panels, mut key) = (Vec::new(), Vec::new());
+    for (altitude, reach) in [(20.0, 1.6), (60.0, 0.24)] {
+        let mut lines = Vec::new();
+        for (k, spread) in [None, Some(1.0), Some(2.5), Some(5.0)].into_iter().enumerate() {
+            let profile = rooms::shadow(altitude, spread)?;
+            if spread.is_none() {
+                let off = rooms::shadow_deviation(altitude, &profile);
+                key.push(format!("{altitude}°: disc within {} of full sun of the closed form", percent(off)));
+            }
+            key.push(format!("{} {:.3} m (closed form {:.3})", profile.name, profile.width, profile.expected));
+            for [x, share] in &profile.points {
+                table.row(&[], &[altitude, spread.unwrap_or(0.0), *x, *share]);
+            }
+            let mut points = vec![[-reach, 0.0]];
+            points.extend(profile.points.iter().copied().filter(|p| p[0].abs() <= reach));
+            lines.push(Line::new(profile.name, k, points));
+        }
+        let mut panel =
+            Panel::new(format!("altitude {altitude}°"), ["distance from the edge [m]", "E / E full"], lines);
+        panel.x = [-reach, reach];
+        panels.push(panel);
+    }
+    Ok(Figure {
+        file: "fig19-shadow-edge",
+        number: "19",
+        shows: "transition at a shadow's edge 1 m above a horizontal plane: the sun's disc of 0.533° through an opening, and \
+                beams that a system spreads",
+        key: format!("10–90 % widths, {}", key.join("; ")),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
+        table: table.0.replacen("beam", "spread_deg", 1),
+    })
+}
+
+fn figure_20() -> Result<Figure> {
+    let mut table = Table::new("period_m,distance_m,spots_over_even,closed_form,lines_over_even,closed_form");
+    let (mut panels, mut key) = (Vec::new(), Vec::new());
+    for period in [0.2, 0.1] {
+        let lines = rooms::lines(period)?;
+        for [d, spots, truth, wide, endless] in &lines.points {
+            table.row(&[], &[period, *d, *spots, *truth, *wide, *endless]);
+        }
+        let at = |x: f64| {
+            let row = lines.points.iter().find(|p| p[0] >= x).map_or(1.0, |p| p[1]);
+            percent((row - 1.0).abs())
+        };
+        key.push(format!(
+            "period {period} m, spots: {} at 0.1 m, {} at 0.3 m, {} at 1 m; even area to be trusted from {} m",
+            at(0.0999),
+            at(0.299),
+            at(0.999),
+            rounded(lines.trusted)
+        ));
+        let drawn = vec![
+            Line::new("spots, closed form", 5, column(&lines.points, 2)).wide(),
+            Line::new("spots by the program", 2, column(&lines.points, 1)),
+            Line::new("lines, closed form", 6, column(&lines.points, 4)).wide(),
+            Line::new("lines by the program", 1, column(&lines.points, 3)),
+            Line::new("even area", 0, lines.points.iter().map(|p| [p[0], 1.0]).collect()),
+            Line::new("trusted from here", 3, vec![[lines.trusted, 0.0], [lines.trusted, 1.5]]),
+        ];
+        let title = format!("period {period} m, height 1 m");
+        let mut panel = Panel::new(title, ["distance [m]", "E / E even"], drawn);
+        (panel.x, panel.y) = ([0.0, 2.0], [0.6, 1.6]);
+        for line in &mut panel.lines {
+            line.points.retain(|p| p[0] <= 2.0);
+        }
+        panels.push(panel);
+    }
+    Ok(Figure {
+        file: "fig20-lines",
+        number: "20",
+        shows: "illuminance at sill height before bright spots above each other, and before bright lines, over that before an even area of the same flux",
+        key: key.join("; "),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
+        table: table.0,
+    })
+}
+
+fn figure_21() -> Result<Figure> {
+    let lines = outlines::table()?;
+    let mut table = Table::new("what,situation,data,angle_deg_or_misplaced,cd_per_1000_lm_or_transmittance");
+    let mut key = Vec::new();
+    for line in &lines {
+        table.row(&["summary", line.situation, line.resolution], &[line.misplaced, line.transmittance]);
+    }
+    let mut panels = Vec::new();
+    let klems = Arc::new(systems::open_cells(&RingBasis::klems_full(cfs::compute::basis::AzimuthMap::KLEMS_FRONT)));
+    let diffuser = Arc::new(systems::diffuser());
+    let measured = Arc::new(systems::open_measured(&RingBasis::tregenza(), 72, systems::clear_2));
+    for (name, place) in outlines::situations() {
+        let towards = if name.starts_with("roof") { -1.0 } else { 1.0 };
+        let mut drawn = Vec::new();
+        let truth = place.scene(&klems)?;
+        let flux = outlines::illuminance(&truth.facing(0));
+        let exact =
+            outlines::section(|d| 1000.0 * outlines::outside(&truth.facing(0), d) * d.vector().z / flux, towards);
+        drawn.push(Line::new("eq 20", 5, exact).wide());
+        let even = outlines::section(|d| 1000.0 * d.vector().z / std::f64::consts::PI, towards);
+        drawn.push(Line::new("eq 19", 6, even).wide());
+        let sets = [("145 Klems cells", &klems, 2), ("145 directions", &measured, 1), ("diffuser", &diffuser, 0)];
+        for (what, set, colour) in sets {
+            let (_, light) = place.lid(set)?;
+            let intensity =
+                |d: Dir<Facade>| 1000.0 * light.lid.intensity(Emergent::from_through_name(d)) / light.flux.value;
+            drawn.push(Line::new(what, colour, outlines::section(intensity, towards)));
+        }
+        for line in &drawn {
+            line.points.iter().for_each(|p| table.row(&["section", name, &line.name], p));
+        }
+        panels.push(Panel::new(name, ["angle from the normal towards the sun [°]", "cd / 1000 lm"], drawn));
+        let off = |what: &str| {
+            let line = lines.iter().find(|line| line.situation == name && line.resolution.contains(what));
+            line.map_or(f64::NAN, |line| line.misplaced)
+        };
+        let series =
+            ["145, cells of 3.7", "145, cells of 1.9", "145, cells of 1.2"].map(|what| percent(off(what))).join(" / ");
+        let cells = ["quarter", "full", "2304"].map(|what| percent(off(what))).join(" / ");
+        key.push(format!(
+            "{name}: diffuser within {}; open aperture, misplaced flux: 145 directions on cells of 3.7°/1.9°/1.2° {series}, \
+             41/145/2304 cells {cells}, regular {}",
+            percent(outlines::diffuser_deviation(&place)?),
+            percent(off("regular")),
+        ));
+    }
+    let worst = lines.iter().map(|line| (line.transmittance - 1.0).abs()).fold(0.0, f64::max);
+    key.push(format!("transmittance of the open aperture, all data and skies: 100 % within {}", percent(worst)));
+    Ok(Figure {
+        file: "fig21-intensity",
+        number: "21",
+        shows: "luminous intensity of the ideal diffuser and the open aperture against eq 19 and 20, and what the open \
+                aperture's data of rising density make of it",
+        key: key.join("; "),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
+        table: table.0,
+    })
+}
+
+fn figure_23() -> Result<Figure> {
+    depth_figure(
+        "fig23-direct",
+        "23",
+        "direct illuminance along the model rooms (4 × 6 × 3 m, 0.85 m above the floor), transparent and diffuse",
+        1,
+    )
+}
+
+fn figure_24() -> Result<Figure> {
+    depth_figure("fig24-interreflected", "24", "the same with interreflection (ρ = 0.2, 0.5, 0.7)", 2)
+}
+
+fn depth_figure(file: &'static str, number: &'static str, shows: &'static str, of: usize) -> Result<Figure> {
+    let depths = rooms::depths()?;
+    let mut table = Table::new("situation,system,depth_m,direct_lx,total_lx,stated_error_lx");
+    let (mut panels, mut key) = (Vec::new(), Vec::new());
+    for pair in depths.chunks(2) {
+        let lines = pair.iter().enumerate().map(|(k, d)| Line::new(d.system, k + 1, column(&d.points, of)));
+        panels.push(Panel::new(pair[0].situation, ["depth [m]", "E [lx]"], lines.collect()));
+        for one in pair {
+            one.points.iter().for_each(|p| table.row(&[one.situation, one.system], p));
+            let stated = one.points.iter().map(|p| p[3] / p[2]).fold(0.0, f64::max);
+            let number = if of == 1 { percent(one.distance) } else { percent(stated) };
+            key.push(format!("{}, {} {number}", one.situation, one.system));
+        }
+    }
+    let what = if of == 1 { "mean distance from 200 × 200 point sources" } else { "largest stated error" };
+    Ok(Figure {
+        file,
+        number,
+        shows,
+        key: format!("{what}: {}", key.join("; ")),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
+        table: table.0,
+    })
+}
+
+fn figure_25() -> Result<Figure> {
+    let measured = rooms::tregenza_data();
+    let mut table = Table::new("altitude_deg,depth_m,open_aperture_lx,closed_form_lx,from_145_directions_lx");
+    let (mut panels, mut key) = (Vec::new(), Vec::new());
+    for altitude in [24.0, 60.0] {
+        let patch = rooms::sun_patch(altitude, &measured)?;
+        for p in &patch.points {
+            table.row(&[], &[altitude, p[0], p[1], p[2], p[3]]);
+        }
+        let full = patch.points.iter().map(|p| p[2]).fold(0.0, f64::max);
+        let off = patch.points.iter().map(|p| (p[1] - p[2]).abs()).fold(0.0, f64::max) / full;
+        key.push(format!(
+            "{altitude}°: open aperture within {} of full sun of the closed form, penumbra included; 145 directions: edge \
+             blurred over {:.2} m by the data's own lobe of {:.2}° (its closed form {:.2} m), light {}",
+            percent(off), patch.blur[0], patch.data, patch.blur[1], percent(patch.light)
+        ));
+        let lines = vec![
+            Line::new("closed form", 5, column(&patch.points, 2)).wide(),
+            Line::new("open aperture", 0, column(&patch.points, 1)),
+            Line::new("from 145 directions", 1, column(&patch.points, 3)),
+        ];
+        panels.push(Panel::new(format!("sun at {altitude}°"), ["depth [m]", "E [lx]"], lines));
+    }
+    Ok(Figure {
+        file: "fig25-sun-patch",
+        number: "25",
+        shows: "the sun through the side-lit room's open aperture, 0.1 m above the floor, nothing interreflected",
+        key: key.join("; "),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
+        table: table.0,
+    })
+}

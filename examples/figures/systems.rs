@@ -1,0 +1,269 @@
+//! Systems of closed form, sampled as a goniophotometer would, and the scenes they stand in. Shared by the pictures and
+//! by the test of their numbers.
+
+#![allow(dead_code, reason = "the pictures and the test each use their own part")]
+
+use anyhow::Result;
+use cfs::compute::basis::{AzimuthMap, Ring, RingBasis};
+use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Dataset, Indicatrices, Scattered};
+use cfs::compute::direction::{Dir, Facade, Incident, Surface};
+use cfs::compute::estimate::Silent;
+use cfs::compute::lid::Facing;
+use cfs::compute::system::laser_cut::deflected_share;
+use cfs::study::scene_file::{ControlMode, SystemKeys};
+use cfs::study::{LidResult, RoomResult, Scene, SceneFile, Session, StudyError, System, SystemLibrary};
+use glam::DVec3;
+use std::f64::consts::PI;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Share of the light that leaves about a direction (through-name) with a spread. \[rad\]
+#[derive(Debug, Clone, Copy)]
+pub struct Lobe {
+    pub flux: f64,
+    pub centre: DVec3,
+    pub sigma: f64,
+}
+
+/// A system: its lobes for an incident direction, and the share that leaves evenly.
+pub type Law = fn(Dir<Facade>) -> (Vec<Lobe>, f64);
+
+/// An open aperture as an instrument with a beam of 1° (standard deviation) sees it.
+pub fn clear(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
+    (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 1_f64.to_radians() }], 0.0)
+}
+
+/// The same with a beam of 2°.
+pub fn clear_2(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
+    (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 2_f64.to_radians() }], 0.0)
+}
+
+/// A pane that scatters about the straight direction, standard deviation 10°.
+pub fn scattering(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
+    (vec![Lobe { flux: 0.9, centre: d.vector(), sigma: 10_f64.to_radians() }], 0.0)
+}
+
+/// A diffuser without a preferred direction.
+pub fn opal(_: Dir<Facade>) -> (Vec<Lobe>, f64) {
+    (Vec::new(), 0.5)
+}
+
+/// A light-redirecting glass: of light from above, a share after Edmonds is turned up and spread, the rest goes straight
+/// on; a tenth is haze.
+pub fn redirecting(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
+    let v = d.vector();
+    let inner = (1.0 - v.truncate().length_squared() / 2.25).sqrt();
+    let turned = if v.y > 0.0 { deflected_share(0.9 * (v.y / 1.5) / inner) } else { 0.0 };
+    let y = -0.75 * v.y;
+    let up = DVec3::new(v.x, y, (1.0 - v.x * v.x - y * y).max(0.0).sqrt());
+    let tau = 0.85 * (1.0 - (1.0 - v.z).powi(4));
+    let lobes = vec![
+        Lobe { flux: 0.9 * tau * (1.0 - turned), centre: v, sigma: 2.5_f64.to_radians() },
+        Lobe { flux: 0.9 * tau * turned, centre: up, sigma: 4_f64.to_radians() },
+    ];
+    (lobes.into_iter().filter(|lobe| lobe.flux > 0.0).collect(), 0.1 * tau)
+}
+
+/// q of one incident direction as means over the cells; every lobe keeps its flux exactly. \[1/sr\]
+pub fn indicatrix(basis: &RingBasis, law: Law, d: Dir<Facade>) -> Vec<f64> {
+    let (lobes, even) = law(d);
+    let mut q = vec![even / PI; basis.len()];
+    for lobe in lobes {
+        let own: Vec<f64> = basis.cells().map(|cell| mean_of(&lobe, &cell)).collect();
+        let flux: f64 = own.iter().zip(basis.projected_solid_angles()).map(|(q, w)| q * w).sum();
+        q.iter_mut().zip(own).for_each(|(q, own)| *q += lobe.flux * own / flux);
+    }
+    q
+}
+
+/// Mean of a lobe (not normalised) over a cell.
+fn mean_of(lobe: &Lobe, cell: &cfs::compute::basis::Cell) -> f64 {
+    let reach = 6.0 * lobe.sigma + 2.0 * cell.solid_angle().sqrt();
+    if (cell.centre().vector() - lobe.centre).length() > reach {
+        return 0.0;
+    }
+    cfs::compute::system::cell_mean(cell, 4, |w| ((w.vector().dot(lobe.centre) - 1.0) / lobe.sigma.powi(2)).exp())
+}
+
+/// A law measured at the centres of a lattice.
+pub fn measured(lattice: &RingBasis, emergent: &RingBasis, law: Law) -> Indicatrices {
+    let incident: Vec<Incident> = lattice.cells().map(|cell| Incident(cell.centre())).collect();
+    let values = incident.iter().flat_map(|d| indicatrix(emergent, law, d.0)).collect();
+    Indicatrices::new(incident, emergent.clone(), values).expect("one row a direction, all directions differ")
+}
+
+/// As a dataset.
+pub fn dataset(name: &str, transmission: Btdf) -> Dataset {
+    let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
+    dataset.visible.transmission_front = Some(transmission);
+    dataset
+}
+
+/// Indicatrices as a dataset.
+pub fn of_directions(name: &str, data: Indicatrices) -> Dataset {
+    dataset(name, Btdf { regular: None, scattered: Some(Scattered::Directions(Arc::new(data))) })
+}
+
+/// Nothing in the opening: every ray goes straight on.
+pub fn open() -> Dataset {
+    dataset("open", Btdf { regular: Some(AngularTransmittance::Constant(1.0)), scattered: None })
+}
+
+/// The ideal diffuser.
+pub fn diffuser() -> Dataset {
+    dataset(
+        "diffuser",
+        Btdf { regular: None, scattered: Some(Scattered::Lambert(AngularTransmittance::Constant(1.0))) },
+    )
+}
+
+/// The open aperture as a matrix: light of every cell stays in that cell.
+pub fn open_cells(basis: &RingBasis) -> Dataset {
+    let n = basis.len();
+    let mut values = vec![0.0; n * n];
+    for (k, weight) in basis.projected_solid_angles().into_iter().enumerate() {
+        values[k * n + k] = 1.0 / weight;
+    }
+    let matrix = CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values for n cells");
+    dataset("open, by cells", Btdf::from_cells(matrix))
+}
+
+/// The open aperture measured at a lattice of directions, `rings` of emergent cells.
+pub fn open_measured(lattice: &RingBasis, rings: usize, law: Law) -> Dataset {
+    of_directions("open, measured", measured(lattice, &RingBasis::equal_area(rings), law))
+}
+
+/// A beam at altitude `altitude` straight before the façade, spread in altitude alone as a normal distribution.
+/// \[rad\]
+pub fn spread_beam(altitude: f64, sigma: f64) -> Dataset {
+    let steps = 160;
+    let edge = |k: i32| (altitude + sigma * f64::from(k) / 20.0).clamp(1e-3, 0.5 * PI - 1e-3);
+    let rings: Vec<Ring> = (-steps / 2..steps / 2)
+        .map(|k| Ring { theta_min: edge(k), theta_max: edge(k + 1), sectors: 180, first_phi: 0.5 * PI })
+        .filter(|ring| ring.theta_max > ring.theta_min)
+        .collect();
+    let basis = RingBasis::new("beam", rings, AzimuthMap::FACADE).expect("rings rise");
+    let share = |cell: &cfs::compute::basis::Cell| {
+        let middle = 0.5 * (cell.theta_min + cell.theta_max);
+        (-0.5 * ((middle - altitude) / sigma).powi(2)).exp() * (cell.theta_max - cell.theta_min)
+    };
+    let up = |cell: &cfs::compute::basis::Cell| (cell.phi - 0.5 * PI).abs() < 1e-9;
+    let total: f64 = basis.cells().filter(up).map(|cell| share(&cell)).sum();
+    let values =
+        basis.cells().map(|cell| if up(&cell) { share(&cell) / total / cell.projected_solid_angle() } else { 0.0 });
+    let values = values.collect();
+    let towards = Incident(Dir::from_theta_phi(altitude, 0.5 * PI));
+    let data = Indicatrices::new(vec![towards], basis, values).expect("one row");
+    of_directions("beam", data)
+}
+
+/// A room with one kind of opening.
+#[derive(Debug, Clone)]
+pub struct Place {
+    pub size: [f64; 3],
+    /// `surface`, `origin`, `size` of every opening.
+    pub apertures: Vec<(Surface, [f64; 2], [f64; 2])>,
+    pub ground: f64,
+    pub sky: String,
+    pub points: Vec<[f64; 3]>,
+    pub reflectance: [f64; 3],
+    /// Further keys of `[compute]`.
+    pub compute: &'static str,
+}
+
+/// The side-lit model room: 4 × 6 × 3 m, opening of 4 × 2 m from 1 m up to the ceiling.
+pub fn side_lit(sky: &str, points: Vec<[f64; 3]>) -> Place {
+    Place {
+        size: [4.0, 6.0, 3.0],
+        apertures: vec![(Surface::Facade, [0.0, 1.0], [4.0, 2.0])],
+        ground: 0.2,
+        sky: sky.to_owned(),
+        points,
+        reflectance: [0.0; 3],
+        compute: "",
+    }
+}
+
+/// The top-lit model room: the same with an opening of 2 × 2 m in the middle of the roof.
+pub fn top_lit(sky: &str, points: Vec<[f64; 3]>) -> Place {
+    Place { apertures: vec![(Surface::Roof, [1.0, 2.0], [2.0, 2.0])], ..side_lit(sky, points) }
+}
+
+/// CIE overcast sky, 10 klx.
+pub const OVERCAST: &str = "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0";
+/// CIE clear sky, the sun at 20° straight before the façade but for its disc.
+pub const CLEAR: &str = "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 10000.0\n\
+                         sun = { altitude = 20.0, azimuth = 180.0, direct_normal = 0.0 }";
+/// The same luminance everywhere (with a ground that reflects all).
+pub const UNIFORM: &str = "model = \"uniform\"\ndiffuse_horizontal = 10000.0";
+
+/// The sun alone, straight before the façade, 80 klx on a plane that faces it.
+pub fn sun_alone(altitude: f64) -> String {
+    format!(
+        "model = \"uniform\"\ndiffuse_horizontal = 0.0\n\
+         sun = {{ altitude = {altitude:?}, azimuth = 180.0, direct_normal = 80000.0 }}"
+    )
+}
+
+struct Only(Arc<Dataset>);
+
+impl SystemLibrary for Only {
+    fn load(&self, _: &SystemKeys, _: &Path) -> Result<Arc<System>, StudyError> {
+        Ok(Arc::new(System { label: self.0.name.clone(), state: String::new(), dataset: Arc::clone(&self.0) }))
+    }
+
+    fn controlled_state(&self, _: &str, _: ControlMode, _: &Facing<'_>) -> Result<String, StudyError> {
+        Err(StudyError::key("system", "no states here"))
+    }
+}
+
+impl Place {
+    /// With a system in all openings.
+    pub fn scene(&self, system: &Arc<Dataset>) -> Result<Scene> {
+        let ([w, d, h], [floor, walls, ceiling]) = (self.size, self.reflectance);
+        let openings: String = self
+            .apertures
+            .iter()
+            .map(|(surface, origin, size)| {
+                let surface = if *surface == Surface::Facade { "facade" } else { "roof" };
+                format!(
+                    "[[aperture]]\nsurface = \"{surface}\"\norigin = {origin:?}\nsize = {size:?}\n\
+                     system = {{ catalogue = \"made\" }}\n"
+                )
+            })
+            .collect();
+        let bounce = self.reflectance != [0.0; 3];
+        let text = format!(
+            "[room]\nwidth = {w:?}\ndepth = {d:?}\nheight = {h:?}\n\
+             reflectance = {{ floor = {floor:?}, walls = {walls:?}, ceiling = {ceiling:?} }}\n{openings}\
+             [site]\nazimuth = 180.0\nground_reflectance = {:?}\n[sky]\n{}\n\
+             [sensors]\npoints = {:?}\nnormal = [0.0, 0.0, 1.0]\n[compute]\ninterreflection = {bounce}\n{}\n",
+            self.ground, self.sky, self.points, self.compute
+        );
+        Ok(Scene::resolve(&SceneFile::parse(&text)?, Path::new("."), &Only(Arc::clone(system)))?)
+    }
+
+    /// Illuminances of the points. \[lx\]
+    pub fn room(&self, system: &Arc<Dataset>) -> Result<RoomResult> {
+        Ok(SESSION.room(&self.scene(system)?, &Silent)?)
+    }
+
+    /// Light of the first opening.
+    pub fn lid(&self, system: &Arc<Dataset>) -> Result<(Scene, LidResult)> {
+        let scene = self.scene(system)?;
+        let light = SESSION.lid(&scene, 0, &Silent)?;
+        Ok((scene, light))
+    }
+}
+
+static SESSION: Session = Session::new();
+
+/// Totals alone. \[lx\]
+pub fn totals(result: &RoomResult) -> Vec<f64> {
+    result.sensors.iter().map(|sensor| sensor.total().value).collect()
+}
+
+/// Points along the middle of a room. \[m\]
+pub fn along(x: f64, z: f64, depths: impl IntoIterator<Item = f64>) -> Vec<[f64; 3]> {
+    depths.into_iter().map(|y| [x, y, z]).collect()
+}
