@@ -1,7 +1,8 @@
 //! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
-mod interreflected;
+pub(super) mod interreflected;
+pub(super) mod responses;
 
 use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
@@ -9,7 +10,7 @@ use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::Scattered;
+use crate::compute::btdf::{Indicatrices, Scattered};
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::Model;
@@ -138,6 +139,12 @@ impl Session {
         if scene.interpolation == Interpolation::Patch {
             return Emission::new(btdf, &facing);
         }
+        let entry = self.model(data);
+        Emission::interpolated(btdf, &entry.0, &entry.1, &facing)
+    }
+
+    /// What interpolation between the directions of a dataset needs, and the cells for the sun's light.
+    pub(super) fn model(&self, data: &Arc<Indicatrices>) -> Arc<(Model, Grid)> {
         let compute = || {
             let model = Model::new(Arc::clone(data));
             let grid = sun_grid(&model);
@@ -145,7 +152,7 @@ impl Session {
         };
         // The model keeps the data alive, so that no others can have their address.
         match self.models.get(vec![Arc::as_ptr(data) as u64], compute) {
-            Ok(entry) => Emission::interpolated(btdf, &entry.0, &entry.1, &facing),
+            Ok(entry) => entry,
             Err(never) => match never {},
         }
     }
@@ -186,7 +193,7 @@ impl Session {
     }
 
     /// What every sensor receives from one aperture per luminance, on the cells of a basis.
-    fn receptions(
+    pub(super) fn receptions(
         &self,
         scene: &Scene,
         index: usize,
