@@ -105,9 +105,11 @@ fn cells_lambert_and_straight_light_agree_with_the_ordinary_way() {
             8.0,
         ),
     ] {
+        // Light that goes straight on meets the surfaces by patches of 7.5°.
+        let bound = if apertures.iter().any(|body| body.contains("transparent")) { 1.2e-2 } else { 6e-3 };
         let make = |text: &Text| text.scene_with(klems(rough));
         let others = skies(skyline, &apertures, &make);
-        agree(name, &make(&text(apertures.clone(), skyline, OVERCAST)), &others, 6e-3);
+        agree(name, &make(&text(apertures.clone(), skyline, OVERCAST)), &others, bound);
     }
 }
 
@@ -171,7 +173,7 @@ fn light_adds_up_and_scales() {
 #[test]
 fn methods_for_comparison_are_refused() {
     let text = Text {
-        compute: "near_field = \"points\"".into(),
+        compute: "near_field = \"monte-carlo\"".into(),
         ..text(vec![facade([0.5, 1.0], [3.0, 1.5], DIFFUSE)], 0.0, OVERCAST)
     };
     let refused = Coefficients::new(&Session::new(), &text.scene(), &Silent).err().unwrap().to_string();

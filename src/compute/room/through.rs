@@ -210,8 +210,8 @@ impl<'a> Region<'a> {
 
     /// Gauss points of every piece above an altitude: azimuth, altitude and what of both a point stands for. \[rad, rad²\]
     fn nodes(&self, from: f64, parts: usize, mut visit: impl FnMut(f64, f64, f64)) {
-        let rules: Vec<_> = (0..=parts + 6).map(gauss_legendre).collect();
-        let rule = |width: f64| &rules[parts + ((width / 0.35) as usize).min(6)];
+        let rules: Vec<_> = (0..=parts + 7).map(gauss_legendre).collect();
+        let rule = |width: f64| &rules[parts + ((width / 0.25) as usize).min(7)];
         for pair in self.azimuths.windows(2).filter(|pair| pair[1] - pair[0] > 1e-14) {
             for &(s, ws) in rule(pair[1] - pair[0]) {
                 let azimuth = pair[0] + (pair[1] - pair[0]) * s;

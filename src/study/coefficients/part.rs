@@ -229,7 +229,7 @@ impl Seen {
 }
 
 /// Gauss points along each side of a piece of what a sensor sees straight through, at least.
-const POINTS: usize = 2;
+const POINTS: usize = 3;
 
 /// Black sky with a ground of luminance 1, and with a skyline of luminance 1 if it stands above the horizon.
 fn constants(altitude: f64) -> [Option<Outside>; 2] {

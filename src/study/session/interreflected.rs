@@ -63,6 +63,11 @@ impl Session {
         Ok(result)
     }
 
+    /// Is the balance of the room there already?
+    pub(super) fn holds_room(&self, scene: &Scene) -> bool {
+        self.rooms.holds(&room_key(scene, PATCHES[0]))
+    }
+
     /// The room meshed with about so many fine patches, and factored.
     pub(super) fn radiosity(&self, scene: &Scene, count: usize) -> Result<Arc<Radiosity>, StudyError> {
         self.rooms.get(room_key(scene, count), || {
