@@ -17,6 +17,11 @@ impl<T> Cache<T> {
         Self { entries: Mutex::new(Vec::new()), capacity }
     }
 
+    /// Is the value of a key there?
+    pub fn holds(&self, key: &Key) -> bool {
+        self.entries.lock().unwrap_or_else(PoisonError::into_inner).iter().any(|(k, _)| k == key)
+    }
+
     /// The value of a key, computed if it is not there. Two threads may compute the same value at once; both get
     /// equal results.
     pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {

@@ -5,6 +5,7 @@
 pub mod accuracy;
 pub mod accuracy_plot;
 pub mod cache;
+pub mod coefficients;
 pub mod compact;
 pub mod control;
 mod error;
@@ -20,6 +21,7 @@ pub mod sky;
 pub mod sun_position;
 pub mod system;
 
+pub use coefficients::Coefficients;
 pub use error::StudyError;
 pub use library::Library;
 pub use scene::Scene;

@@ -1,7 +1,7 @@
 //! What a scene needs, and what was left out and why: decided before any work, printed with every result.
 
 use super::scene::{Scene, surface};
-use crate::compute::btdf::Scattered;
+use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
 use std::time::Duration;
 
 /// One stage of the computation.
@@ -25,11 +25,6 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Adds how a choice was made during the work.
-    pub fn note(&mut self, name: &'static str, reason: &str) {
-        self.stages.push(Stage { name, runs: true, reason: reason.to_owned(), time: Duration::ZERO });
-    }
-
     /// Looks at a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut plan = Self::default();
@@ -61,6 +56,24 @@ impl Plan {
             regular,
             if regular { "a system lets light straight on" } else { "no system lets light straight on" },
         );
+        // A transmittance that varies with the angle needs the integral under any sky.
+        let constant = |btdf: &Btdf| matches!(btdf.regular, None | Some(AngularTransmittance::Constant(_)));
+        let even = scene.outside.is_uniform_above_horizon()
+            && scene.apertures.iter().all(|a| a.system.dataset.transmission().is_none_or(constant));
+        plan.add(
+            "sky at sensors",
+            regular && !even,
+            match (regular, even) {
+                (false, _) => "no system lets light straight on",
+                (true, true) => "above the horizon the luminance is the same everywhere: closed form",
+                (true, false) => "the luminance of the sky seen straight through varies",
+            },
+        );
+        let controlled: Vec<String> = scene.apertures.iter().filter_map(|a| a.controlled.clone()).collect();
+        if !controlled.is_empty() {
+            let reason = format!("the control picks {}: no other state is loaded or computed", controlled.join(", "));
+            plan.add("other states", false, &reason);
+        }
         plan.add("near field", true, &format!("{}: {}", scene.near_field.word(), scene.near_field.effort()));
         let reflects = scene.room.floor > 0.0
             || scene.room.walls > 0.0
@@ -89,6 +102,11 @@ impl Plan {
             },
         );
         plan
+    }
+
+    /// Adds what turned out on the way.
+    pub(super) fn note(&mut self, name: &'static str, runs: bool, reason: &str) {
+        self.add(name, runs, reason);
     }
 
     fn add(&mut self, name: &'static str, runs: bool, reason: &str) {

@@ -39,6 +39,8 @@ pub struct SceneAperture {
     pub structure: Option<f64>,
     /// The room side reflects by its dataset's own cells instead.
     pub directional: bool,
+    /// The state that a control picked; `None` where the scene names it.
+    pub controlled: Option<String>,
 }
 
 impl SceneAperture {
@@ -122,6 +124,7 @@ impl Scene {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
             let wanted =
                 controlled_state(keys, controlled, library, &facing).map_err(|error| in_aperture(index, error))?;
+            let picked = if wanted == keys.system { None } else { wanted_state(&wanted) };
             let system = library.load(&wanted, base).map_err(|error| in_aperture(index, error))?;
             if system.dataset.transmission().is_none() {
                 return Err(StudyError::key(
@@ -152,7 +155,7 @@ impl Scene {
                     BackReflectionMode::Directional => true,
                     BackReflectionMode::Auto => reflectance * aperture.area() / surface(&room) > 2.0 * target,
                 };
-            list.push(SceneAperture { aperture, system, reflectance, structure, directional });
+            list.push(SceneAperture { aperture, system, reflectance, structure, directional, controlled: picked });
         }
         if let Some(target) = file.compute.error_target {
             within("compute.error_target", target, 1e-8, 1.0, "")?;
@@ -241,6 +244,14 @@ fn controlled_state(
             Ok(SystemKeys::Catalogue { key: key.clone(), state: Some(state) })
         }
         other => Ok(other.clone()),
+    }
+}
+
+/// The state that keys name.
+fn wanted_state(keys: &SystemKeys) -> Option<String> {
+    match keys {
+        SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } => state.clone(),
+        SystemKeys::Ideal { .. } => None,
     }
 }
 

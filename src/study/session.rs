@@ -1,7 +1,8 @@
 //! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
-mod interreflected;
+pub(super) mod interreflected;
+pub(super) mod responses;
 
 use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
@@ -9,7 +10,7 @@ use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::Scattered;
+use crate::compute::btdf::{Indicatrices, Scattered};
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{Emission, Interpolator, Lid};
 use crate::compute::quadrature::Tolerance;
@@ -137,13 +138,16 @@ impl Session {
         if scene.interpolation == Interpolation::Patch {
             return Emission::new(btdf, &facing);
         }
+        let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
+        Emission::interpolated(btdf, &self.interpolator(data), schemes, &facing)
+    }
+
+    /// What interpolation between the directions of a dataset needs.
+    pub(super) fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
         // The interpolator keeps the data alive, so that no others can have their address.
         match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {
-            Ok(own) => {
-                let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
-                Emission::interpolated(btdf, &own, schemes, &facing)
-            }
+            Ok(own) => own,
             Err(never) => match never {},
         }
     }
@@ -160,18 +164,27 @@ impl Session {
             .sum();
         plan.spend("emission", clock.elapsed());
         for note in emissions.iter().flat_map(|emission| &emission.notes) {
-            plan.note("interpolation", note);
+            plan.note("interpolation", true, note);
         }
         check(progress)?;
         progress.advance("direct light", 1, STEPS);
 
         let clock = Instant::now();
+        let reused = self.holds_receptions(scene, &emissions);
         let direct = self.direct(scene, &emissions, progress)?;
         plan.spend("direct", clock.elapsed());
+        if scene.near_field == NearField::SolidAngle {
+            let reason = if reused { "reused: sensors, apertures and cells are the same" } else { "not there yet" };
+            plan.note("receptions", !reused, reason);
+            self.note_unseen(scene, &emissions, &mut plan, progress)?;
+        }
         progress.advance("interreflection", 2, STEPS);
 
         let clock = Instant::now();
         let (interreflected, flux_gap) = if plan.runs("interreflection") {
+            let reused = self.holds_room(scene);
+            let reason = if reused { "reused: room, apertures and reflectances are the same" } else { "not there yet" };
+            plan.note("room factors", !reused, reason);
             self.interreflected(scene, &emissions, &direct, progress)?
         } else {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
@@ -186,8 +199,40 @@ impl Session {
         Ok(RoomResult { sensors, flux, flux_gap, plan })
     }
 
+    /// Is everything there that sensors and apertures are to each other?
+    fn holds_receptions(&self, scene: &Scene, emissions: &[Emission]) -> bool {
+        emissions.iter().enumerate().all(|(index, emission)| {
+            let basis = emission.cells.as_ref().map(|light| light.basis.as_ref());
+            self.reception.holds(&reception_key(scene, index, basis))
+        })
+    }
+
+    /// Emergent cells that send nothing to any sensor have no weights to be computed, and without interreflection their
+    /// light counts for nothing.
+    fn note_unseen(
+        &self,
+        scene: &Scene,
+        emissions: &[Emission],
+        plan: &mut Plan,
+        progress: &dyn Progress,
+    ) -> Result<(), StudyError> {
+        let (mut unseen, mut all) = (0, 0);
+        for (index, emission) in emissions.iter().enumerate() {
+            let Some(light) = &emission.cells else { continue };
+            let receptions = self.receptions(scene, index, Some(&light.basis), progress)?;
+            all += light.basis.len();
+            let seen = |cell: usize| receptions.iter().any(|reception| reception.cells[cell] != 0.0);
+            unseen += (0..light.basis.len()).filter(|&cell| !seen(cell)).count();
+        }
+        if all > 0 {
+            let rest = if plan.runs("interreflection") { "; they count for interreflection alone" } else { "" };
+            plan.note("unseen cells", unseen == 0, &format!("{unseen} of {all} emergent cells reach no sensor{rest}"));
+        }
+        Ok(())
+    }
+
     /// What every sensor receives from one aperture per luminance, on the cells of a basis.
-    fn receptions(
+    pub(super) fn receptions(
         &self,
         scene: &Scene,
         index: usize,
@@ -195,10 +240,7 @@ impl Session {
         progress: &dyn Progress,
     ) -> Result<Arc<Vec<Reception>>, StudyError> {
         let aperture = &scene.apertures[index].aperture;
-        let mut key = aperture_key(scene, index);
-        key.extend(sensor_key(scene));
-        key.extend(basis_key(basis));
-        self.reception.get(key, || {
+        self.reception.get(reception_key(scene, index, basis), || {
             scene
                 .sensors
                 .par_iter()
@@ -267,6 +309,13 @@ fn aperture_key(scene: &Scene, index: usize) -> Key {
     let mut key = vec![aperture.surface as u64];
     key.extend(bits(aperture.corner.to_array()));
     key.extend(bits(aperture.size));
+    key
+}
+
+fn reception_key(scene: &Scene, index: usize, basis: Option<&RingBasis>) -> Key {
+    let mut key = aperture_key(scene, index);
+    key.extend(sensor_key(scene));
+    key.extend(basis_key(basis));
     key
 }
 

@@ -54,7 +54,13 @@ impl Interpolator {
         &self.schemes
     }
 
-    fn model(&self) -> &Model {
+    /// The cells that the sun's light is put on.
+    pub fn sun_grid(&self) -> &Grid {
+        &self.sun_grid
+    }
+
+    /// The model of the indicatrices.
+    pub fn model(&self) -> &Model {
         self.schemes.model()
     }
 

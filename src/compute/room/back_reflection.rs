@@ -56,6 +56,15 @@ impl<'a> BackReflection<'a> {
         self.source.iter().map(|&cell| reflected[cell]).collect()
     }
 
+    /// For every cell of [`Self::weights`] the weights of the patches' exitance that make its luminance.
+    pub fn by_patch(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
+        let incident = self.matrix.incident().len();
+        let rows: Vec<_> = (0..incident).map(|i| self.matrix.row(i)).collect();
+        let matrix: Vec<Vec<f64>> =
+            self.source.iter().map(|&cell| rows.iter().map(|row| row[cell]).collect()).collect();
+        self.weights.returning(mesh, aperture, &matrix)
+    }
+
     /// The patches' weights.
     pub fn weights(&self) -> &PatchWeights {
         &self.weights

@@ -77,12 +77,7 @@ pub fn illuminance(
 }
 
 /// Unscattered sun at a sensor: the share of the disc seen through the opening. \[lx\]
-pub(in crate::compute::room) fn sun_through(
-    sensor: &Sensor,
-    aperture: &Aperture,
-    emission: &Emission,
-    facing: &Facing<'_>,
-) -> f64 {
+pub fn sun_through(sensor: &Sensor, aperture: &Aperture, emission: &Emission, facing: &Facing<'_>) -> f64 {
     let Some(sun) = facing.sun.filter(|_| emission.beam_tau > 0.0) else {
         return 0.0;
     };

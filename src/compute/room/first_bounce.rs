@@ -125,6 +125,36 @@ impl PatchWeights {
 }
 
 impl PatchWeights {
+    /// For weights of the patches' illuminance the weights of the cells' luminance, every cell's flux closed by itself.
+    pub fn gathered(&self, weights: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.basis.len()];
+        for (row, w) in self.rows.iter().zip(weights).filter(|(_, w)| **w != 0.0) {
+            sums.iter_mut().zip(row).for_each(|(sum, weight)| *sum += w * weight);
+        }
+        sums.iter().zip(&self.closure).map(|(sum, c)| if *c > 0.0 { sum / c } else { 0.0 }).collect()
+    }
+
+    /// Mean relative gap of flux that the closing takes away, weighted by flux.
+    pub fn gap(&self) -> f64 {
+        let received: f64 = self.received.iter().sum();
+        let gaps = self.received.iter().zip(&self.closure).filter(|(_, c)| **c > 0.0);
+        if received > 0.0 { gaps.map(|(r, c)| r * (1.0 / c - 1.0).abs()).sum::<f64>() / received } else { 0.0 }
+    }
+
+    /// For every cell of emergent light (rows of `matrix`, by cell that light falls on) the weights of the patches'
+    /// exitance: what [`Self::falling_back`] and a back reflection make of it.
+    pub fn returning(&self, mesh: &Mesh, aperture: &Aperture, matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let scale = 1.0 / (PI * aperture.area());
+        let weight = |row: &Vec<f64>, patch: &Patch, reflected: &Vec<f64>| -> f64 {
+            let parts = row.iter().zip(&self.closure).zip(reflected);
+            patch.area * scale * parts.map(|((w, c), m)| if *c > 0.0 { m * w / c } else { 0.0 }).sum::<f64>()
+        };
+        matrix
+            .par_iter()
+            .map(|reflected| self.rows.iter().zip(&mesh.patches).map(|(row, p)| weight(row, p, reflected)).collect())
+            .collect()
+    }
+
     /// Mean illuminance of the aperture's room side from the patches, by the cells through which their light comes.
     /// \[lx\] A cell is named by where its light goes to.
     pub fn falling_back(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
@@ -141,11 +171,11 @@ impl PatchWeights {
 }
 
 /// More cells than this are merged before they meet the patches, which cannot tell them apart.
-const MOST_CELLS: usize = 600;
+pub const MOST_CELLS: usize = 600;
 
 /// About 400 cells of equal projected solid angle but for finer ones around the normal, where the far end of a deep room
 /// looks; their borders hold the façade's horizon.
-fn merged_basis() -> RingBasis {
+pub fn merged_basis() -> RingBasis {
     let limits = [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
     let sectors = [4, 8, 12, 12, 20, 28, 36, 44, 52, 60, 68, 76];
     let rings = limits
@@ -210,24 +240,28 @@ impl FirstLight {
         }
         if let Some(tau) = &emission.regular {
             self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
-            if let Some(sun) = facing.sun_direction().filter(|sun| emission.beam_tau > 0.0 && sun.vector().z > 0.0) {
-                let direction = facing.surface.room_dir(sun).vector();
-                let flux = emission.beam_tau * emission.incident_sun * aperture.area();
-                let landing = landing(mesh, aperture, direction);
-                let cosine = |i: usize| mesh.walls[mesh.patches[i].wall].normal.dot(direction).max(0.0);
-                let landed: f64 =
-                    landing.shares.iter().enumerate().map(|(i, s)| s * mesh.patches[i].area * cosine(i)).sum();
-                if landed > 0.0 {
-                    let scale = flux / landed;
-                    for (i, share) in landing.shares.iter().enumerate() {
-                        self.beam[i] += share * scale * cosine(i);
-                    }
-                    let reflected = |wall: usize, rho: f64| rho * scale * mesh.walls[wall].normal.dot(direction);
-                    self.outlines.extend(
-                        landing.outlines.into_iter().map(|(wall, outline, rho)| (wall, outline, reflected(wall, rho))),
-                    );
-                }
+            self.add_beam(mesh, aperture, emission, facing);
+        }
+    }
+
+    /// Adds the sun's unscattered beam through one aperture.
+    pub fn add_beam(&mut self, mesh: &Mesh, aperture: &Aperture, emission: &Emission, facing: &Facing<'_>) {
+        let Some(sun) = facing.sun_direction().filter(|sun| emission.beam_tau > 0.0 && sun.vector().z > 0.0) else {
+            return;
+        };
+        let direction = facing.surface.room_dir(sun).vector();
+        let flux = emission.beam_tau * emission.incident_sun * aperture.area();
+        let landing = landing(mesh, aperture, direction);
+        let cosine = |i: usize| mesh.walls[mesh.patches[i].wall].normal.dot(direction).max(0.0);
+        let landed: f64 = landing.shares.iter().enumerate().map(|(i, s)| s * mesh.patches[i].area * cosine(i)).sum();
+        if landed > 0.0 {
+            let scale = flux / landed;
+            for (i, share) in landing.shares.iter().enumerate() {
+                self.beam[i] += share * scale * cosine(i);
             }
+            let reflected = |wall: usize, rho: f64| rho * scale * mesh.walls[wall].normal.dot(direction);
+            self.outlines
+                .extend(landing.outlines.into_iter().map(|(wall, outline, rho)| (wall, outline, reflected(wall, rho))));
         }
     }
 

@@ -107,6 +107,23 @@ impl Radiosity {
         }
     }
 
+    /// What a sum over the exitance of the fine patches (weights `gather`) hangs on: weights a with
+    /// Σ gather·exitance = Σ a·first for every first illuminance. One solution serves every light.
+    pub fn adjoint_fine(&self, gather: &[f64]) -> Vec<f64> {
+        self.level.adjoint(&self.nested.fine, gather)
+    }
+
+    /// The same for the exitance of the coarse patches, computed without the fine ones; again by first illuminance of
+    /// the fine patches.
+    pub fn adjoint_coarse(&self, gather: &[f64]) -> Vec<f64> {
+        self.level.spread(&self.nested.fine, &self.coarser.adjoint(&self.nested.coarse, gather))
+    }
+
+    /// What the coarse patches' weights are on the fine ones, when every coarse value is the mean of the fine ones.
+    pub fn spread(&self, coarse: &[f64]) -> Vec<f64> {
+        self.level.spread(&self.nested.fine, coarse)
+    }
+
     /// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection.
     pub fn illuminance_from_aperture(&self, aperture: usize) -> Vec<f64> {
         let mut first = vec![0.0; self.nested.fine.patches.len()];
@@ -155,6 +172,49 @@ impl Level {
         }
         means.iter_mut().zip(&self.area).for_each(|(mean, area)| *mean /= area);
         means
+    }
+
+    /// The transpose of [`Self::means`].
+    fn spread(&self, emitters: &Mesh, weights: &[f64]) -> Vec<f64> {
+        emitters.patches.iter().zip(&self.holder).map(|(patch, &i)| patch.area / self.area[i] * weights[i]).collect()
+    }
+
+    /// Weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R): [`Self::after_reflection`] read backwards.
+    fn adjoint(&self, emitters: &Mesh, gather: &[f64]) -> Vec<f64> {
+        let mut result: Vec<f64> =
+            emitters.patches.iter().zip(gather).map(|(patch, g)| patch.reflectance * g).collect();
+        let Some(factor) = &self.factor else {
+            return result;
+        };
+        let mut held = vec![0.0; self.area.len()];
+        for (h, &holder) in result.iter().zip(&self.holder) {
+            held[holder] += h;
+        }
+        held.iter_mut().zip(&self.reflectance).filter(|(_, rho)| **rho <= 0.0).for_each(|(h, _)| *h = 0.0);
+        let before: Vec<f64> = result
+            .iter()
+            .zip(emitters.patches.iter().zip(&self.holder))
+            .map(|(h, (patch, &i))| h / patch.area - held[i] / self.area[i])
+            .collect();
+        let exitance: Vec<f64> = (0..self.area.len()).map(|i| dot(self.exchange.row(i), &before)).collect();
+        let rhs = Mat::from_fn(self.active.len(), 1, |r, _| {
+            let i = self.active[r];
+            exitance[i] + held[i] / self.reflectance[i]
+        });
+        let solution = factor.solve(&rhs);
+        let mut emitted = vec![0.0; result.len()];
+        for (r, &i) in self.active.iter().enumerate() {
+            let once = solution[(r, 0)];
+            if once != 0.0 {
+                emitted.iter_mut().zip(self.exchange.row(i)).for_each(|(sum, af)| *sum += af * once);
+            }
+        }
+        let means: Vec<f64> = exitance.iter().zip(&self.reflectance).map(|(u, rho)| u * rho).collect();
+        let by_means = self.spread(emitters, &means);
+        for (k, (value, patch)) in result.iter_mut().zip(&emitters.patches).enumerate() {
+            *value += patch.reflectance * emitted[k] + by_means[k];
+        }
+        result
     }
 
     /// R on the emitting patches from E₀ on them.
@@ -252,6 +312,32 @@ mod tests {
             let exitance = radiosity.exitance(&vec![100.0; patches], &vec![0.0; patches]);
             for b in exitance.fine.iter().chain(&exitance.coarse) {
                 assert!((b / rho * (1.0 - rho) / 100.0 - 1.0).abs() < 1e-8, "{rho}: {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn read_backwards_it_gives_the_same_sums() {
+        let uneven = BoxRoom { floor: 0.2, walls: 0.6, ceiling: 0.0, ..room(0.5) };
+        let radiosity = radiosity(&uneven, &[window()], 0.3, 500);
+        let noise = |n: usize, seed: u64| -> Vec<f64> {
+            let mut x = seed;
+            let mut next = || {
+                x = x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (x >> 33) as f64 / f64::from(u32::MAX)
+            };
+            (0..n).map(|_| next()).collect()
+        };
+        let (fine, coarse) = (radiosity.nested.fine.patches.len(), radiosity.nested.coarse.patches.len());
+        for seed in 1..4 {
+            let first = noise(fine, seed);
+            let exitance = radiosity.exitance(&first, &vec![0.0; fine]);
+            let (a, b) = (noise(fine, seed + 10), noise(coarse, seed + 20));
+            for (forwards, backwards) in [
+                (dot(&a, &exitance.fine), dot(&radiosity.adjoint_fine(&a), &first)),
+                (dot(&b, &exitance.coarse), dot(&radiosity.adjoint_coarse(&b), &first)),
+            ] {
+                assert!((forwards / backwards - 1.0).abs() < 1e-11, "{forwards} {backwards}");
             }
         }
     }

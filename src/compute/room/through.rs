@@ -7,9 +7,9 @@
 
 use super::aperture::View;
 use super::polygon::{clip, projected_solid_angle};
-use crate::compute::direction::{Dir, Orientation, Surface};
+use crate::compute::direction::{Dir, Orientation, Room, Surface};
 use crate::compute::estimate::Estimate;
-use crate::compute::quadrature::{Rectangle, Tolerance, integrate_smooth_rectangles};
+use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};
 use crate::compute::sky::Outside;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -81,6 +81,40 @@ pub fn illuminance(
         luminance * tau * normal.dot(d).max(0.0) * cos_h
     };
     sum + region.integrate(integrand, tolerance)
+}
+
+/// The sky through the opening, by directions that are fixed once: room directions above the skyline's altitude \[rad\]
+/// (0: the horizon) with weights that hold the sensor's cosine and `tau(θ)`. \[sr\] `parts` Gauss points or more along
+/// each side of every piece.
+pub fn samples(
+    view: &View,
+    surface: Surface,
+    skyline: f64,
+    tau: impl Fn(f64) -> f64,
+    parts: usize,
+) -> Vec<(Dir<Room>, f64)> {
+    let to_room = |v: DVec3| surface.room_from_facade(v);
+    let normal = to_room(view.normal);
+    let (mut polygon, mut above) = (Vec::with_capacity(6), Vec::with_capacity(7));
+    clip(&view.corners().map(to_room), normal, &mut polygon);
+    if polygon.len() >= 3 {
+        clip(&polygon, DVec3::Z, &mut above);
+    }
+    if above.len() < 3 {
+        return Vec::new();
+    }
+    let region = Region::new(&above, surface, None, skyline);
+    let mut list = Vec::new();
+    region.nodes(skyline, parts, |azimuth, altitude, area| {
+        let (sin_h, cos_h) = altitude.sin_cos();
+        let (sin_a, cos_a) = azimuth.sin_cos();
+        let d = DVec3::new(cos_h * cos_a, cos_h * sin_a, sin_h);
+        let weight = tau(surface.facade_from_room(d).z.clamp(-1.0, 1.0).acos()) * normal.dot(d).max(0.0) * cos_h * area;
+        if weight > 0.0 {
+            list.push((Dir::from_unit(d), weight));
+        }
+    });
+    list
 }
 
 /// A convex plane polygon seen from the origin, in azimuth and altitude.
@@ -188,6 +222,27 @@ impl<'a> Region<'a> {
             high = 0.5 * PI;
         }
         (seen > 0 && high > low).then_some((low, high))
+    }
+
+    /// Gauss points of every piece above an altitude: azimuth, altitude and what of both a point stands for. \[rad, rad²\]
+    fn nodes(&self, from: f64, parts: usize, mut visit: impl FnMut(f64, f64, f64)) {
+        let rules: Vec<_> = (0..=parts + 7).map(gauss_legendre).collect();
+        let rule = |width: f64| &rules[parts + ((width / 0.25) as usize).min(7)];
+        for pair in self.azimuths.windows(2).filter(|pair| pair[1] - pair[0] > 1e-14) {
+            for &(s, ws) in rule(pair[1] - pair[0]) {
+                let azimuth = pair[0] + (pair[1] - pair[0]) * s;
+                let Some((low, high)) = self.limits(azimuth) else { continue };
+                for band in self.altitudes.windows(2).filter(|band| band[0] >= from - 1e-12 && band[0] >= -1e-12) {
+                    let (a, b) = (low.clamp(band[0], band[1]), high.clamp(band[0], band[1]));
+                    if b - a < 1e-14 {
+                        continue;
+                    }
+                    for &(t, wt) in rule(b - a) {
+                        visit(azimuth, a + (b - a) * t, ws * wt * (pair[1] - pair[0]) * (b - a));
+                    }
+                }
+            }
+        }
     }
 
     /// `integrand` of sine and cosine of the azimuth, and of the altitude.

@@ -8,6 +8,7 @@
 //! | `patches` | Tregenza's 145 patches of the dome |
 //! | `region`, `scan_region` | integrals over regions of the sphere, smooth and measured skies |
 //! | `incident` | illuminance of an aperture per cell of a basis |
+//! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |
 //!
 //! The direct beam is never part of an [`Outside`]; it is a [`Sun`].
@@ -20,6 +21,7 @@ mod incident;
 pub mod patches;
 pub mod perez;
 mod region;
+mod samples;
 mod scan;
 mod scan_region;
 mod sun;
@@ -27,6 +29,7 @@ mod sun;
 pub use distribution::Distribution;
 pub use incident::{incident_illuminances, incident_illuminances_within};
 pub use region::{Frame, irradiance};
+pub use samples::SkySamples;
 pub use scan::Scan;
 pub use sun::{SUN_HALF_ANGLE, Sun, sun_solid_angle};
 

@@ -7,7 +7,7 @@ use crate::compute::lid::Emission;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::BackReflection;
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
-use crate::compute::room::gather::{polygon_factor, reconstruct};
+use crate::compute::room::gather::{Reconstruction, polygon_factor, reconstruct};
 use crate::compute::room::mesh::{Mesh, Nested};
 use crate::compute::room::radiosity::{Exitance, Radiosity, dot};
 use crate::study::cache::{Key, bits};
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Numbers of fine patches, tried one after the other until the stated error is small enough.
-const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
+pub(in crate::study) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 
 /// Of the differences between the two densities, wall by wall (their sum may cancel), what the extrapolated result may
 /// be off. Chosen together with [`REST`] and [`NEAR`] so that about 99 % of the sensors of 81 rooms, 24 of them at random,
@@ -25,16 +25,19 @@ const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 const DIFFERENCE: f64 = 0.6;
 
 /// Number of fine patches times the relative error that both densities share: sampling of the first light.
-const REST: f64 = 3.5;
+pub(in crate::study) const REST: f64 = 3.5;
 
 /// Of what the slopes of near patches give to a sensor, what may be wrong.
 const NEAR: f64 = 0.8;
 
+/// [`DIFFERENCE`] where what the slopes give is not told apart.
+pub(in crate::study) const DIFFERENCE_ALONE: f64 = 1.6;
+
 /// What taking the light on an aperture as even costs of what it throws back to a sensor, relative.
-const UNEVEN: f64 = 0.1;
+pub(in crate::study) const UNEVEN: f64 = 0.1;
 
 /// What a scene that names no error gets. \[relative\]
-const ORDINARY_TARGET: f64 = 0.01;
+pub(in crate::study) const ORDINARY_TARGET: f64 = 0.01;
 
 impl Session {
     /// Interreflected light at every sensor, and the largest gap of flux before it was closed. Refines until the stated
@@ -66,6 +69,60 @@ impl Session {
         Ok(result)
     }
 
+    /// Is the balance of the room there already?
+    pub(super) fn holds_room(&self, scene: &Scene) -> bool {
+        self.rooms.holds(&room_key(scene, PATCHES[0]))
+    }
+
+    /// The room meshed with about so many fine patches, and factored.
+    pub(super) fn radiosity(&self, scene: &Scene, count: usize) -> Result<Arc<Radiosity>, StudyError> {
+        self.rooms.get(room_key(scene, count), || {
+            let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
+            let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.diffuse_reflectance()).collect();
+            Radiosity::new(Nested::with_about(&scene.room, &geometry, &reflectances, count)?).map_err(StudyError::from)
+        })
+    }
+
+    /// What every sensor receives from the patches, fine and coarse.
+    pub(super) fn gathering(
+        &self,
+        scene: &Scene,
+        count: usize,
+        radiosity: &Radiosity,
+    ) -> Result<Arc<Vec<[Reconstruction; 2]>>, StudyError> {
+        let mut key = room_key(scene, count);
+        key.extend(sensor_key(scene));
+        self.gather.get(key, || {
+            let weights = scene.sensors.par_iter().map(|s| {
+                let meshes = [&radiosity.nested.fine, &radiosity.nested.coarse];
+                meshes.map(|mesh| reconstruct(mesh, s.position, s.normal))
+            });
+            Ok::<_, StudyError>(weights.collect())
+        })
+    }
+
+    /// What the patches receive from an aperture by the cells of a basis; `key` is the room's.
+    pub(super) fn patch_weights(
+        &self,
+        key: &Key,
+        mesh: &Mesh,
+        index: usize,
+        geometry: &[Aperture],
+        basis: &Arc<RingBasis>,
+    ) -> Arc<PatchWeights> {
+        let mut key = key.clone();
+        key.push(index as u64);
+        key.extend(basis_key(Some(basis)));
+        let compute = || {
+            let weights = PatchWeights::new(mesh, &geometry[index], Arc::clone(basis));
+            Ok::<_, std::convert::Infallible>(weights)
+        };
+        match self.patches.get(key, compute) {
+            Ok(weights) => weights,
+            Err(never) => match never {},
+        }
+    }
+
     /// With about so many fine patches.
     fn reflected(
         &self,
@@ -76,34 +133,11 @@ impl Session {
     ) -> Result<(Vec<Estimate>, f64), StudyError> {
         let key = room_key(scene, count);
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
-        let radiosity = self.rooms.get(key.clone(), || {
-            let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.diffuse_reflectance()).collect();
-            Radiosity::new(Nested::with_about(&scene.room, &geometry, &reflectances, count)?).map_err(StudyError::from)
-        })?;
+        let radiosity = self.radiosity(scene, count)?;
         check(progress)?;
         let mesh = &radiosity.nested.fine;
-        let mut gather_key = key.clone();
-        gather_key.extend(sensor_key(scene));
-        let gather = self.gather.get(gather_key, || {
-            let weights = scene
-                .sensors
-                .par_iter()
-                .map(|s| [mesh, &radiosity.nested.coarse].map(|mesh| reconstruct(mesh, s.position, s.normal)));
-            Ok::<_, StudyError>(weights.collect())
-        })?;
-        let weights = |index: usize, basis: &Arc<RingBasis>| {
-            let mut key = key.clone();
-            key.push(index as u64);
-            key.extend(basis_key(Some(basis)));
-            let compute = || {
-                let weights = PatchWeights::new(mesh, &geometry[index], Arc::clone(basis));
-                Ok::<_, std::convert::Infallible>(weights)
-            };
-            match self.patches.get(key, compute) {
-                Ok(weights) => weights,
-                Err(never) => match never {},
-            }
-        };
+        let gather = self.gathering(scene, count, &radiosity)?;
+        let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
         let mut first = FirstLight::dark(mesh.patches.len());
         for (index, emission) in emissions.iter().enumerate() {
             check(progress)?;
@@ -215,7 +249,7 @@ fn between_room_and_apertures(
 }
 
 /// What a meshed room depends on.
-fn room_key(scene: &Scene, count: usize) -> Key {
+pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
     let mut key = vec![count as u64];
     key.extend(bits(scene.room.size.to_array()));
     key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
@@ -227,7 +261,7 @@ fn room_key(scene: &Scene, count: usize) -> Key {
 }
 
 /// The patches of every wall.
-fn spans(mesh: &Mesh) -> Vec<std::ops::Range<usize>> {
+pub(super) fn spans(mesh: &Mesh) -> Vec<std::ops::Range<usize>> {
     let firsts: Vec<usize> = mesh.walls.iter().map(|wall| wall.first).chain([mesh.patches.len()]).collect();
     firsts.windows(2).map(|pair| pair[0]..pair[1]).collect()
 }

@@ -1,0 +1,168 @@
+//! The sky in every cell of a division of an aperture's hemisphere, by directions that are fixed once: a new sky of a
+//! smooth model is then no more than its luminances in these directions, times weights.
+//!
+//! The part of a cell above horizon or skyline is cut out exactly, as for [`super::incident_illuminances`]; in it stand
+//! Gauss points in azimuth and polar angle, their weights scaled to the part's own projected solid angle.
+
+use super::Outside;
+use super::region::{Frame, Region, Weight};
+use crate::compute::basis::RingBasis;
+use crate::compute::quadrature::gauss_legendre;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Directions and weights for the cells of one basis.
+#[derive(Debug, Clone)]
+pub struct SkySamples {
+    cells: Vec<usize>,
+    first: Vec<usize>,
+    directions: Vec<DVec3>,
+    weights: Vec<f64>,
+}
+
+impl SkySamples {
+    /// Directions above a skyline's `altitude` \[rad\] (0: above the horizon), no further apart than about `spacing`
+    /// \[rad\], in all cells that reach above the horizon.
+    pub fn new(basis: &RingBasis, frame: &Frame, altitude: f64, spacing: f64) -> Self {
+        let mut samples = Self { cells: Vec::new(), first: vec![0], directions: Vec::new(), weights: Vec::new() };
+        let rules: Vec<Vec<(f64, f64)>> = (0..=MOST_POINTS).map(gauss_legendre).collect();
+        let points = |width: f64| ((width / spacing - 1e-9).ceil() as usize).clamp(1, MOST_POINTS);
+        for index in 0..basis.len() {
+            let cell = basis.cell(index);
+            let theta = (cell.theta_min, cell.theta_max);
+            // Cells wider than a quarter are cut: the rules are made for smooth pieces.
+            let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0) as usize;
+            let step = cell.width / pieces as f64;
+            let mut open = 0.0;
+            for piece in 0..pieces {
+                let from = cell.phi - 0.5 * cell.width + piece as f64 * step;
+                let region = Region { frame: *frame, theta, phi: (from, from + step) };
+                open += solid(&region, 0.0, &rules);
+                samples.cut(&region, altitude.sin(), &rules, points);
+            }
+            if open > 1e-9 * cell.projected_solid_angle() {
+                samples.cells.push(index);
+                samples.first.push(samples.directions.len());
+            } else {
+                let last = samples.first[samples.first.len() - 1];
+                samples.directions.truncate(last);
+                samples.weights.truncate(last);
+            }
+        }
+        samples
+    }
+
+    /// Adds the points of a region.
+    fn cut(&mut self, region: &Region, level: f64, rules: &[Vec<(f64, f64)>], points: impl Fn(f64) -> usize) {
+        for (from, to) in strips(region, level) {
+            let begin = self.weights.len();
+            let middle = 0.5 * (region.theta.0 + region.theta.1);
+            let (mut exact, mut sum) = (0.0, 0.0);
+            for &(s, ws) in &rules[points((to - from) * middle.sin())] {
+                let phi = from + (to - from) * s;
+                let Some((low, high)) = region.above(phi, level) else { continue };
+                for &(t, wt) in &rules[points(high - low)] {
+                    let theta = low + (high - low) * t;
+                    let weight = ws * wt * (to - from) * (high - low) * theta.sin() * theta.cos();
+                    self.directions.push(region.frame.direction(theta, phi));
+                    self.weights.push(weight);
+                    sum += weight;
+                }
+            }
+            for &(s, ws) in &rules[MOST_POINTS] {
+                let phi = from + (to - from) * s;
+                exact += region
+                    .above(phi, level)
+                    .map_or(0.0, |(low, high)| ws * (to - from) * Weight::Projected.between(low, high));
+            }
+            if sum > 0.0 {
+                self.weights[begin..].iter_mut().for_each(|weight| *weight *= exact / sum);
+            }
+        }
+    }
+
+    /// The cells that reach above the horizon, rising.
+    pub fn cells(&self) -> &[usize] {
+        &self.cells
+    }
+
+    /// Number of directions.
+    pub fn len(&self) -> usize {
+        self.directions.len()
+    }
+
+    /// No direction at all: the aperture sees no sky.
+    pub fn is_empty(&self) -> bool {
+        self.directions.is_empty()
+    }
+
+    /// Illuminance \[lx\] through every one of [`Self::cells`] by the open sky alone, without ground and skyline.
+    /// The outside's skyline must be the one these samples were made for.
+    pub fn illuminances(&self, outside: &Outside, out: &mut Vec<f64>) {
+        out.clear();
+        out.extend(self.first.windows(2).map(|pair| {
+            let range = pair[0]..pair[1];
+            let parts = self.directions[range.clone()].iter().zip(&self.weights[range]);
+            parts.map(|(d, weight)| weight * outside.sky_luminance(*d)).sum::<f64>()
+        }));
+    }
+}
+
+/// Most points along one side of a piece.
+const MOST_POINTS: usize = 8;
+
+/// Intervals of azimuth on which the part above a level is bounded by smooth limits.
+fn strips(region: &Region, level: f64) -> Vec<(f64, f64)> {
+    let mut inner = Vec::new();
+    region.cut_knots(level, &mut inner);
+    let knots = region.sorted(inner);
+    let open = |pair: &[f64]| region.above(0.5 * (pair[0] + pair[1]), level).is_some();
+    knots.windows(2).filter(|pair| open(pair)).map(|pair| (pair[0], pair[1])).collect()
+}
+
+/// Projected solid angle above a level. \[sr\]
+fn solid(region: &Region, level: f64, rules: &[Vec<(f64, f64)>]) -> f64 {
+    let share = |(from, to): (f64, f64)| -> f64 {
+        let at = |s: f64| region.above(from + (to - from) * s, level);
+        rules[MOST_POINTS]
+            .iter()
+            .map(|&(s, w)| w * (to - from) * at(s).map_or(0.0, |(a, b)| Weight::Projected.between(a, b)))
+            .sum()
+    };
+    strips(region, level).into_iter().map(share).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Distribution, incident_illuminances};
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::direction::{Dir, Orientation, Surface};
+
+    #[test]
+    fn a_uniform_sky_above_a_skyline_is_exact_and_a_clear_one_close() {
+        let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let orientation = Orientation::new(Bearing::from_degrees(160.0));
+        let sun = Dir::from_altitude_bearing(0.6, Bearing::from_degrees(190.0));
+        for surface in [Surface::Facade, Surface::Roof] {
+            let frame = Frame::of_aperture(orientation, surface);
+            for (distribution, spacing, bound) in [
+                (Distribution::uniform(), 0.3, 1e-6),
+                (Distribution::cie(12, sun).unwrap(), 0.09, 1e-3),
+                (Distribution::cie(1, sun).unwrap(), 0.09, 1e-3),
+            ] {
+                let samples = SkySamples::new(&basis, &frame, 0.2, spacing);
+                let outside = Outside::new(distribution, 1e4).unwrap().with_skyline(0.2, 0.0).unwrap();
+                let exact = incident_illuminances(&outside, &basis, &frame);
+                let total: f64 = exact.iter().map(|e| e.value).sum();
+                let mut out = Vec::new();
+                samples.illuminances(&outside, &mut out);
+                let mut by_cell = vec![0.0; basis.len()];
+                samples.cells().iter().zip(&out).for_each(|(&cell, e)| by_cell[cell] = *e);
+                let off: f64 = exact.iter().zip(&by_cell).map(|(a, b)| (a.value - b).abs()).sum();
+                assert!(off < bound * total, "{surface:?} {spacing}: {off} of {total}");
+            }
+        }
+    }
+}

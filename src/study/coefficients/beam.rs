@@ -1,0 +1,106 @@
+//! The sun over a prepared scene: its scattered light as one column, its beam where it falls.
+
+use super::Coefficients;
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::{Emission, Facing};
+use crate::compute::room::direct::sun_through;
+use crate::compute::room::first_bounce::FirstLight;
+use crate::compute::room::gather::polygon_factor;
+use crate::compute::room::radiosity::dot;
+use crate::compute::sky::Sun;
+use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
+use std::f64::consts::PI;
+
+/// Light of the sun at every sensor. \[lx\]
+pub(super) fn sun(all: &Coefficients, sun: &Sun) -> Vec<f64> {
+    let sensors = all.scene.sensors.len();
+    let mut sums = vec![0.0; sensors];
+    let mut first = dark(all);
+    for (index, part) in all.parts.iter().enumerate() {
+        let facing = Facing { sun: Some(sun), ..all.scene.facing(index) };
+        let illuminance = facing.sun_illuminance();
+        let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
+        part.transport.sun(direction, sensors, &mut sums, illuminance);
+        add_beam(all, index, &facing, illuminance, &mut first, &mut sums);
+    }
+    if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
+        for (s, response) in room.sensors.iter().enumerate() {
+            sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam) + outlines(all, &first, s);
+        }
+    }
+    sums.iter_mut().for_each(|e| *e = e.max(0.0));
+    sums
+}
+
+/// The same with its error.
+pub(super) fn sun_estimate(all: &Coefficients, light: &Sun) -> Vec<Estimate> {
+    let sensors = all.scene.sensors.len();
+    let mut estimates: Vec<Estimate> = sun(all, light).into_iter().map(Estimate::exact).collect();
+    let mut first = dark(all);
+    for (index, part) in all.parts.iter().enumerate() {
+        let facing = Facing { sun: Some(light), ..all.scene.facing(index) };
+        let illuminance = facing.sun_illuminance();
+        let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
+        let column = part.transport.from_direction(direction, sensors);
+        let mut own = vec![0.0; sensors];
+        part.transport.sun(direction, sensors, &mut own, illuminance);
+        for (s, sum) in estimates.iter_mut().enumerate() {
+            let reflected = column.light[sensors + s].abs() * illuminance;
+            let doubt = column.light[2 * sensors + s] * illuminance;
+            // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
+            let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
+            sum.error += doubt.hypot(all.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s];
+        }
+        add_beam(all, index, &facing, illuminance, &mut first, &mut own);
+    }
+    if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
+        for (s, response) in room.sensors.iter().enumerate() {
+            let (value, difference, thrown_back) = response.of(&first.beam, &first.beam);
+            let value = value + outlines(all, &first, s);
+            estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(all.rest() * value) + UNEVEN * thrown_back;
+        }
+    }
+    estimates.iter_mut().for_each(|e| e.error += 1e-6 * e.value);
+    estimates
+}
+
+fn dark(all: &Coefficients) -> Option<FirstLight> {
+    all.room.as_ref().map(|room| FirstLight::dark(room.radiosity.nested.fine.patches.len()))
+}
+
+/// The unscattered sun through one aperture: at the sensors, and on the surfaces.
+fn add_beam(
+    all: &Coefficients,
+    index: usize,
+    facing: &Facing<'_>,
+    illuminance: f64,
+    first: &mut Option<FirstLight>,
+    sums: &mut [f64],
+) {
+    let (Some(tau), Some(direction)) = (&all.parts[index].regular, facing.sun_direction()) else { return };
+    let emission = Emission {
+        notes: Vec::new(),
+        uniform: Estimate::default(),
+        cells: None,
+        regular: Some(tau.clone()),
+        beam_tau: tau.at(direction.theta().min(0.5 * PI)),
+        incident_diffuse: Estimate::default(),
+        incident_sun: illuminance,
+    };
+    let aperture = &all.scene.apertures[index].aperture;
+    for (sum, sensor) in sums.iter_mut().zip(&all.scene.sensors) {
+        *sum += sun_through(sensor, aperture, &emission, facing);
+    }
+    if let (Some(first), Some(room)) = (first, &all.room) {
+        first.add_beam(&room.radiosity.nested.fine, aperture, &emission, facing);
+    }
+}
+
+/// What a sensor gets from the beam's first reflection, by its exact outlines.
+fn outlines(all: &Coefficients, first: &FirstLight, sensor: usize) -> f64 {
+    let Some(room) = &all.room else { return 0.0 };
+    let (walls, sensor) = (&room.radiosity.nested.fine.walls, &all.scene.sensors[sensor]);
+    let factor =
+        |wall: usize, outline: &[glam::DVec2]| polygon_factor(&walls[wall], outline, sensor.position, sensor.normal);
+    first.outlines.iter().map(|(wall, outline, exitance)| exitance * factor(*wall, outline)).sum()
+}

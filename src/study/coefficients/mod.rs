@@ -1,0 +1,182 @@
+//! Daylight coefficients: a scene prepared once, so that a new sky or sun is a product of what it sends with what every
+//! sensor makes of it, E = V·T·D·s, interreflection included.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `views` | V: sensors by emergent cell |
+//! | `transport` | V·T: sensors by incident direction |
+//! | `part` | V·T·D of an aperture: sky, ground and skyline |
+//! | `beam` | the sun |
+//!
+//! Prepared are the room, its apertures and sensors, the systems in their present states and the altitude of the skyline.
+//! A measured sky, constant over patches with jumps between them, and a skyline of another altitude have no fixed
+//! directions that suit them: their light is integrated anew and takes milliseconds.
+
+mod beam;
+mod part;
+mod transport;
+mod views;
+
+use super::error::StudyError;
+use super::scene::Scene;
+use super::session::Session;
+use super::session::interreflected::{ORDINARY_TARGET, PATCHES, REST};
+use super::session::responses::Responses;
+use crate::compute::angle::Bearing;
+use crate::compute::direction::Dir;
+use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::room::near_field::NearField;
+use crate::compute::sky::{Distribution, Outside, Sun};
+use part::{Part, Sums};
+
+/// A prepared scene.
+pub struct Coefficients {
+    scene: Scene,
+    parts: Vec<Part>,
+    room: Option<Responses>,
+    directions: f64,
+}
+
+/// Safety on the error of the fixed directions, seen on some skies and stated for others.
+const OTHER_SKIES: f64 = 2.0;
+
+impl Coefficients {
+    /// Prepares a scene. Its own sky and sun do not matter, but for how finely the room is meshed.
+    ///
+    /// Refuses scenes whose near field is to be done by one of the methods for comparison.
+    pub fn new(session: &Session, scene: &Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
+        if scene.near_field != NearField::SolidAngle {
+            return Err(StudyError::key(
+                "compute.near_field",
+                "coefficients need the solid-angle method; leave the key out",
+            ));
+        }
+        let reflects = scene.room.floor > 0.0
+            || scene.room.walls > 0.0
+            || scene.room.ceiling > 0.0
+            || scene.apertures.iter().any(|a| a.reflectance > 0.0);
+        if !(scene.interreflection && reflects) {
+            return Self::with(session, scene, None, progress);
+        }
+        let target = scene.error_target.unwrap_or(ORDINARY_TARGET);
+        let turns = if scene.error_target.is_some() { PATCHES.len() } else { 2 };
+        let mut turn = 0;
+        loop {
+            progress.advance("coefficients", turn, turns);
+            let room = session.responses(scene, PATCHES[turn], progress)?;
+            let coefficients = Self::with(session, scene, Some(room), progress)?;
+            turn += 1;
+            let light = coefficients.sky_estimate(&scene.outside);
+            let mean = light.iter().map(|e| e.value).sum::<f64>() / light.len().max(1) as f64;
+            if turn == turns || light.iter().all(|e| e.error <= 0.9 * target * e.value.max(0.1 * mean)) {
+                return Ok(coefficients);
+            }
+        }
+    }
+
+    fn with(
+        session: &Session,
+        scene: &Scene,
+        room: Option<Responses>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        let parts = (0..scene.apertures.len())
+            .map(|index| {
+                let btdf = scene.apertures[index].system.dataset.transmission();
+                let btdf = btdf.expect("a resolved scene has only systems with transmission data");
+                Part::new(session, scene, index, btdf, room.as_ref(), progress)
+            })
+            .collect::<Result<_, _>>()?;
+        let mut coefficients = Self { scene: scene.clone(), parts, room, directions: 0.0 };
+        coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions();
+        Ok(coefficients)
+    }
+
+    /// Largest relative difference between the fixed directions and integrals, on the scene's sky and two clear ones.
+    fn gap_of_directions(&self) -> f64 {
+        let facade = self.scene.facade.radians();
+        let clear = |sky_type: u8, altitude: f64, turn: f64| {
+            let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade + turn));
+            let outside = Outside::new(Distribution::cie(sky_type, sun)?, 1e4).ok()?;
+            outside.with_skyline(self.scene.outside.skyline_altitude(), self.scene.outside.skyline_luminance()).ok()
+        };
+        let skies = [Some(self.scene.outside.clone()), clear(12, 0.5, 0.4), clear(2, 0.9, -0.7)];
+        let mut largest: f64 = 0.0;
+        for outside in skies.into_iter().flatten().filter(|outside| self.is_smooth(outside)) {
+            let (fixed, exact) = (self.diffuse(&outside, true), self.diffuse(&outside, false));
+            let mean = exact.iter().sum::<f64>() / exact.len().max(1) as f64;
+            if mean > 0.0 {
+                let gap = fixed.iter().zip(&exact).map(|(a, b)| (a - b).abs() / b.max(0.05 * mean));
+                largest = gap.fold(largest, f64::max);
+            }
+        }
+        largest
+    }
+
+    /// Can it be done by the fixed directions?
+    fn is_smooth(&self, outside: &Outside) -> bool {
+        !outside.is_piecewise_constant() && outside.skyline_altitude() == self.scene.outside.skyline_altitude()
+    }
+
+    fn diffuse(&self, outside: &Outside, smooth: bool) -> Vec<f64> {
+        let mut sums = vec![0.0; self.scene.sensors.len()];
+        for (index, part) in self.parts.iter().enumerate() {
+            part.add(&self.scene, index, outside, smooth, &mut sums);
+        }
+        sums.iter_mut().for_each(|e| *e = e.max(0.0));
+        sums
+    }
+
+    /// Diffuse light at every sensor from sky, ground and skyline. \[lx\]
+    pub fn sky(&self, outside: &Outside) -> Vec<f64> {
+        self.diffuse(outside, self.is_smooth(outside))
+    }
+
+    /// The same with its error.
+    pub fn sky_estimate(&self, outside: &Outside) -> Vec<Estimate> {
+        let sensors = self.scene.sensors.len();
+        let smooth = self.is_smooth(outside);
+        let mut estimates = vec![Estimate::default(); sensors];
+        for (index, part) in self.parts.iter().enumerate() {
+            let dark = || vec![0.0; sensors];
+            let mut sums = Sums { total: dark(), reflected: dark(), doubtful: dark(), interpolated: dark() };
+            part.add_sums(&self.scene, index, outside, smooth, &mut sums);
+            let rest = self.rest().hypot(0.5 * part.gap);
+            for (s, sum) in estimates.iter_mut().enumerate() {
+                let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
+                let error = value * (part.transport.relative_error() + if smooth { self.directions } else { 1e-5 })
+                    + sums.doubtful[s].hypot(rest * reflected)
+                    + sums.interpolated[s].abs()
+                    + 1e-6 * value;
+                *sum += Estimate::new(value, error);
+            }
+        }
+        estimates
+    }
+
+    /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
+    pub fn sun(&self, sun: &Sun) -> Vec<f64> {
+        beam::sun(self, sun)
+    }
+
+    /// The same with its error.
+    pub fn sun_estimate(&self, sun: &Sun) -> Vec<Estimate> {
+        beam::sun_estimate(self, sun)
+    }
+
+    /// What the fixed directions cost, relative, at the sensor where they cost most: twice the difference to integrals
+    /// under the scene's sky and two clear ones. Part of [`Self::sky_estimate`].
+    pub fn error(&self) -> f64 {
+        self.directions
+    }
+
+    /// Number of sky luminances that a new sky takes.
+    pub fn evaluations(&self) -> usize {
+        self.parts.iter().map(Part::evaluations).sum()
+    }
+
+    /// What the mesh leaves besides the difference of its densities, relative to interreflected light.
+    fn rest(&self) -> f64 {
+        self.room.as_ref().map_or(0.0, |room| REST / room.radiosity.nested.fine.patches.len() as f64)
+    }
+}

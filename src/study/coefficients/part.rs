@@ -1,0 +1,264 @@
+//! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
+//! is seen straight through, by directions of every sensor's own.
+
+use super::transport::{self, Transport, ring_mean};
+use super::views::{Views, Want};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{AngularTransmittance, Btdf};
+use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::lid::Facing;
+use crate::compute::quadrature::Tolerance;
+use crate::compute::room::radiosity::dot;
+use crate::compute::room::through::{self, Prospect};
+use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_illuminances_within};
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+use crate::study::session::Session;
+use crate::study::session::responses::Responses;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Accuracy of the constant columns.
+const RELATIVE: f64 = 1e-7;
+
+/// One aperture.
+pub(super) struct Part {
+    patches: RingBasis,
+    frame: Frame,
+    samples: SkySamples,
+    /// Illuminance through every patch of `samples` by a ground of luminance 1.
+    by_ground: Vec<f64>,
+    /// Sensor by sensor, a column for every patch of `samples`, one for the ground and one for the skyline: all
+    /// diffuse light but what is seen straight through.
+    total: Vec<f64>,
+    reflected: Vec<f64>,
+    doubtful: Vec<f64>,
+    interpolated: Vec<f64>,
+    /// What the system does with light.
+    pub transport: Transport,
+    /// The regular part.
+    pub regular: Option<AngularTransmittance>,
+    seen: Vec<Seen>,
+    /// Mean relative gap of flux of the regular part.
+    pub gap: f64,
+}
+
+/// The outside as one sensor sees it straight through.
+#[derive(Default)]
+struct Seen {
+    directions: Vec<(Dir<World>, f64)>,
+    ground: f64,
+    skyline: f64,
+}
+
+/// What one sky gives, sensor by sensor.
+pub(super) struct Sums {
+    /// All.
+    pub total: Vec<f64>,
+    /// Interreflected.
+    pub reflected: Vec<f64>,
+    /// Doubt of that.
+    pub doubtful: Vec<f64>,
+    /// Doubt of the interpolation, signed.
+    pub interpolated: Vec<f64>,
+}
+
+impl Part {
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        index: usize,
+        btdf: &Btdf,
+        room: Option<&Responses>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        let sensors = scene.sensors.len();
+        let facing = scene.facing(index);
+        let frame = Frame::of_aperture(scene.orientation, facing.surface);
+        let altitude = scene.outside.skyline_altitude();
+        let (patches, spacing) = transport::patches(btdf, scene.interpolation);
+        let samples = SkySamples::new(&patches, &frame, altitude, spacing);
+        let transport = Transport::new(session, scene, index, btdf, room, progress)?;
+        let straight = match (&btdf.regular, room) {
+            (Some(tau), Some(room)) => {
+                let basis = std::sync::Arc::new(patches.clone());
+                let views = Views::new(session, scene, index, basis, Some(room), Want::Reflected, progress)?;
+                Some((tau, views))
+            }
+            _ => None,
+        };
+        let columns: Vec<transport::Column> = (0..patches.len())
+            .into_par_iter()
+            .map(|p| {
+                let cell = patches.cell(p);
+                let mut column = transport.through_patch(p, &cell, sensors);
+                if let Some((tau, views)) = &straight {
+                    views.add(p, ring_mean(tau, &cell) / cell.projected_solid_angle(), &mut column.light);
+                }
+                column
+            })
+            .collect();
+        let [ground, skyline] = constants(altitude).map(|outside| {
+            outside.map_or_else(|| vec![0.0; patches.len()], |o| illuminances(&o, &patches, &frame, RELATIVE))
+        });
+        let open = samples.cells();
+        let width = open.len() + 2;
+        let doubts = columns.iter().any(|column| !column.doubt.is_empty());
+        let mut tables: Vec<Vec<f64>> =
+            (0..4).map(|k| if k < 3 || doubts { vec![0.0; sensors * width] } else { Vec::new() }).collect();
+        for (k, table) in tables.iter_mut().enumerate() {
+            for (s, row) in table.chunks_exact_mut(width).enumerate() {
+                let of =
+                    |column: &transport::Column| if k < 3 { column.light[k * sensors + s] } else { column.doubt[s] };
+                for (to, &p) in row.iter_mut().zip(open) {
+                    *to = of(&columns[p]);
+                }
+                row[width - 2] = columns.iter().zip(&ground).map(|(column, e)| of(column) * e).sum();
+                row[width - 1] = columns.iter().zip(&skyline).map(|(column, e)| of(column) * e).sum();
+            }
+        }
+        let interpolated = tables.pop().unwrap_or_default();
+        let doubtful = tables.pop().unwrap_or_default();
+        let reflected = tables.pop().unwrap_or_default();
+        let total = tables.pop().unwrap_or_default();
+        let seen = match &btdf.regular {
+            Some(tau) => scene.sensors.par_iter().map(|sensor| Seen::new(scene, index, sensor, tau)).collect(),
+            None => Vec::new(),
+        };
+        Ok(Self {
+            by_ground: open.iter().map(|&p| ground[p]).collect(),
+            patches,
+            frame,
+            samples,
+            total,
+            reflected,
+            doubtful,
+            interpolated,
+            transport,
+            regular: btdf.regular.clone(),
+            seen,
+            gap: straight.map_or(0.0, |(_, views)| views.gap),
+        })
+    }
+
+    /// Number of luminances that a new sky costs.
+    pub fn evaluations(&self) -> usize {
+        self.samples.len() + self.seen.iter().map(|seen| seen.directions.len()).sum::<usize>()
+    }
+
+    /// Illuminance through every patch, then the luminances of ground and skyline. `smooth`: by the fixed directions.
+    fn light(&self, outside: &Outside, smooth: bool) -> Vec<f64> {
+        let mut e = Vec::with_capacity(self.samples.cells().len() + 2);
+        if smooth {
+            self.samples.illuminances(outside, &mut e);
+        } else {
+            let all = illuminances(outside, &self.patches, &self.frame, EXACT);
+            let ground = outside.ground_luminance();
+            e.extend(self.samples.cells().iter().zip(&self.by_ground).map(|(&p, g)| all[p] - ground * g));
+        }
+        e.push(outside.ground_luminance());
+        e.push(if smooth { outside.skyline_luminance() } else { 0.0 });
+        e
+    }
+
+    /// Adds the diffuse light to what every sensor has.
+    pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, out: &mut [f64]) {
+        let light = self.light(outside, smooth);
+        for (sum, row) in out.iter_mut().zip(self.total.chunks_exact(light.len())) {
+            *sum += dot(row, &light);
+        }
+        self.add_seen(scene, index, outside, smooth, out);
+    }
+
+    fn add_seen(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, out: &mut [f64]) {
+        let Some(tau) = &self.regular else { return };
+        if smooth {
+            for (sum, seen) in out.iter_mut().zip(&self.seen) {
+                let sky: f64 = seen.directions.iter().map(|(d, weight)| weight * outside.luminance(*d)).sum();
+                *sum += sky + seen.ground * outside.ground_luminance() + seen.skyline * outside.skyline_luminance();
+            }
+        } else {
+            let exact: Vec<Estimate> = scene
+                .sensors
+                .par_iter()
+                .map(|sensor| seen_exactly(scene, index, sensor, tau, outside, EXACT))
+                .collect();
+            out.iter_mut().zip(exact).for_each(|(sum, e)| *sum += e.value);
+        }
+    }
+
+    /// The same with all that its error needs.
+    pub fn add_sums(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, sums: &mut Sums) {
+        let light = self.light(outside, smooth);
+        for (to, table) in [
+            (&mut sums.total, &self.total),
+            (&mut sums.reflected, &self.reflected),
+            (&mut sums.doubtful, &self.doubtful),
+            (&mut sums.interpolated, &self.interpolated),
+        ] {
+            to.iter_mut().zip(table.chunks_exact(light.len())).for_each(|(sum, row)| *sum += dot(row, &light));
+        }
+        self.add_seen(scene, index, outside, smooth, &mut sums.total);
+    }
+}
+
+/// Accuracy of what is not done by fixed directions.
+const EXACT: f64 = 1e-5;
+
+impl Seen {
+    fn new(
+        scene: &Scene,
+        index: usize,
+        sensor: &crate::compute::room::direct::Sensor,
+        tau: &AngularTransmittance,
+    ) -> Self {
+        let facing = scene.facing(index);
+        let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
+            return Self::default();
+        };
+        let altitude = scene.outside.skyline_altitude();
+        let directions = through::samples(&view, facing.surface, altitude, |theta| tau.at(theta), POINTS)
+            .into_iter()
+            .map(|(d, weight)| (scene.orientation.world_from_room(d), weight))
+            .collect();
+        let [ground, skyline] = constants(altitude)
+            .map(|outside| outside.map_or(0.0, |o| seen_exactly(scene, index, sensor, tau, &o, RELATIVE).value));
+        Self { directions, ground, skyline }
+    }
+}
+
+/// Gauss points along each side of a piece of what a sensor sees straight through, at least.
+const POINTS: usize = 3;
+
+/// Black sky with a ground of luminance 1, and with a skyline of luminance 1 if it stands above the horizon.
+fn constants(altitude: f64) -> [Option<Outside>; 2] {
+    let black = || Outside::new(Distribution::uniform(), 0.0).ok();
+    [
+        black().and_then(|outside| outside.with_ground(1.0, PI).ok()),
+        black().filter(|_| altitude > 0.0).and_then(|outside| outside.with_skyline(altitude, 1.0).ok()),
+    ]
+}
+
+fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
+    incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
+}
+
+/// The outside through the opening, integrated for one sensor.
+fn seen_exactly(
+    scene: &Scene,
+    index: usize,
+    sensor: &crate::compute::room::direct::Sensor,
+    tau: &AngularTransmittance,
+    outside: &Outside,
+    relative: f64,
+) -> Estimate {
+    let Facing { orientation, surface, .. } = scene.facing(index);
+    let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
+        return Estimate::default();
+    };
+    let uniform = if let AngularTransmittance::Constant(tau) = tau { Some(*tau) } else { None };
+    let scale = outside.diffuse_horizontal().max(outside.ground_luminance()).max(outside.skyline_luminance());
+    let tolerance = Tolerance { absolute: 1e-3 * relative * scale, relative, max_pieces: 4000 };
+    through::illuminance(&view, &Prospect { outside, orientation, surface }, uniform, |theta| tau.at(theta), tolerance)
+}

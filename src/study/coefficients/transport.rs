@@ -1,0 +1,246 @@
+//! V·T: what every sensor receives per illuminance of an aperture from one incident direction or cell.
+
+use super::views::{Light, Views, Want, even};
+use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered, TensorTree};
+use crate::compute::direction::{Dir, Facade, Incident};
+use crate::compute::estimate::Progress;
+use crate::compute::incidence::superpose::sub_patches;
+use crate::compute::lid::Interpolator;
+use crate::compute::quadrature::gauss_legendre;
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+use crate::study::scene_file::Interpolation;
+use crate::study::session::Session;
+use crate::study::session::responses::Responses;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Patches where the system has none of its own. \[rad\]
+const PATCH: f64 = 7.5 * PI / 180.0;
+/// Patches for trees. \[rad\]
+const TREE_PATCH: f64 = 5.0 * PI / 180.0;
+/// Sub-patches where the light of lobes is interpolated. \[rad\]
+const SUB_PATCH: f64 = 2.5 * PI / 180.0;
+/// Directions in cells that are as wide as a dataset's. \[rad\]
+const SPACING: f64 = 4.0 * PI / 180.0;
+/// What interpolation between incident directions leaves after its own doubts, relative.
+const REST: f64 = 4e-3;
+/// What the straightened cells of a tree cost, relative.
+const TREE_CELL_ERROR: f64 = 5e-3;
+
+/// What a system does with light, as far as the sensors see it.
+pub(super) enum Transport {
+    /// It scatters nothing.
+    Straight,
+    /// Lambertian: τ, and what an even luminance of 1 gives.
+    Even(AngularTransmittance, Light),
+    /// An incident cell each.
+    Cells(RingBasis, Vec<Light>),
+    /// The nearest of a list of directions.
+    Nearest(Arc<Indicatrices>, Vec<Light>),
+    /// Lobes between directions.
+    Lobes(Box<Lobes>),
+    /// A tree and its emergent cells.
+    Tree(Box<TensorTree>, Views),
+}
+
+/// Lobes that move: the bases as light at the sensors, the lobes' own cells.
+pub(super) struct Lobes {
+    interpolator: Arc<Interpolator>,
+    bases: Vec<Light>,
+    views: Views,
+    /// On the finer cells for the sun; none where the data's own are as good.
+    fine: Option<Views>,
+}
+
+/// What light through a direction gives, per lux on the aperture.
+pub(super) struct Column {
+    /// Three rows, see [`Light`].
+    pub light: Light,
+    /// What a simpler interpolation would add, signed; empty where there is none.
+    pub doubt: Vec<f64>,
+}
+
+/// The division of the incident hemisphere that suits a system, and how far apart directions in it may stand. \[rad\]
+pub(super) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
+    match &btdf.scattered {
+        None | Some(Scattered::Lambert(_)) => (sub_patches(PATCH), SPACING),
+        Some(Scattered::Cells(matrix)) => (matrix.incident().clone(), SPACING),
+        Some(Scattered::Directions(data)) if interpolation == Interpolation::Patch => {
+            (data.lattice().cloned().unwrap_or_else(|| RingBasis::equal_area(40)), SPACING)
+        }
+        Some(Scattered::Directions(_)) => (sub_patches(SUB_PATCH), SUB_PATCH),
+        Some(Scattered::Tree(_)) => (sub_patches(TREE_PATCH), SPACING),
+    }
+}
+
+impl Transport {
+    /// Of one aperture's system.
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        index: usize,
+        btdf: &Btdf,
+        room: Option<&Responses>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        let views = |basis: &RingBasis, want: Want| {
+            Views::new(session, scene, index, Arc::new(basis.clone()), room, want, progress)
+        };
+        let lights = |views: &Views, count: usize, row: &(dyn Fn(usize) -> Vec<f64> + Sync)| -> Vec<Light> {
+            let light = |i: usize| {
+                let mut light = vec![0.0; views.width()];
+                views.add_all(&row(i), &mut light);
+                light
+            };
+            (0..count).into_par_iter().map(light).collect()
+        };
+        Ok(match &btdf.scattered {
+            None => Self::Straight,
+            Some(Scattered::Lambert(tau)) => Self::Even(tau.clone(), even(session, scene, index, room, progress)?),
+            Some(Scattered::Cells(matrix)) => {
+                let matrix: &CellMatrix = matrix;
+                let views = views(matrix.emergent(), Want::All)?;
+                let columns = lights(&views, matrix.incident().len(), &|i| matrix.row(i).into_owned());
+                Self::Cells(matrix.incident().clone(), columns)
+            }
+            Some(Scattered::Directions(data)) if scene.interpolation == Interpolation::Patch => {
+                let views = views(data.emergent(), Want::All)?;
+                let columns = lights(&views, data.incident().len(), &|i| data.row(i).into_owned());
+                Self::Nearest(Arc::clone(data), columns)
+            }
+            Some(Scattered::Directions(data)) => {
+                let interpolator = session.interpolator(data);
+                let (own, sun) = (interpolator.model().grid().basis(), interpolator.sun_grid().basis());
+                let views_of_data = views(own, Want::All)?;
+                let bases = lights(&views_of_data, data.incident().len(), &|i| interpolator.model().base(i));
+                let fine = if sun == own { None } else { Some(views(sun, Want::Sum)?) };
+                Self::Lobes(Box::new(Lobes { interpolator, bases, views: views_of_data, fine }))
+            }
+            Some(Scattered::Tree(tree)) => Self::Tree(tree.clone(), views(&tree.incident_grid().rings(), Want::All)?),
+        })
+    }
+
+    /// Error of the light, relative.
+    pub fn relative_error(&self) -> f64 {
+        match self {
+            Self::Lobes(_) => REST,
+            Self::Tree(..) => TREE_CELL_ERROR,
+            _ => 0.0,
+        }
+    }
+
+    /// Light through a patch of [`patches`].
+    pub fn through_patch(&self, index: usize, cell: &Cell, sensors: usize) -> Column {
+        match self {
+            Self::Even(tau, even) => Column::scaled(even, ring_mean(tau, cell) / PI),
+            Self::Cells(_, columns) => Column::scaled(&columns[index], 1.0),
+            Self::Tree(tree, views) => {
+                let mut column = Column::dark(sensors);
+                for (s, t) in [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)] {
+                    let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+                    let d = Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width);
+                    let mut q = tree.indicatrix(Incident(d)).q;
+                    q.iter_mut().for_each(|q| *q *= 0.25);
+                    views.add_all(&q, &mut column.light);
+                }
+                column
+            }
+            _ => self.from_direction(cell.centre(), sensors),
+        }
+    }
+
+    /// Light from one direction, the sun's.
+    pub fn from_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
+        match self {
+            Self::Straight => Column::dark(sensors),
+            Self::Even(tau, even) => Column::scaled(even, tau.at(d.theta().min(0.5 * PI)) / PI),
+            Self::Cells(basis, columns) => {
+                basis.index(d).map_or_else(|| Column::dark(sensors), |cell| Column::scaled(&columns[cell], 1.0))
+            }
+            Self::Nearest(data, columns) => {
+                data.standing_for(d).map_or_else(|| Column::dark(sensors), |i| Column::scaled(&columns[i], 1.0))
+            }
+            Self::Lobes(lobes) => lobes.from_direction(d, sensors),
+            Self::Tree(tree, views) => {
+                let mut column = Column::dark(sensors);
+                views.add_all(&tree.indicatrix(Incident(d)).q, &mut column.light);
+                column
+            }
+        }
+    }
+
+    /// The sun's light: as [`Self::from_direction`], lobes on finer cells. The first row alone is as good as it gets.
+    pub fn sun(&self, d: Dir<Facade>, sensors: usize, out: &mut [f64], illuminance: f64) {
+        match self {
+            Self::Lobes(lobes) if lobes.fine.is_some() => lobes.sun(d, out, illuminance),
+            _ => {
+                let column = self.from_direction(d, sensors);
+                out.iter_mut().zip(&column.light).for_each(|(sum, e)| *sum += e * illuminance);
+            }
+        }
+    }
+}
+
+impl Lobes {
+    fn from_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
+        let mut column = Column::dark(sensors);
+        column.doubt = vec![0.0; sensors];
+        let (model, grid) = (self.interpolator.model(), self.interpolator.model().grid());
+        let recipe = model.recipe(d);
+        for base in &recipe.bases {
+            let light = &self.bases[base.vertex];
+            column.light.iter_mut().zip(light).for_each(|(sum, e)| *sum += base.factor * e);
+            column.doubt.iter_mut().zip(light).for_each(|(sum, e)| *sum += (base.linear - base.factor) * e);
+        }
+        let mut scratch = Vec::new();
+        let mut lobe = vec![0.0; self.views.width()];
+        for copy in &recipe.copies {
+            model.moved(copy, grid, 1, &mut scratch);
+            lobe.fill(0.0);
+            scratch.iter().for_each(|&(cell, q)| self.views.add(cell as usize, q, &mut lobe));
+            let doubt = copy.linear / copy.flux - 1.0;
+            column.light.iter_mut().zip(&lobe).for_each(|(sum, e)| *sum += e);
+            column.doubt.iter_mut().zip(&lobe).for_each(|(sum, e)| *sum += doubt * e);
+        }
+        column
+    }
+
+    fn sun(&self, d: Dir<Facade>, out: &mut [f64], illuminance: f64) {
+        let (model, grid) = (self.interpolator.model(), self.interpolator.sun_grid());
+        let recipe = model.recipe(d);
+        for base in &recipe.bases {
+            let factor = base.factor * illuminance;
+            out.iter_mut().zip(&self.bases[base.vertex]).for_each(|(sum, e)| *sum += factor * e);
+        }
+        let mut scratch = Vec::new();
+        if let Some(fine) = &self.fine {
+            for copy in &recipe.copies {
+                model.moved(copy, grid, SUN_POINTS, &mut scratch);
+                scratch.iter().for_each(|&(cell, q)| fine.add(cell as usize, q * illuminance, out));
+            }
+        }
+    }
+}
+
+/// Points a side of a cell at which a lobe of the sun is taken.
+const SUN_POINTS: usize = 2;
+
+impl Column {
+    fn dark(sensors: usize) -> Self {
+        Self { light: vec![0.0; 3 * sensors], doubt: Vec::new() }
+    }
+
+    fn scaled(light: &[f64], factor: f64) -> Self {
+        Self { light: light.iter().map(|e| e * factor).collect(), doubt: Vec::new() }
+    }
+}
+
+/// Mean of τ over the ring of a cell, by projected solid angle.
+pub(super) fn ring_mean(tau: &AngularTransmittance, cell: &Cell) -> f64 {
+    let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+    let rule = gauss_legendre(3);
+    rule.into_iter().map(|(x, w)| w * tau.at((a + (b - a) * x).sqrt().clamp(0.0, 1.0).asin())).sum()
+}

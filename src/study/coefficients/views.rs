@@ -1,0 +1,161 @@
+//! V: what every sensor receives per luminance of every emergent cell of an aperture, directly and through the room.
+
+use crate::compute::basis::{Resampling, RingBasis};
+use crate::compute::estimate::Progress;
+use crate::compute::room::first_bounce::{MOST_CELLS, merged_basis};
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+use crate::study::session::Session;
+use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
+use crate::study::session::responses::{Response, Responses};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Three rows of one number a sensor, one behind the other: all light, the interreflected part of it, and what that part
+/// is in doubt by.
+pub(super) type Light = Vec<f64>;
+
+/// Values of every cell.
+pub(super) struct Views {
+    width: usize,
+    /// Cell by cell, each as a [`Light`].
+    rows: Vec<f32>,
+    /// Mean relative gap of flux that was closed.
+    pub gap: f64,
+}
+
+/// What of the light is wanted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Want {
+    /// All of it, as a [`Light`].
+    All,
+    /// Its first row alone.
+    Sum,
+    /// As a [`Light`], without what comes straight.
+    Reflected,
+}
+
+impl Views {
+    /// Of an aperture of the scene; `room` where there is interreflection.
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        index: usize,
+        basis: Arc<RingBasis>,
+        room: Option<&Responses>,
+        want: Want,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        let sensors = scene.sensors.len();
+        let width = if want == Want::Sum { sensors } else { 3 * sensors };
+        let mut rows = vec![0.0_f32; basis.len() * width];
+        if want != Want::Reflected {
+            let receptions = session.receptions(scene, index, Some(&basis), progress)?;
+            for (s, reception) in receptions.iter().enumerate() {
+                for (row, weight) in rows.chunks_exact_mut(width).zip(&reception.cells) {
+                    row[s] = *weight as f32;
+                }
+            }
+        }
+        let mut gap = 0.0;
+        if let Some(room) = room {
+            let merged = if basis.len() > MOST_CELLS { Arc::new(merged_basis()) } else { Arc::clone(&basis) };
+            let weights = room.weights(session, index, &merged);
+            gap = weights.gap();
+            // Sensor by sensor, by cell: value and doubt.
+            let by_sensor: Vec<[Vec<f64>; 2]> = room
+                .sensors
+                .par_iter()
+                .map(|response| {
+                    let value = weights.gathered(&response.value);
+                    if width == sensors {
+                        return [value, Vec::new()];
+                    }
+                    let doubt = doubt(response, &|list| weights.gathered(list), value.len());
+                    [value, doubt]
+                })
+                .collect();
+            let mut add = |cell: usize, from: usize, share: f64| {
+                let row = &mut rows[cell * width..(cell + 1) * width];
+                for (s, [value, doubt]) in by_sensor.iter().enumerate() {
+                    row[s] += (share * value[from]) as f32;
+                    if let Some(doubt) = doubt.get(from) {
+                        row[sensors + s] += (share * value[from]) as f32;
+                        row[2 * sensors + s] += (share * doubt) as f32;
+                    }
+                }
+            };
+            if Arc::ptr_eq(&merged, &basis) {
+                (0..basis.len()).for_each(|cell| add(cell, cell, 1.0));
+            } else {
+                let resampling = Resampling::new(&basis, &merged);
+                for to in 0..merged.len() {
+                    for &(cell, share) in resampling.shares(to) {
+                        add(cell, to, share);
+                    }
+                }
+            }
+        }
+        Ok(Self { width, rows, gap })
+    }
+
+    /// Numbers a cell.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Adds a cell of some luminance.
+    #[inline]
+    pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
+        let row = &self.rows[cell * self.width..(cell + 1) * self.width];
+        for (sum, weight) in out.iter_mut().zip(row) {
+            *sum += luminance * f64::from(*weight);
+        }
+    }
+
+    /// Adds an indicatrix.
+    pub fn add_all(&self, luminance: &[f64], out: &mut [f64]) {
+        for (cell, &l) in luminance.iter().enumerate().filter(|(_, l)| **l != 0.0) {
+            self.add(cell, l, out);
+        }
+    }
+}
+
+/// What the interreflected light of a response is in doubt by: the two densities, and light thrown back by apertures.
+fn doubt(response: &Response, gather: &dyn Fn(&[f64]) -> Vec<f64>, cells: usize) -> Vec<f64> {
+    let mut squares = vec![0.0; cells];
+    for wall in &response.walls {
+        squares.iter_mut().zip(gather(&wall.value)).for_each(|(sum, x)| *sum += x * x);
+    }
+    let mut doubt: Vec<f64> = squares.iter().map(|x| DIFFERENCE_ALONE * x.sqrt()).collect();
+    if !response.thrown_back.is_empty() {
+        doubt.iter_mut().zip(gather(&response.thrown_back)).for_each(|(sum, x)| *sum += UNEVEN * x);
+    }
+    doubt
+}
+
+/// The light of an aperture of even luminance 1.
+pub(super) fn even(
+    session: &Session,
+    scene: &Scene,
+    index: usize,
+    room: Option<&Responses>,
+    progress: &dyn Progress,
+) -> Result<Light, StudyError> {
+    let sensors = scene.sensors.len();
+    let mut light = vec![0.0; 3 * sensors];
+    let receptions = session.receptions(scene, index, None, progress)?;
+    light.iter_mut().zip(receptions.iter()).for_each(|(to, reception)| *to = reception.uniform);
+    if let Some(room) = room {
+        let mut first = room.radiosity.illuminance_from_aperture(index);
+        first.iter_mut().for_each(|e| *e *= std::f64::consts::PI);
+        let none = vec![0.0; first.len()];
+        for (s, response) in room.sensors.iter().enumerate() {
+            let (value, difference, thrown_back) = response.of(&first, &none);
+            light[s] += value;
+            light[sensors + s] = value;
+            light[2 * sensors + s] = DIFFERENCE_ALONE * difference + UNEVEN * thrown_back;
+        }
+    }
+    Ok(light)
+}
