@@ -146,7 +146,7 @@ fn new_sun(bencher: Bencher<'_, '_>, system: &str) {
 }
 
 /// Everything from nothing.
-#[divan::bench(args = SYSTEMS, sample_count = 3)]
+#[divan::bench(args = SYSTEMS, sample_count = 3, sample_size = 1)]
 fn preparation(bencher: Bencher<'_, '_>, system: &str) {
     let scene = scene(system);
     bencher.bench_local(|| prepare(&Session::new(), &scene));

@@ -41,7 +41,7 @@ pub(super) fn sun_estimate(all: &Coefficients, light: &Sun) -> Vec<Estimate> {
         let facing = Facing { sun: Some(light), ..all.scene.facing(index) };
         let illuminance = facing.sun_illuminance();
         let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
-        let column = part.transport.from_direction(direction, sensors);
+        let column = part.transport.for_direction(direction, sensors);
         let mut own = vec![0.0; sensors];
         part.transport.sun(direction, sensors, &mut own, illuminance);
         for (s, sum) in estimates.iter_mut().enumerate() {

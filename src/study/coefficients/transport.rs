@@ -148,12 +148,12 @@ impl Transport {
                 }
                 column
             }
-            _ => self.from_direction(cell.centre(), sensors),
+            _ => self.for_direction(cell.centre(), sensors),
         }
     }
 
     /// Light from one direction, the sun's.
-    pub fn from_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
+    pub fn for_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
         match self {
             Self::Straight => Column::dark(sensors),
             Self::Even(tau, even) => Column::scaled(even, tau.at(d.theta().min(0.5 * PI)) / PI),
@@ -163,7 +163,7 @@ impl Transport {
             Self::Nearest(data, columns) => {
                 data.standing_for(d).map_or_else(|| Column::dark(sensors), |i| Column::scaled(&columns[i], 1.0))
             }
-            Self::Lobes(lobes) => lobes.from_direction(d, sensors),
+            Self::Lobes(lobes) => lobes.for_direction(d, sensors),
             Self::Tree(tree, views) => {
                 let mut column = Column::dark(sensors);
                 views.add_all(&tree.indicatrix(Incident(d)).q, &mut column.light);
@@ -172,12 +172,12 @@ impl Transport {
         }
     }
 
-    /// The sun's light: as [`Self::from_direction`], lobes on finer cells. The first row alone is as good as it gets.
+    /// The sun's light: as [`Self::for_direction`], lobes on finer cells. The first row alone is as good as it gets.
     pub fn sun(&self, d: Dir<Facade>, sensors: usize, out: &mut [f64], illuminance: f64) {
         match self {
             Self::Lobes(lobes) if lobes.fine.is_some() => lobes.sun(d, out, illuminance),
             _ => {
-                let column = self.from_direction(d, sensors);
+                let column = self.for_direction(d, sensors);
                 out.iter_mut().zip(&column.light).for_each(|(sum, e)| *sum += e * illuminance);
             }
         }
@@ -185,7 +185,7 @@ impl Transport {
 }
 
 impl Lobes {
-    fn from_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
+    fn for_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
         let mut column = Column::dark(sensors);
         column.doubt = vec![0.0; sensors];
         let (model, grid) = (self.interpolator.model(), self.interpolator.model().grid());
