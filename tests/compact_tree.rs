@@ -13,11 +13,14 @@ use cfs::compute::wavelet::Criterion;
 use cfs::formats::compact_rows;
 use cfs::study::compact::{StandardRoom, standard_outsides};
 
+/// Illuminance by row of the dataset, and the luminance that it makes.
+type Shone = (Vec<(usize, f64)>, Vec<f64>);
+
 /// Compares two forms of a dataset in the standard room.
 struct Judge {
     room: StandardRoom,
-    /// Illuminance by row, and luminance before, for each outside.
-    outsides: Vec<(Vec<(usize, f64)>, Vec<f64>)>,
+    /// For each outside, before.
+    outsides: Vec<Shone>,
 }
 
 fn luminance(row: &dyn Fn(usize) -> Vec<f64>, light: &[(usize, f64)]) -> Vec<f64> {

@@ -60,7 +60,7 @@ impl Grid {
                 let (i, o) = (at / (OUT * OUT), at % (OUT * OUT));
                 let (down_i, down_o) = (IN_LEVELS - level.min(IN_LEVELS), OUT_LEVELS - level);
                 let side = 1 << IN_LEVELS;
-                place(level, [i % side >> down_i, i / side >> down_i, o % OUT >> down_o, o / OUT >> down_o])
+                place(level, [(i % side) >> down_i, (i / side) >> down_i, (o % OUT) >> down_o, (o / OUT) >> down_o])
             };
             values.iter().enumerate().for_each(|(at, q)| sum[ancestor(at)] += q);
             count += values.len() as f64 / sum.len() as f64;
@@ -152,7 +152,7 @@ fn fill(level: usize, corner: [usize; 4], q: f64, values: &mut [f64]) {
 /// Adaptive chances: shape by level and the node before, values by their difference to the leaf before.
 fn coder_bytes(shape: &[(usize, bool)], levels: &[i32]) -> usize {
     let mut encoder = Encoder::default();
-    let mut chances = vec![Chance::from_byte(128); 16];
+    let mut chances = [Chance::from_byte(128); 16];
     let mut before = false;
     for &(level, leaf) in shape {
         encoder.bit(&mut chances[2 * level + usize::from(before)], leaf);

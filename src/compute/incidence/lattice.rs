@@ -142,8 +142,8 @@ impl Lattice {
         let on_edge = |&[p, q]: &[usize; 2]| {
             // Foot of the arc from d at right angles to the edge's great circle.
             let (a, b) = (self.points[p], self.points[q]);
-            let normal = a.cross(b).normalize();
-            let foot = (d - normal * normal.dot(d)).normalize();
+            let normal = a.cross(b).try_normalize()?;
+            let foot = (d - normal * normal.dot(d)).try_normalize()?;
             let angle = |u: DVec3, v: DVec3| u.cross(v).length().atan2(u.dot(v));
             let t = angle(a, foot) / angle(a, b);
             (angle(a, foot) + angle(foot, b) < angle(a, b) + 1e-9).then(|| {

@@ -164,7 +164,7 @@ pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Gri
         let mut shift: Vec<f64> = lobes.luminance.iter().map(|l| -l).collect();
         for copy in &recipe.copies {
             let across = (axis - copy.centre * axis.dot(copy.centre)).normalize_or_zero();
-            let centre = (copy.centre + across * reach).normalize();
+            let centre = (copy.centre + across * reach).normalize_or(copy.centre);
             if centre.z <= 0.0 {
                 continue;
             }
