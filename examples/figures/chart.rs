@@ -154,7 +154,7 @@ pub struct Disc {
 }
 
 /// Pixels across a disc.
-const DISC: usize = 220;
+const DISC: usize = 200;
 
 impl Disc {
     /// Samples a function of the through-name.
