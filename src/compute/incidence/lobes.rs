@@ -8,6 +8,8 @@ const REACH: f64 = 15.0 * std::f64::consts::PI / 180.0;
 const BLUR: f64 = 7.5 * std::f64::consts::PI / 180.0;
 /// Peaks lower than this share of the highest, and lobes with less than this share of the lobes' flux, are none.
 const LEAST: f64 = 0.006;
+/// Most lobes of an indicatrix: what is more is noise, and following it would cost without end.
+const MOST: usize = 6;
 /// A lobe's peak holds at least this share of the luminance there.
 const STANDS_OUT: f64 = 0.4;
 /// Cells below this share of a lobe's peak belong to the base: they need not move.
@@ -175,6 +177,7 @@ impl Splitter {
             cells.values().filter(stands_out).filter_map(|cells| Lobe::new(grid, cells)).collect();
         lobes.retain(|lobe| lobe.flux > LEAST * total);
         lobes.sort_by(|a, b| b.flux.total_cmp(&a.flux));
+        lobes.truncate(MOST);
         lobes
     }
 }

@@ -234,7 +234,20 @@ impl Model {
         if place.beyond > 0.0 {
             self.fade(&place, &mut recipe);
         }
+        self.limit(&used, &mut recipe);
         recipe
+    }
+
+    /// No more light than arrives, unless the data themselves have more.
+    fn limit(&self, used: &[(usize, f64)], recipe: &mut Recipe) {
+        let most = used.iter().map(|&(v, _)| self.data.tau_by_direction()[v]).fold(1.0, f64::max);
+        let bases: f64 = recipe.bases.iter().map(|base| base.factor * self.base_flux[base.vertex]).sum();
+        let total = bases + recipe.copies.iter().map(|copy| copy.flux).sum::<f64>();
+        if total > most {
+            let scale = most / total;
+            recipe.bases.iter_mut().for_each(|base| base.factor *= scale);
+            recipe.copies.iter_mut().for_each(|copy| copy.flux *= scale);
+        }
     }
 
     /// Bases blended, their flux interpolated to second order.

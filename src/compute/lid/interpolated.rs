@@ -15,8 +15,9 @@ use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Width of the sub-patches of sky and ground. \[rad\]
-const SUB_PATCH: f64 = 2.5 * PI / 180.0;
+/// Widths of the sub-patches of sky and ground: as lobes' standard deviations (a lobe is 7 of them across), within these
+/// limits. Wider ones would show as rings behind narrow lobes. \[rad\]
+const SUB_PATCH: [f64; 2] = [1.25 * PI / 180.0, 2.5 * PI / 180.0];
 /// Emergent cells under the sun are cut where a lobe has fewer than this across ...
 const ACROSS: f64 = 14.0;
 /// ... but not below this width. \[rad\]
@@ -89,13 +90,14 @@ impl Interpolator {
                 return (total, light, format!("{}, as asked for; what it costs is not estimated", scheme.key()));
             }
         }
-        let patches = superpose::sub_patches(SUB_PATCH);
+        let step = (model.narrowest_lobe() / 5.6).clamp(SUB_PATCH[0], SUB_PATCH[1]);
+        let patches = superpose::sub_patches(step);
         let (total, values) = received(&patches);
         if total.value <= 0.0 {
             return (total, Light::dark(model.grid().basis().len()), "no diffuse light".into());
         }
         let note = match kernel {
-            None => "sub-patches of 2.5°, each with its own indicatrix".into(),
+            None => format!("sub-patches of {:.1}°, each with its own indicatrix", step.to_degrees()),
             Some(_) => format!("sub-patches: the data's directions are no lattice that {} is made for", scheme.key()),
         };
         (total, superpose::diffuse(model, &patches, &values), note)

