@@ -85,7 +85,7 @@ impl<'a> RowFile<'a> {
     /// Opens the bytes of `count` rows on the cells of `basis`.
     ///
     /// # Errors
-    /// Anything that [`write`] does not write.
+    /// Anything that [`write()`] does not write.
     pub fn open(basis: RingBasis, count: usize, bytes: &'a [u8]) -> Result<Self, String> {
         let cut_off = || "compact rows cut off".to_owned();
         let (fixed, rest) = bytes.split_first_chunk::<6>().ok_or_else(cut_off)?;

@@ -1,7 +1,7 @@
 //! Line drawings with a little text, written as SVG or as PNG. Enough for diagrams that need no window.
 //!
 //! Coordinates are pixels, x right, y down. The PNG is drawn without a font library, with the letters of
-//! [`dot_font`](super::dot_font); other characters leave a gap.
+//! `dot_font`; other characters leave a gap.
 
 use super::dot_font::glyph;
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};

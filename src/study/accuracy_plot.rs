@@ -76,7 +76,8 @@ pub fn plot(accuracy: &Accuracy, width: u32, height: u32, colours: &Colours) -> 
         shapes.push(Shape::Text { at, text: text.to_owned(), colour: colours.ink });
     }
     // As many beside one another as there is room for their names.
-    let columns = ((across / 210.0) as usize).clamp(1, accuracy.series.len().max(1));
+    let room = if upright { 210.0 } else { 320.0 };
+    let columns = ((across / room) as usize).clamp(1, accuracy.series.len().max(1));
     let step = across / columns as f64;
     for (k, (series, colour)) in accuracy.series.iter().zip(colours.series.into_iter().cycle()).enumerate() {
         let (centre, line) = (((k % columns) as f64 + 0.5) * step, 14.0 + 18.0 * (k / columns) as f64);

@@ -2,7 +2,7 @@
 //!
 //! Angles of the file are degrees in the façade frame on both sides (φ counter-clockwise seen from outside, 0 = right,
 //! 90 = up; θ from the outward normal). The incident direction points towards the source, transmitted and reflected
-//! ones point where the light goes; [`frame`] turns them into the names that [`crate::compute::direction`] defines.
+//! ones point where the light goes; `frame` turns them into the names that [`crate::compute::direction`] defines.
 //!
 //! Read: both layouts (`rings`: means over cells; `points`: values at directions, resampled onto cells with a stated
 //! error); incidences on Tregenza's or Klems' 145 directions or any list; means over incident cells

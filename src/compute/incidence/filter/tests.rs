@@ -62,7 +62,6 @@ fn round_kernels_leave_gaps_and_overlaps() {
         let found = (cells.iter().map(|&k| square(k)).sum::<f64>() / weight).sqrt() / mean;
         let least = cells.iter().map(|&k| luminance[k]).fold(f64::INFINITY, f64::min);
         let most = cells.iter().map(|&k| luminance[k]).fold(0.0, f64::max);
-        println!("{kernel:?}: rms {found:.3} ({rms}), {least:.2} ({low}) to {most:.2} ({high})");
         assert!(found > 0.82 * rms && found < 1.03 * rms, "{kernel:?}: rms {found}");
         assert!((least - low).abs() < 0.15 && (most - high).abs() < 0.1 * high + 0.1, "{kernel:?}: {least} to {most}");
     }

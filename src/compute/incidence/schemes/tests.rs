@@ -125,7 +125,6 @@ fn schemes_misplace_what_the_prototypes_did() {
     let clear = mean_misplaced(&samples::clear());
     let slats = mean_misplaced(&samples::slats());
     let diffuser = mean_misplaced(&samples::diffuser());
-    println!("panel {panel:.4?}\nclear {clear:.4?}\nslats {slats:.4?}\ndiffuser {diffuser:.4?}");
     assert!(of(&panel, SunScheme::Nearest) > 0.2 && of(&clear, SunScheme::Nearest) > 0.2);
     assert!(of(&clear, SunScheme::Superposed) < 0.02 && of(&panel, SunScheme::Superposed) > 0.08);
     assert!(of(&panel, SunScheme::MatchedLobes) < 0.04 && of(&panel, SunScheme::Transport) < 0.2);
