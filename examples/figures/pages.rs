@@ -359,9 +359,8 @@ fn figure_21() -> Result<Figure> {
         number: "21",
         shows: "luminous intensity of the ideal diffuser and the open aperture against eq 19 and 20, and what the open \
                 aperture's data of rising density make of it. Measured data: beam of 2° (standard deviation), picked among \
-                1° to 3.5° as what suits the finest cells; finer emergent cells help, more incident directions do not. With \
-                a beam of 1° on cells of 1.9° the sub-patches of 2.5° leave 2.8 to 3.9 % from 36, 145 and 576 directions \
-                alike. On façades the beam reaches over the horizon",
+                1° to 3.5° as what suits the finest cells; finer emergent cells help, more incident directions do not. On \
+                façades the beam reaches over the horizon",
         key: key.join("; "),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
