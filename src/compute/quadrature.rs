@@ -282,29 +282,33 @@ fn kronrod_7_squared(
 /// ∬ f(x, y) over a list of rectangles; adaptive products of 3–7 Gauss–Kronrod rules, halving across the axis with
 /// the larger error.
 pub fn integrate_rectangles(
-    mut f: impl FnMut(f64, f64) -> f64,
+    f: impl FnMut(f64, f64) -> f64,
     rectangles: &[Rectangle],
     tolerance: Tolerance,
 ) -> Estimate {
-    adapt(
-        rectangles.iter().copied(),
-        tolerance,
-        |domain| kronrod_7_squared(&mut f, domain, scaled_error),
-        |domain, second_axis| domain.halves(second_axis),
-    )
+    over_rectangles(f, rectangles, tolerance, scaled_error)
 }
 
 /// [`integrate_rectangles`] for an integrand that is smooth on each of the rectangles, kinks and jumps being on their
 /// borders: the same accuracy for a tenth of the evaluations, by an error estimate with less in reserve.
 pub fn integrate_smooth_rectangles(
+    f: impl FnMut(f64, f64) -> f64,
+    rectangles: &[Rectangle],
+    tolerance: Tolerance,
+) -> Estimate {
+    over_rectangles(f, rectangles, tolerance, smooth_error)
+}
+
+fn over_rectangles(
     mut f: impl FnMut(f64, f64) -> f64,
     rectangles: &[Rectangle],
     tolerance: Tolerance,
+    claim: fn(f64, f64, f64) -> f64,
 ) -> Estimate {
     adapt(
         rectangles.iter().copied(),
         tolerance,
-        |domain| kronrod_7_squared(&mut f, domain, smooth_error),
+        |domain| kronrod_7_squared(&mut f, domain, claim),
         |domain, second_axis| domain.halves(second_axis),
     )
 }

@@ -5,6 +5,6 @@ mod resample;
 mod rings;
 mod shirley_chiu;
 
-pub use resample::{Resampling, resample_matrix};
+pub use resample::{Resampling, resample_matrix, same_cells};
 pub use rings::{AzimuthMap, BasisError, Cell, Ring, RingBasis};
 pub use shirley_chiu::{MAX_LEVEL, SquareCell, SquareGrid, disk_from_square, square_from_disk};

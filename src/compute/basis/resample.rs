@@ -73,7 +73,7 @@ fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
 
 /// For every target cell the source cell that is the same, when both bases have the same cells and only count them
 /// differently.
-fn same_cells(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
+pub fn same_cells(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
     if source.len() != target.len() {
         return None;
     }
@@ -86,7 +86,8 @@ fn same_cells(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
             let same = (cell.theta_min - other.theta_min).abs() < 1e-9
                 && (cell.theta_max - other.theta_max).abs() < 1e-9
                 && (cell.width - other.width).abs() < 1e-9
-                && (cell.is_cap() || turn.min(2.0 * PI - turn) < 1e-9);
+                // A ring that is one cell looks the same from every azimuth.
+                && (cell.width > 1.99 * PI || turn.min(2.0 * PI - turn) < 1e-9);
             same.then_some(index)
         })
         .collect()

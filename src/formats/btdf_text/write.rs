@@ -7,13 +7,12 @@
 use super::FORMAT;
 use super::frame::{Naming, tidy};
 use super::points::even_rings;
-use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
+use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis, same_cells};
 use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Scattered};
 use crate::compute::direction::{Dir, Facade};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use crate::formats::on_cells::matrix_on;
-use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 /// The dataset's transmission from outside as a file, or, without one, its first function. Findings tell what else it
@@ -113,7 +112,7 @@ impl Table {
         };
         let own = emergent.clone();
         table.emergent = file_basis(&own, Naming::emergent(component));
-        match same_places(&own, &table.emergent) {
+        match same_cells(&own, &table.emergent) {
             Some(places) => {
                 table.rows.iter_mut().for_each(|row| *row = places.iter().map(|&k| row[k]).collect());
             }
@@ -136,7 +135,7 @@ impl Table {
         let rows = (0..names.len()).map(|k| matrix.row(k).to_vec()).collect();
         let lattice = [RingBasis::tregenza(), RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)]
             .into_iter()
-            .find(|basis| same_places(matrix.incident(), basis).is_some());
+            .find(|basis| same_cells(matrix.incident(), basis).is_some());
         if lattice.is_none() {
             tell(
                 "means-as-directions",
@@ -200,26 +199,6 @@ fn file_basis(own: &RingBasis, naming: Naming) -> RingBasis {
     let rings: Vec<Ring> = own.rings().iter().map(|ring| Ring { first_phi: 0.0, ..*ring }).collect();
     RingBasis::new(own.name(), rings, AzimuthMap { sign: 1.0, offset: naming.turn() })
         .expect("the rings divided the hemisphere before")
-}
-
-/// For every cell of `target` the same cell of `source`; `None` when any is cut otherwise.
-fn same_places(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
-    if source.len() != target.len() {
-        return None;
-    }
-    target
-        .cells()
-        .map(|cell| {
-            let index = source.index(cell.centre())?;
-            let other = source.cell(index);
-            let turn = (cell.phi - other.phi).rem_euclid(2.0 * PI);
-            let same = (cell.theta_min - other.theta_min).abs() < 1e-9
-                && (cell.theta_max - other.theta_max).abs() < 1e-9
-                && (cell.width - other.width).abs() < 1e-9
-                && (cell.width > 1.99 * PI || turn.min(2.0 * PI - turn) < 1e-9);
-            same.then_some(index)
-        })
-        .collect()
 }
 
 fn head(text: &mut String, dataset: &Dataset, component: Component, table: &Table) {

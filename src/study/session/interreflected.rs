@@ -12,7 +12,7 @@ use crate::compute::room::mesh::{Mesh, Nested};
 use crate::compute::room::radiosity::{Exitance, Radiosity, dot};
 use crate::study::cache::{Key, bits};
 use crate::study::error::StudyError;
-use crate::study::scene::Scene;
+use crate::study::scene::{Scene, SceneAperture};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -150,15 +150,7 @@ impl Session {
         // The beam's first reflection comes from sharp outlines, and has a closed form at every sensor.
         let mut exitance = radiosity.exitance(&all, &first.beam);
         let mut thrown_back = vec![0.0; scene.sensors.len()];
-        let mirrors: Vec<(usize, BackReflection<'_>)> = scene
-            .apertures
-            .iter()
-            .enumerate()
-            .filter_map(|(index, aperture)| {
-                let matrix = aperture.back_reflection()?;
-                Some((index, BackReflection::new(matrix, weights(index, &Arc::new(matrix.incident().clone())))))
-            })
-            .collect();
+        let mirrors = mirrors(scene, weights);
         if !mirrors.is_empty() {
             check(progress)?;
             let luminances =
@@ -211,6 +203,18 @@ impl Session {
             .collect();
         Ok((estimates, first.gap))
     }
+}
+
+/// The apertures that reflect by direction; `weights`: what the patches receive from an aperture by the cells of a basis.
+pub(super) fn mirrors<'a>(
+    scene: &'a Scene,
+    weights: impl Fn(usize, &Arc<RingBasis>) -> Arc<PatchWeights>,
+) -> Vec<(usize, BackReflection<'a>)> {
+    let reflecting = |(index, aperture): (usize, &'a SceneAperture)| {
+        let matrix = aperture.back_reflection()?;
+        Some((index, BackReflection::new(matrix, weights(index, &Arc::new(matrix.incident().clone())))))
+    };
+    scene.apertures.iter().enumerate().filter_map(reflecting).collect()
 }
 
 /// Luminance of every mirroring aperture, once what goes to and fro between them and the room has settled; `exitance` is

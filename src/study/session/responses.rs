@@ -1,12 +1,11 @@
 //! What every sensor's interreflected light hangs on: weights of the first illuminance of every patch, from the room's
 //! balance read backwards. One set serves every sky, sun and system of a room.
 
-use super::interreflected::{room_key, spans};
+use super::interreflected::{mirrors, room_key, spans};
 use super::{Session, check};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
 use crate::compute::room::aperture::Aperture;
-use crate::compute::room::back_reflection::BackReflection;
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
@@ -83,16 +82,7 @@ impl Session {
     /// cells, W what the patches receive of them and Q what they return of a first illuminance e, l = Q (e + W l): solved
     /// once, and every sensor's weights a become a + (a W + r) (1 − Q W)⁻¹ Q, r what it sees of l itself.
     fn add_mirrors(&self, scene: &Scene, responses: &mut Responses, progress: &dyn Progress) -> Result<(), StudyError> {
-        let mirrors: Vec<(usize, BackReflection<'_>)> = scene
-            .apertures
-            .iter()
-            .enumerate()
-            .filter_map(|(index, aperture)| {
-                let matrix = aperture.back_reflection()?;
-                let weights = responses.weights(self, index, &Arc::new(matrix.incident().clone()));
-                Some((index, BackReflection::new(matrix, weights)))
-            })
-            .collect();
+        let mirrors = mirrors(scene, |index, basis| responses.weights(self, index, basis));
         if mirrors.is_empty() {
             return Ok(());
         }
