@@ -21,6 +21,7 @@ pub mod btdf;
 pub mod control;
 pub mod direction;
 pub mod estimate;
+pub mod goniophotometer;
 pub mod incidence;
 pub mod lid;
 pub mod quadrature;
