@@ -7,6 +7,7 @@
 pub mod diffuser;
 pub mod glazing;
 pub mod laser_cut;
+pub mod slat_profile;
 pub mod slats;
 
 use crate::compute::basis::{AzimuthMap, Cell, RingBasis};

@@ -1,0 +1,112 @@
+//! The section of a slat at tilt 0: u outward along the chord, v upward; the middle of the chord is the origin, about
+//! which the slat turns.
+//!
+//! In the slat's own axes light of profile angle ψ comes from (cos α, sin α), α = β + ψ, where the tilt β > 0 lowers
+//! the outer edge. What a slat takes out of a parallel beam is its extent across the beam, so that every connected
+//! profile lets the share max(0, 1 − extent/(s cosψ)) pass straight between slats of pitch s.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Shape of a slat's section, without its thickness. Lengths in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SlatProfile {
+    /// A straight line of this chord.
+    Flat {
+        /// Chord. \[m\]
+        width: f64,
+    },
+    /// A circular arc.
+    Arc {
+        /// Chord. \[m\]
+        width: f64,
+        /// Height of the crown over the chord, > 0 = convex side up; at most half the chord. \[m\]
+        rise: f64,
+    },
+    /// A polyline of (outward, upward) points, from one edge to the other.
+    Polyline(Vec<[f64; 2]>),
+}
+
+impl SlatProfile {
+    /// A flat profile where the rise is 0, else an arc.
+    pub fn curved(width: f64, rise: f64) -> Self {
+        if rise == 0.0 { Self::Flat { width } } else { Self::Arc { width, rise } }
+    }
+
+    /// Extent across a beam at the angle `alpha` to the chord. \[rad → m\]
+    pub fn extent(&self, alpha: f64) -> f64 {
+        let across = |[u, v]: [f64; 2]| v * alpha.cos() - u * alpha.sin();
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut meet = |point| {
+            let at = across(point);
+            (low, high) = (low.min(at), high.max(at));
+        };
+        match self {
+            Self::Flat { width } => return width * alpha.sin().abs(),
+            Self::Arc { width, rise } => {
+                meet([0.5 * width, 0.0]);
+                meet([-0.5 * width, 0.0]);
+                let (radius, half) = arc(*width, *rise);
+                // Where the beam touches the arc: its normal there is the beam's, up or down.
+                let tangent = (alpha + FRAC_PI_2).rem_euclid(PI) - FRAC_PI_2;
+                if tangent.abs() <= half {
+                    let up = rise.signum();
+                    meet([-radius * tangent.sin() * up, up * (radius * tangent.cos() - radius * half.cos())]);
+                }
+            }
+            Self::Polyline(points) => points.iter().for_each(|&point| meet(point)),
+        }
+        if high > low { high - low } else { 0.0 }
+    }
+
+    /// The profile as `parts` straight pieces of equal length for an arc; as it is for straight profiles.
+    pub fn polyline(&self, parts: usize) -> Vec<[f64; 2]> {
+        match self {
+            Self::Flat { width } => vec![[-0.5 * width, 0.0], [0.5 * width, 0.0]],
+            Self::Arc { width, rise } => {
+                let (radius, half) = arc(*width, *rise);
+                (0..=parts)
+                    .map(|k| {
+                        let a = half * (2.0 * k as f64 / parts as f64 - 1.0);
+                        [radius * a.sin(), rise.signum() * radius * (a.cos() - half.cos())]
+                    })
+                    .collect()
+            }
+            Self::Polyline(points) => points.clone(),
+        }
+    }
+}
+
+/// Radius and half opening angle of an arc.
+fn arc(width: f64, rise: f64) -> (f64, f64) {
+    let rise = rise.abs();
+    ((0.25 * width * width + rise * rise) / (2.0 * rise), 2.0 * (2.0 * rise).atan2(width))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extents_are_those_of_many_points() {
+        let profiles = [
+            SlatProfile::Flat { width: 0.08 },
+            SlatProfile::Arc { width: 0.08, rise: 0.008 },
+            SlatProfile::Arc { width: 0.08, rise: -0.02 },
+        ];
+        for profile in profiles {
+            let points = profile.polyline(20_000);
+            for k in -36..=36 {
+                let alpha = f64::to_radians(5.0 * f64::from(k));
+                let many = SlatProfile::Polyline(points.clone()).extent(alpha);
+                assert!((profile.extent(alpha) - many).abs() < 1e-8, "{profile:?} {alpha}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_arc_keeps_its_chord_and_its_crown() {
+        let points = SlatProfile::Arc { width: 0.08, rise: -0.01 }.polyline(8);
+        assert!((points[0][0] + 0.04).abs() < 1e-15 && points[8][1].abs() < 1e-15);
+        assert!((points[4][1] + 0.01).abs() < 1e-15);
+    }
+}
