@@ -19,6 +19,7 @@ pub mod luminaire;
 mod on_cells;
 pub mod package;
 pub mod scan;
+pub mod system_toml;
 
 pub use btdf_text::CatalogueFields;
 pub use family::{is_one_function, merge_sides};

@@ -100,13 +100,18 @@ fn ring_means(basis: &RingBasis, f: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 impl Opal {
-    /// The four functions, or `None` when the parameters are not those of a passive sheet.
-    pub fn band(&self) -> Option<Band> {
+    /// Shares of the light that has entered: passed on, and thrown back by the volume. `None` when the parameters are not
+    /// those of a passive sheet.
+    pub fn shares(&self) -> Option<(f64, f64)> {
         let enters = surface_transmittance(self.index, 0.0);
         let (passed, returned) = (self.transmittance / enters, self.reflectance / enters);
-        if !(self.index >= 1.0 && passed >= 0.0 && returned >= 0.0 && passed + returned <= 1.0) {
-            return None;
-        }
+        let sane = self.index >= 1.0 && passed >= 0.0 && returned >= 0.0 && passed + returned <= 1.0;
+        sane.then_some((passed, returned))
+    }
+
+    /// The four functions, or `None` when the parameters are not those of a passive sheet.
+    pub fn band(&self) -> Option<Band> {
+        let (passed, returned) = self.shares()?;
         let basis = front_basis();
         let surface = ring_means(&basis, |theta| surface_transmittance(self.index, theta));
         let scaled = |share: f64| {
@@ -122,17 +127,25 @@ impl Opal {
 }
 
 impl Spreading {
+    /// Transmittance of the clear sheet of the index at a polar angle. \[rad\]
+    pub fn clear(&self, theta: f64) -> f64 {
+        let pane = super::glazing::Pane { index: self.index, thickness: 0.0, absorption: 0.0 };
+        super::glazing::stack(&[pane], theta).transmitted
+    }
+
+    /// Transmittance over that of the clear sheet. `None` when the parameters are not those of a passive sheet.
+    pub fn scale(&self) -> Option<f64> {
+        let scale = self.transmittance / self.clear(0.0);
+        let shares = [self.regular, self.lobe, 1.0 - self.regular - self.lobe, self.absorbed];
+        let sane = shares.iter().all(|share| (-1e-12..=1.0).contains(share)) && (0.0..=1.0).contains(&scale);
+        (sane && self.index >= 1.0 && self.spread > 0.01).then_some(scale)
+    }
+
     /// The four functions, or `None` when the parameters are not those of a passive sheet.
     pub fn band(&self) -> Option<Band> {
         let haze = 1.0 - self.regular - self.lobe;
-        let pane = super::glazing::Pane { index: self.index, thickness: 0.0, absorption: 0.0 };
-        let clear = |theta: f64| super::glazing::stack(&[pane], theta).transmitted;
-        let scale = self.transmittance / clear(0.0);
-        let shares = [self.regular, self.lobe, haze, self.absorbed];
-        let sane = shares.iter().all(|share| (-1e-12..=1.0).contains(share)) && (0.0..=1.0).contains(&scale);
-        if !(sane && self.index >= 1.0 && self.spread > 0.01) {
-            return None;
-        }
+        let scale = self.scale()?;
+        let clear = |theta: f64| self.clear(theta);
         let basis = front_basis();
         let tau = ring_means(&basis, |theta| scale * clear(theta));
         let lobe_tau: Vec<f64> = tau.iter().map(|t| self.lobe * t).collect();

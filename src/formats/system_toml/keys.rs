@@ -1,0 +1,241 @@
+//! The keys of a system file as typed, with their defaults. Angles in degrees, lengths in metres.
+
+use serde::Deserialize;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Keys {
+    pub name: String,
+    pub kind: Kind,
+    #[serde(default)]
+    pub description: String,
+    #[serde(default)]
+    pub upright: bool,
+    pub venetian: Option<Venetian>,
+    #[serde(rename = "laser-cut-panel")]
+    pub laser_cut_panel: Option<LaserCut>,
+    pub prismatic: Option<Prismatic>,
+    #[serde(rename = "redirecting-glass")]
+    pub redirecting_glass: Option<RedirectingGlass>,
+    pub pane: Option<Pane>,
+    pub diffuser: Option<Diffuser>,
+    pub woven: Option<Woven>,
+    pub perforated: Option<Perforated>,
+    pub stack: Option<Stack>,
+    #[serde(default)]
+    pub catalogue: Catalogue,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Kind {
+    Venetian,
+    LaserCutPanel,
+    Prismatic,
+    RedirectingGlass,
+    Pane,
+    Diffuser,
+    Woven,
+    Perforated,
+    Stack,
+}
+
+impl Kind {
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Venetian => "venetian",
+            Self::LaserCutPanel => "laser-cut-panel",
+            Self::Prismatic => "prismatic",
+            Self::RedirectingGlass => "redirecting-glass",
+            Self::Pane => "pane",
+            Self::Diffuser => "diffuser",
+            Self::Woven => "woven",
+            Self::Perforated => "perforated",
+            Self::Stack => "stack",
+        }
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Venetian {
+    #[serde(default)]
+    pub width: f64,
+    pub spacing: f64,
+    #[serde(default)]
+    pub thickness: f64,
+    #[serde(default)]
+    pub rise: f64,
+    pub profile: Option<Vec<[f64; 2]>>,
+    pub angles: Angles,
+    pub upper: Face,
+    pub lower: Face,
+}
+
+/// Listed, or from … to in steps.
+#[derive(Debug, Deserialize)]
+#[serde(untagged, expecting = "a list of degrees, or { from, to, step }")]
+pub(super) enum Angles {
+    Listed(Vec<f64>),
+    Steps(Steps),
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Steps {
+    pub from: f64,
+    pub to: f64,
+    pub step: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Face {
+    pub reflectance: f64,
+    #[serde(default)]
+    pub specular: f64,
+    #[serde(default)]
+    pub roughness: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LaserCut {
+    pub index: f64,
+    pub spacing: f64,
+    pub depth: f64,
+    #[serde(default)]
+    pub absorption: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Prismatic {
+    pub index: f64,
+    pub angles: [f64; 2],
+    pub pitch: f64,
+    pub base: f64,
+    #[serde(default)]
+    pub flipped: bool,
+    #[serde(default)]
+    pub absorption: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RedirectingGlass {
+    pub index: f64,
+    #[serde(default)]
+    pub absorption: f64,
+    pub spacing: f64,
+    pub bodies: Vec<Vec<[f64; 2]>>,
+    pub outer: Option<Sheet>,
+    pub inner: Option<Sheet>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Sheet {
+    pub index: f64,
+    pub thickness: f64,
+    #[serde(default)]
+    pub absorption: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Pane {
+    pub index: f64,
+    #[serde(default)]
+    pub thickness: f64,
+    pub absorption: Option<f64>,
+    pub transmittance_normal: Option<f64>,
+    pub reflectance_normal: Option<f64>,
+    pub reflectance_normal_back: Option<f64>,
+    #[serde(default = "one")]
+    pub panes: usize,
+}
+
+fn one() -> usize {
+    1
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Diffuser {
+    pub model: DiffuserModel,
+    pub transmittance: f64,
+    pub reflectance: Option<f64>,
+    pub index: Option<f64>,
+    pub regular: Option<f64>,
+    pub lobe: Option<f64>,
+    pub spread: Option<f64>,
+    pub absorbed: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum DiffuserModel {
+    Lambertian,
+    Opal,
+    Spreading,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Woven {
+    pub openness: f64,
+    pub reflectance: f64,
+    pub reflectance_back: Option<f64>,
+    #[serde(default)]
+    pub transmittance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum HoleShape {
+    Round,
+    Rectangle,
+    Rhombus,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Perforated {
+    pub hole: HoleShape,
+    pub width: f64,
+    pub height: Option<f64>,
+    pub pitch: [f64; 2],
+    #[serde(default)]
+    pub staggered: bool,
+    pub thickness: f64,
+    #[serde(default)]
+    pub rise: f64,
+    pub reflectance: f64,
+    pub reflectance_back: Option<f64>,
+    pub reflectance_wall: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stack {
+    pub layers: Vec<Layer>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Layer {
+    pub file: Option<String>,
+    pub catalogue: Option<String>,
+    #[serde(default)]
+    pub state: String,
+}
+
+/// What only the catalogue wants to know.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct Catalogue {
+    pub key: String,
+    pub tags: Vec<String>,
+    pub control: String,
+}
