@@ -11,6 +11,8 @@
 //! In these names reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side, the bar
 //! turning a name by 180° about the normal.
 
+pub mod stack;
+
 use super::basis::RingBasis;
 use super::btdf::{Band, Btdf, CellMatrix, Component};
 use super::estimate::{Cancelled, Progress};
