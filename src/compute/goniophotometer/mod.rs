@@ -11,6 +11,8 @@
 //! In these names reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side, the bar
 //! turning a name by 180° about the normal.
 
+mod perforated;
+pub mod sheet;
 pub mod stack;
 
 use super::basis::RingBasis;

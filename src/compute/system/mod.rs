@@ -10,6 +10,7 @@ pub mod glazing;
 pub mod laser_cut;
 pub mod slat_profile;
 pub mod slats;
+pub mod woven;
 
 use crate::compute::basis::{AzimuthMap, Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
