@@ -18,8 +18,6 @@ pub(super) struct Ray {
     pub(super) point: Point,
     /// Unit direction of travel (outward, upward).
     pub(super) direction: Point,
-    /// What it carries.
-    pub(super) weight: f64,
     /// What it has come to.
     pub(super) met: Met,
 }
@@ -62,34 +60,54 @@ impl Sequence {
     }
 }
 
+/// What becomes of a ray after its first mirror, per unit of what came to it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Trace {
+    /// Faces that it comes to, and with how much.
+    pub(super) landed: Vec<(usize, f64)>,
+    /// How it leaves.
+    pub(super) exit: Option<Exit>,
+    /// The slats and sides met, as a number: rays of a bundle with the same way have the same.
+    pub(super) way: u64,
+}
+
+/// Weaker parts do not make a way another.
+const TELLING: f64 = 1e-3;
+
 impl Section {
-    /// Follows the mirrored part of a ray. `landed` gets every later face with what comes to it; the return value is
-    /// what leaves.
-    pub(super) fn follow(
-        &self,
-        mut ray: Ray,
-        sequence: &mut Sequence,
-        mut landed: impl FnMut(usize, f64),
-    ) -> Option<Exit> {
-        let faint = FAINT * ray.weight;
-        let mut variance = 0.0;
+    /// Follows the mirrored part of a ray of weight 1.
+    pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
+        trace.landed.clear();
+        (trace.exit, trace.way) = (None, 0);
+        let (mut variance, mut weight) = (0.0, 1.0);
         for _ in 0..MOST {
             let surface = self.faces[ray.met.face].surface;
-            ray.weight *= surface.mirror;
-            if ray.weight <= faint {
-                return None;
+            weight *= surface.mirror;
+            if weight <= FAINT {
+                return;
             }
             variance += surface.spread * surface.spread;
             ray.direction = self.mirrored(&ray, surface.spread, sequence);
-            match self.next(ray.point, ray.direction, ray.met.strip) {
-                None => return Some(Exit { direction: ray.direction, weight: ray.weight, variance }),
-                Some((point, met)) => {
-                    landed(met.face, ray.weight);
+            let met = self.next(ray.point, ray.direction, ray.met.strip);
+            let place = met.map_or(1 + u64::from(ray.direction[0] > 0.0), |(_, met, copy)| {
+                // The side met: faces of a strip are numbered left, right.
+                let right = self.strips[met.strip].faces[1] == Some(met.face);
+                ((copy + 128).unsigned_abs() as u64) * 4 + 2 * u64::from(right) + 7
+            });
+            if weight > TELLING {
+                trace.way = trace.way.wrapping_mul(0x0100_0000_01B3).wrapping_add(place);
+            }
+            match met {
+                None => {
+                    trace.exit = Some(Exit { direction: ray.direction, weight, variance });
+                    return;
+                }
+                Some((point, met, _)) => {
+                    trace.landed.push((met.face, weight));
                     (ray.point, ray.met) = (point, met);
                 }
             }
         }
-        None
     }
 
     /// Direction after the mirror that a ray has come to. A spread σ turns the mirror by σ/2 (standard deviation),
@@ -123,40 +141,41 @@ impl Section {
         out.map(|x| x / size)
     }
 
-    /// The first strip that a ray from a point of the slat at the origin meets, and where, in the frame of the slat
-    /// met.
-    fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met)> {
-        let mut best = (f64::INFINITY, None);
+    /// The first strip that a ray from a point of the slat at the origin meets, where in the frame of the slat met,
+    /// and which slat that is.
+    fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met, i32)> {
+        let mut best: (f64, Option<(usize, i32, f64, bool)>) = (f64::INFINITY, None);
         for step in -self.reach..=self.reach {
             // Of sheets that lie in one another the lower is the inner one, as in the sweep.
             let copy = if d[0] >= 0.0 { step } else { -step };
             let p = [point[0], point[1] - f64::from(copy)];
-            for (index, strip) in self.strips.iter().enumerate() {
-                if copy == 0 && index == own {
+            for (index, facet) in self.facets.iter().enumerate() {
+                if copy == 0 && (facet.first..facet.first + facet.ends.len()).contains(&own) {
                     continue;
                 }
-                let e = [strip.b[0] - strip.a[0], strip.b[1] - strip.a[1]];
+                let e = [facet.b[0] - facet.a[0], facet.b[1] - facet.a[1]];
                 let across = e[0] * d[1] - e[1] * d[0];
-                let w = [p[0] - strip.a[0], p[1] - strip.a[1]];
+                let w = [p[0] - facet.a[0], p[1] - facet.a[1]];
                 let share = w[0] * d[1] - w[1] * d[0];
-                // Outside the strip, or along it.
+                // Along the facet, or past its ends.
                 if across == 0.0 || share * across < 0.0 || share.abs() > across.abs() {
                     continue;
                 }
                 let distance = (w[0] * e[1] - w[1] * e[0]) / across;
-                // Left of the way lies [-e₁, e₀]; a ray that comes from there has d · left < 0.
-                let face = strip.faces[usize::from(across > 0.0)];
                 if distance > OFF && distance < best.0 - OFF {
-                    if let Some(face) = face {
-                        best = (distance, Some(Met { strip: index, copy, face }));
+                    // Left of the way lies [−e₁, e₀]; a ray that comes from there has d · left < 0.
+                    let from_right = across > 0.0;
+                    if self.strips[facet.first].faces[usize::from(from_right)].is_some() {
+                        best = (distance, Some((index, copy, share / across, from_right)));
                     }
                 }
             }
         }
-        let (distance, met) = best;
-        met.map(|met| {
-            let at = [point[0] + distance * d[0], point[1] + distance * d[1] - f64::from(met.copy)];
-            (at, Met { copy: 0, ..met })
-        })
+        let (distance, Some((facet, copy, share, from_right))) = best else { return None };
+        let facet = &self.facets[facet];
+        let strip = facet.first + facet.ends.partition_point(|end| *end < share).min(facet.ends.len() - 1);
+        let face = self.strips[strip].faces[usize::from(from_right)]?;
+        let at = [point[0] + distance * d[0], point[1] + distance * d[1] - f64::from(copy)];
+        Some((at, Met { strip, copy: 0, face }, copy))
     }
 }

@@ -32,6 +32,19 @@ pub(super) struct Face {
     pub(super) coarse: usize,
 }
 
+/// Strips that make one straight line with the same finish, for rays.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Facet {
+    /// Start.
+    pub(super) a: Point,
+    /// End.
+    pub(super) b: Point,
+    /// First strip.
+    pub(super) first: usize,
+    /// Shares of the way at which the strips end, rising to 1.
+    pub(super) ends: Vec<f64>,
+}
+
 /// A slat of an endless array of pitch 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Section {
@@ -39,6 +52,8 @@ pub(super) struct Section {
     pub(super) strips: Vec<Strip>,
     /// All faces.
     pub(super) faces: Vec<Face>,
+    /// Straight runs of strips.
+    pub(super) facets: Vec<Facet>,
     /// Number of coarse faces.
     pub(super) coarse: usize,
     /// Solid slats, as against sheets.
@@ -154,7 +169,7 @@ impl Section {
         let reach = if graph { 1 } else { (2.0 * (high - low).ceil()).max(1.0) as i32 };
         let list = split_at_crossings(list, reach);
 
-        let mut section = Self { strips: vec![], faces: vec![], coarse: 0, solid, reach };
+        let mut section = Self { strips: vec![], faces: vec![], facets: vec![], coarse: 0, solid, reach };
         for part in list {
             let sides = [Some(part.left), part.right];
             let coarse = sides.map(|side| {
@@ -178,12 +193,33 @@ impl Section {
                 section.strips.push(Strip { a, b, normals, faces });
             }
         }
+        section.facets = section.straight_runs();
         section
     }
 
-    /// True where some face mirrors.
-    pub(super) fn mirrors(&self) -> bool {
-        self.faces.iter().any(|face| face.surface.mirror > 0.0)
+    fn straight_runs(&self) -> Vec<Facet> {
+        let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
+        let mut runs: Vec<std::ops::Range<usize>> = vec![];
+        for (k, strip) in self.strips.iter().enumerate() {
+            let goes_on = k > 0 && {
+                let before = &self.strips[k - 1];
+                let (m, n) = (left_of(before.a, before.b), left_of(strip.a, strip.b));
+                let joined = (before.b[0] - strip.a[0]).hypot(before.b[1] - strip.a[1]) < 1e-12;
+                // Within a facet of an arc the described normals turn; rays take them from the strip.
+                joined && (m[0] - n[0]).hypot(m[1] - n[1]) < 1e-9 && finish(before) == finish(strip)
+            };
+            match runs.last_mut() {
+                Some(run) if goes_on => run.end = k + 1,
+                _ => runs.push(k..k + 1),
+            }
+        }
+        let facet = |run: std::ops::Range<usize>| {
+            let (a, b) = (self.strips[run.start].a, self.strips[run.end - 1].b);
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            let end = |strip: &Strip| (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
+            Facet { a, b, first: run.start, ends: self.strips[run].iter().map(end).collect() }
+        };
+        runs.into_iter().map(facet).collect()
     }
 }
 
@@ -232,16 +268,30 @@ fn crossing(p: &Part, q: &Part, lift: f64) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)).then_some((s, t))
 }
 
-/// Cuts strips where slats run through their neighbours (closed curved slats), so that the order of strips along a
-/// line of sight never changes within one.
+/// Share of the way at which it holds a point.
+fn on_way(way: &Part, point: Point) -> Option<f64> {
+    let (e, w) = ([way.b[0] - way.a[0], way.b[1] - way.a[1]], [point[0] - way.a[0], point[1] - way.a[1]]);
+    let square = e[0] * e[0] + e[1] * e[1];
+    let off = (e[0] * w[1] - e[1] * w[0]).abs() / square.sqrt();
+    (off < 1e-9).then_some((e[0] * w[0] + e[1] * w[1]) / square)
+}
+
+/// Cuts strips where slats run through their neighbours (closed curved slats) and where they begin to lie upon them
+/// (closed flat slats), so that the order of strips along a line of sight never changes within one.
 fn split_at_crossings(list: Vec<Part>, reach: i32) -> Vec<Part> {
     let mut cuts: Vec<Vec<f64>> = vec![vec![]; list.len()];
     for (i, p) in list.iter().enumerate() {
         for (j, q) in list.iter().enumerate() {
             for copy in 1..=reach {
-                if let Some((s, t)) = crossing(p, q, f64::from(copy)) {
+                let lift = f64::from(copy);
+                if let Some((s, t)) = crossing(p, q, lift) {
                     cuts[i].push(s);
                     cuts[j].push(t);
+                }
+                for end in [0.0, 1.0] {
+                    let (from, to) = (between(p.a, p.b, end), between(q.a, q.b, end));
+                    cuts[j].extend(on_way(q, [from[0], from[1] - lift]));
+                    cuts[i].extend(on_way(p, [to[0], to[1] + lift]));
                 }
             }
         }

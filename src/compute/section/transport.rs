@@ -1,6 +1,6 @@
 //! Light between faces, to faces and past them, from sweeps over all profile angles.
 
-use super::chain::{Ray, Sequence};
+use super::chain::{Ray, Sequence, Trace};
 use super::outline::{Point, Section};
 use super::profile_weights::ProfileGrid;
 use super::sweep::{Bundle, Met, sweep};
@@ -74,8 +74,51 @@ struct Node {
     thrown: [Thrown; 2],
 }
 
+/// A bundle that comes to a face.
+struct Arrival {
+    /// The face that sent it; `None` for parallel light from a side.
+    from: Option<Met>,
+    to: Met,
+    direction: Point,
+    side: Side,
+}
+
+/// Where light is counted.
+struct Into<'a> {
+    exchange: &'a mut Exchange,
+    node: &'a mut Node,
+}
+
+impl Into<'_> {
+    /// A width of a bundle comes to a face.
+    fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
+        match arrival.from {
+            Some(from) => self.exchange.add(from.face, face, weight * width),
+            None => self.node.landed[index(arrival.side)][face] += width,
+        }
+    }
+
+    /// The mirrored part of a width of a bundle.
+    fn add(&mut self, arrival: &Arrival, trace: &Trace, width: f64, weight: f64) {
+        for &(face, share) in &trace.landed {
+            self.land(arrival, face, width * share, weight);
+        }
+        let (Some(exit), None) = (trace.exit, arrival.from) else { return };
+        // Names: against the light from outside, along the light from inside.
+        let front = arrival.side == Side::Front;
+        let sign = if front { -1.0 } else { 1.0 };
+        let psi = (sign * exit.direction[1]).clamp(-1.0, 1.0).asin();
+        let outwards = exit.direction[0] > 0.0;
+        let thrown = &mut self.node.thrown[index(arrival.side)];
+        let list = if outwards == front { &mut thrown.back } else { &mut thrown.through };
+        list.push(Lobe { psi, width: width * exit.weight, variance: exit.variance });
+    }
+}
+
 /// Rays a bundle where mirrors spread light.
 const ROUGH: usize = 4;
+/// Smallest part of a bundle that is looked at by itself.
+const FINEST: f64 = 1.0 / 256.0;
 /// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
 const CHUNK: usize = 12;
 
@@ -83,6 +126,7 @@ struct Tracer<'a> {
     section: &'a Section,
     direction: Point,
     weight: f64,
+    rough: bool,
 }
 
 impl Transport {
@@ -93,6 +137,7 @@ impl Transport {
         seed: u64,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
+        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
         let nodes: Vec<usize> = (0..grid.len()).collect();
         let parts: Vec<Option<(Exchange, Vec<f64>, Vec<Node>)>> = nodes
             .par_chunks(CHUNK)
@@ -108,7 +153,7 @@ impl Transport {
                         let psi = grid.psi(node);
                         let direction = [psi.cos().max(0.0), psi.sin()];
                         let weight = 0.5 * grid.hat(node);
-                        let tracer = Tracer { section, direction, weight };
+                        let tracer = Tracer { section, direction, weight, rough };
                         tracer.node(&mut exchange, &mut length, Sequence::new(seed, node as u64))
                     })
                     .collect();
@@ -161,57 +206,58 @@ impl Tracer<'_> {
                     length[from.face] += self.weight * bundle.width;
                 }
                 let Some(to) = to else { continue };
-                match from {
-                    Some(from) => exchange.add(from.face, to.face, self.weight * bundle.width),
-                    None => node.landed[index(side)][to.face] += bundle.width,
-                }
-                let surface = self.section.faces[to.face].surface;
-                if surface.mirror > 0.0 {
-                    self.mirror(&bundle, from, to, direction, side, (exchange, &mut node, &mut sequence));
+                let arrival = Arrival { from, to, direction, side };
+                let mut into = Into { exchange, node: &mut node };
+                into.land(&arrival, to.face, bundle.width, self.weight);
+                if self.section.faces[to.face].surface.mirror > 0.0 {
+                    self.mirror(&bundle, &arrival, &mut into, &mut sequence);
                 }
             }
         });
         node
     }
 
-    /// The mirrored part of a bundle that has come to a face.
-    fn mirror(
-        &self,
-        bundle: &Bundle,
-        from: Option<Met>,
-        to: Met,
-        direction: Point,
-        side: Side,
-        (exchange, node, sequence): (&mut Exchange, &mut Node, &mut Sequence),
-    ) {
-        let rough = self.section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
-        let rays = if rough { ROUGH } else { 1 };
-        let Some(point) = self.on_strip(to, bundle.across) else { return };
-        for _ in 0..rays {
-            let weight = bundle.width / rays as f64;
-            let ray = Ray { point, direction, weight, met: Met { copy: 0, ..to } };
-            let exit = self.section.follow(ray, sequence, |face, weight| match from {
-                Some(from) => exchange.add(from.face, face, self.weight * weight),
-                None => node.landed[index(side)][face] += weight,
-            });
-            let (Some(exit), None) = (exit, from) else { continue };
-            // Names: against the light from outside, along the light from inside.
-            let sign = if side == Side::Front { -1.0 } else { 1.0 };
-            let psi = (sign * exit.direction[1]).clamp(-1.0, 1.0).asin();
-            let outwards = exit.direction[0] > 0.0;
-            let thrown = &mut node.thrown[index(side)];
-            let list = if outwards == (side == Side::Back) { &mut thrown.through } else { &mut thrown.back };
-            list.push(Lobe { psi, width: exit.weight, variance: exit.variance });
+    /// The mirrored part of a bundle that has come to a face: cut until the rays at both ends of a part go the same
+    /// way as the one between, which then stands for it.
+    fn mirror(&self, bundle: &Bundle, arrival: &Arrival, into: &mut Into<'_>, sequence: &mut Sequence) {
+        let [low, high] = [-0.5, 0.5].map(|side| bundle.across + side * bundle.width);
+        let trace = |share: f64, sequence: &mut Sequence| {
+            let point = self.on_strip(arrival.to, low + share * (high - low));
+            let met = Met { copy: 0, ..arrival.to };
+            let mut trace = Trace::default();
+            self.section.follow(Ray { point, direction: arrival.direction, met }, sequence, &mut trace);
+            trace
+        };
+        if self.rough {
+            for k in 0..ROUGH {
+                let done = trace((k as f64 + 0.5) / ROUGH as f64, sequence);
+                into.add(arrival, &done, bundle.width / ROUGH as f64, self.weight);
+            }
+            return;
+        }
+        // Just inside, where a neighbour bundle's edge does not decide.
+        let edge = 1e-6;
+        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence).way, trace(1.0 - edge, sequence).way)];
+        while let Some((from, to, first, last)) = open.pop() {
+            let middle = 0.5 * (from + to);
+            let done = trace(middle, sequence);
+            if (done.way == first && done.way == last) || to - from < FINEST {
+                into.add(arrival, &done, (to - from) / (1.0 - 2.0 * edge) * bundle.width, self.weight);
+            } else {
+                open.push((middle, to, done.way, last));
+                open.push((from, middle, first, done.way));
+            }
         }
     }
 
-    /// Where the middle of a bundle meets a strip, in the frame of its slat.
-    fn on_strip(&self, met: Met, across: f64) -> Option<Point> {
+    /// Where a line of the direction meets a strip, in the frame of its slat.
+    fn on_strip(&self, met: Met, across: f64) -> Point {
         let strip = &self.section.strips[met.strip];
         let [cos, sin] = self.direction;
         let of = |[u, v]: Point| v * cos - u * sin;
         let (a, b) = (of(strip.a), of(strip.b));
         let share = (across - f64::from(met.copy) * cos - a) / (b - a);
-        share.is_finite().then(|| super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0)))
+        // Bundles are wider than rounding, and so are the strips that they meet.
+        super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0))
     }
 }
