@@ -26,6 +26,7 @@ pub mod incidence;
 pub mod lid;
 pub mod quadrature;
 pub mod room;
+pub mod section;
 pub mod sky;
 pub mod system;
 pub mod wavelet;

@@ -1,0 +1,102 @@
+//! Interreflection between faces, and what of it leaves.
+//!
+//! With the exchange S (symmetric), the faces' lengths A and diffuse reflectances ρ, light that lands on the faces as g
+//! leaves them as M g, M = (I − D S)⁻¹ D, D = ρ/A: a symmetric form, so that q(ψ → ψ′) = h(ψ′)ᵀ M g(ψ)/π is reciprocal.
+//! A division into strips half as fine has a fourth of the strips' error (faces of constant exitance); both are
+//! solved, (4 M_fine − M_coarse)/3 is used, and a third of their difference is the stated error.
+
+use super::outline::Section;
+use super::transport::Transport;
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+/// Solved interreflection of a section.
+#[derive(Debug, Clone)]
+pub(super) struct Balance {
+    /// Light that leaves the faces, per width of landed light, as a bilinear form of landed widths.
+    pub(super) response: Mat<f64>,
+    /// Share of the light landed on a face that is absorbed in the end.
+    pub(super) absorbed: Vec<f64>,
+    /// Share of the light landed on a face that scatters to the inside and to the outside.
+    pub(super) leaves: [Vec<f64>; 2],
+    /// Differences of the two divisions in `leaves`, a third.
+    pub(super) doubt: [Vec<f64>; 2],
+}
+
+/// White faces that see each other alone hold light for ever; this much less than white they do not.
+const WHITEST: f64 = 1.0 - 1e-10;
+
+/// One division's solution.
+struct Level {
+    response: Mat<f64>,
+    absorbed: Vec<f64>,
+    leaves: [Vec<f64>; 2],
+}
+
+fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exits: &[Vec<f64>; 2]) -> Level {
+    let n = length.len();
+    let d: Vec<f64> =
+        length.iter().zip(diffuse).map(|(a, rho)| if *a > 0.0 { rho.min(WHITEST) / a } else { 0.0 }).collect();
+    let system = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - d[i] * exchange[(i, j)]);
+    let source = Mat::from_fn(n, n, |i, j| if i == j { d[i] } else { 0.0 });
+    let response = system.partial_piv_lu().solve(&source);
+    let through = |row: &[f64]| -> Vec<f64> {
+        (0..n).map(|j| (0..n).map(|i| row[i] * response[(i, j)]).sum::<f64>()).collect()
+    };
+    // Landed in all: g + S M g.
+    let landing: Vec<f64> = (0..n).map(|k| (0..n).map(|i| lost[i] * exchange[(i, k)]).sum::<f64>()).collect();
+    let absorbed = through(&landing).iter().zip(lost).map(|(more, own)| own + more).collect();
+    Level { absorbed, leaves: [through(&exits[0]), through(&exits[1])], response }
+}
+
+impl Balance {
+    /// Of a section's transport. `hat` are the weights of the nodes. \[rad\]
+    pub(super) fn new(section: &Section, transport: &Transport, hat: &[f64]) -> Self {
+        let n = section.faces.len();
+        let diffuse: Vec<f64> = section.faces.iter().map(|f| f.surface.diffuse).collect();
+        let lost: Vec<f64> = section.faces.iter().map(|f| 1.0 - f.surface.diffuse - f.surface.mirror).collect();
+        // What a face sends inside is what light from inside brings to it, over all directions.
+        let exits = [1, 0].map(|side: usize| {
+            let mut sum = vec![0.0; n];
+            for (row, weight) in transport.landed[side].iter().zip(hat) {
+                sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += 0.5 * weight * x);
+            }
+            sum
+        });
+        let exchange = Mat::from_fn(n, n, |i, j| transport.exchange.values[i * n + j]);
+        let fine = solve(&exchange, &transport.length, &diffuse, &lost, &exits);
+
+        let m = section.coarse;
+        let of = |face: usize| section.faces[face].coarse;
+        let gather = |values: &[f64]| {
+            let mut sum = vec![0.0; m];
+            values.iter().enumerate().for_each(|(face, x)| sum[of(face)] += x);
+            sum
+        };
+        let pick = |values: &[f64]| {
+            let mut list = vec![0.0; m];
+            values.iter().enumerate().for_each(|(face, x)| list[of(face)] = *x);
+            list
+        };
+        let mut merged = Mat::zeros(m, m);
+        for i in 0..n {
+            for j in 0..n {
+                merged[(of(i), of(j))] += exchange[(i, j)];
+            }
+        }
+        let coarse_exits = [gather(&exits[0]), gather(&exits[1])];
+        let coarse = solve(&merged, &gather(&transport.length), &pick(&diffuse), &pick(&lost), &coarse_exits);
+
+        let better = |fine: f64, coarse: f64| (4.0 * fine - coarse) / 3.0;
+        let both = |fine: &[f64], coarse: &[f64], f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+            fine.iter().enumerate().map(|(face, x)| f(*x, coarse[of(face)])).collect()
+        };
+        let doubt = |a: f64, b: f64| (a - b) / 3.0;
+        Self {
+            response: Mat::from_fn(n, n, |i, j| better(fine.response[(i, j)], coarse.response[(of(i), of(j))])),
+            absorbed: both(&fine.absorbed, &coarse.absorbed, &better),
+            leaves: [0, 1].map(|k: usize| both(&fine.leaves[k], &coarse.leaves[k], &better)),
+            doubt: [0, 1].map(|k: usize| both(&fine.leaves[k], &coarse.leaves[k], &doubt)),
+        }
+    }
+}

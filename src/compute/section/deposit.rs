@@ -1,0 +1,74 @@
+//! Into which emergent cells mirrored light goes.
+//!
+//! Mirrors with horizontal slats keep the direction cosine x along the slats and change the profile angle alone. On a
+//! line of constant ψ the emergent cells divide x into intervals; what an incident cell sends to that line it sends
+//! with its own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ.
+//! Mirrors that spread light shift x as well, by a normal distribution of the variance that the chain has gathered.
+
+use super::profile_weights::{Piece, ProfileGrid, primitive};
+use crate::compute::basis::RingBasis;
+
+/// The intervals of x that the cells of a basis have at every node, rising.
+#[derive(Debug, Clone)]
+pub(super) struct Intervals {
+    /// `[node]` (from, to, cell).
+    lines: Vec<Vec<(f64, f64, usize)>>,
+}
+
+impl Intervals {
+    /// Of the cells of a basis.
+    pub(super) fn new(basis: &RingBasis, grid: ProfileGrid) -> Self {
+        let mut lines = vec![vec![]; grid.len()];
+        for (index, cell) in basis.cells().enumerate() {
+            for piece in Piece::of(&cell) {
+                let knots = piece.knots();
+                let (low, high) = (knots[0], knots[knots.len() - 1]);
+                let (low, high) = if piece.up > 0.0 { (low, high) } else { (-high, -low) };
+                let (first, last) = (grid.place(low).0, grid.place(high).0 + 1);
+                for (node, line) in lines.iter_mut().enumerate().take(last + 1).skip(first) {
+                    let psi = piece.up * grid.psi(node);
+                    // ψ = 0 belongs to the upper half.
+                    if psi < 0.0 || (psi == 0.0 && piece.up < 0.0) {
+                        continue;
+                    }
+                    if let Some([from, to]) = piece.across(psi.max(1e-9)) {
+                        let (from, to) = (piece.right * from, piece.right * to);
+                        line.push((from.min(to), from.max(to), index));
+                    }
+                }
+            }
+        }
+        for line in &mut lines {
+            line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+        }
+        Self { lines }
+    }
+
+    /// The intervals of one cell at every node: `[cell]` (node, from, to).
+    pub(super) fn by_cell(&self, cells: usize) -> Vec<Vec<(usize, f64, f64)>> {
+        let mut list = vec![vec![]; cells];
+        for (node, line) in self.lines.iter().enumerate() {
+            for &(from, to, cell) in line {
+                list[cell].push((node, from, to));
+            }
+        }
+        list
+    }
+
+    /// Calls `put(cell, share)` for the cells that `from` … `to` meets at a node. The shares add up to 1 where the
+    /// cells cover the hemisphere.
+    pub(super) fn divide(&self, node: usize, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
+        let line = &self.lines[node];
+        let length = primitive(to) - primitive(from);
+        if length <= 0.0 {
+            return;
+        }
+        let start = line.partition_point(|&(_, end, _)| end <= from);
+        for &(low, high, cell) in line[start..].iter().take_while(|&&(low, ..)| low < to) {
+            let share = (primitive(high.min(to)) - primitive(low.max(from))) / length;
+            if share > 0.0 {
+                put(cell, share);
+            }
+        }
+    }
+}

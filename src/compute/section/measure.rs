@@ -1,0 +1,237 @@
+//! From a section's transport to cells.
+
+use super::SlatArray;
+use super::balance::Balance;
+use super::deposit::Intervals;
+use super::direct::Direct;
+use super::outline::Section;
+use super::profile_weights::{ProfileGrid, ProfileWeights};
+use super::transport::{Lobe, Transport, index};
+use crate::compute::basis::RingBasis;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::goniophotometer::{Measured, Seen, Setting, Side};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use rayon::prelude::*;
+
+/// Coarse strips a slat to begin with, and at most.
+const PARTS: [usize; 2] = [16, 128];
+
+/// Step of the profile angle. \[rad\]
+fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
+    let finest = setting
+        .emergent
+        .rings()
+        .iter()
+        .chain(setting.incident.rings())
+        .map(|ring| ring.theta_max - ring.theta_min)
+        .fold(f64::INFINITY, f64::min);
+    let mirrors = array.upper().mirror > 0.0 || array.lower().mirror > 0.0;
+    let wanted: f64 = if mirrors { 0.25 } else { 0.5 };
+    let wanted = wanted * (setting.error / 0.01).sqrt().clamp(0.25, 1.0);
+    wanted.to_radians().min(0.5 * finest).max(0.1_f64.to_radians())
+}
+
+/// Landed widths of every cell: faces × cells, divided by the cells' projected solid angles. `turned`: by the
+/// opposite profile angle, as light thrown back is named.
+fn landed(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: bool) -> Mat<f64> {
+    let faces = rows[0].len();
+    let mut matrix = Mat::zeros(faces, cells.len());
+    for (index, cell) in basis.cells().enumerate() {
+        let (first, weights) = cells.cell(index);
+        let scale = 1.0 / cell.projected_solid_angle();
+        let column = matrix.col_as_slice_mut(index);
+        for (k, weight) in weights.iter().enumerate() {
+            let node = if turned { rows.len() - 1 - first - k } else { first + k };
+            column.iter_mut().zip(&rows[node]).for_each(|(sum, x)| *sum += scale * weight * x);
+        }
+    }
+    matrix
+}
+
+/// What the array does to light, on the cells of the setting.
+pub(super) fn measure(
+    array: &SlatArray,
+    setting: &Setting<'_>,
+    progress: &dyn Progress,
+) -> Result<Measured, Cancelled> {
+    const STAGE: &str = "slats";
+    progress.advance(STAGE, 0, 4);
+    let grid = ProfileGrid::new(step(array, setting));
+    let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
+    let incident = ProfileWeights::new(setting.incident, grid);
+    let emergent = ProfileWeights::new(setting.emergent, grid);
+    progress.advance(STAGE, 1, 4);
+
+    let mut parts = PARTS[0];
+    let (transport, balance, from) = loop {
+        let section = Section::new(array, parts);
+        let transport = Transport::new(&section, grid, setting.seed, progress)?;
+        let balance = Balance::new(&section, &transport, &hat);
+        let from = [0, 1].map(|side: usize| landed(&incident, setting.incident, &transport.landed[side], false));
+        let doubt = from.iter().flat_map(|from| doubts(&balance, from)).fold(0.0, f64::max);
+        if doubt <= 0.1 * setting.error || parts >= PARTS[1] {
+            break (transport, balance, from);
+        }
+        parts *= 2;
+    };
+    progress.advance(STAGE, 2, 4);
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+
+    let mut measured = Measured::dark(setting);
+    let scattered = |side: Side| {
+        let (from, own) = (&from[index(side)], &transport.landed[index(side)]);
+        let other = &transport.landed[1 - index(side)];
+        let mut sent = Mat::zeros(from.nrows(), from.ncols());
+        // q = h M g/π, h and g in widths over the projected solid angles of their cells.
+        matmul(&mut sent, Accum::Replace, &balance.response, from, std::f64::consts::FRAC_1_PI, Par::Seq);
+        let block = |rows: &[Vec<f64>], turned| {
+            let to = landed(&emergent, setting.emergent, rows, turned);
+            let mut q: Mat<f64> = Mat::zeros(to.ncols(), sent.ncols());
+            matmul(&mut q, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
+            // The extrapolation to endless strips may fall below 0 where nothing arrives.
+            (0..q.ncols()).flat_map(|i| q.col_as_slice(i).iter().map(|q| q.max(0.0)).collect::<Vec<_>>()).collect()
+        };
+        let (transmitted, reflected): (Vec<f64>, Vec<f64>) =
+            rayon::join(|| block(other, false), || block(own, true));
+        Seen { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
+    };
+    let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
+    (measured.front, measured.back) = (front, back);
+    progress.advance(STAGE, 3, 4);
+    add_direct(array, setting, &mut measured);
+    if transport.thrown.iter().flatten().any(|thrown| !(thrown.through.is_empty() && thrown.back.is_empty())) {
+        add_mirrored(setting, grid, &incident, &transport, &mut measured);
+    }
+    for side in Side::BOTH {
+        let (t, r) = (measured.shares(&measured.seen(side).transmitted), measured.shares(&measured.seen(side).reflected));
+        let seen = measured.seen_mut(side);
+        for (i, error) in seen.error.iter_mut().enumerate() {
+            *error += (t[i] + r[i] + seen.absorbed[i] - 1.0).abs();
+        }
+    }
+    progress.advance(STAGE, 4, 4);
+    Ok(measured)
+}
+
+/// Light of every cell that is absorbed.
+fn absorbed(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
+    let of = |cell: usize| from.col_as_slice(cell).iter().zip(&balance.absorbed).map(|(g, a)| g * a).sum();
+    (0..from.ncols()).map(of).collect()
+}
+
+/// What the two divisions into strips differ by, a cell.
+fn doubts(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
+    let of = |cell: usize| {
+        let one = |doubt: &[f64]| from.col_as_slice(cell).iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs();
+        one(&balance.doubt[0]).max(one(&balance.doubt[1]))
+    };
+    (0..from.ncols()).map(of).collect()
+}
+
+fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured) {
+    let cells = Direct::new(array).cells(setting.incident, setting.emergent);
+    let m = setting.emergent.len();
+    let incident = setting.incident.projected_solid_angles();
+    let emergent = setting.emergent.projected_solid_angles();
+    for (i, (_, parts)) in cells.iter().enumerate() {
+        for &(o, flux) in parts {
+            let q = flux / (incident[i] * emergent[o]);
+            measured.front.transmitted[i * m + o] += q;
+            measured.back.transmitted[i * m + o] += q;
+        }
+    }
+}
+
+/// Shifts of equal probability of the standard normal distribution: medians of its eighths.
+const EIGHTHS: [f64; 8] = [-1.534, -0.887, -0.489, -0.157, 0.157, 0.489, 0.887, 1.534];
+
+/// Lobes of one node on the nodes of the grid: (node, width), with the mean variance.
+fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> (Vec<(usize, f64)>, f64) {
+    let mut line = vec![0.0; grid.len()];
+    let (mut variance, mut width) = (0.0, 0.0);
+    for lobe in lobes {
+        let (node, above) = grid.place(lobe.psi);
+        line[node] += lobe.width * (1.0 - above);
+        line[node + 1] += lobe.width * above;
+        variance += lobe.width * lobe.variance;
+        width += lobe.width;
+    }
+    let list = line.into_iter().enumerate().filter(|&(_, width)| width > 0.0).collect();
+    (list, if width > 0.0 { variance / width } else { 0.0 })
+}
+
+fn add_mirrored(
+    setting: &Setting<'_>,
+    grid: ProfileGrid,
+    incident: &ProfileWeights,
+    transport: &Transport,
+    measured: &mut Measured,
+) {
+    let lines = Intervals::new(setting.emergent, grid);
+    let sources = Intervals::new(setting.incident, grid).by_cell(setting.incident.len());
+    let weight = setting.emergent.projected_solid_angles();
+    let m = weight.len();
+    for side in Side::BOTH {
+        for through in [true, false] {
+            let nodes: Vec<(Vec<(usize, f64)>, f64)> = transport.thrown[index(side)]
+                .iter()
+                .map(|thrown| on_nodes(if through { &thrown.through } else { &thrown.back }, grid))
+                .collect();
+            let seen = measured.seen_mut(side);
+            let values = if through { &mut seen.transmitted } else { &mut seen.reflected };
+            values.par_chunks_mut(m).zip(setting.incident.cells().collect::<Vec<_>>()).enumerate().for_each(
+                |(i, (row, cell))| {
+                    let (first, weights) = incident.cell(i);
+                    let solid = cell.projected_solid_angle();
+                    let total: f64 = weights
+                        .iter()
+                        .enumerate()
+                        .map(|(k, w)| w * nodes[first + k].0.iter().map(|(_, width)| width).sum::<f64>())
+                        .sum::<f64>()
+                        / solid;
+                    let mut put = vec![0.0; m];
+                    for &(node, from, to) in &sources[i] {
+                        let (lobes, variance) = &nodes[node];
+                        let length = super::profile_weights::primitive(to) - super::profile_weights::primitive(from);
+                        let amount = length * hat_inside(weights, first, node, grid);
+                        spread(&lines, lobes, *variance, (from, to), amount, &mut put);
+                    }
+                    let sum: f64 = put.iter().sum();
+                    if sum > 0.0 {
+                        for (o, flux) in put.iter().enumerate() {
+                            row[o] += flux * total / (sum * weight[o]);
+                        }
+                    }
+                },
+            );
+        }
+    }
+}
+
+/// Width in ψ for which a node stands.
+fn hat_inside(_weights: &[f64], _first: usize, node: usize, grid: ProfileGrid) -> f64 {
+    grid.hat(node)
+}
+
+fn spread(
+    lines: &Intervals,
+    lobes: &[(usize, f64)],
+    variance: f64,
+    (from, to): (f64, f64),
+    amount: f64,
+    put: &mut [f64],
+) {
+    let sigma = variance.sqrt();
+    let shifts: &[f64] = if sigma > 0.0 { &EIGHTHS } else { &[0.0] };
+    for shift in shifts {
+        let by = shift * sigma;
+        let (from, to) = ((from + by).clamp(-1.0, 1.0), (to + by).clamp(-1.0, 1.0));
+        for &(node, width) in lobes {
+            let flux = amount * width / shifts.len() as f64;
+            lines.divide(node, from, to, |cell, share| put[cell] += flux * share);
+        }
+    }
+}

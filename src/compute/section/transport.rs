@@ -1,0 +1,263 @@
+//! Light between faces, to faces and past them, from sweeps over all profile angles.
+
+use super::chain::{Ray, Sequence, Trace};
+use super::outline::{Point, Section};
+use super::profile_weights::ProfileGrid;
+use super::sweep::{Bundle, Met, sweep};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::goniophotometer::Side;
+use rayon::prelude::*;
+
+/// A square matrix of faces, row by row.
+#[derive(Debug, Clone)]
+pub(super) struct Exchange {
+    /// Faces.
+    pub(super) size: usize,
+    /// Row by row.
+    pub(super) values: Vec<f64>,
+}
+
+impl Exchange {
+    fn new(size: usize) -> Self {
+        Self { size, values: vec![0.0; size * size] }
+    }
+
+    fn add(&mut self, from: usize, to: usize, amount: f64) {
+        self.values[from * self.size + to] += amount;
+    }
+}
+
+/// A parallel beam that leaves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lobe {
+    /// Profile angle of its name. \[rad\]
+    pub(super) psi: f64,
+    /// Width of the incident light that it carries, in pitches.
+    pub(super) width: f64,
+    /// Variance of its direction cosine along the slats.
+    pub(super) variance: f64,
+}
+
+/// What mirrors make of parallel light that comes at one profile angle from one side.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Thrown {
+    /// Transmitted.
+    pub(super) through: Vec<Lobe>,
+    /// Thrown back.
+    pub(super) back: Vec<Lobe>,
+}
+
+/// Everything the section does to light, before the faces' diffuse reflectance.
+#[derive(Debug, Clone)]
+pub(super) struct Transport {
+    /// Width of the light from face to face, over all directions: ½∫ t dψ, mirrors included; symmetric.
+    pub(super) exchange: Exchange,
+    /// Width over all directions that a face sends out, ½∫ t dψ: its length by the rule's count.
+    pub(super) length: Vec<f64>,
+    /// Width of a parallel beam that comes to every face, `[node][face]`, for light from outside and from inside.
+    pub(super) landed: [Vec<Vec<f64>>; 2],
+    /// Mirrored light that leaves, a node, from outside and from inside.
+    pub(super) thrown: [Vec<Thrown>; 2],
+}
+
+/// Index of a side in the pairs of this module.
+pub(super) const fn index(side: Side) -> usize {
+    match side {
+        Side::Front => 0,
+        Side::Back => 1,
+    }
+}
+
+/// One node's share.
+struct Node {
+    landed: [Vec<f64>; 2],
+    thrown: [Thrown; 2],
+}
+
+/// A bundle that comes to a face.
+struct Arrival {
+    /// The face that sent it; `None` for parallel light from a side.
+    from: Option<Met>,
+    to: Met,
+    direction: Point,
+    side: Side,
+}
+
+/// Where light is counted.
+struct Into<'a> {
+    exchange: &'a mut Exchange,
+    node: &'a mut Node,
+}
+
+impl Into<'_> {
+    /// A width of a bundle comes to a face.
+    fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
+        match arrival.from {
+            Some(from) => self.exchange.add(from.face, face, weight * width),
+            None => self.node.landed[index(arrival.side)][face] += width,
+        }
+    }
+
+    /// The mirrored part of a width of a bundle.
+    fn add(&mut self, arrival: &Arrival, trace: &Trace, width: f64, weight: f64) {
+        for &(face, share) in &trace.landed {
+            self.land(arrival, face, width * share, weight);
+        }
+        let (Some(exit), None) = (trace.exit, arrival.from) else { return };
+        // Names: against the light from outside, along the light from inside.
+        let front = arrival.side == Side::Front;
+        let sign = if front { -1.0 } else { 1.0 };
+        let psi = (sign * exit.direction[1]).clamp(-1.0, 1.0).asin();
+        let outwards = exit.direction[0] > 0.0;
+        let thrown = &mut self.node.thrown[index(arrival.side)];
+        let list = if outwards == front { &mut thrown.back } else { &mut thrown.through };
+        list.push(Lobe { psi, width: width * exit.weight, variance: exit.variance });
+    }
+}
+
+/// Rays a bundle where mirrors spread light.
+const ROUGH: usize = 4;
+/// Smallest part of a bundle that is looked at by itself.
+const FINEST: f64 = 1.0 / 256.0;
+/// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
+const CHUNK: usize = 12;
+
+struct Tracer<'a> {
+    section: &'a Section,
+    direction: Point,
+    weight: f64,
+    rough: bool,
+}
+
+impl Transport {
+    /// Of a section on a grid of profile angles.
+    pub(super) fn new(
+        section: &Section,
+        grid: ProfileGrid,
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
+        let nodes: Vec<usize> = (0..grid.len()).collect();
+        let parts: Vec<Option<(Exchange, Vec<f64>, Vec<Node>)>> = nodes
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                if progress.cancelled() {
+                    return None;
+                }
+                let mut exchange = Exchange::new(section.faces.len());
+                let mut length = vec![0.0; section.faces.len()];
+                let done = chunk
+                    .iter()
+                    .map(|&node| {
+                        let psi = grid.psi(node);
+                        let direction = [psi.cos().max(0.0), psi.sin()];
+                        let weight = 0.5 * grid.hat(node);
+                        let tracer = Tracer { section, direction, weight, rough };
+                        tracer.node(&mut exchange, &mut length, Sequence::new(seed, node as u64))
+                    })
+                    .collect();
+                Some((exchange, length, done))
+            })
+            .collect();
+        let size = section.faces.len();
+        let mut all = Self {
+            exchange: Exchange::new(size),
+            length: vec![0.0; size],
+            landed: [vec![], vec![]],
+            thrown: [vec![], vec![]],
+        };
+        for part in parts {
+            let (exchange, length, nodes) = part.ok_or(Cancelled)?;
+            all.exchange.values.iter_mut().zip(&exchange.values).for_each(|(sum, x)| *sum += x);
+            all.length.iter_mut().zip(&length).for_each(|(sum, x)| *sum += x);
+            for node in nodes {
+                let [front, back] = node.landed;
+                all.landed[0].push(front);
+                all.landed[1].push(back);
+                let [front, back] = node.thrown;
+                all.thrown[0].push(front);
+                all.thrown[1].push(back);
+            }
+        }
+        // Chains of mirrors are followed by single rays from either end: their mean is what both ends agree on.
+        for i in 0..size {
+            for j in 0..i {
+                let mean = 0.5 * (all.exchange.values[i * size + j] + all.exchange.values[j * size + i]);
+                all.exchange.values[i * size + j] = mean;
+                all.exchange.values[j * size + i] = mean;
+            }
+        }
+        Ok(all)
+    }
+}
+
+impl Tracer<'_> {
+    fn node(&self, exchange: &mut Exchange, length: &mut [f64], mut sequence: Sequence) -> Node {
+        let size = self.section.faces.len();
+        let mut node =
+            Node { landed: [vec![0.0; size], vec![0.0; size]], thrown: [Thrown::default(), Thrown::default()] };
+        sweep(self.section, self.direction, |bundle| {
+            let backwards = self.direction.map(|x| -x);
+            for (from, to, direction, side) in
+                [(bundle.from, bundle.to, self.direction, Side::Back), (bundle.to, bundle.from, backwards, Side::Front)]
+            {
+                if let Some(from) = from {
+                    length[from.face] += self.weight * bundle.width;
+                }
+                let Some(to) = to else { continue };
+                let arrival = Arrival { from, to, direction, side };
+                let mut into = Into { exchange, node: &mut node };
+                into.land(&arrival, to.face, bundle.width, self.weight);
+                if self.section.faces[to.face].surface.mirror > 0.0 {
+                    self.mirror(&bundle, &arrival, &mut into, &mut sequence);
+                }
+            }
+        });
+        node
+    }
+
+    /// The mirrored part of a bundle that has come to a face: cut until the rays at both ends of a part go the same
+    /// way as the one between, which then stands for it.
+    fn mirror(&self, bundle: &Bundle, arrival: &Arrival, into: &mut Into<'_>, sequence: &mut Sequence) {
+        let [low, high] = [-0.5, 0.5].map(|side| bundle.across + side * bundle.width);
+        let trace = |share: f64, sequence: &mut Sequence| {
+            let point = self.on_strip(arrival.to, low + share * (high - low));
+            let met = Met { copy: 0, ..arrival.to };
+            let mut trace = Trace::default();
+            self.section.follow(Ray { point, direction: arrival.direction, met }, sequence, &mut trace);
+            trace
+        };
+        if self.rough {
+            for k in 0..ROUGH {
+                let done = trace((k as f64 + 0.5) / ROUGH as f64, sequence);
+                into.add(arrival, &done, bundle.width / ROUGH as f64, self.weight);
+            }
+            return;
+        }
+        // Just inside, where a neighbour bundle's edge does not decide.
+        let edge = 1e-6;
+        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence).way, trace(1.0 - edge, sequence).way)];
+        while let Some((from, to, first, last)) = open.pop() {
+            let middle = 0.5 * (from + to);
+            let done = trace(middle, sequence);
+            if (done.way == first && done.way == last) || to - from < FINEST {
+                into.add(arrival, &done, (to - from) / (1.0 - 2.0 * edge) * bundle.width, self.weight);
+            } else {
+                open.push((middle, to, done.way, last));
+                open.push((from, middle, first, done.way));
+            }
+        }
+    }
+
+    /// Where a line of the direction meets a strip, in the frame of its slat.
+    fn on_strip(&self, met: Met, across: f64) -> Point {
+        let strip = &self.section.strips[met.strip];
+        let [cos, sin] = self.direction;
+        let of = |[u, v]: Point| v * cos - u * sin;
+        let (a, b) = (of(strip.a), of(strip.b));
+        let share = (across - f64::from(met.copy) * cos - a) / (b - a);
+        // Bundles are wider than rounding, and so are the strips that they meet.
+        super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0))
+    }
+}
