@@ -90,10 +90,11 @@ fn scratch() {
         if case.name == "ven_mirror_15" {
             let k = kit::klems();
             for error in [0.04, 0.01, 0.0025, 0.0006] {
-                let m = case.array.measure(&Setting{incident:&k,emergent:&k,error,seed:1}, &Silent).unwrap();
-                let (t,r)=(m.shares(&m.back.transmitted), m.shares(&m.front.reflected));
+                let m = case.array.measure(&Setting { incident: &k, emergent: &k, error, seed: 1 }, &Silent).unwrap();
+                let (t, r) = (m.shares(&m.back.transmitted), m.shares(&m.front.reflected));
                 println!("{error} {:?} {:?} {:?}", &t[117..145].len(), &r[127..132], m.quality());
-                let tt = m.shares(&m.front.transmitted); println!("   {:?} {:?}", &tt[127..132], &m.front.absorbed[127..132]);
+                let tt = m.shares(&m.front.transmitted);
+                println!("   {:?} {:?}", &tt[127..132], &m.front.absorbed[127..132]);
             }
         }
     }

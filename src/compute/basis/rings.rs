@@ -250,6 +250,21 @@ impl RingBasis {
             .expect("sines in equal steps rise from 0 to 1")
     }
 
+    /// Rings of about `step` \[rad\] (a whole number of them) in cells about as wide as high, the normal a cell of its
+    /// own. Sectors come in fours, so that the lattice is the same upside down and mirrored.
+    pub fn even(step: f64) -> Self {
+        let rings = ((0.5 * PI / step).round() as usize).clamp(1, 900);
+        let step = 0.5 * PI / rings as f64;
+        let list = (0..rings)
+            .map(|k| {
+                let sine = ((k as f64 + 0.5) * step).sin();
+                let sectors = if k == 0 { 1 } else { 4 * ((0.5 * PI * sine / step).round() as usize).max(1) };
+                Ring { theta_min: k as f64 * step, theta_max: (k + 1) as f64 * step, sectors, first_phi: 0.0 }
+            })
+            .collect();
+        Self::new(format!("even {:.3}°", step.to_degrees()), list, AzimuthMap::FACADE).expect("rings in equal steps")
+    }
+
     /// A single cell: the whole hemisphere.
     pub fn hemisphere() -> Self {
         Self::from_limits("hemisphere", &[0.0, 90.0], &[1], AzimuthMap::FACADE)

@@ -14,6 +14,7 @@
 mod perforated;
 pub mod sheet;
 pub mod stack;
+pub mod upright;
 
 use super::basis::RingBasis;
 use super::btdf::{Band, Btdf, CellMatrix, Component};

@@ -119,10 +119,10 @@ impl Section {
         // Looking against the ray.
         let side = if d[0] * flat[0] + d[1] * flat[1] > 0.0 { -1.0 } else { 1.0 };
         let flat = flat.map(|x| side * x);
-        let (e, w) = ([strip.b[0] - strip.a[0], strip.b[1] - strip.a[1]], [
-            ray.point[0] - strip.a[0],
-            ray.point[1] - strip.a[1],
-        ]);
+        let (e, w) = (
+            [strip.b[0] - strip.a[0], strip.b[1] - strip.a[1]],
+            [ray.point[0] - strip.a[0], ray.point[1] - strip.a[1]],
+        );
         let share = ((e[0] * w[0] + e[1] * w[1]) / (e[0] * e[0] + e[1] * e[1])).clamp(0.0, 1.0);
         let mut n = between(strip.normals[0], strip.normals[1], share).map(|x| side * x);
         let size = n[0].hypot(n[1]).max(f64::MIN_POSITIVE);

@@ -1,6 +1,7 @@
 //! What a system is made of: geometry and material, enough to compute its scattering anew.
 
 use super::slat_profile::SlatProfile;
+use crate::compute::section::Surface;
 
 /// A described system. Keys of its states are in [`SystemDescription::states`].
 #[derive(Debug, Clone, PartialEq)]
@@ -39,17 +40,6 @@ pub enum SystemKind {
     Stack(Vec<Layer>),
 }
 
-/// Reflection at one face of a slat.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Face {
-    /// Diffuse (Lambertian) reflectance.
-    pub diffuse: f64,
-    /// Mirror reflectance; with the diffuse one at most 1.
-    pub mirror: f64,
-    /// Spread of the mirrored light: standard deviation along either axis, 0 = ideal. \[rad\]
-    pub spread: f64,
-}
-
 /// Slats, horizontal, periodic upwards; they turn about the middle of their chord.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Venetian {
@@ -62,9 +52,9 @@ pub struct Venetian {
     /// Tilt of each state, > 0 = outer edge lowered, 90° = closed. \[rad\]
     pub angles: Vec<f64>,
     /// Upper face.
-    pub upper: Face,
+    pub upper: Surface,
     /// Lower face.
-    pub lower: Face,
+    pub lower: Surface,
 }
 
 /// Cuts horizontal and normal to the sheet.

@@ -5,8 +5,9 @@
 mod keys;
 
 use super::location::{FormatError, Location, excerpt};
+use crate::compute::section::Surface;
 use crate::compute::system::description::{
-    Diffuser, Face, Glazing, Hole, LaserCut, Layer, LayerSource, PaneMaterial, PaneStack, Perforated, Prismatic,
+    Diffuser, Glazing, Hole, LaserCut, Layer, LayerSource, PaneMaterial, PaneStack, Perforated, Prismatic,
     RedirectingGlass, SystemDescription, SystemKind, Venetian, Woven,
 };
 use crate::compute::system::diffuser::{Opal, Spreading};
@@ -161,14 +162,14 @@ fn kind(keys: &Keys) -> Result<SystemKind, FormatError> {
     })
 }
 
-fn face(key: &str, face: keys::Face) -> Result<Face, FormatError> {
+fn face(key: &str, face: keys::Face) -> Result<Surface, FormatError> {
     let diffuse = share(&format!("{key}.reflectance"), face.reflectance)?;
     let mirror = share(&format!("{key}.specular"), face.specular)?;
     if diffuse + mirror > 1.0 + 1e-12 {
         return wrong(key, format!("reflectance + specular = {}", diffuse + mirror), "at most 1 together");
     }
     let spread = within(&format!("{key}.roughness"), face.roughness, (0.0, 45.0))?.to_radians();
-    Ok(Face { diffuse, mirror, spread })
+    Ok(Surface { diffuse, mirror, spread })
 }
 
 fn outline(key: &str, points: &[[f64; 2]], fewest: usize) -> Result<(), FormatError> {
