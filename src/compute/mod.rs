@@ -19,6 +19,7 @@ pub mod angle;
 pub mod basis;
 pub mod btdf;
 pub mod control;
+pub mod dielectric;
 pub mod direction;
 pub mod estimate;
 pub mod goniophotometer;

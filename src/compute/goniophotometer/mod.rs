@@ -11,7 +11,12 @@
 //! In these names reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side, the bar
 //! turning a name by 180° about the normal.
 
+pub mod beams;
+mod cells;
+pub mod panels;
+pub mod panes;
 mod perforated;
+pub mod sections;
 pub mod sheet;
 pub mod stack;
 pub mod upright;

@@ -89,7 +89,7 @@ pub fn stack(panes: &[Pane], theta: f64) -> Share {
 }
 
 /// Adds a pane on the room side: the sum over all reflections between the two (Stokes).
-fn behind(outer: Share, inner: Share) -> Share {
+pub fn behind(outer: Share, inner: Share) -> Share {
     let between = 1.0 - outer.reflected_back * inner.reflected_front;
     if between < 1e-12 {
         return Share {

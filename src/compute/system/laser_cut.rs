@@ -38,9 +38,27 @@ pub fn deflected_share(t: f64) -> f64 {
     1.0 - (1.0 - t.rem_euclid(2.0)).abs()
 }
 
+/// Shares that keep and that turn their vertical component after climbing `t` spacings.
+fn after_cuts(t: f64, cut_loss: f64) -> [f64; 2] {
+    if cut_loss == 0.0 {
+        let turned = deflected_share(t);
+        return [1.0 - turned, turned];
+    }
+    let (whole, part) = (t.floor(), t - t.floor());
+    let left = (1.0 - cut_loss).powf(whole);
+    let (fewer, more) = (left * (1.0 - part), left * (1.0 - cut_loss) * part);
+    if whole.rem_euclid(2.0) == 0.0 { [fewer, more] } else { [more, fewer] }
+}
+
 impl LaserCutPanel {
     /// Shares for light from one direction (façade frame).
     pub fn shares(&self, d: Dir<Facade>) -> PanelShares {
+        self.shares_with_loss(d, 0.0)
+    }
+
+    /// Shares where every reflection at a cut loses the share `cut_loss`. A path that climbs t spacings meets ⌊t⌋ cuts,
+    /// or one more for the part t − ⌊t⌋ of the places where it may have begun; an odd number turns it.
+    pub fn shares_with_loss(&self, d: Dir<Facade>, cut_loss: f64) -> PanelShares {
         let theta = d.theta();
         let (surface, inner) = fresnel(self.sheet.index, theta);
         let climb = self.sheet.thickness / self.spacing * (d.vector().y / self.sheet.index).abs() / inner;
@@ -54,12 +72,12 @@ impl LaserCutPanel {
             while inside > 1e-12 && passage < 4000 {
                 inside *= passed;
                 let leaves = inside * (1.0 - r);
-                let turned = deflected_share(climb * f64::from(passage));
+                let [kept, turned] = after_cuts(climb * f64::from(passage), cut_loss);
                 if passage % 2 == 1 {
-                    shares.straight += leaves * (1.0 - turned);
+                    shares.straight += leaves * kept;
                     shares.deflected += leaves * turned;
                 } else {
-                    shares.mirrored += leaves * (1.0 - turned);
+                    shares.mirrored += leaves * kept;
                     shares.returned += leaves * turned;
                 }
                 inside *= r;
@@ -154,6 +172,20 @@ mod tests {
             let pane = super::super::glazing::stack(&[PANEL.sheet], d.theta());
             assert!((s.straight + s.deflected - pane.transmitted).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn cuts_that_lose_light() {
+        // Small losses take what the number of reflections says: the derivative is the mean number of cuts met, t.
+        for t in [0.3, 0.99, 1.0, 1.7, 2.4, 5.5] {
+            let (clean, worn) = (after_cuts(t, 0.0), after_cuts(t, 1e-6));
+            assert!((clean[0] + clean[1] - 1.0).abs() < 1e-15);
+            assert!(((clean[0] + clean[1] - worn[0] - worn[1]) - 1e-6 * t).abs() < 1e-10, "{t}");
+            assert!((worn[1] - clean[1]).abs() < 1e-5, "{t}: {worn:?}");
+        }
+        // Black cuts leave what meets none.
+        assert!((after_cuts(0.4, 1.0)[0] - 0.6).abs() < 1e-15 && after_cuts(0.4, 1.0)[1] == 0.0);
+        assert!(after_cuts(1.4, 1.0) == [0.0, 0.0]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! Every function here averages incidence over the incident cell and the result over the emergent cell, conserves
 //! energy and is reciprocal: q_front(ω_e, ω′) = q_back(ω′, ω_e) in through-names.
 
+pub mod coated;
 pub mod description;
 pub mod diffuser;
 pub mod glazing;

@@ -1,0 +1,70 @@
+//! A parallel beam of finite width in the section.
+
+use super::polarised::Light;
+use glam::{DVec2, DVec3};
+
+/// Axes of a beam in the section (outward, upward): along it, and across it to its left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Axes {
+    pub along: DVec2,
+    pub across: DVec2,
+}
+
+impl Axes {
+    /// Of a wave vector (x, y, z).
+    pub fn new(k: DVec3) -> Self {
+        let along = DVec2::new(k.z, k.y).normalize();
+        Self { along, across: DVec2::new(-along.y, along.x) }
+    }
+
+    /// Place at c across and t along.
+    pub fn place(&self, [c, t]: [f64; 2]) -> DVec2 {
+        c * self.across + t * self.along
+    }
+
+    /// (c, t) of a place.
+    pub fn coordinates(&self, place: DVec2) -> [f64; 2] {
+        [place.dot(self.across), place.dot(self.along)]
+    }
+}
+
+/// Both ends of a beam's front as (c, t): t along the beam at c across it, linear between; c not falling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Front {
+    pub ends: [[f64; 2]; 2],
+}
+
+impl Front {
+    /// The front through two places.
+    pub fn new(axes: &Axes, places: [DVec2; 2]) -> Self {
+        let [a, b] = places.map(|place| axes.coordinates(place));
+        Self { ends: if a[0] <= b[0] { [a, b] } else { [b, a] } }
+    }
+
+    /// How far along the beam it is at c.
+    pub fn at(&self, c: f64) -> f64 {
+        let [[c0, t0], [c1, t1]] = self.ends;
+        if c1 > c0 { t0 + (t1 - t0) * ((c - c0) / (c1 - c0)) } else { t0 }
+    }
+
+    pub fn width(&self) -> f64 {
+        self.ends[1][0] - self.ends[0][0]
+    }
+}
+
+/// A beam on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Beam {
+    /// Number of its region.
+    pub region: usize,
+    /// Wave vector (x, y, z); its length is the index.
+    pub k: DVec3,
+    /// Flux and polarisation.
+    pub light: Light,
+    /// Where it starts.
+    pub front: Front,
+    /// Change of (k_z, k_y) with the incident direction cosines x and y.
+    pub change: [DVec2; 2],
+    /// Surfaces met so far.
+    pub surfaces: u32,
+}

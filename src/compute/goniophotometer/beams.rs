@@ -1,0 +1,276 @@
+//! Systems that turn one direction into a few sharp beams: means over the incident cells, flux into emergent cells.
+//!
+//! An incident cell is cut into n × n parts of equal projected solid angle. The beams of each part's middle are found
+//! once; where the rest of the part goes follows from how the beams turn with the incident direction, so that flux is
+//! laid into the emergent cells at the fineness of those and not of the parts. The flux of every part is kept exactly.
+
+use super::cells::CellFinder;
+use super::{Measured, Seen, Setting, Side, Specimen};
+use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::dielectric::Effort;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::{Cancelled, Progress};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A sharp beam that a direction becomes. All systems here are endless along x, which keeps the x of the name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Share of the incident flux.
+    pub share: f64,
+    /// Transmitted, or thrown back.
+    pub transmitted: bool,
+    /// The name's direction cosine along y.
+    pub y: f64,
+    /// Change of `y` with the incident name's direction cosines x and y.
+    pub change: [f64; 2],
+}
+
+/// All that light of one direction becomes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shares {
+    /// The beams.
+    pub beams: Vec<Beam>,
+    /// Share that is absorbed.
+    pub absorbed: f64,
+    /// Share that was given up, as an error.
+    pub lost: f64,
+}
+
+/// A system made of sharp beams, endless along x and the same from left and right.
+pub trait Beams: Sync {
+    /// The beams of light of the given name from a side, into `out`, which is to be emptied first. `effort` is for
+    /// systems that follow very many beams.
+    fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
+
+    /// Fewest parts along either side of an incident cell.
+    fn fewest_parts(&self) -> usize {
+        4
+    }
+}
+
+/// Most parts along either side of an incident cell.
+const MOST_PARTS: usize = 64;
+/// Share of the incident flux of a cell below which a beam is laid into a single cell.
+const FAINT: f64 = 2e-4;
+
+/// A specimen of sharp beams.
+#[derive(Debug, Clone)]
+pub struct SharpBeams<B>(pub B);
+
+impl<B: Beams> Specimen for SharpBeams<B> {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        measure(&self.0, setting, progress)
+    }
+}
+
+/// The four functions of a system of sharp beams.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
+pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+    let bench = Bench::new(system, setting);
+    let n = setting.incident.len();
+    let mirrored = mirror_images(setting.incident);
+    let emergent = mirror_images(setting.emergent);
+    // Left and right are alike: half of the cells are mirror images of the others.
+    let own = |i: usize| mirrored.as_ref().zip(emergent.as_ref()).is_none_or(|(map, _)| map[i] >= i);
+    let jobs: Vec<(Side, usize)> =
+        Side::BOTH.into_iter().flat_map(|side| (0..n).filter(|&i| own(i)).map(move |i| (side, i))).collect();
+    let done = AtomicUsize::new(0);
+    let rows: Vec<Option<Row>> = jobs
+        .par_iter()
+        .map(|&(side, index)| {
+            if progress.cancelled() {
+                return None;
+            }
+            let row = bench.row(side, index);
+            progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
+            Some(row)
+        })
+        .collect();
+    let mut measured = Measured::dark(setting);
+    let m = setting.emergent.len();
+    for (&(side, index), row) in jobs.iter().zip(rows) {
+        let row = row.ok_or(Cancelled)?;
+        let seen = measured.seen_mut(side);
+        if let (Some(mirrored), Some(emergent)) = (&mirrored, &emergent)
+            && mirrored[index] != index
+        {
+            let image = mirrored[index];
+            for o in 0..m {
+                seen.transmitted[image * m + emergent[o]] = row.transmitted[o];
+                seen.reflected[image * m + emergent[o]] = row.reflected[o];
+            }
+            (seen.absorbed[image], seen.error[image]) = (row.absorbed, row.error);
+        }
+        row.store(seen, index);
+    }
+    Ok(measured)
+}
+
+/// Which cell is the mirror image of which, left and right exchanged; `None` where the cells do not mirror.
+fn mirror_images(basis: &RingBasis) -> Option<Vec<usize>> {
+    let image = |cell: Cell| {
+        let other = basis.index(Dir::from_theta_phi(cell.theta(), PI - cell.phi))?;
+        let found = basis.cell(other);
+        let turn = (found.phi - (PI - cell.phi)).rem_euclid(2.0 * PI);
+        let same = cell.is_cap() || turn.min(2.0 * PI - turn) < 1e-9;
+        (same && found.theta_min == cell.theta_min && found.width == cell.width).then_some(other)
+    };
+    basis.cells().map(image).collect()
+}
+
+/// What one incident cell becomes.
+struct Row {
+    transmitted: Vec<f64>,
+    reflected: Vec<f64>,
+    absorbed: f64,
+    lost: f64,
+    error: f64,
+}
+
+impl Row {
+    fn new(m: usize) -> Self {
+        Self { transmitted: vec![0.0; m], reflected: vec![0.0; m], absorbed: 0.0, lost: 0.0, error: 0.0 }
+    }
+
+    fn totals(&self) -> [f64; 2] {
+        [self.transmitted.iter().sum(), self.reflected.iter().sum()]
+    }
+
+    fn store(self, seen: &mut Seen, index: usize) {
+        let m = self.transmitted.len();
+        seen.transmitted[index * m..(index + 1) * m].copy_from_slice(&self.transmitted);
+        seen.reflected[index * m..(index + 1) * m].copy_from_slice(&self.reflected);
+        seen.absorbed[index] = self.absorbed;
+        seen.error[index] = self.error;
+    }
+}
+
+/// What all cells share.
+struct Bench<'a, B> {
+    system: &'a B,
+    setting: &'a Setting<'a>,
+    finder: CellFinder,
+    weights: Vec<f64>,
+    /// Typical width of an emergent cell as a direction cosine.
+    fineness: f64,
+    /// The incident cells are the emergent ones.
+    same: bool,
+}
+
+impl<'a, B: Beams> Bench<'a, B> {
+    fn new(system: &'a B, setting: &'a Setting<'a>) -> Self {
+        let weights = setting.emergent.projected_solid_angles();
+        let fineness = (PI / weights.len().max(1) as f64).sqrt();
+        let same = setting.emergent == setting.incident;
+        Self { system, setting, finder: CellFinder::new(setting.emergent), weights, fineness, same }
+    }
+
+    /// Parts are doubled until the shares of the cell stand.
+    fn row(&self, side: Side, index: usize) -> Row {
+        // What halving the parts changes is some three times what the finer ones leave.
+        let allowed = 0.25 * self.setting.error;
+        let mut parts = self.system.fewest_parts();
+        let mut before = self.with_parts(side, index, (parts / 2).max(1)).totals();
+        loop {
+            let mut row = self.with_parts(side, index, parts);
+            let totals = row.totals();
+            let apart = (totals[0] - before[0]).abs().max((totals[1] - before[1]).abs());
+            row.error = 0.5 * apart + row.lost;
+            if apart <= allowed || parts >= MOST_PARTS {
+                for (q, weight) in row.transmitted.iter_mut().zip(&self.weights) {
+                    *q /= weight;
+                }
+                for (q, weight) in row.reflected.iter_mut().zip(&self.weights) {
+                    *q /= weight;
+                }
+                return row;
+            }
+            before = totals;
+            parts *= 2;
+        }
+    }
+
+    /// Flux into the emergent cells from n × n parts of a cell.
+    fn with_parts(&self, side: Side, index: usize, n: usize) -> Row {
+        let cell = self.setting.incident.cell(index);
+        let mut row = Row::new(self.weights.len());
+        let mut shares = Shares::default();
+        let flux = 1.0 / (n * n) as f64;
+        // Points of a part, as fine as a third of an emergent cell.
+        let size = (cell.projected_solid_angle() * flux).sqrt();
+        let points = ((3.0 * size / self.fineness).ceil() as usize).clamp(1, 12);
+        let mut offsets = Vec::with_capacity(points * points);
+        for part in 0..n * n {
+            let at = |row: f64, column: f64| {
+                point(&cell, ((part / n) as f64 + row) / n as f64, ((part % n) as f64 + column) / n as f64)
+            };
+            let name = at(0.5, 0.5);
+            let (x, y) = (name.vector().x, name.vector().y);
+            offsets.clear();
+            for k in 0..points * points {
+                let middle = |k: usize| (k as f64 + 0.5) / points as f64;
+                let v = at(middle(k / points), middle(k % points)).vector();
+                offsets.push([v.x - x, v.y - y]);
+            }
+            let seed = seed(self.setting.seed, side, index, n, part);
+            // A tenth of the error allowed, at most, falls to one faint beam.
+            let share = (0.1 * self.setting.error).clamp(1e-7, 2e-3);
+            self.system.beams(name, side, Effort { share, seed }, &mut shares);
+            row.absorbed += shares.absorbed * flux;
+            row.lost += shares.lost * flux;
+            for (number, beam) in shares.beams.iter().enumerate() {
+                let to = if beam.transmitted { &mut row.transmitted } else { &mut row.reflected };
+                if self.same && beam.y == y {
+                    // Light that keeps its name keeps its cell.
+                    to[index] += beam.share * flux;
+                    continue;
+                }
+                let many = beam.share * flux > FAINT;
+                let list = if many {
+                    &offsets[..]
+                } else {
+                    let k = (seed as usize).wrapping_add(number.wrapping_mul(7919)) % offsets.len();
+                    &offsets[k..=k]
+                };
+                let each = beam.share * flux / list.len() as f64;
+                for &[dx, dy] in list {
+                    if let Some(cell) = self.target([x, y], [dx, dy], beam) {
+                        to[cell] += each;
+                    }
+                }
+            }
+        }
+        row
+    }
+
+    /// Where light goes that comes from a little beside the middle of its part.
+    fn target(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2], beam: &Beam) -> Option<usize> {
+        let x = x + dx;
+        // The slope holds near the middle only: no farther than light can go.
+        let most = (1.0 - x * x).max(0.0).sqrt();
+        let turned = beam.change[0] * dx + beam.change[1] * dy;
+        let turned = if beam.y == y && beam.change == [0.0, 1.0] { dy } else { turned.clamp(-0.3, 0.3) };
+        self.finder.find(x, (beam.y + turned).clamp(-most, most))
+    }
+}
+
+/// A direction of a cell: both coordinates 0 … 1, rising in sin²θ and in φ.
+fn point(cell: &Cell, row: f64, column: f64) -> Dir<Facade> {
+    let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+    let sin2 = low + (high - low) * row;
+    Dir::from_theta_phi(sin2.sqrt().asin(), cell.phi + cell.width * (column - 0.5))
+}
+
+/// A seed for every part, whatever thread works on it.
+fn seed(base: u64, side: Side, cell: usize, parts: usize, part: usize) -> u64 {
+    let side = u64::from(side == Side::Back);
+    let mut mixed = base;
+    for word in [side, cell as u64, parts as u64, part as u64] {
+        mixed = (mixed ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29);
+    }
+    mixed
+}

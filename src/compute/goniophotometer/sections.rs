@@ -1,0 +1,37 @@
+//! Clear bodies in section as specimens: prismatic sheets, light-redirecting glass.
+
+use super::Side;
+use super::beams::{Beam, Beams, Shares, SharpBeams};
+use crate::compute::dielectric::{Effort, Emission, Section};
+use crate::compute::direction::{Dir, Facade};
+use std::cell::RefCell;
+
+thread_local! {
+    /// Emission that is filled again and again.
+    static EMISSION: RefCell<Emission> = RefCell::default();
+}
+
+impl Beams for Section {
+    fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
+        // Light from outside travels against its name, light from inside along it; so does what it becomes.
+        let sign = if side == Side::Front { -1.0 } else { 1.0 };
+        out.beams.clear();
+        EMISSION.with_borrow_mut(|emission| {
+            self.trace(sign * name.vector(), effort, emission);
+            (out.absorbed, out.lost) = (emission.absorbed, emission.lost);
+            out.beams.extend(emission.leaving.iter().map(|beam| Beam {
+                share: beam.share,
+                transmitted: beam.z * sign > 0.0,
+                y: sign * beam.y,
+                change: beam.change,
+            }));
+        });
+    }
+}
+
+impl Section {
+    /// As a specimen of the goniophotometer.
+    pub const fn specimen(self) -> SharpBeams<Self> {
+        SharpBeams(self)
+    }
+}
