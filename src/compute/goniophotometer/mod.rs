@@ -18,6 +18,7 @@ pub mod panes;
 mod perforated;
 pub mod sections;
 pub mod sheet;
+pub mod specimen;
 pub mod stack;
 pub mod upright;
 
@@ -86,6 +87,16 @@ pub trait Specimen: Sync {
     /// # Errors
     /// [`Cancelled`] when `progress` says so.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled>;
+
+    /// The four functions as the rest of the program holds them, and their quality. Light that goes straight on or is
+    /// mirrored is kept apart where it depends on the polar angle alone; otherwise it is spread over its cells.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` says so.
+    fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
+        let measured = self.measure(setting, progress)?;
+        Ok((measured.band(), measured.quality()))
+    }
 }
 
 /// Balance and reciprocity of a measurement.

@@ -2,8 +2,9 @@
 //!
 //! Cells of rings overlap in a rectangle of θ and φ, so that the means are one-dimensional integrals.
 
-use super::{Measured, Setting, Side, Specimen};
+use super::{Measured, Quality, Setting, Side, Specimen};
 use crate::compute::basis::Cell;
+use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::system::coated::{Layer, stack};
@@ -19,6 +20,8 @@ pub struct Panes {
 
 /// Orders of the quadrature over θ: for the values, and for the estimate of their error.
 const ORDERS: [usize; 2] = [20, 12];
+/// Steps of the tables over θ: half a degree.
+const STEPS: usize = 180;
 
 impl Panes {
     /// `n` equal panes.
@@ -51,6 +54,21 @@ impl Panes {
 }
 
 impl Specimen for Panes {
+    fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
+        let quality = self.measure(setting, progress)?.quality();
+        let table = |part: fn(&Share) -> f64| {
+            let regular = AngularTransmittance::sample(STEPS, |theta| part(&self.shares(theta)));
+            Some(Btdf { regular: Some(regular), scattered: None })
+        };
+        let band = Band {
+            transmission_front: table(|share| share.transmitted),
+            transmission_back: table(|share| share.transmitted),
+            reflection_front: table(|share| share.reflected_front),
+            reflection_back: table(|share| share.reflected_back),
+        };
+        Ok((band, quality))
+    }
+
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let rules = ORDERS.map(gauss_legendre);

@@ -6,9 +6,9 @@
 //! direction cosines, so that the kernel is symmetric in both directions; d is found such that the total is the τ(θ_e)
 //! asked for (Sinkhorn's iteration in its symmetric form).
 
-use super::{Measured, Setting, Side, Specimen};
+use super::{Measured, Quality, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
-use crate::compute::btdf::{AngularTransmittance, Btdf, matrix_on};
+use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::{cell_mean, sub_directions};
 use rayon::prelude::*;
@@ -64,6 +64,31 @@ impl Specimen for Sheet {
         }
         Ok(measured)
     }
+
+    fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
+        let quality = self.measure(setting, progress)?.quality();
+        let apart = |spread: &Spread| -> Result<Btdf, Cancelled> {
+            let nothing = AngularTransmittance::Constant(0.0);
+            let scattered = Spread { regular: nothing, ..spread.clone() };
+            let matrix = if scattered.is_dark() {
+                None
+            } else {
+                let values = scattered.on(setting, progress)?.0;
+                let matrix = CellMatrix::new(setting.incident.clone(), setting.emergent.clone(), values);
+                Some(Scattered::Cells(Box::new(matrix.expect("values are counted by these cells"))))
+            };
+            let regular = (spread.regular.hemispherical() > 0.0).then(|| spread.regular.clone());
+            Ok(Btdf { regular, scattered: matrix })
+        };
+        let through = apart(&self.transmission)?;
+        let band = Band {
+            transmission_front: Some(through.clone()),
+            transmission_back: Some(through),
+            reflection_front: Some(apart(&self.reflection[0])?),
+            reflection_back: Some(apart(&self.reflection[1])?),
+        };
+        Ok((band, quality))
+    }
 }
 
 /// Directions along each side of a cell over which functions of θ are averaged.
@@ -74,6 +99,11 @@ fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
 }
 
 impl Spread {
+    /// Scatters nothing?
+    fn is_dark(&self) -> bool {
+        self.diffuse.hemispherical() == 0.0 && self.lobe.is_none()
+    }
+
     /// Values on the cells, and the error of every incident cell's total.
     fn on(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Vec<f64>, Vec<f64>), Cancelled> {
         let (incident, emergent) = (setting.incident, setting.emergent);

@@ -1,6 +1,10 @@
 //! What a system is made of: geometry and material, enough to compute its scattering anew.
 
+use super::coated;
+use super::glazing::Pane;
 use super::slat_profile::SlatProfile;
+use crate::compute::dielectric::prism::Prisms;
+use crate::compute::goniophotometer::panels::CutPanel;
 use crate::compute::section::Surface;
 
 /// A described system. Keys of its states are in [`SystemDescription::states`].
@@ -23,9 +27,9 @@ pub enum SystemKind {
     /// Endless array of slats.
     Venetian(Venetian),
     /// Sheet with plane cuts.
-    LaserCutPanel(LaserCut),
+    LaserCutPanel(CutPanel),
     /// Sheet with prisms on one face.
-    Prismatic(Prismatic),
+    Prismatic(Prisms),
     /// Profiles of clear material between two panes.
     RedirectingGlass(RedirectingGlass),
     /// Plane-parallel panes.
@@ -57,36 +61,6 @@ pub struct Venetian {
     pub lower: Surface,
 }
 
-/// Cuts horizontal and normal to the sheet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LaserCut {
-    /// Refractive index.
-    pub index: f64,
-    /// Distance between cuts. \[m\]
-    pub spacing: f64,
-    /// Depth of the cuts = thickness of the sheet. \[m\]
-    pub depth: f64,
-    /// Absorption coefficient. \[1/m\]
-    pub absorption: f64,
-}
-
-/// Horizontal grooves; the flat face outside unless flipped.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Prismatic {
-    /// Refractive index.
-    pub index: f64,
-    /// Angles of the upper and of the lower flank of a ridge against the sheet's plane. \[rad\]
-    pub angles: [f64; 2],
-    /// Distance between ridges. \[m\]
-    pub pitch: f64,
-    /// Sheet under the prisms: flat face to valley. \[m\]
-    pub base: f64,
-    /// Mirrored in the sheet's plane: the prisms outside.
-    pub flipped: bool,
-    /// Absorption coefficient. \[1/m\]
-    pub absorption: f64,
-}
-
 /// Bodies of clear material, stacked with a period, between two clear panes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RedirectingGlass {
@@ -98,46 +72,17 @@ pub struct RedirectingGlass {
     pub spacing: f64,
     /// Outlines of the bodies of one period, (outward, upward). \[m\]
     pub bodies: Vec<Vec<[f64; 2]>>,
-    /// Panes outside and inside; without one of index 1.
-    pub panes: [Option<PaneMaterial>; 2],
-}
-
-/// A clear or tinted pane.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PaneMaterial {
-    /// Refractive index.
-    pub index: f64,
-    /// Thickness. \[m\]
-    pub thickness: f64,
-    /// Absorption coefficient. \[1/m\]
-    pub absorption: f64,
+    /// Panes outside and inside.
+    pub panes: [Option<Pane>; 2],
 }
 
 /// Equal panes with air between; interference left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaneStack {
     /// One pane.
-    pub pane: Glazing,
+    pub pane: coated::Layer,
     /// How many.
     pub panes: usize,
-}
-
-/// How a pane is told.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Glazing {
-    /// By its material.
-    Clear(PaneMaterial),
-    /// By what a data sheet says at normal incidence: transmittance and the reflectances of the outer and inner face.
-    Coated {
-        /// Refractive index of the glass.
-        index: f64,
-        /// Transmittance.
-        transmittance: f64,
-        /// Reflectance for light from outside.
-        front: f64,
-        /// Reflectance for light from inside.
-        back: f64,
-    },
 }
 
 /// A sheet that scatters.
@@ -254,7 +199,7 @@ impl SystemDescription {
     pub fn structure(&self) -> Option<f64> {
         Some(match &self.kind {
             SystemKind::Venetian(blind) => blind.spacing,
-            SystemKind::LaserCutPanel(panel) => panel.spacing,
+            SystemKind::LaserCutPanel(cut) => cut.panel.spacing,
             SystemKind::Prismatic(sheet) => sheet.pitch,
             SystemKind::RedirectingGlass(glass) => glass.spacing,
             SystemKind::Perforated(sheet) => sheet.area.sqrt(),

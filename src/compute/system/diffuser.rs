@@ -4,12 +4,12 @@
 //! surfaces lets light in and out through the same kind of surface, so that
 //! q = t F(θ_e) F(θ_a) / (π F̄), F the share that one surface lets through and F̄ its hemispherical mean.
 
+use super::front_basis;
 use super::glazing::fresnel;
-use super::{cell_mean, front_basis, sub_directions};
-use crate::compute::basis::RingBasis;
-use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered};
-use crate::compute::direction::{Dir, Facade};
-use std::f64::consts::PI;
+use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
+use crate::compute::estimate::Silent;
+use crate::compute::goniophotometer::sheet::{Sheet, Spread};
+use crate::compute::goniophotometer::{Setting, Specimen};
 
 /// A scattering volume between two smooth surfaces. The same from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,53 +50,11 @@ fn table(f: impl Fn(f64) -> f64) -> AngularTransmittance {
     AngularTransmittance::sample(180, f)
 }
 
-/// The reciprocal matrix with q(i, o) ∝ kernel(i, o) whose rows carry exactly `tau`: q = d_i K_io d_o, the factors d
-/// found by Sinkhorn's iteration in its symmetric form. `kernel` symmetric, not negative, its diagonal positive.
-fn balanced(basis: &RingBasis, kernel: &[f64], tau: &[f64]) -> CellMatrix {
-    let n = basis.len();
-    let weight = basis.projected_solid_angles();
-    let mut factor: Vec<f64> = vec![1.0; n];
-    for _ in 0..500 {
-        let mut worst: f64 = 0.0;
-        let flux: Vec<f64> = kernel
-            .chunks_exact(n)
-            .zip(&factor)
-            .map(|(row, d)| d * row.iter().zip(&factor).zip(&weight).map(|((k, e), w)| k * e * w).sum::<f64>())
-            .collect();
-        for ((d, flux), tau) in factor.iter_mut().zip(&flux).zip(tau) {
-            worst = worst.max((flux - tau).abs());
-            *d *= if *flux > 0.0 { (tau / flux).sqrt() } else { 0.0 };
-        }
-        if worst < 1e-13 {
-            break;
-        }
-    }
-    let values = (0..n * n).map(|k| factor[k / n] * kernel[k] * factor[k % n]).collect();
-    CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values for n cells")
-}
-
-/// The separable diffuse matrix with rows of the given τ: q = τ_i τ_o / Σ τ PΩ, reciprocal by its form.
-fn separable(basis: &RingBasis, tau: &[f64]) -> CellMatrix {
-    let total: f64 = basis.projected_solid_angles().iter().zip(tau).map(|(w, t)| w * t).sum();
-    let scale = if total > 0.0 { 1.0 / total } else { 0.0 };
-    let n = basis.len();
-    let values = (0..n * n).map(|k| tau[k / n] * tau[k % n] * scale).collect();
-    CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values for n cells")
-}
-
-/// The same band from both sides: transmission turned round, reflection as it is.
-fn both_sides(transmission: Btdf, reflection: Btdf) -> Band {
-    Band {
-        transmission_front: Some(transmission.clone()),
-        transmission_back: Some(transmission),
-        reflection_front: Some(reflection.clone()),
-        reflection_back: Some(reflection),
-    }
-}
-
-/// Means of a function of θ over the cells.
-fn ring_means(basis: &RingBasis, f: impl Fn(f64) -> f64) -> Vec<f64> {
-    basis.cells().map(|cell| cell_mean(&cell, 12, |d: Dir<Facade>| f(d.theta()))).collect()
+/// A band measured on Klems cells, its regular part apart.
+fn on_klems(sheet: &Sheet) -> Band {
+    let cells = front_basis();
+    let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 0 };
+    sheet.examine(&setting, &Silent).expect("nobody cancels").0
 }
 
 impl Opal {
@@ -109,20 +67,22 @@ impl Opal {
         sane.then_some((passed, returned))
     }
 
-    /// The four functions, or `None` when the parameters are not those of a passive sheet.
-    pub fn band(&self) -> Option<Band> {
+    /// As a sheet; `None` when the parameters are not those of a passive one.
+    pub fn sheet(&self) -> Option<Sheet> {
         let (passed, returned) = self.shares()?;
-        let basis = front_basis();
-        let surface = ring_means(&basis, |theta| surface_transmittance(self.index, theta));
-        let scaled = |share: f64| {
-            let tau: Vec<f64> = surface.iter().map(|f| share * f).collect();
-            Some(Scattered::Cells(Box::new(separable(&basis, &tau))))
+        let enters = |share: f64| table(|theta| share * surface_transmittance(self.index, theta));
+        let reflection = Spread {
+            regular: table(|theta| 1.0 - surface_transmittance(self.index, theta)),
+            diffuse: enters(returned),
+            lobe: None,
         };
-        let mirrored = table(|theta| 1.0 - surface_transmittance(self.index, theta));
-        Some(both_sides(
-            Btdf { regular: None, scattered: scaled(passed) },
-            Btdf { regular: Some(mirrored), scattered: scaled(returned) },
-        ))
+        let transmission = Spread { regular: AngularTransmittance::Constant(0.0), diffuse: enters(passed), lobe: None };
+        Some(Sheet { transmission, reflection: [reflection.clone(), reflection] })
+    }
+
+    /// The four functions on Klems cells, or `None` when the parameters are not those of a passive sheet.
+    pub fn band(&self) -> Option<Band> {
+        Some(on_klems(&self.sheet()?))
     }
 }
 
@@ -141,77 +101,53 @@ impl Spreading {
         (sane && self.index >= 1.0 && self.spread > 0.01).then_some(scale)
     }
 
-    /// The four functions, or `None` when the parameters are not those of a passive sheet.
-    pub fn band(&self) -> Option<Band> {
-        let haze = 1.0 - self.regular - self.lobe;
+    /// As a sheet; `None` when the parameters are not those of a passive one.
+    pub fn sheet(&self) -> Option<Sheet> {
+        let haze = (1.0 - self.regular - self.lobe).max(0.0);
         let scale = self.scale()?;
-        let clear = |theta: f64| self.clear(theta);
-        let basis = front_basis();
-        let tau = ring_means(&basis, |theta| scale * clear(theta));
-        let lobe_tau: Vec<f64> = tau.iter().map(|t| self.lobe * t).collect();
-        let haze_tau: Vec<f64> = tau.iter().map(|t| haze.max(0.0) * t).collect();
-        let lobe = balanced(&basis, &gaussian_kernel(&basis, self.spread), &lobe_tau);
-        let diffuse = separable(&basis, &haze_tau);
-        let values = lobe.values().iter().zip(diffuse.values().iter()).map(|(a, b)| a + b).collect();
-        let matrix = CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values for n cells");
-        let regular = if self.regular > 0.0 { Some(table(|theta| self.regular * scale * clear(theta))) } else { None };
+        let part = |share: f64| table(|theta| share * scale * self.clear(theta));
+        let transmission = Spread {
+            regular: part(self.regular),
+            diffuse: part(haze),
+            lobe: (self.lobe > 0.0).then(|| (part(self.lobe), self.spread)),
+        };
         // What a clear sheet mirrors stays mirrored; the rest of what does not pass is absorbed or thrown back.
-        let mirrored = table(|theta| (1.0 - clear(theta)) * (1.0 - self.absorbed));
-        let back = ring_means(&basis, |theta| (1.0 - scale) * clear(theta) * (1.0 - self.absorbed));
-        Some(both_sides(
-            Btdf { regular, scattered: Some(Scattered::Cells(Box::new(matrix))) },
-            Btdf { regular: Some(mirrored), scattered: Some(Scattered::Cells(Box::new(separable(&basis, &back)))) },
-        ))
+        let kept = 1.0 - self.absorbed;
+        let reflection = Spread {
+            regular: table(|theta| (1.0 - self.clear(theta)) * kept),
+            diffuse: table(|theta| (1.0 - scale) * self.clear(theta) * kept),
+            lobe: None,
+        };
+        Some(Sheet { transmission, reflection: [reflection.clone(), reflection] })
     }
-}
 
-/// exp(−|k_i − k_o|²/2σ²) in direction cosines, averaged over both cells. Spread is a shift of direction cosines,
-/// as at every plane-parallel layer, and therefore symmetric in the two directions.
-fn gaussian_kernel(basis: &RingBasis, spread: f64) -> Vec<f64> {
-    const SUB: usize = 3;
-    let points: Vec<Vec<[f64; 2]>> =
-        basis.cells().map(|cell| sub_directions(&cell, SUB).map(|d| [d.vector().x, d.vector().y]).collect()).collect();
-    let n = basis.len();
-    let exponent = -0.5 / (spread * spread);
-    let mut kernel = vec![0.0; n * n];
-    for i in 0..n {
-        for o in i..n {
-            let mut sum = 0.0;
-            for a in &points[i] {
-                for b in &points[o] {
-                    let square = (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
-                    // e⁻⁴⁰ of a lobe is below every other error.
-                    let power = exponent * square;
-                    if power > -40.0 {
-                        sum += power.exp();
-                    }
-                }
-            }
-            let mean = sum / (SUB * SUB * SUB * SUB) as f64;
-            kernel[i * n + o] = mean;
-            kernel[o * n + i] = mean;
-        }
+    /// The four functions on Klems cells, or `None` when the parameters are not those of a passive sheet.
+    pub fn band(&self) -> Option<Band> {
+        Some(on_klems(&self.sheet()?))
     }
-    kernel
 }
 
 /// Lambertian in transmission and reflection for every incidence: the ideal diffuser with a stated reflectance.
 pub fn lambertian(transmittance: f64, reflectance: f64) -> Band {
-    both_sides(Btdf::ideal_diffuse(transmittance), Btdf::ideal_diffuse(reflectance))
+    Band {
+        transmission_front: Some(Btdf::ideal_diffuse(transmittance)),
+        transmission_back: Some(Btdf::ideal_diffuse(transmittance)),
+        reflection_front: Some(Btdf::ideal_diffuse(reflectance)),
+        reflection_back: Some(Btdf::ideal_diffuse(reflectance)),
+    }
 }
 
-/// Hemispherical mean of F by the closed basis, for tests and descriptions: F̄ = 2∫F sinθ cosθ dθ.
+/// Hemispherical mean of F, F̄ = 2∫F sinθ cosθ dθ.
 pub fn surface_mean(index: f64) -> f64 {
-    let basis = front_basis();
-    let f = ring_means(&basis, |theta| surface_transmittance(index, theta));
-    basis.projected_solid_angles().iter().zip(&f).map(|(w, f)| w * f).sum::<f64>() / PI
+    table(|theta| surface_transmittance(index, theta)).hemispherical()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::btdf::reciprocity_error;
-    use crate::compute::direction::Incident;
+    use crate::compute::btdf::{Scattered, reciprocity_error};
+    use crate::compute::direction::{Dir, Facade, Incident};
+    use crate::compute::system::cell_mean;
 
     fn check(band: &Band) {
         let [t, r] = [&band.transmission_front, &band.reflection_front].map(|b| b.as_ref().unwrap());
@@ -268,22 +204,5 @@ mod tests {
             let to = m.emergent().cell(brightest).centre();
             assert!(to.dot(cell.centre()) > 20_f64.to_radians().cos(), "{i}");
         }
-    }
-
-    #[test]
-    fn the_lobe_has_the_spread_asked_for() {
-        let basis = front_basis();
-        let sigma = 15_f64.to_radians();
-        let m = balanced(&basis, &gaussian_kernel(&basis, sigma), &vec![1.0; basis.len()]);
-        let (mut second, mut flux) = (0.0, 0.0);
-        for (o, cell) in basis.cells().enumerate() {
-            let share = m.row(0)[o] * cell.projected_solid_angle();
-            second += share * cell_mean(&cell, 8, |d| d.vector().truncate().length_squared());
-            flux += share;
-        }
-        assert!((flux - 1.0).abs() < 1e-12);
-        // ⟨u² + v²⟩ = 2σ², widened by the cells and cut at the edge of the hemisphere.
-        let found = (second / 2.0).sqrt();
-        assert!((found / sigma - 1.0).abs() < 0.08, "{}", found.to_degrees());
     }
 }

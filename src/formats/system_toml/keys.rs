@@ -106,6 +106,8 @@ pub(super) struct LaserCut {
     pub depth: f64,
     #[serde(default)]
     pub absorption: f64,
+    #[serde(default)]
+    pub cut_loss: f64,
 }
 
 #[derive(Debug, Deserialize)]

@@ -5,12 +5,18 @@
 mod keys;
 
 use super::location::{FormatError, Location, excerpt};
+use crate::compute::dielectric::Material;
+use crate::compute::dielectric::prism::Prisms;
+use crate::compute::goniophotometer::panels::CutPanel;
 use crate::compute::section::Surface;
+use crate::compute::system::coated::{self, CoatedPane};
 use crate::compute::system::description::{
-    Diffuser, Glazing, Hole, LaserCut, Layer, LayerSource, PaneMaterial, PaneStack, Perforated, Prismatic,
-    RedirectingGlass, SystemDescription, SystemKind, Venetian, Woven,
+    Diffuser, Hole, Layer, LayerSource, PaneStack, Perforated, RedirectingGlass, SystemDescription, SystemKind,
+    Venetian, Woven,
 };
 use crate::compute::system::diffuser::{Opal, Spreading};
+use crate::compute::system::glazing::Pane;
+use crate::compute::system::laser_cut::LaserCutPanel;
 use crate::compute::system::slat_profile::SlatProfile;
 use keys::{Angles, DiffuserModel, HoleShape, Keys, Kind};
 
@@ -132,12 +138,16 @@ fn kind(keys: &Keys) -> Result<SystemKind, FormatError> {
         Kind::Venetian => SystemKind::Venetian(venetian(keys.venetian.as_ref().ok_or_else(none)?)?),
         Kind::LaserCutPanel => {
             let panel = keys.laser_cut_panel.as_ref().ok_or_else(none)?;
-            SystemKind::LaserCutPanel(LaserCut {
+            let sheet = Pane {
                 // Below √2 light passes through the cuts, and Edmonds' shares do not hold.
                 index: within("laser-cut-panel.index", panel.index, (std::f64::consts::SQRT_2, 4.0))?,
-                spacing: length("laser-cut-panel.spacing", panel.spacing)?,
-                depth: length("laser-cut-panel.depth", panel.depth)?,
+                thickness: length("laser-cut-panel.depth", panel.depth)?,
                 absorption: absorption("laser-cut-panel.absorption", panel.absorption)?,
+            };
+            let spacing = length("laser-cut-panel.spacing", panel.spacing)?;
+            SystemKind::LaserCutPanel(CutPanel {
+                panel: LaserCutPanel { sheet, spacing },
+                cut_loss: share("laser-cut-panel.cut_loss", panel.cut_loss)?,
             })
         }
         Kind::Prismatic => SystemKind::Prismatic(prismatic(keys.prismatic.as_ref().ok_or_else(none)?)?),
@@ -231,7 +241,7 @@ fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {
     })
 }
 
-fn prismatic(sheet: &keys::Prismatic) -> Result<Prismatic, FormatError> {
+fn prismatic(sheet: &keys::Prismatic) -> Result<Prisms, FormatError> {
     let [upper, lower] = sheet.angles;
     for angle in sheet.angles {
         within("prismatic.angles", angle, (0.1, 90.0))?;
@@ -239,18 +249,20 @@ fn prismatic(sheet: &keys::Prismatic) -> Result<Prismatic, FormatError> {
     if upper > 89.9 && lower > 89.9 {
         return wrong("prismatic.angles", "two flanks normal to the sheet", "at most one of 90°");
     }
-    Ok(Prismatic {
-        index: within("prismatic.index", sheet.index, (1.0, 4.0))?,
+    Ok(Prisms {
+        material: Material {
+            index: index("prismatic.index", sheet.index)?,
+            absorption: absorption("prismatic.absorption", sheet.absorption)?,
+        },
         angles: [upper.to_radians(), lower.to_radians()],
         pitch: length("prismatic.pitch", sheet.pitch)?,
         base: length("prismatic.base", sheet.base)?,
         flipped: sheet.flipped,
-        absorption: absorption("prismatic.absorption", sheet.absorption)?,
     })
 }
 
-fn material(key: &str, sheet: keys::Sheet) -> Result<PaneMaterial, FormatError> {
-    Ok(PaneMaterial {
+fn material(key: &str, sheet: keys::Sheet) -> Result<Pane, FormatError> {
+    Ok(Pane {
         index: index(&format!("{key}.index"), sheet.index)?,
         thickness: extent(&format!("{key}.thickness"), sheet.thickness)?,
         absorption: absorption(&format!("{key}.absorption"), sheet.absorption)?,
@@ -290,20 +302,13 @@ fn pane(pane: &keys::Pane) -> Result<PaneStack, FormatError> {
             );
         }
         (Some(a), None, None) => {
-            Glazing::Clear(PaneMaterial { index: n, thickness, absorption: absorption("pane.absorption", a)? })
+            coated::Layer::Clear(Pane { index: n, thickness, absorption: absorption("pane.absorption", a)? })
         }
         (None, Some(tau), None) => {
-            let pane = crate::compute::system::glazing::Pane::with_normal_transmittance(
-                n,
-                if thickness > 0.0 { thickness } else { 1.0 },
-                tau,
-            );
-            match pane {
-                Some(pane) => Glazing::Clear(PaneMaterial {
-                    index: pane.index,
-                    thickness: pane.thickness,
-                    absorption: pane.absorption,
-                }),
+            // A sheet without thickness has no coefficient of absorption; a metre stands in for it.
+            let deep = if thickness > 0.0 { thickness } else { 1.0 };
+            match Pane::with_normal_transmittance(n, deep, tau) {
+                Some(pane) => coated::Layer::Clear(pane),
                 None => {
                     let expected = "above 0 and at most what a clear pane of this index lets through, or \
                                     reflectance_normal of a coated pane beside it";
@@ -316,7 +321,7 @@ fn pane(pane: &keys::Pane) -> Result<PaneStack, FormatError> {
             let most = (0.0, 1.0 - transmittance);
             let front = within("pane.reflectance_normal", front, most)?;
             let back = within("pane.reflectance_normal_back", pane.reflectance_normal_back.unwrap_or(front), most)?;
-            Glazing::Coated { index: n, transmittance, front, back }
+            coated::Layer::Coated(CoatedPane { transmittance, front, back })
         }
     };
     if !(1..=10).contains(&pane.panes) {
