@@ -1,8 +1,8 @@
 //! What can be typed.
 
 use super::{
-    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs, info::InfoArgs,
-    lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs,
+    goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
 
@@ -24,6 +24,7 @@ Examples:
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
   cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
+  cfs goniophotometer blind.system.toml --out blind.cfsp   datasets from geometry and material
   cfs catalogue list --search blind     products, built in and your own
 
 On bad input every command ends with status 2 and one line that says what would be right."
@@ -51,6 +52,8 @@ pub enum Command {
     Lid(LidArgs),
     /// Luminances of the 145 Tregenza patches of the sky dome
     Sky(SkyArgs),
+    /// Compute a system's scattering from its geometry and material
+    Goniophotometer(GoniophotometerArgs),
     /// What a dataset file is
     Info(InfoArgs),
     /// A dataset in another format

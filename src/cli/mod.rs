@@ -6,6 +6,7 @@ pub mod catalogue;
 pub mod compact;
 pub mod convert;
 mod dataset_file;
+pub mod goniophotometer;
 pub mod info;
 pub mod lid;
 mod luminaire_info;
@@ -30,6 +31,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Accuracy(args) => accuracy::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
+        Command::Goniophotometer(args) => goniophotometer::run(args, &library),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Compact(args) => compact::run(args),

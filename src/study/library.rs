@@ -46,6 +46,12 @@ impl Library {
         answer
     }
 
+    /// Keys of the states of a product of the catalogue.
+    pub fn states_of(&self, key: &str) -> Result<Vec<String>, StudyError> {
+        let product = self.in_catalogue(|catalogue| catalogue.product(key))?;
+        Ok(product.states.into_iter().map(|state| state.key).collect())
+    }
+
     /// All states of a dataset file.
     pub fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };

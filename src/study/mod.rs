@@ -8,7 +8,9 @@ pub mod cache;
 pub mod coefficients;
 pub mod compact;
 pub mod control;
+mod described_product;
 mod error;
+pub mod goniophotometer;
 pub mod library;
 pub mod luminaire_file;
 pub mod near_field;
@@ -22,6 +24,7 @@ pub mod sun_position;
 pub mod system;
 
 pub use coefficients::Coefficients;
+pub use described_product::product_of;
 pub use error::StudyError;
 pub use library::Library;
 pub use scene::Scene;

@@ -109,9 +109,10 @@ impl Spread {
         let (incident, emergent) = (setting.incident, setting.emergent);
         let straight = Btdf { regular: Some(self.regular.clone()), scattered: None };
         let mut values = matrix_on(&straight, incident, emergent).values().into_owned();
-        let mean = self.diffuse.hemispherical();
-        if mean > 0.0 {
+        if self.diffuse.hemispherical() > 0.0 {
             let (from, to) = (ring_means(incident, &self.diffuse), ring_means(emergent, &self.diffuse));
+            // The mean by these very cells, so that totals come out exactly.
+            let mean = emergent.projected_solid_angles().iter().zip(&to).map(|(w, t)| w * t).sum::<f64>() / PI;
             for (row, from) in values.chunks_exact_mut(emergent.len()).zip(&from) {
                 for (q, to) in row.iter_mut().zip(&to) {
                     *q += from * to / (PI * mean);
@@ -137,12 +138,28 @@ impl Spread {
                     Ok(cells.iter().map(|to| lobe.mean(&from, to)).collect())
                 })
                 .collect::<Result<_, Cancelled>>()?;
+            let flux = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+            // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
+            let same = incident == emergent;
+            let mut scale = vec![1.0; incident.len()];
+            for round in 0..if same { 40 } else { 1 } {
+                for (i, row) in rows.iter().enumerate() {
+                    let found = if same {
+                        scale[i] * row.iter().zip(&weight).zip(&scale).map(|((q, w), s)| q * w * s).sum::<f64>()
+                    } else {
+                        flux(row)
+                    };
+                    if round == 0 {
+                        error[i] += (found - totals[i]).abs();
+                    }
+                    let ratio = if found > 0.0 { totals[i] / found } else { 0.0 };
+                    scale[i] *= if same { ratio.sqrt() } else { ratio };
+                }
+            }
             for (i, row) in rows.iter().enumerate() {
-                let flux: f64 = row.iter().zip(&weight).map(|(q, w)| q * w).sum();
-                error[i] += (flux - totals[i]).abs();
-                let scale = if flux > 0.0 { totals[i] / flux } else { 0.0 };
-                for (q, lobe) in values[i * emergent.len()..].iter_mut().zip(row) {
-                    *q += scale * lobe;
+                for (o, lobe) in row.iter().enumerate() {
+                    let factor = if same { scale[i] * scale[o] } else { scale[i] };
+                    values[i * emergent.len() + o] += factor * lobe;
                 }
             }
         }

@@ -1,0 +1,256 @@
+//! `cfs goniophotometer`: datasets computed from a description of geometry and material.
+
+use super::{dataset_file, output, progress::TerminalProgress};
+use crate::catalogue::Catalogue;
+use crate::compute::basis::{AzimuthMap, RingBasis};
+use crate::compute::btdf::{Component, Dataset};
+use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
+use crate::study::Library;
+use crate::study::goniophotometer::{Computed, Described, Request};
+use crate::study::product_of;
+use anyhow::{anyhow, bail};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// How the incident cells are chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Incidence {
+    /// LBNL/Klems Full
+    #[value(name = "klems-145")]
+    Klems,
+    /// Tregenza's lattice on the façade
+    #[value(name = "tregenza-145")]
+    Tregenza,
+}
+
+/// Arguments of `cfs goniophotometer`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct GoniophotometerArgs {
+    /// System file: geometry and material (.system.toml)
+    pub system: PathBuf,
+    /// File to write: .xml, .btdf.txt (four files, one a function) or .cfsp (all states in one package). Several states
+    /// in a format of one state become several files, named by their states. Without it only the summary is printed.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Incident cells
+    #[arg(long, value_enum, default_value = "klems-145")]
+    pub incidence: Incidence,
+    /// Emergent cells: klems-145, or the width of even cells in degrees (1 to 30)
+    #[arg(long, value_name = "klems-145|DEGREES", default_value = "klems-145")]
+    pub emergent: String,
+    /// Key of the state to compute; all by default
+    #[arg(long, allow_hyphen_values = true)]
+    pub state: Option<String>,
+    /// Absolute error allowed in τ and ρ of every incidence; effort follows it
+    #[arg(long, default_value = "0.01")]
+    pub error: f64,
+    /// Seed of what is drawn at random
+    #[arg(long, default_value = "1")]
+    pub seed: u64,
+    /// One JSON object on standard output instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl GoniophotometerArgs {
+    fn request(&self) -> anyhow::Result<Request> {
+        if !(1e-6..=0.5).contains(&self.error) {
+            bail!("--error {}: out of range; expected 0.000001 to 0.5", self.error);
+        }
+        let klems = || RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let emergent = match self.emergent.as_str() {
+            "klems-145" => klems(),
+            text => match text.parse::<f64>() {
+                Ok(degrees) if (1.0..=30.0).contains(&degrees) => RingBasis::even(degrees.to_radians()),
+                _ => bail!("--emergent {text}: expected klems-145, or degrees from 1 to 30"),
+            },
+        };
+        let incident = match self.incidence {
+            Incidence::Klems => klems(),
+            Incidence::Tregenza => RingBasis::tregenza(),
+        };
+        Ok(Request { incident, emergent, error: self.error, seed: self.seed })
+    }
+}
+
+/// Where results go: a format of single states, or the package.
+enum Target<'a> {
+    None,
+    States(&'a Path, Format),
+    Package(&'a Path),
+}
+
+/// Reads, computes, writes, prints.
+///
+/// # Errors
+/// A description that cannot be read or computed, a state that is not there, an unknown format. Finished states of an
+/// interrupted run are kept beside the output and taken up by the next run; nothing else is left behind.
+pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> {
+    let name = args.system.display().to_string();
+    let request = args.request()?;
+    let target = match args.out.as_deref() {
+        None => Target::None,
+        Some(path) if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("cfsp")) => Target::Package(path),
+        Some(path) => {
+            let shown = path.to_string_lossy();
+            let format = format_to_write(&shown).map_err(|error| anyhow!("{shown}: {error}, or a package (.cfsp)"))?;
+            Target::States(path, format)
+        }
+    };
+    let described = Described::read(&args.system)?;
+    let all = described.states(library).map_err(|error| anyhow!("{name}: {error}"))?;
+    let states = match &args.state {
+        None => all,
+        Some(state) if all.contains(state) => vec![state.clone()],
+        Some(state) => {
+            let keys: Vec<String> = all.iter().map(|key| format!("'{key}'")).collect();
+            bail!("{name}: no state '{state}'; expected one of {}", keys.join(", "));
+        }
+    };
+    let keep = args.out.as_deref().map(|path| {
+        let mut folder = path.as_os_str().to_owned();
+        folder.push(".part");
+        PathBuf::from(folder)
+    });
+    if let (Some(folder), true) = (&keep, states.len() > 1) {
+        // Without it an interrupted run starts anew, no more.
+        drop(std::fs::create_dir_all(folder));
+    }
+    let progress = TerminalProgress::new();
+    let mut computed = Vec::new();
+    for state in &states {
+        let kept = keep.as_deref().filter(|_| states.len() > 1);
+        let one = described.measure(state, &request, library, kept, &progress);
+        computed.push(one.map_err(|error| anyhow!("{name}: {error}"))?);
+    }
+    drop(progress);
+    write_results(&target, &described, &request, &computed)?;
+    if let Some(folder) = &keep {
+        // What is left of a folder of kept states costs nothing but room.
+        drop(std::fs::remove_dir_all(folder));
+    }
+    if args.json {
+        let value = json!({
+            "system": described.file.system.name,
+            "kind": described.file.system.kind.word(),
+            "method": described.method(&request),
+            "states": computed.iter().map(to_json).collect::<Vec<_>>(),
+        });
+        return output::print(&(serde_json::to_string_pretty(&value)? + "\n"));
+    }
+    output::print(&to_text(&described, &request, &computed)?)
+}
+
+fn write_results(
+    target: &Target<'_>,
+    described: &Described,
+    request: &Request,
+    computed: &[Computed],
+) -> anyhow::Result<()> {
+    match target {
+        Target::None => Ok(()),
+        Target::Package(path) => {
+            let datasets: Vec<Dataset> = computed.iter().map(|one| one.dataset.clone()).collect();
+            let shown = path.display();
+            let mut catalogue = Catalogue::empty_in_memory().map_err(|error| anyhow!("{shown}: {error}"))?;
+            let imported = catalogue.import(&datasets, product_of(described, request, &datasets));
+            let key = imported.map_err(|error| anyhow!("{shown}: {error}"))?.key;
+            let bytes = catalogue.export_package(&[key]).map_err(|error| anyhow!("{shown}: {error}"))?;
+            dataset_file::write(path, &bytes)
+        }
+        Target::States(path, format) => {
+            for one in computed {
+                let path = match computed.len() {
+                    1 => (*path).to_owned(),
+                    _ => path_with(path, &one.dataset.state),
+                };
+                write_state(&path, *format, &one.dataset)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// `blind.xml` and `45` become `blind_45.xml`.
+fn path_with(path: &Path, word: &str) -> PathBuf {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = Format::stem(&name);
+    path.with_file_name(format!("{stem}_{word}{}", &name[stem.len()..]))
+}
+
+fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<()> {
+    let told = |error| anyhow!("{}: {error}", path.display());
+    match format {
+        Format::BsdfXml => {
+            dataset_file::write(path, &write_dataset(format, std::slice::from_ref(dataset)).map_err(told)?.bytes)
+        }
+        Format::BtdfText => {
+            for component in Component::ALL {
+                let path = match component {
+                    Component::TransmissionFront => path.to_owned(),
+                    other => path_with(path, &other.key().replace('_', "-")),
+                };
+                let written = btdf_text::write_component(dataset, component).map_err(told)?;
+                dataset_file::write(&path, &written.bytes)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+fn to_json(one: &Computed) -> Value {
+    let quality = one.quality.map(|quality| {
+        json!({
+            "energy_balance_error": quality.balance,
+            "reciprocity_error": quality.reciprocity,
+            "estimated_error": quality.error,
+        })
+    });
+    let t = one.dataset.visible.transmission_front.as_ref();
+    json!({
+        "state": one.dataset.state,
+        "seconds": one.seconds,
+        "kept": one.quality.is_none(),
+        "tau_normal_hemispherical": t.map(crate::compute::btdf::Btdf::tau_normal),
+        "tau_hemispherical_hemispherical": t.map(crate::compute::btdf::Btdf::tau_hemispherical),
+        "quality": quality,
+    })
+}
+
+fn to_text(described: &Described, request: &Request, computed: &[Computed]) -> anyhow::Result<String> {
+    let mut text = String::new();
+    writeln!(text, "{} ({})", described.file.system.name, described.file.system.kind.word())?;
+    writeln!(text, "{}", described.method(request))?;
+    writeln!(text, "state      τ normal  τ hemi.  τ+ρ+α−1   reciprocity  error    seconds")?;
+    for one in computed {
+        let t = one.dataset.visible.transmission_front.as_ref();
+        let normal = t.map_or(0.0, crate::compute::btdf::Btdf::tau_normal);
+        let hemispherical = t.map_or(0.0, crate::compute::btdf::Btdf::tau_hemispherical);
+        let state = if one.dataset.state.is_empty() { "-" } else { &one.dataset.state };
+        write!(text, "{state:<10} {normal:<9.4} {hemispherical:<8.4} ")?;
+        match one.quality {
+            None => writeln!(text, "kept from an earlier run")?,
+            Some(quality) => {
+                let reciprocity = quality.reciprocity.map_or_else(|| "-".to_owned(), |e| format!("{:.3} %", 100.0 * e));
+                writeln!(
+                    text,
+                    "{:<9.1e} {reciprocity:<12} {:<8.1e} {:.2}",
+                    quality.balance, quality.error, one.seconds
+                )?;
+            }
+        }
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_have_their_own_files() {
+        assert_eq!(path_with(Path::new("a/b.btdf.txt"), "-30"), Path::new("a/b_-30.btdf.txt"));
+        assert_eq!(path_with(Path::new("b.xml"), "22.5"), Path::new("b_22.5.xml"));
+    }
+}
