@@ -59,7 +59,7 @@ pub(super) struct Light {
 impl Light {
     /// Unpolarised light of flux 1 along `k`.
     pub fn unpolarised(k: DVec3) -> Self {
-        Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize() }
+        Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize_or(DVec3::X) }
     }
 
     /// In the frame of a surface with normal ν: s across the plane of incidence. At normal incidence every frame will

@@ -108,9 +108,8 @@ impl Region {
 
     fn add(&mut self, edge: Edge) {
         for point in [edge.a, edge.b] {
-            for axis in 0..2 {
-                self.low[axis] = self.low[axis].min(point[axis]);
-                self.high[axis] = self.high[axis].max(point[axis]);
+            for ((low, high), at) in self.low.iter_mut().zip(&mut self.high).zip(point) {
+                (*low, *high) = (low.min(at), high.max(at));
             }
         }
         self.edges.push(edge);

@@ -223,9 +223,9 @@ impl Work<'_> {
     fn meet_pane(&mut self, beam: Beam, side: usize, inwards: bool) {
         let Some(pane) = self.section.panes[side] else {
             if inwards {
-                self.stack.push(beam)
+                self.stack.push(beam);
             } else {
-                self.leave(&beam)
+                self.leave(&beam);
             }
             return;
         };

@@ -103,9 +103,9 @@ pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progre
             && mirrored[index] != index
         {
             let image = mirrored[index];
-            for o in 0..m {
-                seen.transmitted[image * m + emergent[o]] = row.transmitted[o];
-                seen.reflected[image * m + emergent[o]] = row.reflected[o];
+            for (o, &turned) in emergent.iter().enumerate() {
+                seen.transmitted[image * m + turned] = row.transmitted[o];
+                seen.reflected[image * m + turned] = row.reflected[o];
             }
             (seen.absorbed[image], seen.error[image]) = (row.absorbed, row.error);
         }
