@@ -13,7 +13,9 @@ pub(super) struct Axes {
 impl Axes {
     /// Of a wave vector (x, y, z).
     pub fn new(k: DVec3) -> Self {
-        let along = DVec2::new(k.z, k.y).normalize();
+        let along = DVec2::new(k.z, k.y);
+        // A wave along x alone has no section; it is never traced.
+        let along = along.try_normalize().unwrap_or(DVec2::X);
         Self { along, across: DVec2::new(-along.y, along.x) }
     }
 

@@ -111,10 +111,16 @@ pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Op
             let slope = (tb - ta) / (cb - ca);
             let t = ta + (c - ca) * slope;
             if t > start && best.is_none_or(|(nearest, _)| t < nearest) {
-                let run = DVec2::from(edge.b) - DVec2::from(edge.a);
-                // The region lies to the left, and the light comes from there.
-                let normal = DVec2::new(-run.y, run.x).normalize();
-                best = Some((t, Hit { line: [ta - ca * slope, slope], end: cb, normal, beyond: edge.beyond, copy }));
+                best = Some((
+                    t,
+                    Hit {
+                        line: [ta - ca * slope, slope],
+                        end: cb,
+                        normal: DVec2::from(edge.normal),
+                        beyond: edge.beyond,
+                        copy,
+                    },
+                ));
             }
         }
         copy += if rises { 1 } else { -1 };

@@ -59,7 +59,7 @@ pub(super) struct Light {
 impl Light {
     /// Unpolarised light of flux 1 along `k`.
     pub fn unpolarised(k: DVec3) -> Self {
-        Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize() }
+        Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize_or(DVec3::X) }
     }
 
     /// In the frame of a surface with normal ν: s across the plane of incidence. At normal incidence every frame will
@@ -96,9 +96,12 @@ pub(super) fn divide(light: Light, k: DVec3, normal: DVec3, n2: f64, beyond2: f6
     if behind2 <= 0.0 {
         // r_s = (a − ib)/(a + ib), r_p = (β a − i n² b)/(β a + i n² b): of modulus 1, apart in phase.
         let evanescent = (-behind2).sqrt();
-        let (phase_s, phase_p) = (evanescent.atan2(before), (n2 * evanescent).atan2(beyond2 * before));
-        let apart = 2.0 * (phase_p - phase_s);
-        let product = [apart.cos(), apart.sin()];
+        // r_s r_p* = w²/|w|², w = (a − ib)(β a + i n² b).
+        let (field_s, field_p) = ([before, evanescent], [beyond2 * before, n2 * evanescent]);
+        let re = field_s[0] * field_p[0] + field_s[1] * field_p[1];
+        let im = field_s[0] * field_p[1] - field_s[1] * field_p[0];
+        let scale = 1.0 / (re * re + im * im).max(f64::MIN_POSITIVE);
+        let product = [(re * re - im * im) * scale, 2.0 * re * im * scale];
         return Divided {
             reflected: with(light.stokes.through(1.0, 1.0, product)),
             transmitted: None,

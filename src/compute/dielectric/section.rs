@@ -72,7 +72,17 @@ pub(super) struct Region {
 pub(super) struct Edge {
     pub a: [f64; 2],
     pub b: [f64; 2],
+    /// Unit normal into the region.
+    pub normal: [f64; 2],
     pub beyond: usize,
+}
+
+impl Edge {
+    fn new(a: [f64; 2], b: [f64; 2], beyond: usize) -> Self {
+        let run = [b[0] - a[0], b[1] - a[1]];
+        let length = run[0].hypot(run[1]);
+        Self { a, b, normal: [-run[1] / length, run[0] / length], beyond }
+    }
 }
 
 /// A flat face at one depth. It is seen from its region by light that travels with this sign along z.
@@ -98,9 +108,8 @@ impl Region {
 
     fn add(&mut self, edge: Edge) {
         for point in [edge.a, edge.b] {
-            for axis in 0..2 {
-                self.low[axis] = self.low[axis].min(point[axis]);
-                self.high[axis] = self.high[axis].max(point[axis]);
+            for ((low, high), at) in self.low.iter_mut().zip(&mut self.high).zip(point) {
+                (*low, *high) = (low.min(at), high.max(at));
             }
         }
         self.edges.push(edge);
@@ -135,8 +144,8 @@ impl Section {
                     regions[region].planes.push(Plane { z: a[0], seen_along: sign, beyond: 0 });
                     regions[0].planes.push(Plane { z: a[0], seen_along: -sign, beyond: region });
                 } else {
-                    regions[region].add(Edge { a, b, beyond: 0 });
-                    regions[0].add(Edge { a: b, b: a, beyond: region });
+                    regions[region].add(Edge::new(a, b, 0));
+                    regions[0].add(Edge::new(b, a, region));
                 }
             }
         }

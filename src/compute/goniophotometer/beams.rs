@@ -32,7 +32,7 @@ pub struct Beam {
 pub struct Shares {
     /// The beams.
     pub beams: Vec<Beam>,
-    /// Share that is absorbed.
+    /// Share that is absorbed, what was given up included.
     pub absorbed: f64,
     /// Share that was given up, as an error.
     pub lost: f64,
@@ -46,14 +46,18 @@ pub trait Beams: Sync {
 
     /// Fewest parts along either side of an incident cell.
     fn fewest_parts(&self) -> usize {
-        4
+        8
     }
 }
 
 /// Most parts along either side of an incident cell.
 const MOST_PARTS: usize = 64;
-/// Share of the incident flux of a cell below which a beam is laid into a single cell.
-const FAINT: f64 = 2e-4;
+/// Places along either side of a square of the size of an emergent cell that a strong beam is laid to.
+const PLACES: f64 = 96.0;
+/// Most places along either side of a part.
+const MOST_PLACES: usize = 24;
+/// Share from which a beam is laid to all of the places of its part; weaker ones to fewer in proportion.
+const STRONG: f64 = 0.2;
 
 /// A specimen of sharp beams.
 #[derive(Debug, Clone)]
@@ -99,9 +103,9 @@ pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progre
             && mirrored[index] != index
         {
             let image = mirrored[index];
-            for o in 0..m {
-                seen.transmitted[image * m + emergent[o]] = row.transmitted[o];
-                seen.reflected[image * m + emergent[o]] = row.reflected[o];
+            for (o, &turned) in emergent.iter().enumerate() {
+                seen.transmitted[image * m + turned] = row.transmitted[o];
+                seen.reflected[image * m + turned] = row.reflected[o];
             }
             (seen.absorbed[image], seen.error[image]) = (row.absorbed, row.error);
         }
@@ -200,25 +204,32 @@ impl<'a, B: Beams> Bench<'a, B> {
         let mut row = Row::new(self.weights.len());
         let mut shares = Shares::default();
         let flux = 1.0 / (n * n) as f64;
-        // Points of a part, as fine as a third of an emergent cell.
         let size = (cell.projected_solid_angle() * flux).sqrt();
-        let points = ((3.0 * size / self.fineness).ceil() as usize).clamp(1, 12);
-        let mut offsets = Vec::with_capacity(points * points);
+        let points = ((PLACES * size / self.fineness).ceil() as usize).clamp(1, MOST_PLACES);
+        let places = points * points;
+        // A step that visits all places in an order that spreads over the part.
+        let golden = (0.618 * places as f64) as usize;
+        let step = (golden.max(1)..).find(|&step| coprime(step, places)).unwrap_or(1);
+        let mut offsets = Vec::with_capacity(places);
+        let spread = ((0.618 * n as f64) as usize..).find(|&k| coprime(k, n)).unwrap_or(1);
         for part in 0..n * n {
             let at = |row: f64, column: f64| {
                 point(&cell, ((part / n) as f64 + row) / n as f64, ((part % n) as f64 + column) / n as f64)
             };
-            let name = at(0.5, 0.5);
+            // Not the middle: all parts of a row at different θ, all parts of a column at different φ, so that what
+            // depends on one of the two is seen at n² of its values.
+            let turn = |k: usize| ((k * spread % n) as f64 + 0.5) / n as f64;
+            let name = at(turn(part % n), turn(part / n));
             let (x, y) = (name.vector().x, name.vector().y);
             offsets.clear();
-            for k in 0..points * points {
+            for k in 0..places {
                 let middle = |k: usize| (k as f64 + 0.5) / points as f64;
                 let v = at(middle(k / points), middle(k % points)).vector();
                 offsets.push([v.x - x, v.y - y]);
             }
             let seed = seed(self.setting.seed, side, index, n, part);
-            // A tenth of the error allowed, at most, falls to one faint beam.
-            let share = (0.1 * self.setting.error).clamp(1e-7, 2e-3);
+            // Fluxes below this are drawn at random, without bias; over the parts of a cell that averages out.
+            let share = (0.2 * self.setting.error).clamp(1e-6, 2e-3);
             self.system.beams(name, side, Effort { share, seed }, &mut shares);
             row.absorbed += shares.absorbed * flux;
             row.lost += shares.lost * flux;
@@ -229,15 +240,11 @@ impl<'a, B: Beams> Bench<'a, B> {
                     to[index] += beam.share * flux;
                     continue;
                 }
-                let many = beam.share * flux > FAINT;
-                let list = if many {
-                    &offsets[..]
-                } else {
-                    let k = (seed as usize).wrapping_add(number.wrapping_mul(7919)) % offsets.len();
-                    &offsets[k..=k]
-                };
-                let each = beam.share * flux / list.len() as f64;
-                for &[dx, dy] in list {
+                let count = ((places as f64 * (beam.share / STRONG).min(1.0)).ceil() as usize).max(1);
+                let each = beam.share * flux / count as f64;
+                let first = (seed as usize % places) + number;
+                for k in 0..count {
+                    let [dx, dy] = offsets[(first + k * step) % places];
                     if let Some(cell) = self.target([x, y], [dx, dy], beam) {
                         to[cell] += each;
                     }
@@ -263,6 +270,15 @@ fn point(cell: &Cell, row: f64, column: f64) -> Dir<Facade> {
     let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     let sin2 = low + (high - low) * row;
     Dir::from_theta_phi(sin2.sqrt().asin(), cell.phi + cell.width * (column - 0.5))
+}
+
+/// No common divisor but 1.
+fn coprime(a: usize, b: usize) -> bool {
+    let (mut a, mut b) = (a, b);
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a == 1
 }
 
 /// A seed for every part, whatever thread works on it.

@@ -1,7 +1,6 @@
 //! Finding the cell of very many directions.
 
-use crate::compute::angle::wrap_two_pi;
-use crate::compute::basis::{AzimuthMap, RingBasis};
+use crate::compute::basis::RingBasis;
 use std::f64::consts::PI;
 
 /// Slots of the table over sin²θ.
@@ -12,17 +11,14 @@ pub(super) struct CellFinder {
     rings: Vec<RingOfCells>,
     /// First ring (by rising θ) that may hold a slot of sin²θ.
     slots: Vec<u32>,
-    azimuth: AzimuthMap,
 }
 
 struct RingOfCells {
     /// Limits of sin²θ.
     from: f64,
     to: f64,
-    sectors: usize,
-    /// Own azimuth where the first sector begins.
-    begin: f64,
-    first_cell: usize,
+    /// Where sectors begin, on the diamond of [`diamond`], rising, with their cells.
+    sectors: Vec<(f64, usize)>,
 }
 
 impl CellFinder {
@@ -36,15 +32,13 @@ impl CellFinder {
                 from: sin2(ring.theta_min),
                 // The last ring takes everything up to the horizon, rounding included.
                 to: if ring.theta_max >= PI / 2.0 - 1e-9 { f64::INFINITY } else { sin2(ring.theta_max) },
-                sectors: ring.sectors,
-                begin: ring.first_phi - PI / ring.sectors as f64,
-                first_cell: basis.first_cell(index),
+                sectors: sectors(basis, basis.first_cell(index), ring.sectors),
             })
             .collect();
         rings.sort_by(|a, b| a.from.total_cmp(&b.from));
         let slots =
             (0..SLOTS).map(|slot| rings.partition_point(|ring| ring.to <= slot as f64 / SLOTS as f64) as u32).collect();
-        Self { rings, slots, azimuth: basis.azimuth() }
+        Self { rings, slots }
     }
 
     /// The cell that holds (x, y); `None` in gaps between rings.
@@ -60,17 +54,56 @@ impl CellFinder {
         if sin2 < ring.from {
             return None;
         }
-        if ring.sectors == 1 {
-            return Some(ring.first_cell);
+        let count = ring.sectors.len();
+        let at = diamond(x, y);
+        // Nearly proportional to the azimuth: a guess, then a step or two.
+        let mut k = ((at - ring.sectors[0].0) * (0.25 * count as f64)).max(0.0) as usize;
+        k = k.min(count - 1);
+        while k > 0 && ring.sectors[k].0 > at {
+            k -= 1;
         }
-        let turned = wrap_two_pi(self.azimuth.own_phi(y.atan2(x)) - ring.begin) * ring.sectors as f64 / (2.0 * PI);
-        Some(ring.first_cell + (turned as usize).min(ring.sectors - 1))
+        while k + 1 < count && ring.sectors[k + 1].0 <= at {
+            k += 1;
+        }
+        if at < ring.sectors[k].0 {
+            // Before the first border: the last sector goes on across 0.
+            k = count - 1;
+        }
+        Some(ring.sectors[k].1)
     }
+}
+
+/// A measure of azimuth that rises with it from 0 to 4, without an arc tangent.
+fn diamond(x: f64, y: f64) -> f64 {
+    let sum = x.abs() + y.abs();
+    if sum == 0.0 {
+        return 0.0;
+    }
+    match (x >= 0.0, y >= 0.0) {
+        (true, true) => y / sum,
+        (false, true) => 1.0 - x / sum,
+        (false, false) => 2.0 - y / sum,
+        (true, false) => 3.0 + x / sum,
+    }
+}
+
+/// Borders of the sectors of a ring where they begin, façade azimuth rising.
+fn sectors(basis: &RingBasis, first_cell: usize, count: usize) -> Vec<(f64, usize)> {
+    let mut list: Vec<(f64, usize)> = (first_cell..first_cell + count)
+        .map(|index| {
+            let cell = basis.cell(index);
+            let (sin, cos) = (cell.phi - 0.5 * cell.width).sin_cos();
+            (diamond(cos, sin), index)
+        })
+        .collect();
+    list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    list
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::basis::AzimuthMap;
     use crate::compute::direction::Dir;
 
     #[test]
