@@ -122,9 +122,8 @@ pub fn venetians(folder: &Path) -> Vec<Case> {
             let text = std::fs::read_to_string(table).unwrap();
             let mut lines = text.lines().filter(|line| !line.starts_with('#'));
             let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
-            let rows = lines
-                .map(|line| line.split(',').map(|x| x.trim().parse().unwrap_or(f64::NAN)).collect())
-                .collect();
+            let rows =
+                lines.map(|line| line.split(',').map(|x| x.trim().parse().unwrap_or(f64::NAN)).collect()).collect();
             let xml = gunzip(&std::fs::read(folder.join(format!("{name}.xml.gz"))).unwrap());
             let best = cfs::formats::bsdf_xml::read(&xml).unwrap().visible;
             let array = SlatArray::new(

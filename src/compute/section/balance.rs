@@ -40,9 +40,8 @@ fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exi
     let system = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - d[i] * exchange[(i, j)]);
     let source = Mat::from_fn(n, n, |i, j| if i == j { d[i] } else { 0.0 });
     let response = system.partial_piv_lu().solve(&source);
-    let through = |row: &[f64]| -> Vec<f64> {
-        (0..n).map(|j| (0..n).map(|i| row[i] * response[(i, j)]).sum::<f64>()).collect()
-    };
+    let through =
+        |row: &[f64]| -> Vec<f64> { (0..n).map(|j| (0..n).map(|i| row[i] * response[(i, j)]).sum::<f64>()).collect() };
     // Landed in all: g + S M g.
     let landing: Vec<f64> = (0..n).map(|k| (0..n).map(|i| lost[i] * exchange[(i, k)]).sum::<f64>()).collect();
     let absorbed = through(&landing).iter().zip(lost).map(|(more, own)| own + more).collect();

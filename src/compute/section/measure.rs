@@ -94,8 +94,7 @@ pub(super) fn measure(
             // The extrapolation to endless strips may fall below 0 where nothing arrives.
             (0..q.ncols()).flat_map(|i| q.col_as_slice(i).iter().map(|q| q.max(0.0)).collect::<Vec<_>>()).collect()
         };
-        let (transmitted, reflected): (Vec<f64>, Vec<f64>) =
-            rayon::join(|| block(other, false), || block(own, true));
+        let (transmitted, reflected): (Vec<f64>, Vec<f64>) = rayon::join(|| block(other, false), || block(own, true));
         Seen { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
     };
     let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
@@ -106,7 +105,8 @@ pub(super) fn measure(
         add_mirrored(setting, grid, &incident, &transport, &mut measured);
     }
     for side in Side::BOTH {
-        let (t, r) = (measured.shares(&measured.seen(side).transmitted), measured.shares(&measured.seen(side).reflected));
+        let (t, r) =
+            (measured.shares(&measured.seen(side).transmitted), measured.shares(&measured.seen(side).reflected));
         let seen = measured.seen_mut(side);
         for (i, error) in seen.error.iter_mut().enumerate() {
             *error += (t[i] + r[i] + seen.absorbed[i] - 1.0).abs();

@@ -113,7 +113,8 @@ fn check_profile(profile: &SlatProfile) -> Result<f64, SlatError> {
                 check("profile", length, right, "points in metres, no two alike in a row")?;
             }
             let ends = |axis: usize| points.iter().map(move |p| p[axis]);
-            let size = |axis: usize| ends(axis).fold(f64::NEG_INFINITY, f64::max) - ends(axis).fold(f64::INFINITY, f64::min);
+            let size =
+                |axis: usize| ends(axis).fold(f64::NEG_INFINITY, f64::max) - ends(axis).fold(f64::INFINITY, f64::min);
             Ok(size(0).max(size(1)))
         }
     }

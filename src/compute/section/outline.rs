@@ -182,7 +182,8 @@ impl Section {
             let bent = between(part.normals[0], part.normals[1], 0.5);
             let size = bent[0].hypot(bent[1]).max(f64::MIN_POSITIVE);
             let bent = bent.map(|x| x / size);
-            for (a, b, normals) in [(part.a, middle, [part.normals[0], bent]), (middle, part.b, [bent, part.normals[1]])]
+            for (a, b, normals) in
+                [(part.a, middle, [part.normals[0], bent]), (middle, part.b, [bent, part.normals[1]])]
             {
                 let faces = coarse.map(|side| {
                     side.map(|(surface, coarse)| {

@@ -148,11 +148,7 @@ fn sort_by_depth(active: &mut [(f64, usize)], seen: &[Seen]) {
 }
 
 /// Pairs of what a line leaves and what it meets next.
-fn along_line<'a>(
-    solid: bool,
-    order: impl Iterator<Item = &'a Seen>,
-    mut pair: impl FnMut(Option<Met>, Option<Met>),
-) {
+fn along_line<'a>(solid: bool, order: impl Iterator<Item = &'a Seen>, mut pair: impl FnMut(Option<Met>, Option<Met>)) {
     let met = |s: &Seen, face: Option<usize>| face.map(|face| Met { strip: s.strip, copy: s.copy, face });
     let mut open = None;
     let mut inside = 0;

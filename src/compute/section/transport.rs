@@ -1,6 +1,6 @@
 //! Light between faces, to faces and past them, from sweeps over all profile angles.
 
-use super::chain::{Ray, Sequence, Trace};
+use super::chain::{Exit, Landing, Ray, Sequence, Trace};
 use super::outline::{Point, Section};
 use super::profile_weights::ProfileGrid;
 use super::sweep::{Bundle, Met, sweep};
@@ -98,12 +98,46 @@ impl Into<'_> {
         }
     }
 
-    /// The mirrored part of a width of a bundle.
-    fn add(&mut self, arrival: &Arrival, trace: &Trace, width: f64, weight: f64) {
-        for &(face, share) in &trace.landed {
-            self.land(arrival, face, width * share, weight);
+    /// The mirrored part of a width of a bundle, by rays at its ends and between that go the same way.
+    fn add(&mut self, section: &Section, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
+        let [low, middle, high] = traces;
+        for (k, landing) in middle.landed.iter().enumerate() {
+            let amount = width * landing.weight;
+            let same = |other: &Landing| other.facet == landing.facet && other.right == landing.right;
+            match (low.landed.get(k), high.landed.get(k)) {
+                (Some(a), Some(b)) if same(a) && same(b) => {
+                    section.divide(landing, a.share, b.share, |face, part| {
+                        self.land(arrival, face, amount * part, weight);
+                    });
+                }
+                (Some(a), Some(b)) => {
+                    for (landing, part) in [(a, 0.25), (landing, 0.5), (b, 0.25)] {
+                        section.divide(landing, landing.share, landing.share, |face, _| {
+                            self.land(arrival, face, amount * part, weight);
+                        });
+                    }
+                }
+                _ => section.divide(landing, landing.share, landing.share, |face, _| {
+                    self.land(arrival, face, amount, weight);
+                }),
+            }
         }
-        let (Some(exit), None) = (trace.exit, arrival.from) else { return };
+        if arrival.from.is_some() {
+            return;
+        }
+        match (low.exit, middle.exit, high.exit) {
+            (Some(a), Some(b), Some(c)) => {
+                for (exit, part) in [(a, 0.25), (b, 0.5), (c, 0.25)] {
+                    self.leave(arrival, &exit, part * width);
+                }
+            }
+            (_, Some(exit), _) => self.leave(arrival, &exit, width),
+            _ => (),
+        }
+    }
+
+    /// A width of a bundle leaves.
+    fn leave(&mut self, arrival: &Arrival, exit: &Exit, width: f64) {
         // Names: against the light from outside, along the light from inside.
         let front = arrival.side == Side::Front;
         let sign = if front { -1.0 } else { 1.0 };
@@ -231,21 +265,24 @@ impl Tracer<'_> {
         if self.rough {
             for k in 0..ROUGH {
                 let done = trace((k as f64 + 0.5) / ROUGH as f64, sequence);
-                into.add(arrival, &done, bundle.width / ROUGH as f64, self.weight);
+                into.add(self.section, arrival, [&done; 3], bundle.width / ROUGH as f64, self.weight);
             }
             return;
         }
         // Just inside, where a neighbour bundle's edge does not decide.
         let edge = 1e-6;
-        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence).way, trace(1.0 - edge, sequence).way)];
+        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence), trace(1.0 - edge, sequence))];
         while let Some((from, to, first, last)) = open.pop() {
             let middle = 0.5 * (from + to);
             let done = trace(middle, sequence);
-            if (done.way == first && done.way == last) || to - from < FINEST {
-                into.add(arrival, &done, (to - from) / (1.0 - 2.0 * edge) * bundle.width, self.weight);
+            if (done.way == first.way && done.way == last.way) || to - from < FINEST {
+                let width = (to - from) / (1.0 - 2.0 * edge) * bundle.width;
+                let between =
+                    if done.way == first.way && done.way == last.way { [&first, &done, &last] } else { [&done; 3] };
+                into.add(self.section, arrival, between, width, self.weight);
             } else {
-                open.push((middle, to, done.way, last));
-                open.push((from, middle, first, done.way));
+                open.push((middle, to, done.clone(), last));
+                open.push((from, middle, first, done));
             }
         }
     }
