@@ -68,10 +68,18 @@ pub(super) const fn index(side: Side) -> usize {
     }
 }
 
-/// One node's share.
-struct Node {
-    landed: [Vec<f64>; 2],
-    thrown: [Thrown; 2],
+/// What parallel light of one profile angle from either side does.
+pub(super) struct Node {
+    /// Width that comes to every face.
+    pub(super) landed: [Vec<f64>; 2],
+    /// What mirrors throw out.
+    pub(super) thrown: [Thrown; 2],
+}
+
+/// Parallel light of one profile angle. \[rad\]
+pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
+    let mut none = (Exchange::new(section.faces.len()), vec![0.0; section.faces.len()]);
+    Tracer::new(section, psi, 0.0).node(&mut none.0, &mut none.1, Sequence::new(seed, u64::MAX))
 }
 
 /// A bundle that comes to a face.
@@ -171,7 +179,6 @@ impl Transport {
         seed: u64,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
         let nodes: Vec<usize> = (0..grid.len()).collect();
         let parts: Vec<Option<(Exchange, Vec<f64>, Vec<Node>)>> = nodes
             .par_chunks(CHUNK)
@@ -184,10 +191,7 @@ impl Transport {
                 let done = chunk
                     .iter()
                     .map(|&node| {
-                        let psi = grid.psi(node);
-                        let direction = [psi.cos().max(0.0), psi.sin()];
-                        let weight = 0.5 * grid.hat(node);
-                        let tracer = Tracer { section, direction, weight, rough };
+                        let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
                         tracer.node(&mut exchange, &mut length, Sequence::new(seed, node as u64))
                     })
                     .collect();
@@ -214,10 +218,17 @@ impl Transport {
                 all.thrown[1].push(back);
             }
         }
-        // Chains of mirrors are followed by single rays from either end: their mean is what both ends agree on.
+        let matt = |face: usize| section.faces[face].surface.diffuse > 0.0;
         for i in 0..size {
             for j in 0..i {
-                let mean = 0.5 * (all.exchange.values[i * size + j] + all.exchange.values[j * size + i]);
+                let (there, back) = (all.exchange.values[i * size + j], all.exchange.values[j * size + i]);
+                // Chains of mirrors are followed from either end: their mean is what both ends agree on. They are not
+                // followed from faces that send nothing.
+                let mean = match (matt(i), matt(j)) {
+                    (true, false) => there,
+                    (false, true) => back,
+                    _ => 0.5 * (there + back),
+                };
                 all.exchange.values[i * size + j] = mean;
                 all.exchange.values[j * size + i] = mean;
             }
@@ -226,7 +237,12 @@ impl Transport {
     }
 }
 
-impl Tracer<'_> {
+impl<'a> Tracer<'a> {
+    fn new(section: &'a Section, psi: f64, weight: f64) -> Self {
+        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
+        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough }
+    }
+
     fn node(&self, exchange: &mut Exchange, length: &mut [f64], mut sequence: Sequence) -> Node {
         let size = self.section.faces.len();
         let mut node =
@@ -243,7 +259,9 @@ impl Tracer<'_> {
                 let arrival = Arrival { from, to, direction, side };
                 let mut into = Into { exchange, node: &mut node };
                 into.land(&arrival, to.face, bundle.width, self.weight);
-                if self.section.faces[to.face].surface.mirror > 0.0 {
+                let faces = &self.section.faces;
+                let sends = from.is_none_or(|from| faces[from.face].surface.diffuse > 0.0);
+                if sends && faces[to.face].surface.mirror > 0.0 {
                     self.mirror(&bundle, &arrival, &mut into, &mut sequence);
                 }
             }
