@@ -195,7 +195,7 @@ impl SlatArray {
 
     /// Share of light of the profile angle `psi` \[rad\] that passes without touching a slat.
     pub fn direct_share(&self, psi: f64) -> f64 {
-        direct::Direct::new(self).share(psi)
+        direct::Direct::without_knots(self).share(psi)
     }
 
     /// One slat at its tilt, about the origin: (outward, upward) \[m\]. A sheet is one open line, from the inner to the

@@ -43,7 +43,7 @@ impl SlatArray {
         let section = Section::new(self, PARTS);
         let transport = Transport::new(&section, grid, seed, progress)?;
         let balance = Balance::new(&section, &transport, &hat);
-        let direct = Direct::new(self);
+        let direct = Direct::without_knots(self);
         let one = |&psi: &f64| {
             let node = beam(&section, psi, seed);
             let (landed, thrown) = (&node.landed[index(side)], &node.thrown[index(side)]);
