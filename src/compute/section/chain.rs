@@ -60,11 +60,24 @@ impl Sequence {
     }
 }
 
+/// A ray comes to a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    /// Straight run of strips.
+    pub(super) facet: usize,
+    /// Its second side?
+    pub(super) right: bool,
+    /// Share of the run at which the ray comes to it.
+    pub(super) share: f64,
+    /// What it still carries.
+    pub(super) weight: f64,
+}
+
 /// What becomes of a ray after its first mirror, per unit of what came to it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Trace {
-    /// Faces that it comes to, and with how much.
-    pub(super) landed: Vec<(usize, f64)>,
+    /// What it comes to.
+    pub(super) landed: Vec<Landing>,
     /// How it leaves.
     pub(super) exit: Option<Exit>,
     /// The slats and sides met, as a number: rays of a bundle with the same way have the same.
@@ -89,10 +102,8 @@ impl Section {
             variance += surface.spread * surface.spread;
             ray.direction = self.mirrored(&ray, surface.spread, sequence);
             let met = self.next(ray.point, ray.direction, ray.met.strip);
-            let place = met.map_or(1 + u64::from(ray.direction[0] > 0.0), |(_, met, copy)| {
-                // The side met: faces of a strip are numbered left, right.
-                let right = self.strips[met.strip].faces[1] == Some(met.face);
-                ((copy + 128).unsigned_abs() as u64) * 4 + 2 * u64::from(right) + 7
+            let place = met.map_or(1 + u64::from(ray.direction[0] > 0.0), |(.., landing, copy)| {
+                u64::from((copy + 128).unsigned_abs()) * 4 + 2 * u64::from(landing.right) + 7
             });
             if weight > TELLING {
                 trace.way = trace.way.wrapping_mul(0x0100_0000_01B3).wrapping_add(place);
@@ -102,8 +113,8 @@ impl Section {
                     trace.exit = Some(Exit { direction: ray.direction, weight, variance });
                     return;
                 }
-                Some((point, met, _)) => {
-                    trace.landed.push((met.face, weight));
+                Some((point, met, landing, _)) => {
+                    trace.landed.push(Landing { weight, ..landing });
                     (ray.point, ray.met) = (point, met);
                 }
             }
@@ -143,7 +154,7 @@ impl Section {
 
     /// The first strip that a ray from a point of the slat at the origin meets, where in the frame of the slat met,
     /// and which slat that is.
-    fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met, i32)> {
+    fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met, Landing, i32)> {
         let mut best: (f64, Option<(usize, i32, f64, bool)>) = (f64::INFINITY, None);
         for step in -self.reach..=self.reach {
             // Of sheets that lie in one another the lower is the inner one, as in the sweep.
@@ -171,11 +182,36 @@ impl Section {
                 }
             }
         }
-        let (distance, Some((facet, copy, share, from_right))) = best else { return None };
-        let facet = &self.facets[facet];
-        let strip = facet.first + facet.ends.partition_point(|end| *end < share).min(facet.ends.len() - 1);
-        let face = self.strips[strip].faces[usize::from(from_right)]?;
+        let (distance, Some((facet, copy, share, right))) = best else { return None };
+        let strip = self.strip_at(facet, share);
+        let face = self.strips[strip].faces[usize::from(right)]?;
         let at = [point[0] + distance * d[0], point[1] + distance * d[1] - f64::from(copy)];
-        Some((at, Met { strip, copy: 0, face }, copy))
+        Some((at, Met { strip, copy: 0, face }, Landing { facet, right, share, weight: 1.0 }, copy))
+    }
+
+    fn strip_at(&self, facet: usize, share: f64) -> usize {
+        let facet = &self.facets[facet];
+        facet.first + facet.ends.partition_point(|end| *end < share).min(facet.ends.len() - 1)
+    }
+
+    /// Divides what comes to a side of a straight run between two shares of it evenly over its faces.
+    pub(super) fn divide(&self, landing: &Landing, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
+        let (low, high) = (from.min(to), from.max(to));
+        let facet = &self.facets[landing.facet];
+        let side = usize::from(landing.right);
+        let first = self.strip_at(landing.facet, low) - facet.first;
+        let mut start = low;
+        for (k, &end) in facet.ends.iter().enumerate().skip(first) {
+            let last = end >= high || k + 1 == facet.ends.len();
+            let stop = if last { high } else { end };
+            let part = if high > low { (stop - start) / (high - low) } else { 1.0 };
+            if let Some(face) = self.strips[facet.first + k].faces[side] {
+                put(face, part);
+            }
+            if last {
+                break;
+            }
+            start = end;
+        }
     }
 }

@@ -22,6 +22,12 @@ const OUTLINE: usize = 256;
 impl Direct {
     /// Of an array.
     pub(super) fn new(array: &SlatArray) -> Self {
+        let direct = Self::without_knots(array);
+        Self { knots: direct.find_knots(), ..direct }
+    }
+
+    /// For single profile angles: nothing is integrated.
+    pub(super) fn without_knots(array: &SlatArray) -> Self {
         // A solid slat takes away its outline's extent; the outline is given at its tilt already.
         let solid = array.thickness() > 0.0;
         let (profile, tilt) = if solid {
@@ -31,9 +37,7 @@ impl Direct {
         } else {
             (array.profile().clone(), array.tilt())
         };
-        let mut direct = Self { profile, tilt, pitch: array.spacing(), knots: vec![] };
-        direct.knots = direct.find_knots();
-        direct
+        Self { profile, tilt, pitch: array.spacing(), knots: vec![] }
     }
 
     /// 1 − extent/(s cosψ), below 0 where nothing passes.

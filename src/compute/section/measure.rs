@@ -131,6 +131,7 @@ fn doubts(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     (0..from.ncols()).map(of).collect()
 }
 
+/// Adds what passes without touching a slat.
 fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured) {
     let cells = Direct::new(array).cells(setting.incident, setting.emergent);
     let m = setting.emergent.len();
@@ -163,6 +164,7 @@ fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> (Vec<(usize, f64)>, f64) {
     (list, if width > 0.0 { variance / width } else { 0.0 })
 }
 
+/// Adds what mirrors throw: flux from the weights of the cells, its division among emergent cells from their nodes.
 fn add_mirrored(
     setting: &Setting<'_>,
     grid: ProfileGrid,
@@ -193,13 +195,15 @@ fn add_mirrored(
                         .sum::<f64>()
                         / solid;
                     let mut put = vec![0.0; m];
+                    // What the nodes of the cell send out in all, wherever it goes.
+                    let mut sum = 0.0;
                     for &(node, from, to) in &sources[i] {
                         let (lobes, variance) = &nodes[node];
                         let length = super::profile_weights::primitive(to) - super::profile_weights::primitive(from);
-                        let amount = length * hat_inside(weights, first, node, grid);
+                        let amount = length * grid.hat(node);
+                        sum += amount * lobes.iter().map(|(_, width)| width).sum::<f64>();
                         spread(&lines, lobes, *variance, (from, to), amount, &mut put);
                     }
-                    let sum: f64 = put.iter().sum();
                     if sum > 0.0 {
                         for (o, flux) in put.iter().enumerate() {
                             row[o] += flux * total / (sum * weight[o]);
@@ -211,11 +215,7 @@ fn add_mirrored(
     }
 }
 
-/// Width in ψ for which a node stands.
-fn hat_inside(_weights: &[f64], _first: usize, node: usize, grid: ProfileGrid) -> f64 {
-    grid.hat(node)
-}
-
+/// Divides what an incident cell's interval of x at one node sends out among emergent cells.
 fn spread(
     lines: &Intervals,
     lobes: &[(usize, f64)],
@@ -228,7 +228,9 @@ fn spread(
     let shifts: &[f64] = if sigma > 0.0 { &EIGHTHS } else { &[0.0] };
     for shift in shifts {
         let by = shift * sigma;
-        let (from, to) = ((from + by).clamp(-1.0, 1.0), (to + by).clamp(-1.0, 1.0));
+        // What would go beyond the ends of the slats' direction stays at them.
+        let from = (from + by).clamp(-1.0, 1.0 - 1e-6);
+        let to = (to + by).clamp(from + 1e-6, 1.0);
         for &(node, width) in lobes {
             let flux = amount * width / shifts.len() as f64;
             lines.divide(node, from, to, |cell, share| put[cell] += flux * share);

@@ -2,14 +2,14 @@
 //!
 //! For endless slats the direction cosine along them plays no part: what light does depends on its profile angle
 //! ψ = atan2(y, z) alone, and mirrors keep that direction cosine. So the section, a plane problem, is solved once a
-//! profile angle, and cells are averages over ψ ([`profile_weights`]).
+//! profile angle, and cells are averages over ψ (`profile_weights`).
 //!
 //! | part | method | error |
 //! | --- | --- | --- |
 //! | straight through | closed form max(0, 1 − extent/(s cosψ)), integrated over cells with its kinks known | 1e-8 |
-//! | first light on the slats, exchange between them | all lines of every ψ in bundles that meet the same strips ([`sweep`]) | ψ in steps, linear between |
-//! | matt faces | radiosity on strips, extrapolated from two divisions ([`balance`]) | stated |
-//! | mirrors | every bundle goes on as one ray ([`chain`]); its flux is exact up to the second mirror | seen in the energy balance |
+//! | first light on the slats, exchange between them | all lines of every ψ in bundles that meet the same strips (`sweep`) | ψ in steps, linear between |
+//! | matt faces | radiosity on strips, extrapolated from two divisions (`balance`) | stated |
+//! | mirrors | every bundle goes on as one ray (`chain`); its flux is exact up to the second mirror | seen in the energy balance |
 //!
 //! A mirror's spread σ turns the mirror in the section by a normal distribution of σ/2 at every reflection, and the
 //! direction cosine along the slats by one of σ when the light leaves. Energy is kept; reciprocity holds to the
@@ -21,9 +21,12 @@ mod deposit;
 mod direct;
 mod measure;
 mod outline;
+mod profile_shares;
 mod profile_weights;
 mod sweep;
 mod transport;
+
+pub use profile_shares::ProfileShares;
 
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::goniophotometer::{Measured, Setting, Specimen};
@@ -192,7 +195,7 @@ impl SlatArray {
 
     /// Share of light of the profile angle `psi` \[rad\] that passes without touching a slat.
     pub fn direct_share(&self, psi: f64) -> f64 {
-        direct::Direct::new(self).share(psi)
+        direct::Direct::without_knots(self).share(psi)
     }
 
     /// One slat at its tilt, about the origin: (outward, upward) \[m\]. A sheet is one open line, from the inner to the

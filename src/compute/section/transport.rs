@@ -1,6 +1,6 @@
 //! Light between faces, to faces and past them, from sweeps over all profile angles.
 
-use super::chain::{Ray, Sequence, Trace};
+use super::chain::{Exit, Landing, Ray, Sequence, Trace};
 use super::outline::{Point, Section};
 use super::profile_weights::ProfileGrid;
 use super::sweep::{Bundle, Met, sweep};
@@ -68,10 +68,18 @@ pub(super) const fn index(side: Side) -> usize {
     }
 }
 
-/// One node's share.
-struct Node {
-    landed: [Vec<f64>; 2],
-    thrown: [Thrown; 2],
+/// What parallel light of one profile angle from either side does.
+pub(super) struct Node {
+    /// Width that comes to every face.
+    pub(super) landed: [Vec<f64>; 2],
+    /// What mirrors throw out.
+    pub(super) thrown: [Thrown; 2],
+}
+
+/// Parallel light of one profile angle. \[rad\]
+pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
+    let mut none = (Exchange::new(section.faces.len()), vec![0.0; section.faces.len()]);
+    Tracer::new(section, psi, 0.0).node(&mut none.0, &mut none.1, Sequence::new(seed, u64::MAX))
 }
 
 /// A bundle that comes to a face.
@@ -98,12 +106,46 @@ impl Into<'_> {
         }
     }
 
-    /// The mirrored part of a width of a bundle.
-    fn add(&mut self, arrival: &Arrival, trace: &Trace, width: f64, weight: f64) {
-        for &(face, share) in &trace.landed {
-            self.land(arrival, face, width * share, weight);
+    /// The mirrored part of a width of a bundle, by rays at its ends and between that go the same way.
+    fn add(&mut self, section: &Section, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
+        let [low, middle, high] = traces;
+        for (k, landing) in middle.landed.iter().enumerate() {
+            let amount = width * landing.weight;
+            let same = |other: &Landing| other.facet == landing.facet && other.right == landing.right;
+            match (low.landed.get(k), high.landed.get(k)) {
+                (Some(a), Some(b)) if same(a) && same(b) => {
+                    section.divide(landing, a.share, b.share, |face, part| {
+                        self.land(arrival, face, amount * part, weight);
+                    });
+                }
+                (Some(a), Some(b)) => {
+                    for (landing, part) in [(a, 0.25), (landing, 0.5), (b, 0.25)] {
+                        section.divide(landing, landing.share, landing.share, |face, _| {
+                            self.land(arrival, face, amount * part, weight);
+                        });
+                    }
+                }
+                _ => section.divide(landing, landing.share, landing.share, |face, _| {
+                    self.land(arrival, face, amount, weight);
+                }),
+            }
         }
-        let (Some(exit), None) = (trace.exit, arrival.from) else { return };
+        if arrival.from.is_some() {
+            return;
+        }
+        match (low.exit, middle.exit, high.exit) {
+            (Some(a), Some(b), Some(c)) => {
+                for (exit, part) in [(a, 0.25), (b, 0.5), (c, 0.25)] {
+                    self.leave(arrival, &exit, part * width);
+                }
+            }
+            (_, Some(exit), _) => self.leave(arrival, &exit, width),
+            _ => (),
+        }
+    }
+
+    /// A width of a bundle leaves.
+    fn leave(&mut self, arrival: &Arrival, exit: &Exit, width: f64) {
         // Names: against the light from outside, along the light from inside.
         let front = arrival.side == Side::Front;
         let sign = if front { -1.0 } else { 1.0 };
@@ -137,7 +179,6 @@ impl Transport {
         seed: u64,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
         let nodes: Vec<usize> = (0..grid.len()).collect();
         let parts: Vec<Option<(Exchange, Vec<f64>, Vec<Node>)>> = nodes
             .par_chunks(CHUNK)
@@ -150,10 +191,7 @@ impl Transport {
                 let done = chunk
                     .iter()
                     .map(|&node| {
-                        let psi = grid.psi(node);
-                        let direction = [psi.cos().max(0.0), psi.sin()];
-                        let weight = 0.5 * grid.hat(node);
-                        let tracer = Tracer { section, direction, weight, rough };
+                        let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
                         tracer.node(&mut exchange, &mut length, Sequence::new(seed, node as u64))
                     })
                     .collect();
@@ -180,10 +218,17 @@ impl Transport {
                 all.thrown[1].push(back);
             }
         }
-        // Chains of mirrors are followed by single rays from either end: their mean is what both ends agree on.
+        let matt = |face: usize| section.faces[face].surface.diffuse > 0.0;
         for i in 0..size {
             for j in 0..i {
-                let mean = 0.5 * (all.exchange.values[i * size + j] + all.exchange.values[j * size + i]);
+                let (there, back) = (all.exchange.values[i * size + j], all.exchange.values[j * size + i]);
+                // Chains of mirrors are followed from either end: their mean is what both ends agree on. They are not
+                // followed from faces that send nothing.
+                let mean = match (matt(i), matt(j)) {
+                    (true, false) => there,
+                    (false, true) => back,
+                    _ => 0.5 * (there + back),
+                };
                 all.exchange.values[i * size + j] = mean;
                 all.exchange.values[j * size + i] = mean;
             }
@@ -192,7 +237,12 @@ impl Transport {
     }
 }
 
-impl Tracer<'_> {
+impl<'a> Tracer<'a> {
+    fn new(section: &'a Section, psi: f64, weight: f64) -> Self {
+        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
+        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough }
+    }
+
     fn node(&self, exchange: &mut Exchange, length: &mut [f64], mut sequence: Sequence) -> Node {
         let size = self.section.faces.len();
         let mut node =
@@ -209,7 +259,9 @@ impl Tracer<'_> {
                 let arrival = Arrival { from, to, direction, side };
                 let mut into = Into { exchange, node: &mut node };
                 into.land(&arrival, to.face, bundle.width, self.weight);
-                if self.section.faces[to.face].surface.mirror > 0.0 {
+                let faces = &self.section.faces;
+                let sends = from.is_none_or(|from| faces[from.face].surface.diffuse > 0.0);
+                if sends && faces[to.face].surface.mirror > 0.0 {
                     self.mirror(&bundle, &arrival, &mut into, &mut sequence);
                 }
             }
@@ -231,21 +283,24 @@ impl Tracer<'_> {
         if self.rough {
             for k in 0..ROUGH {
                 let done = trace((k as f64 + 0.5) / ROUGH as f64, sequence);
-                into.add(arrival, &done, bundle.width / ROUGH as f64, self.weight);
+                into.add(self.section, arrival, [&done; 3], bundle.width / ROUGH as f64, self.weight);
             }
             return;
         }
         // Just inside, where a neighbour bundle's edge does not decide.
         let edge = 1e-6;
-        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence).way, trace(1.0 - edge, sequence).way)];
+        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence), trace(1.0 - edge, sequence))];
         while let Some((from, to, first, last)) = open.pop() {
             let middle = 0.5 * (from + to);
             let done = trace(middle, sequence);
-            if (done.way == first && done.way == last) || to - from < FINEST {
-                into.add(arrival, &done, (to - from) / (1.0 - 2.0 * edge) * bundle.width, self.weight);
+            if (done.way == first.way && done.way == last.way) || to - from < FINEST {
+                let width = (to - from) / (1.0 - 2.0 * edge) * bundle.width;
+                let between =
+                    if done.way == first.way && done.way == last.way { [&first, &done, &last] } else { [&done; 3] };
+                into.add(self.section, arrival, between, width, self.weight);
             } else {
-                open.push((middle, to, done.way, last));
-                open.push((from, middle, first, done.way));
+                open.push((middle, to, done.clone(), last));
+                open.push((from, middle, first, done));
             }
         }
     }
