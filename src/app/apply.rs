@@ -16,6 +16,7 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     let state = (!selection.state.is_empty()).then(|| selection.state.clone());
     if selection.state != CONTROLLED {
         scene.control = None;
+        scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
     }
     let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
     let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
@@ -27,6 +28,17 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     }
     for aperture in scene.aperture.iter_mut().filter(|aperture| from_catalogue(&aperture.system)) {
         aperture.system = keys.clone();
+    }
+}
+
+/// Sets the rule of one aperture, or of the whole scene, which then has no other.
+fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<ControlKeys>) {
+    match aperture.and_then(|index| scene.aperture.get_mut(index)) {
+        Some(aperture) => aperture.control = keys,
+        None => {
+            scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
+            scene.control = keys;
+        }
     }
 }
 
@@ -152,7 +164,9 @@ impl App {
         let document = &mut self.state.document;
         self.undoer.add_undo(document);
         document.selection = Selection { product, state: CONTROLLED.to_owned() };
-        document.scene.control = Some(ControlKeys { mode });
+        let keys = super::control::rule(&document.scene, self.state.control_of.unwrap_or(0))
+            .map_or_else(|| ControlKeys::of(mode), |keys| keys.with_mode(mode));
+        set_rule(&mut document.scene, self.state.control_of, Some(keys));
         fill(&mut document.scene, &document.selection);
         self.undoer.add_undo(document);
     }

@@ -1,8 +1,8 @@
 //! What can be typed.
 
 use super::{
-    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs, info::InfoArgs,
-    lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, control::ControlArgs,
+    convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
 
@@ -21,6 +21,7 @@ Examples:
   cfs room office.toml --out office.csv illuminance at every sensor
   cfs accuracy office.toml              error against run time of every method for this scene
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
+  cfs control blind.toml --out year.csv a year of states of controlled systems
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
   cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
@@ -51,6 +52,8 @@ pub enum Command {
     Lid(LidArgs),
     /// Luminances of the 145 Tregenza patches of the sky dome
     Sky(SkyArgs),
+    /// A year of states of a scene's controlled systems
+    Control(ControlArgs),
     /// What a dataset file is
     Info(InfoArgs),
     /// A dataset in another format

@@ -417,7 +417,7 @@ fn control_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Comma
     let current = states.iter().position(|point| point.key == state.shown_state).unwrap_or(0);
     let mode = state.control_mode();
     let day = moment::of(scene).map_or(0, |time| time.day_of_year());
-    let key = rules::YearKey::new(scene, &state.document.selection.product, mode, &state.shown_state);
+    let key = rules::YearKey::new(state, &state.document.selection.product);
     let key = key.filter(|key| product.as_deref().is_some_and(|product| product.key == key.product));
     match &key {
         Some(key) if app.bench.today.as_ref().is_none_or(|(old, _)| (&old.0, old.1) != (key, day)) => {

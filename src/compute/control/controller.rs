@@ -99,6 +99,30 @@ impl Settings {
     }
 }
 
+impl Settings {
+    /// What the rule asks for over profile angles from 0 to 90°, in steps of 1°, for a sun without extent, kept within the
+    /// values of the device: what a picture shows. \[rad\] Tables as they are; empty for rules without a curve.
+    pub fn curve(&self) -> Vec<(f64, f64)> {
+        let range = self.range();
+        let sampled = |value: &dyn Fn(f64) -> Option<f64>| {
+            let angles = (0..=90).map(|k| f64::from(k).to_radians());
+            angles.filter_map(|psi| Some((psi, value(psi)?.clamp(range[0], range[1])))).collect()
+        };
+        match &self.rule {
+            Rule::CutOff { section, tolerance } => sampled(&|psi| section.cut_off(range, *tolerance, [psi, psi])),
+            Rule::Curve(points, _) => points.clone(),
+            Rule::RetroReflect(_) => sampled(&|psi| Some(retro_tilt(psi))),
+            Rule::Redirect(elevation, _) => sampled(&|psi| Some(redirecting_tilt(psi, *elevation))),
+            Rule::Din5034 | Rule::Fixed(_) | Rule::User(..) => Vec::new(),
+        }
+    }
+
+    /// Least and greatest value of the states.
+    fn range(&self) -> [f64; 2] {
+        self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)])
+    }
+}
+
 /// What the controller's sensors and clock say.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs {
@@ -282,8 +306,7 @@ impl Controller {
         };
         let (demanded, state) = match &s.rule {
             Rule::CutOff { section, tolerance } => {
-                let all = s.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
-                let demanded = section.cut_off(all, *tolerance, sun.span);
+                let demanded = section.cut_off(s.range(), *tolerance, sun.span);
                 (demanded, Some(cut_off_state(section, &s.values, tolerance + margin, sun.span)))
             }
             Rule::Curve(points, rounding) => {
