@@ -6,8 +6,8 @@ use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
-    SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys,
+    SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
 };
 use crate::study::sky::SkyKeyError;
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 //! What can be typed.
 
 use super::{
-    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, control::ControlArgs,
-    convert::ConvertArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, control::ControlArgs, convert::ConvertArgs,
+    info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
 

@@ -10,12 +10,14 @@ use std::path::{Path, PathBuf};
 
 /// A year of states of a scene's controlled systems
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "The table has a row for the middle of every step: time, sun_altitude_deg, sun_azimuth_deg, and for \
+#[command(
+    after_help = "The table has a row for the middle of every step: time, sun_altitude_deg, sun_azimuth_deg, and for \
 each controlled aperture N (from 1): profile_angle_deg_N (empty while no part of the sun's disc is before it), demanded_N \
 (what the rule asks for, in the unit of the states), state_N (its key), direct_sun_N (1: direct sun passes between the \
 slats, 0: none does, empty: the slats are not known) and reason_N (sun, no-sun, night, bright, dark, schedule, fixed).
 
-The sun is taken to shine whenever any of its disc is up, as bright as under a clear sky.")]
+The sun is taken to shine whenever any of its disc is up, as bright as under a clear sky."
+)]
 pub struct ControlArgs {
     /// Scene file (TOML)
     pub scene: PathBuf,
@@ -82,7 +84,8 @@ fn csv(list: &[Moving], moments: &[Moment]) -> String {
     let number = |value: Option<f64>| value.map(|value| format!("{:.4}", value + 0.0)).unwrap_or_default();
     for moment in moments {
         let altitude = moment.altitude.to_degrees();
-        let _ = write!(text, "{},{altitude:.4},{:.4}", moment.time.strftime("%Y-%m-%dT%H:%M:%S"), moment.bearing.degrees());
+        let _ =
+            write!(text, "{},{altitude:.4},{:.4}", moment.time.strftime("%Y-%m-%dT%H:%M:%S"), moment.bearing.degrees());
         for (one, setting) in list.iter().zip(&moment.settings) {
             let psi = number(setting.profile_angle.map(f64::to_degrees));
             let passes = setting.passes.map_or("", |passes| if passes { "1" } else { "0" });

@@ -152,7 +152,10 @@ mod tests {
                     let reach = v.y.hypot(v.z);
                     if reach > 0.1 {
                         let slack = 0.002 / reach;
-                        assert!(least - low < slack && high - most < slack, "{v} {screen:?}: {low} {least} {high} {most}");
+                        assert!(
+                            least - low < slack && high - most < slack,
+                            "{v} {screen:?}: {low} {least} {high} {most}"
+                        );
                     }
                     seen += 1;
                 }

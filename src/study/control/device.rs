@@ -42,7 +42,10 @@ impl Device {
     /// Index of a state by its key; the error names the key of the scene.
     pub fn state(&self, key: &str, scene_key: &str) -> Result<usize, StudyError> {
         self.keys.iter().position(|known| known == key).ok_or_else(|| {
-            StudyError::key(scene_key, format!("'{}' has no state '{key}'; it has: {}", self.name, self.keys.join(", ")))
+            StudyError::key(
+                scene_key,
+                format!("'{}' has no state '{key}'; it has: {}", self.name, self.keys.join(", ")),
+            )
         })
     }
 }

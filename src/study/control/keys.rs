@@ -55,15 +55,8 @@ pub enum ControlMode {
 
 impl ControlMode {
     /// All, as scene files order them.
-    pub const ALL: [Self; 7] = [
-        Self::CutOff,
-        Self::Din5034,
-        Self::Curve,
-        Self::RetroReflect,
-        Self::Redirect,
-        Self::Fixed,
-        Self::User,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::CutOff, Self::Din5034, Self::Curve, Self::RetroReflect, Self::Redirect, Self::Fixed, Self::User];
 
     /// The word in scene files.
     pub const fn word(self) -> &'static str {
@@ -225,7 +218,7 @@ impl ControlKeys {
 
     /// The first key that another mode would take, with that mode's word.
     pub fn misplaced(&self) -> Option<(&'static str, &'static str)> {
-        use ControlMode::{CutOff, Curve, Fixed, Redirect, User};
+        use ControlMode::{Curve, CutOff, Fixed, Redirect, User};
         let only = |key, given: bool, modes: &[ControlMode], word| {
             (given && !modes.contains(&self.mode)).then_some((key, word))
         };

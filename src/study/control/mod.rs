@@ -199,8 +199,7 @@ pub fn curve(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Vec<[f6
     }
     if keys.curve.is_empty() {
         if device.curve.is_empty() {
-            let message =
-                format!("'{}' has no control curve; give control.curve or control.curve_file", device.name);
+            let message = format!("'{}' has no control curve; give control.curve or control.curve_file", device.name);
             return Err(StudyError::key("control.mode", message));
         }
         return Ok(device.curve.clone());
@@ -222,12 +221,11 @@ fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
     };
     let read = |text: &str| {
         hour(text).ok_or_else(|| {
-            StudyError::key("control.schedule", format!("\"{text}\" is no time of the day: write HH:MM, 00:00 to 24:00"))
+            StudyError::key(
+                "control.schedule",
+                format!("\"{text}\" is no time of the day: write HH:MM, 00:00 to 24:00"),
+            )
         })
     };
-    Ok(Period {
-        from: read(&keys.from)?,
-        to: read(&keys.to)?,
-        state: device.state(&keys.state, "control.schedule")?,
-    })
+    Ok(Period { from: read(&keys.from)?, to: read(&keys.to)?, state: device.state(&keys.state, "control.schedule")? })
 }

@@ -161,8 +161,8 @@ impl Situation {
             need("longitude", site.longitude)?,
             need("utc_offset", site.utc_offset)?,
         ];
-        let place = Place::new(latitude, longitude, offset)
-            .map_err(|error| StudyError::key("site", error.to_string()))?;
+        let place =
+            Place::new(latitude, longitude, offset).map_err(|error| StudyError::key("site", error.to_string()))?;
         let year = match &file.sky.time {
             Some(time) => {
                 parse_local_time(&time.text()).map_err(|error| StudyError::key("sky.time", error.to_string()))?.year()

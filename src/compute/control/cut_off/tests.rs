@@ -9,9 +9,8 @@ fn flat(width: f64, spacing: f64) -> Section {
 
 fn sections() -> Vec<Section> {
     let arc = |width, rise, spacing| Section::new(SlatProfile::Arc { width, rise }, spacing).unwrap();
-    let polyline = |points: &[[f64; 2]], spacing| {
-        Section::new(SlatProfile::Polyline(points.to_vec()), spacing).unwrap()
-    };
+    let polyline =
+        |points: &[[f64; 2]], spacing| Section::new(SlatProfile::Polyline(points.to_vec()), spacing).unwrap();
     vec![
         flat(0.080, 0.072),
         flat(0.080, 0.060),
