@@ -11,6 +11,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::lid::Facing;
+use crate::formats::control_curve::read_control_curve;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -48,6 +49,8 @@ pub enum Outcome {
     Read(Box<Import>),
     /// A scene was read.
     ReadScene(PathBuf, Result<Box<SceneFile>, String>),
+    /// A control curve was read.
+    ReadCurve(Result<Vec<[f64; 2]>, String>),
     /// An addition is in the catalogue.
     Added(usize, Result<String, String>),
     /// Something else in the catalogue was changed.
@@ -114,6 +117,13 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
             SceneFile::parse(&text).map(Box::new).map_err(|error| format!("{}: {error}", path.display()))
         });
         return Outcome::ReadScene(path.clone(), scene);
+    }
+    if let [path] = paths
+        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+    {
+        let told = |error: &dyn std::fmt::Display| format!("{}: as a control curve: {error}", path.display());
+        let curve = read_bytes(path).and_then(|bytes| read_control_curve(&bytes).map_err(|error| told(&error)));
+        return Outcome::ReadCurve(curve);
     }
     let mut import = Import::default();
     let mut sources = Vec::new();
@@ -284,7 +294,12 @@ impl App {
                 self.state.scene_path = Some(path);
                 self.adopt_selection();
             }
-            Outcome::ReadScene(_, Err(error)) => {
+            Outcome::ReadCurve(Ok(curve)) => {
+                let keys = self.state.control_keys().with_mode(ControlMode::Curve);
+                let keys = ControlKeys { curve, curve_file: None, ..keys };
+                self.apply(super::command::Command::ControlKeys(Box::new(keys)));
+            }
+            Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) => {
                 self.toasts.error(error).duration(None);
             }
             Outcome::Added(number, result) => self.take_added(number, result),
