@@ -167,7 +167,7 @@ fn parts_of_a_window_follow_rules_of_their_own_and_undo_takes_them_back() {
         [0, 1].map(|k| scene.aperture[k].control.as_ref().or(scene.control.as_ref()).map(|keys| keys.mode))
     };
     assert_eq!(rules(&h), [Some(ControlMode::CutOff); 2]);
-    // Noon of the equinox at 41°: 6° of tilt by the closed form.
+    // Noon of the equinox at 41°: 2° of tilt by the closed form, up to the next state.
     assert_eq!(h.state().state.shown_state, "5");
     apply(&mut h, Command::ControlOf(Some(1)));
     apply(&mut h, Command::Control(ControlMode::RetroReflect));
