@@ -82,6 +82,8 @@ fn other_commands_of_the_readme_run() {
         assert!(std::fs::metadata(at(name)).unwrap().len() > 1000, "{name}");
     }
     assert_eq!(succeed(folder.path(), &["sky", "examples/office.toml"]).lines().count(), 146);
+    succeed(folder.path(), &["control", "examples/blind.toml", "--out", &at("year.csv")]);
+    assert_eq!(std::fs::read_to_string(folder.path().join("year.csv")).unwrap().lines().count(), 1 + 8760);
     assert!(succeed(folder.path(), &["catalogue", "list", "--search", "blind"]).contains("venetian-80-72"));
 }
 

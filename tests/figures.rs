@@ -1,6 +1,8 @@
-//! The claims made beside the report's figures, with the functions that draw them: Figures 19, 20, 21 and 25, and the
+//! The claims made beside the report's figures, with the functions that draw them: Figures 14, 19, 20, 21 and 25, and the
 //! open aperture.
 
+#[path = "../examples/figures/curves.rs"]
+mod curves;
 #[path = "../examples/figures/outlines.rs"]
 mod outlines;
 #[path = "../examples/figures/rooms.rs"]
@@ -11,6 +13,24 @@ mod systems;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::Dataset;
 use std::sync::Arc;
+
+#[test]
+fn figure_14_states_keep_the_sun_out_and_stay_by_their_curves() {
+    let list = curves::all().unwrap();
+    for curve in &list[..2] {
+        assert!(curves::leak(curve, 0.0) < 1e-9 && curves::leak(curve, 2.0) > 0.01, "{}", curve.name);
+    }
+    // The closed form of flat slats, at points of the curve.
+    for [psi, tilt] in &list[0].points {
+        let exact = (0.9 * psi.to_radians().cos()).asin().to_degrees() - psi;
+        assert!((tilt - exact.max(0.0)).abs() < 1e-9, "{psi}: {tilt} {exact}");
+    }
+    // Curved slats shade high suns better, low ones by their chord.
+    assert!((list[1].points[10][1] - list[0].points[10][1]).abs() < 1e-9);
+    assert!(list[1].points.iter().zip(&list[0].points).all(|(arc, flat)| arc[1] <= flat[1] + 1e-9));
+    // Rounding: up by less than a step, or half a step either way.
+    assert!(curves::rounding(&list[2]) < curves::STEP + 0.1 && curves::rounding(&list[3]) <= 0.5 * curves::STEP + 1e-9);
+}
 
 /// Misplaced flux of the open aperture's data in one situation of Figure 21, and its transmittance.
 fn open_aperture(system: Dataset, situation: usize) -> (f64, f64) {

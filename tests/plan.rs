@@ -6,9 +6,9 @@ mod rooms;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Scattered};
 use cfs::compute::estimate::Silent;
-use cfs::compute::lid::Facing;
 use cfs::compute::room::direct::Sensor;
-use cfs::study::scene_file::{ControlMode, SystemKeys};
+use cfs::study::control::ControlQuestion;
+use cfs::study::scene_file::SystemKeys;
 use cfs::study::{RoomResult, Scene, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use rooms::*;
@@ -185,8 +185,8 @@ impl SystemLibrary for States {
         let dataset = Arc::new(klems(move |i, o| level * rough(i, o)));
         Ok(Arc::new(System { label: "states".into(), state: state.clone(), dataset }))
     }
-    fn controlled_state(&self, _: &str, _: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
-        Ok(if facing.sun_illuminance() > 0.0 { "0.3".into() } else { "1.0".into() })
+    fn controlled_state(&self, _: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        Ok(if asked.facing.sun_illuminance() > 0.0 { "0.3".into() } else { "1.0".into() })
     }
 }
 

@@ -1,9 +1,10 @@
-//! The report's Figures 7–9, 11, 12, 19–21 and 23–25 as this program computes them, each with the numbers behind it.
+//! The report's Figures 7–9, 11, 12, 14, 19–21 and 23–25 as this program computes them, each with the numbers behind it.
 //!
 //! `cargo run --release --example figures [-- FOLDER]` writes pictures, tables (CSV) and a list into `screenshots/figures`
 //! or the folder given. Nothing is read: all systems are closed forms.
 
 mod chart;
+mod curves;
 mod indicatrices;
 mod outlines;
 mod pages;

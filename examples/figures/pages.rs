@@ -3,8 +3,8 @@
 use crate::Figure;
 use crate::chart::{Disc, Line, Panel, discs, sheet};
 use crate::indicatrices::{self as data, KERNELS};
-use crate::{outlines, rooms, systems};
-use anyhow::Result;
+use crate::{curves, outlines, rooms, systems};
+use anyhow::{Context as _, Result};
 use cfs::compute::basis::RingBasis;
 use cfs::compute::direction::{Dir, Emergent, Facade};
 use cfs::compute::incidence::grid::Grid;
@@ -12,9 +12,9 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// All figures in the report's order.
-pub const ALL: [fn() -> Result<Figure>; 11] = [
-    figure_7, figure_8, figure_9, figure_11, figure_12, figure_19, figure_20, figure_21, figure_23, figure_24,
-    figure_25,
+pub const ALL: [fn() -> Result<Figure>; 12] = [
+    figure_7, figure_8, figure_9, figure_11, figure_12, figure_14, figure_19, figure_20, figure_21, figure_23,
+    figure_24, figure_25,
 ];
 
 /// A table's head and rows.
@@ -222,6 +222,47 @@ fn figure_12() -> Result<Figure> {
                 and every scheme",
         key: format!("misplaced flux: {}", key.join(", ")),
         picture: ("png", discs(&rows, 0.5)?),
+        table: table.0,
+    })
+}
+
+fn figure_14() -> Result<Figure> {
+    let list = curves::all().context("the slats of the curves are sections")?;
+    let mut table = Table::new("curve,kind,profile_angle_deg,tilt_deg");
+    let (mut panels, mut key) = (Vec::new(), Vec::new());
+    for (title, pair) in [("conventional blind, cut-off", &list[..2]), ("redirecting blind, two modes", &list[2..])] {
+        let mut lines = Vec::new();
+        for (k, curve) in pair.iter().enumerate() {
+            curve.points.iter().for_each(|p| table.row(&[curve.name, "curve"], p));
+            curve.steps.iter().for_each(|p| table.row(&[curve.name, "states of 5 deg"], p));
+            // Both ends of every step, so that it is drawn upright.
+            let upright =
+                curve.steps.windows(2).flat_map(|w| [w[0], [w[1][0], w[0][1]]]).chain(curve.steps.last().copied());
+            lines.push(Line::new(format!("{} in 5° steps", curve.name), 5 + k, upright.collect()));
+            lines.push(Line::new(curve.name, 1 + k, curve.points.clone()));
+            let words = match curve.section {
+                Some(_) => format!(
+                    "direct light through the states {}, through states 2° more open up to {}",
+                    percent(curves::leak(curve, 0.0)),
+                    percent(curves::leak(curve, 2.0))
+                ),
+                None => format!("states within {}° of the curve", rounded(curves::rounding(curve))),
+            };
+            key.push(format!("{}: {words}", curve.name));
+        }
+        let mut panel = Panel::new(title, ["profile angle [°]", "tilt [°]"], lines);
+        (panel.x, panel.y) = ([0.0, 90.0], [-45.0, 90.0]);
+        panels.push(panel);
+    }
+    Ok(Figure {
+        file: "fig14-control",
+        number: "14",
+        shows: "slat tilt over the sun's profile angle (> 0: outer edge lowered) and the states of a device in 5° steps: \
+                cut-off of flat slats (80 mm every 72 mm) and of slats on an arc (crown 16 mm), rounded towards closed for the \
+                whole disc of the sun; mirror slats that throw the sun back (90° − ψ), rounded towards closed, or send it \
+                into the room at 30° ((30° − ψ)/2), rounded to the nearest",
+        key: key.join("; "),
+        picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
     })
 }

@@ -8,9 +8,9 @@ use cfs::compute::basis::{AzimuthMap, Ring, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Dataset, Indicatrices, Scattered};
 use cfs::compute::direction::{Dir, Facade, Incident, Surface};
 use cfs::compute::estimate::Silent;
-use cfs::compute::lid::Facing;
 use cfs::compute::system::laser_cut::deflected_share;
-use cfs::study::scene_file::{ControlMode, SystemKeys};
+use cfs::study::control::ControlQuestion;
+use cfs::study::scene_file::SystemKeys;
 use cfs::study::{LidResult, RoomResult, Scene, SceneFile, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -212,7 +212,7 @@ impl SystemLibrary for Only {
         Ok(Arc::new(System { label: self.0.name.clone(), state: String::new(), dataset: Arc::clone(&self.0) }))
     }
 
-    fn controlled_state(&self, _: &str, _: ControlMode, _: &Facing<'_>) -> Result<String, StudyError> {
+    fn controlled_state(&self, _: &str, _: &ControlQuestion<'_>) -> Result<String, StudyError> {
         Err(StudyError::key("system", "no states here"))
     }
 }

@@ -8,6 +8,7 @@ use super::moment;
 use super::shelf::Addition;
 use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
 use super::work;
+use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
 use std::path::PathBuf;
 
@@ -16,6 +17,7 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     let state = (!selection.state.is_empty()).then(|| selection.state.clone());
     if selection.state != CONTROLLED {
         scene.control = None;
+        scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
     }
     let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
     let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
@@ -30,6 +32,17 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     }
 }
 
+/// Sets the rule of one aperture, or of the whole scene, which then has no other.
+fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<ControlKeys>) {
+    match aperture.and_then(|index| scene.aperture.get_mut(index)) {
+        Some(aperture) => aperture.control = keys,
+        None => {
+            scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
+            scene.control = keys;
+        }
+    }
+}
+
 impl App {
     /// Does what a command says.
     pub fn apply(&mut self, command: Command) {
@@ -41,6 +54,11 @@ impl App {
             Command::ExportTile(tile) => self.ask_target(PathUse::ExportTile(tile)),
             Command::CopyTile(tile) => self.copy_tile(tile),
             Command::Control(mode) => self.control(mode),
+            Command::ControlKeys(keys) => self.set_control(*keys),
+            Command::ControlOf(index) => {
+                state.control_of = index;
+                self.asked = None;
+            }
             Command::Quit => self.ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Command::Undo => self.step_history(false),
             Command::Redo => self.step_history(true),
@@ -82,7 +100,11 @@ impl App {
             Command::Select(product) => self.select(Selection { product, state: String::new() }),
             Command::SelectState(key) => {
                 let product = state.document.selection.product.clone();
-                self.select(Selection { product, state: key });
+                if state.control_of.is_some() && state.document.selection.state == CONTROLLED {
+                    self.set_control(ControlKeys { state: Some(key), ..ControlKeys::of(ControlMode::Fixed) });
+                } else {
+                    self.select(Selection { product, state: key });
+                }
             }
             Command::Row(step) => {
                 let last = state.found.entries.len().saturating_sub(1);
@@ -130,31 +152,64 @@ impl App {
     /// Gives the state to a rule, or takes it back into the hand where it is.
     fn control(&mut self, mode: ControlMode) {
         let product = self.state.document.selection.product.clone();
+        let of = self.state.control_of;
         if mode == ControlMode::Fixed {
-            if self.state.control_mode() != ControlMode::Fixed {
-                self.select(Selection { product, state: self.state.shown_state.clone() });
+            match of {
+                // The other apertures go on by their own rules.
+                Some(_) if self.state.document.selection.state == CONTROLLED => {
+                    let state = Some(self.state.shown_state.clone()).filter(|key| !key.is_empty());
+                    self.set_control(ControlKeys { state, ..ControlKeys::of(mode) });
+                }
+                _ if self.state.document.selection.state == CONTROLLED => {
+                    self.select(Selection { product, state: self.state.shown_state.clone() });
+                }
+                _ => {}
             }
             return;
         }
-        let problem = self.state.product.as_deref().and_then(|known| {
-            if known.states.len() < 2 {
-                Some("This product does not move: it has one state")
-            } else if mode != ControlMode::Din5034 && known.control_curve.is_empty() {
-                Some("This product has no control curve: choose DIN 5034, or set the state by hand")
+        let scene = &self.state.document.scene;
+        let keys = super::control::rule(scene, self.state.control_aperture())
+            .map_or_else(|| ControlKeys::of(mode), |keys| keys.with_mode(mode));
+        self.set_control(keys);
+    }
+
+    /// A rule with its keys, of the scene or of the aperture that is edited. Refused with a sentence where the product
+    /// cannot follow it.
+    fn set_control(&mut self, keys: ControlKeys) {
+        if let Some(known) = self.state.product.as_deref() {
+            let problem = if known.states.len() < 2 {
+                Some("This product does not move: it has one state".to_owned())
             } else {
-                None
+                let device = Device::of(known);
+                device.and_then(|device| settings(&keys, &device, &self.state.base())).err().map(|e| e.to_string())
+            };
+            if let Some(problem) = problem {
+                self.toasts.info(problem);
+                return;
             }
-        });
-        if let Some(problem) = problem {
-            self.toasts.info(problem);
-            return;
         }
         let document = &mut self.state.document;
-        self.undoer.add_undo(document);
-        document.selection = Selection { product, state: CONTROLLED.to_owned() };
-        document.scene.control = Some(ControlKeys { mode });
+        let change = document.selection.state != CONTROLLED
+            || super::control::rule(&document.scene, self.state.control_of.unwrap_or(0)).map(|old| old.mode)
+                != Some(keys.mode);
+        // A change of rule is a step of its own; a curve that is dragged is one step when it comes to rest.
+        if change {
+            self.undoer.add_undo(document);
+        }
+        if document.selection.state != CONTROLLED {
+            document.selection.state = CONTROLLED.to_owned();
+            // Where nothing moved, the scene needs a rule for the other apertures too.
+            document.scene.control = Some(keys.clone());
+        }
+        set_rule(&mut document.scene, self.state.control_of, Some(keys));
+        let rules: Vec<_> = document.scene.aperture.iter().map(|aperture| aperture.control.clone()).collect();
         fill(&mut document.scene, &document.selection);
-        self.undoer.add_undo(document);
+        for (aperture, rule) in document.scene.aperture.iter_mut().zip(rules) {
+            aperture.control = rule;
+        }
+        if change {
+            self.undoer.add_undo(document);
+        }
     }
 
     fn step_state(&mut self, step: i32) {

@@ -5,13 +5,12 @@ use super::shelf::{Addition, Entry, Found, Query, Shelf};
 use crate::catalogue::{self, Catalogue, NewProduct, Product, Provenance};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
-use crate::compute::lid::Facing;
 use crate::formats::ies::IesEdition;
 use crate::study::accuracy::{Accuracy, ladder};
 use crate::study::compact::stored_by_default;
-use crate::study::control::pick_state;
+use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::scene_file::{ControlMode, SystemKeys};
+use crate::study::scene_file::SystemKeys;
 use crate::study::{Library, Scene, Session, StudyError, System, SystemLibrary};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -110,9 +109,9 @@ impl Shelf for CatalogueShelf {
         self.lock().product(product).map(Arc::new).map_err(told)
     }
 
-    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
+    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         let product = self.lock().product(product).map_err(|error| StudyError::Catalogue(error.to_string()))?;
-        pick_state(&product, mode, facing)
+        pick_state(&Device::of(&product)?, asked)
     }
 
     fn add(&self, addition: &Addition) -> Result<String, String> {
@@ -150,8 +149,8 @@ impl SystemLibrary for WindowLibrary<'_> {
         Ok(Arc::new(System { label: dataset.name.clone(), state: state.clone().unwrap_or_default(), dataset }))
     }
 
-    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
-        self.shelf.controlled_state(product, mode, facing)
+    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        self.shelf.controlled_state(product, asked)
     }
 }
 

@@ -5,7 +5,7 @@ use super::jobs::Lane;
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
 use super::theme::ThemeChoice;
-use crate::study::scene_file::{ControlMode, SceneFile};
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
 
@@ -37,6 +37,10 @@ pub enum Command {
     CopyTile(Tile),
     /// The rule that picks the state.
     Control(ControlMode),
+    /// The rule with all its keys.
+    ControlKeys(Box<ControlKeys>),
+    /// Whose rule is shown and edited: one aperture's (from 0), or the scene's.
+    ControlOf(Option<usize>),
     /// Close the window.
     Quit,
     /// Back one step.
@@ -132,7 +136,7 @@ impl Command {
         list.extend(Tile::ALL.map(|tile| Maximise(Some(tile))));
         list.extend([Maximise(None), Hour(1), Hour(-1), Hour(3), Hour(-3)]);
         list.extend([Day(1), Day(-1), Day(30), Day(-30), NextState(1), NextState(-1)]);
-        list.extend([ControlMode::Fixed, ControlMode::Curve, ControlMode::Din5034].map(Control));
+        list.extend(ControlMode::ALL.map(Control));
         list.extend([ToggleCatalogue, ToggleScene]);
         list.extend(Tile::ALL.map(ExportTile));
         list.extend(Tile::ALL.map(CopyTile));
@@ -167,11 +171,36 @@ impl Command {
                 "The most closed state while the sun is on the façade, else the most open",
                 None,
             ),
-            Self::Control(_) => (
-                "State: follow the curve".into(),
-                "The state that the product's curve (cut-off) asks for at the sun's profile angle",
+            Self::Control(ControlMode::CutOff) => (
+                "State: keep the sun just out (cut-off)".into(),
+                "The most open state that lets no direct sun through, the whole disc counted",
                 None,
             ),
+            Self::Control(ControlMode::Curve) => (
+                "State: follow the curve".into(),
+                "The state that a curve asks for at the sun's profile angle: the product's, or one edited in the tile",
+                None,
+            ),
+            Self::Control(ControlMode::RetroReflect) => (
+                "State: throw the sun back".into(),
+                "Mirror slats stand across the beam: 90° − ψ, for the lower part of a window",
+                None,
+            ),
+            Self::Control(ControlMode::Redirect) => (
+                "State: redirect the sun".into(),
+                "Mirror slats send the sun to the ceiling: half of (elevation − ψ), for the upper part of a window",
+                None,
+            ),
+            Self::Control(ControlMode::User) => (
+                "State: by the user's clock".into(),
+                "A state by hours of the day; the hours are set in the scene file",
+                None,
+            ),
+            Self::ControlKeys(_) => ("Change the control".into(), "Curve, thresholds, hysteresis, dwell time", None),
+            Self::ControlOf(None) => ("Control of all apertures".into(), "One rule for the whole scene", None),
+            Self::ControlOf(Some(index)) => {
+                (format!("Control of aperture {}", index + 1), "A rule for this aperture alone", None)
+            }
             Self::Quit => ("Quit".into(), "Close the window", ctrl(Key::Q)),
             Self::Undo => ("Undo".into(), "Take the last change back", ctrl(Key::Z)),
             Self::Redo => (

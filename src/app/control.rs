@@ -3,39 +3,52 @@
 //! Today and the year are told for a sun that shines: which hours it is before the façade, and which state it asks for.
 
 use super::moment;
+use super::state::State;
 use crate::catalogue::Product;
-use crate::compute::angle::Bearing;
-use crate::compute::control::profile_angle;
-use crate::compute::direction::{Dir, Orientation, Surface};
+use crate::compute::direction::Surface;
 use crate::compute::estimate::Progress;
-use crate::compute::lid::Facing;
-use crate::compute::sky::{Distribution, Outside, Sun};
-use crate::study::control::pick_state;
-use crate::study::scene_file::{ControlMode, SceneFile, SurfaceKey};
-use crate::study::sun_position::{Place, sun_position};
-use jiff::ToSpan;
-use jiff::civil::{Date, date};
+pub use crate::study::control::year::CONTROLLED;
+use crate::study::control::year::{ClearSky, Moment, Moving, Setting, Situation, day, year as study_year};
+use crate::study::control::{Device, curve, settings};
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SurfaceKey};
+use jiff::civil::Date;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The word that leaves an aperture's state to the scene's control.
-pub const CONTROLLED: &str = "controlled";
+/// Minutes between the hours of a year.
+const YEAR_STEP: u32 = 60;
+/// Minutes between the points of today.
+const DAY_STEP: u32 = 30;
 
 /// What the window calls a rule.
 pub const fn word(mode: ControlMode) -> &'static str {
     match mode {
         ControlMode::Fixed => "fixed by hand",
         ControlMode::Curve => "follows the curve",
-        ControlMode::CutOff => "follows the cut-off curve",
+        ControlMode::CutOff => "keeps the sun just out (cut-off)",
         ControlMode::Din5034 => "closed in sun (DIN 5034)",
+        ControlMode::RetroReflect => "throws the sun back",
+        ControlMode::Redirect => "redirects the sun",
+        ControlMode::User => "by the user's clock",
+    }
+}
+
+/// Where an aperture of the scene lies; the façade where there is none.
+pub fn surface_of(scene: &SceneFile, aperture: usize) -> Surface {
+    match scene.aperture.get(aperture).map(|aperture| aperture.surface) {
+        Some(SurfaceKey::Roof) => Surface::Roof,
+        _ => Surface::Facade,
     }
 }
 
 /// Where the scene's first aperture lies.
 pub fn surface(scene: &SceneFile) -> Surface {
-    match scene.aperture.first().map(|aperture| aperture.surface) {
-        Some(SurfaceKey::Roof) => Surface::Roof,
-        _ => Surface::Facade,
-    }
+    surface_of(scene, 0)
+}
+
+/// The rule of an aperture: its own, else the scene's.
+pub fn rule(scene: &SceneFile, aperture: usize) -> Option<&ControlKeys> {
+    scene.aperture.get(aperture).and_then(|aperture| aperture.control.as_ref()).or(scene.control.as_ref())
 }
 
 /// Place, façade and rule: all that a year of control hangs on.
@@ -43,34 +56,31 @@ pub fn surface(scene: &SceneFile) -> Surface {
 pub struct YearKey {
     /// Which product moves.
     pub product: String,
-    /// By which rule.
-    pub mode: ControlMode,
-    /// The state that is set by hand; empty while a rule picks.
-    pub fixed: String,
-    place: Place,
-    year: i16,
-    azimuth: f64,
-    roof: bool,
-    skyline: f64,
+    /// By which rule; "fixed" with the state that is set by hand.
+    pub keys: ControlKeys,
+    situation: Situation,
+    surface: Surface,
+    base: PathBuf,
 }
 
 impl YearKey {
-    /// Of a scene and a selection; `None` without place and date.
-    pub fn new(scene: &SceneFile, product: &str, mode: ControlMode, fixed: &str) -> Option<Self> {
+    /// Of the window's scene and selection; `None` without place and date.
+    pub fn new(state: &State, product: &str) -> Option<Self> {
+        let scene = &state.document.scene;
+        moment::of(scene)?;
         Some(Self {
             product: product.to_owned(),
-            mode,
-            fixed: if mode == ControlMode::Fixed { fixed.to_owned() } else { String::new() },
-            place: moment::place(scene)?,
-            year: moment::of(scene)?.year(),
-            azimuth: scene.site.azimuth,
-            roof: surface(scene) == Surface::Roof,
-            skyline: scene.sky.obstruction.map_or(0.0, |keys| keys.altitude),
+            keys: state.control_keys(),
+            situation: Situation::of(scene).ok()?,
+            surface: surface_of(scene, state.control_aperture()),
+            base: state.base(),
         })
     }
 
-    fn surface(&self) -> Surface {
-        if self.roof { Surface::Roof } else { Surface::Facade }
+    fn moving(&self, product: &Product) -> Result<Vec<Moving>, String> {
+        let device = Device::of(product).map_err(|error| error.to_string())?;
+        let section = device.section.clone();
+        Ok(vec![Moving { aperture: 1, surface: self.surface, device, keys: self.keys.clone(), section }])
     }
 }
 
@@ -83,6 +93,8 @@ pub struct Year {
     pub states: Vec<String>,
     /// Day by day, the middle of each hour; `None` while the sun is not before the façade.
     pub hours: Vec<Option<u16>>,
+    /// How often the device moves.
+    pub movements: usize,
 }
 
 /// Keys and numbers of the states, by rising value. Without numbers their order stands for them.
@@ -93,67 +105,28 @@ pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
     list
 }
 
-/// Picks states for suns before one façade.
-struct Chooser<'a> {
-    product: &'a Product,
-    key: &'a YearKey,
-    states: Vec<String>,
-    outside: Outside,
+/// Profile angle \[°\] and place of the state among the ordered ones; `None` while the sun is not before the façade.
+fn seen(product: &Product, states: &[String], setting: &Setting) -> Option<(f64, u16)> {
+    let psi = setting.profile_angle?;
+    let key = &product.states[setting.state].key;
+    let index = states.iter().position(|state| state == key).unwrap_or(0);
+    Some((psi.to_degrees(), u16::try_from(index).unwrap_or(u16::MAX)))
 }
 
-impl<'a> Chooser<'a> {
-    fn new(product: &'a Product, key: &'a YearKey) -> Result<Self, String> {
-        let states = ordered_states(product).into_iter().map(|(state, _)| state).collect();
-        let outside = Outside::new(Distribution::uniform(), 1.0)
-            .and_then(|outside| outside.with_skyline(key.skyline.to_radians(), 0.0))
-            .map_err(|error| error.to_string())?;
-        Ok(Self { product, key, states, outside })
-    }
-
-    /// Profile angle \[°\] and index of the state; `None` while the sun is not before the façade.
-    fn at(&self, day: Date, hour: f64) -> Result<Option<(f64, u16)>, String> {
-        let minutes = (hour * 60.0).round() as i64;
-        let Ok(time) = day.at(0, 0, 0, 0).checked_add(minutes.minutes()) else { return Ok(None) };
-        let (altitude, bearing) = sun_position(&self.key.place, time).map_err(|error| error.to_string())?;
-        let sun = Sun { direction: Dir::from_altitude_bearing(altitude, bearing), direct_normal: 1.0 };
-        let facing = Facing {
-            outside: &self.outside,
-            sun: Some(&sun),
-            orientation: Orientation::new(Bearing::from_degrees(self.key.azimuth)),
-            surface: self.key.surface(),
-        };
-        if altitude <= 0.0 || facing.sun_illuminance() <= 0.0 {
-            return Ok(None);
-        }
-        let Some(psi) = facing.sun_direction().and_then(profile_angle) else { return Ok(None) };
-        let picked = match self.key.mode {
-            ControlMode::Fixed => self.key.fixed.clone(),
-            mode => pick_state(self.product, mode, &facing).map_err(|error| error.to_string())?,
-        };
-        let index = self.states.iter().position(|state| *state == picked).unwrap_or(0);
-        Ok(Some((psi.to_degrees(), u16::try_from(index).unwrap_or(u16::MAX))))
-    }
+fn ordered_keys(product: &Product) -> Vec<String> {
+    ordered_states(product).into_iter().map(|(state, _)| state).collect()
 }
 
 /// The year of a product. Called in a job.
 pub fn year(product: &Arc<Product>, key: YearKey, progress: &dyn Progress) -> Result<Year, String> {
-    let chooser = Chooser::new(product, &key)?;
-    let first = Date::new(key.year, 1, 1).map_err(|error| error.to_string())?;
-    let days = usize::try_from(first.days_in_year()).unwrap_or(365);
-    let mut hours = Vec::with_capacity(24 * days);
-    let mut day = first;
-    for number in 0..days {
-        if progress.cancelled() {
-            return Err("withdrawn".to_owned());
-        }
-        progress.advance("days", number, days);
-        for hour in 0..24 {
-            hours.push(chooser.at(day, f64::from(hour) + 0.5)?.map(|(_, index)| index));
-        }
-        day = day.tomorrow().map_err(|error| error.to_string())?;
-    }
-    let states = chooser.states;
-    Ok(Year { key, states, hours })
+    let moving = key.moving(product)?;
+    let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &ClearSky, progress)
+        .map_err(|error| error.to_string())?;
+    let states = ordered_keys(product);
+    let of = |moment: &Moment| seen(product, &states, &moment.settings[0]).map(|(_, index)| index);
+    let hours = moments.iter().map(of).collect();
+    let movements = moments.iter().filter(|moment| moment.settings[0].moved).count();
+    Ok(Year { key, states, hours, movements })
 }
 
 /// A point of today: hour, profile angle \[°\] and state, or neither while the sun is not before the façade.
@@ -162,7 +135,22 @@ pub type TodayPoint = (f64, Option<(f64, u16)>);
 /// Every half hour of the scene's day.
 pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<TodayPoint>, String> {
     let Some(time) = moment::of(scene) else { return Ok(Vec::new()) };
-    let chooser = Chooser::new(product, key)?;
-    let day = date(time.year(), time.month(), time.day());
-    (0..=48).map(|i| 0.5 * f64::from(i)).map(|hour| Ok((hour, chooser.at(day, hour)?))).collect()
+    let date: Date = time.date();
+    let moving = key.moving(product)?;
+    let moments =
+        day(&key.situation, &key.base, &moving, date, DAY_STEP, &ClearSky).map_err(|error| error.to_string())?;
+    let states = ordered_keys(product);
+    let hour = |step: usize| step as f64 * f64::from(DAY_STEP) / 60.0;
+    Ok(moments.iter().enumerate().map(|(k, moment)| (hour(k), seen(product, &states, &moment.settings[0]))).collect())
+}
+
+/// What a rule asks for at profile angles: points of its curve (profile angle \[°\], value); none for rules without one.
+pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<Vec<[f64; 2]>, String> {
+    let told = |error: crate::study::StudyError| error.to_string();
+    let device = Device::of(product).map_err(told)?;
+    if keys.mode == ControlMode::Curve {
+        return curve(keys, &device, base).map_err(told);
+    }
+    let settings = settings(keys, &device, base).map_err(told)?;
+    Ok(settings.curve().into_iter().map(|(psi, value)| [psi.to_degrees(), value.to_degrees()]).collect())
 }

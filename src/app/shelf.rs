@@ -2,9 +2,8 @@
 
 use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
-use crate::compute::lid::Facing;
 use crate::study::StudyError;
-use crate::study::scene_file::ControlMode;
+use crate::study::control::ControlQuestion;
 use std::sync::Arc;
 
 /// A row of the list.
@@ -77,8 +76,8 @@ pub trait Shelf: Send + Sync {
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, String>;
     /// Everything about a product but its datasets: states with their numbers, control curve.
     fn product(&self, product: &str) -> Result<Arc<Product>, String>;
-    /// The state that a control picks for a product under the given outside.
-    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError>;
+    /// The state that a control picks for a product.
+    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
     /// Stores a product; its key.
     fn add(&self, addition: &Addition) -> Result<String, String>;
     /// Takes a product out.

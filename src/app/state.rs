@@ -6,8 +6,8 @@ use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
-    SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys,
+    SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
 };
 use crate::study::sky::SkyKeyError;
 use std::path::PathBuf;
@@ -244,6 +244,8 @@ pub struct State {
     pub scene_error: Option<SkyKeyError>,
     /// Where the scene was opened from or saved to; its relative paths start there.
     pub scene_path: Option<PathBuf>,
+    /// The aperture whose control is edited on its own; `None`: all follow the scene's.
+    pub control_of: Option<usize>,
     /// Row that the keyboard is on.
     pub row: usize,
     /// The product that the list was last scrolled to.
@@ -266,6 +268,7 @@ pub fn first_scene() -> SceneFile {
             system: SystemKeys::Catalogue { key: String::new(), state: None },
             reflectance: ApertureReflectance::default(),
             structure: None,
+            control: None,
         }],
         site: SiteKeys {
             azimuth: 180.0,
@@ -335,6 +338,7 @@ impl State {
             daylight: Shown::default(),
             scene_error: None,
             scene_path: None,
+            control_of: None,
             row: 0,
             scrolled_to: String::new(),
         }
@@ -342,9 +346,31 @@ impl State {
 
     /// The rule that picks the state.
     pub fn control_mode(&self) -> ControlMode {
+        self.picking_rule().map_or(ControlMode::Fixed, |control| control.mode)
+    }
+
+    /// The same with all its keys; "fixed" at the state that is set by hand.
+    pub fn control_keys(&self) -> ControlKeys {
+        self.picking_rule().cloned().unwrap_or_else(|| ControlKeys {
+            state: Some(self.shown_state.clone()).filter(|key| !key.is_empty()),
+            ..ControlKeys::of(ControlMode::Fixed)
+        })
+    }
+
+    fn picking_rule(&self) -> Option<&ControlKeys> {
         let document = &self.document;
         let controlled = document.selection.state == super::control::CONTROLLED;
-        document.scene.control.as_ref().filter(|_| controlled).map_or(ControlMode::Fixed, |control| control.mode)
+        super::control::rule(&document.scene, self.control_aperture()).filter(|_| controlled)
+    }
+
+    /// The aperture whose control is shown and edited, from 0: the chosen one, else the first.
+    pub fn control_aperture(&self) -> usize {
+        self.control_of.filter(|index| *index < self.document.scene.aperture.len()).unwrap_or(0)
+    }
+
+    /// What relative paths of the scene start from.
+    pub fn base(&self) -> PathBuf {
+        self.scene_path.as_deref().and_then(std::path::Path::parent).map(PathBuf::from).unwrap_or_default()
     }
 
     /// The catalogue, once it is ready.

@@ -11,8 +11,10 @@ use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::lid::Facing;
+use crate::formats::control_curve::read_control_curve;
 use crate::study::accuracy::Accuracy;
-use crate::study::scene_file::{ControlMode, SceneFile};
+use crate::study::control::ControlQuestion;
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,6 +49,8 @@ pub enum Outcome {
     Read(Box<Import>),
     /// A scene was read.
     ReadScene(PathBuf, Result<Box<SceneFile>, String>),
+    /// A control curve was read.
+    ReadCurve(Result<Vec<[f64; 2]>, String>),
     /// An addition is in the catalogue.
     Added(usize, Result<String, String>),
     /// Something else in the catalogue was changed.
@@ -71,18 +75,22 @@ fn take_from_shelf(
     selection: &Selection,
     scene: &SceneFile,
     daylight: Option<&Daylight>,
+    (aperture, base): (usize, &Path),
 ) -> Result<Shelved, String> {
     let product = shelf.product(&selection.product)?;
     let state = if selection.state == CONTROLLED {
-        let mode = scene.control.as_ref().map_or(ControlMode::Fixed, |control| control.mode);
+        let fixed = ControlKeys::of(ControlMode::Fixed);
+        let keys = super::control::rule(scene, aperture).unwrap_or(&fixed);
         let daylight = daylight.ok_or_else(|| "no state is picked until sky and sun are right".to_owned())?;
         let facing = Facing {
             outside: &daylight.outside,
             sun: daylight.sun.as_ref(),
             orientation: Orientation::new(Bearing::from_degrees(scene.site.azimuth)),
-            surface: super::control::surface(scene),
+            surface: super::control::surface_of(scene, aperture),
         };
-        shelf.controlled_state(&selection.product, mode, &facing).map_err(|error| error.to_string())?
+        let hour = super::moment::of(scene).map(|time| f64::from(time.hour()) + f64::from(time.minute()) / 60.0);
+        let asked = ControlQuestion { keys, base, hour, facing };
+        shelf.controlled_state(&selection.product, &asked).map_err(|error| error.to_string())?
     } else if selection.state.is_empty() {
         product.states.first().map(|state| state.key.clone()).unwrap_or_default()
     } else {
@@ -109,6 +117,13 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
             SceneFile::parse(&text).map(Box::new).map_err(|error| format!("{}: {error}", path.display()))
         });
         return Outcome::ReadScene(path.clone(), scene);
+    }
+    if let [path] = paths
+        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+    {
+        let told = |error: &dyn std::fmt::Display| format!("{}: as a control curve: {error}", path.display());
+        let curve = read_bytes(path).and_then(|bytes| read_control_curve(&bytes).map_err(|error| told(&error)));
+        return Outcome::ReadCurve(curve);
     }
     let mut import = Import::default();
     let mut sources = Vec::new();
@@ -279,7 +294,12 @@ impl App {
                 self.state.scene_path = Some(path);
                 self.adopt_selection();
             }
-            Outcome::ReadScene(_, Err(error)) => {
+            Outcome::ReadCurve(Ok(curve)) => {
+                let keys = self.state.control_keys().with_mode(ControlMode::Curve);
+                let keys = ControlKeys { curve, curve_file: None, ..keys };
+                self.apply(super::command::Command::ControlKeys(Box::new(keys)));
+            }
+            Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) => {
                 self.toasts.error(error).duration(None);
             }
             Outcome::Added(number, result) => self.take_added(number, result),
@@ -375,7 +395,7 @@ impl App {
     fn ask_year(&mut self) {
         let state = &self.state;
         let Some(product) = state.product.clone() else { return };
-        let key = YearKey::new(&state.document.scene, &product.key, state.control_mode(), &state.shown_state);
+        let key = YearKey::new(state, &product.key);
         if key == self.asked_year {
             return;
         }
@@ -390,11 +410,6 @@ impl App {
         }
     }
 
-    /// What relative paths of the scene start from.
-    fn base(&self) -> PathBuf {
-        self.state.scene_path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf()
-    }
-
     /// Runs the ladder on the present scene and shows its sheet.
     pub(super) fn measure_accuracy(&mut self) {
         self.state.sheet = Some(Sheet::Accuracy);
@@ -402,7 +417,7 @@ impl App {
             self.toasts.info("The catalogue is not open yet");
             return;
         };
-        let question = Question { scene: self.state.document.scene.clone(), base: self.base(), shelf };
+        let question = Question { scene: self.state.document.scene.clone(), base: self.state.base(), shelf };
         let engine = self.services.engine.clone();
         self.results.accuracy.error = None;
         self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
@@ -419,7 +434,7 @@ impl App {
             return;
         }
         self.asked = Some(document.clone());
-        let question = Question { scene: document.scene.clone(), base: self.base(), shelf: shelf.clone() };
+        let question = Question { scene: document.scene.clone(), base: self.state.base(), shelf: shelf.clone() };
         let selection = document.selection.clone();
         self.state.dataset.stale = true;
         self.state.daylight.stale = true;
@@ -427,10 +442,12 @@ impl App {
         self.results.room.stale = true;
         self.results.accuracy.stale = true;
         let (scene, base) = (question.scene.clone(), question.base.clone());
+        let aperture = self.state.control_aperture();
         self.start(Lane::Scene, move |_| {
             let daylight =
                 outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
-            Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok()), daylight)
+            let place = (aperture, base.as_path());
+            Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok(), place), daylight)
         });
         let (engine, asked) = (self.services.engine.clone(), question.clone());
         self.start(Lane::Lid, move |job| Outcome::Lid(engine.lid(&asked, job)));

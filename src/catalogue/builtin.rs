@@ -304,6 +304,15 @@ pub fn builtin_products() -> Vec<(NewProduct, Vec<Dataset>)> {
         .collect()
 }
 
+/// Chord and pitch \[m\] of the flat slats of a built-in product; `None` for everything else.
+pub fn builtin_slats(key: &str) -> Option<(f64, f64)> {
+    let recipe = recipes().into_iter().find(|recipe| recipe.key == key)?;
+    recipe.states.first().and_then(|(_, _, make)| match make {
+        Make::Slats(slats) => Some((slats.width, slats.spacing)),
+        _ => None,
+    })
+}
+
 /// Puts this program's built-in products into a file that has none or older ones, in one transaction. Rows of the
 /// user's and favourites stay. A file that a newer program filled is left as it is.
 pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {

@@ -22,7 +22,7 @@ mod search;
 mod store;
 mod validate;
 
-pub use builtin::{BUILTIN_VERSION, builtin_products};
+pub use builtin::{BUILTIN_VERSION, builtin_products, builtin_slats};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
 pub use open::{Catalogue, default_path};

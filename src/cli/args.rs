@@ -1,7 +1,7 @@
 //! What can be typed.
 
 use super::{
-    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, control::ControlArgs, convert::ConvertArgs,
     goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
@@ -21,6 +21,7 @@ Examples:
   cfs room office.toml --out office.csv illuminance at every sensor
   cfs accuracy office.toml              error against run time of every method for this scene
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
+  cfs control blind.toml --out year.csv a year of states of controlled systems
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs convert blind.xml copy.xml        between dataset formats
   cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
@@ -54,6 +55,8 @@ pub enum Command {
     Sky(SkyArgs),
     /// Compute a system's scattering from its geometry and material
     Goniophotometer(GoniophotometerArgs),
+    /// A year of states of a scene's controlled systems
+    Control(ControlArgs),
     /// What a dataset file is
     Info(InfoArgs),
     /// A dataset in another format

@@ -4,6 +4,7 @@ pub mod accuracy;
 mod args;
 pub mod catalogue;
 pub mod compact;
+pub mod control;
 pub mod convert;
 mod dataset_file;
 pub mod goniophotometer;
@@ -32,6 +33,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Goniophotometer(args) => goniophotometer::run(args, &library),
+        Command::Control(args) => control::run(args, &library),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Compact(args) => compact::run(args),

@@ -6,6 +6,7 @@
 pub mod bsdf_xml;
 pub mod btdf_text;
 pub mod compact_rows;
+pub mod control_curve;
 pub mod dataset_blob;
 mod dot_font;
 pub mod drawing;

@@ -85,7 +85,9 @@ impl Described {
                 let systems = library.load_file(&self.base.join(name))?;
                 Ok(systems.iter().map(|system| system.state.clone()).collect())
             }
-            LayerSource::Catalogue(key) => library.states_of(key),
+            LayerSource::Catalogue(key) => {
+                Ok(library.product(key)?.states.into_iter().map(|state| state.key).collect())
+            }
         }
     }
 

@@ -1,11 +1,10 @@
 //! The library that programs use: ideal systems, dataset files (kept as long as they do not change), the catalogue.
 
-use super::control::pick_state;
+use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
-use super::scene_file::{ControlMode, SystemKeys};
+use super::scene_file::SystemKeys;
 use super::system::{System, SystemLibrary, ideal};
-use crate::catalogue::{Catalogue, CatalogueError};
-use crate::compute::lid::Facing;
+use crate::catalogue::{Catalogue, CatalogueError, Product};
 use crate::formats::read_dataset;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -46,10 +45,9 @@ impl Library {
         answer
     }
 
-    /// Keys of the states of a product of the catalogue.
-    pub fn states_of(&self, key: &str) -> Result<Vec<String>, StudyError> {
-        let product = self.in_catalogue(|catalogue| catalogue.product(key))?;
-        Ok(product.states.into_iter().map(|state| state.key).collect())
+    /// A product of the catalogue without its datasets.
+    pub fn product(&self, key: &str) -> Result<Product, StudyError> {
+        self.in_catalogue(|catalogue| catalogue.product(key))
     }
 
     /// All states of a dataset file.
@@ -101,8 +99,8 @@ impl SystemLibrary for Library {
         }
     }
 
-    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError> {
-        pick_state(&self.in_catalogue(|catalogue| catalogue.product(product))?, mode, facing)
+    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        pick_state(&Device::of(&self.product(product)?)?, asked)
     }
 }
 

@@ -1,12 +1,15 @@
 //! The scene as it is meant: keys judged together, systems loaded, everything in the units and frames of `compute`.
 
+use super::control::ControlQuestion;
+use super::control::year::CONTROLLED;
 use super::error::StudyError;
 use super::near_field::near_field;
 use super::scene_file::{
-    ApertureKeys, ApertureReflectance, BackReflectionMode, ControlMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
-    SurfaceKey, SystemKeys,
+    ApertureKeys, ApertureReflectance, BackReflectionMode, Interpolation, RoomKeys, SceneFile, SensorKeys, SurfaceKey,
+    SystemKeys,
 };
 use super::sky::outside_from_keys;
+use super::sun_position::parse_local_time;
 use super::system::{System, SystemLibrary};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::CellMatrix;
@@ -118,12 +121,17 @@ impl Scene {
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
         let (sensors, grid) = sensors(&file.sensors, &room)?;
-        let controlled = file.control.as_ref().map(|control| control.mode);
+        let hour = hour(file)?;
         let mut list = Vec::with_capacity(geometry.len());
         for (index, (keys, aperture)) in file.aperture.iter().zip(geometry).enumerate() {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
-            let wanted =
-                controlled_state(keys, controlled, library, &facing).map_err(|error| in_aperture(index, error))?;
+            let rule = keys.control.as_ref().or(file.control.as_ref());
+            let asked = rule.map(|keys| ControlQuestion { keys, base, hour, facing });
+            let wanted = controlled_state(keys, asked.as_ref(), library).map_err(|error| match &error {
+                // The scene's own section has its place in the file already.
+                StudyError::Key { key, .. } if key.starts_with("control.") && keys.control.is_none() => error,
+                _ => in_aperture(index, error),
+            })?;
             let picked = if wanted == keys.system { None } else { wanted_state(&wanted) };
             let system = library.load(&wanted, base).map_err(|error| in_aperture(index, error))?;
             if system.dataset.transmission().is_none() {
@@ -231,20 +239,26 @@ fn in_aperture(index: usize, error: StudyError) -> StudyError {
 /// The system's keys with the state that the control picks, where the aperture leaves the state to it.
 fn controlled_state(
     keys: &ApertureKeys,
-    mode: Option<ControlMode>,
+    asked: Option<&ControlQuestion<'_>>,
     library: &dyn SystemLibrary,
-    facing: &Facing<'_>,
 ) -> Result<SystemKeys, StudyError> {
     match &keys.system {
-        SystemKeys::Catalogue { key, state: Some(word) } if word == "controlled" => {
-            let mode = mode.ok_or_else(|| {
+        SystemKeys::Catalogue { key, state: Some(word) } if word == CONTROLLED => {
+            let asked = asked.ok_or_else(|| {
                 StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode")
             })?;
-            let state = library.controlled_state(key, mode, facing)?;
+            let state = library.controlled_state(key, asked)?;
             Ok(SystemKeys::Catalogue { key: key.clone(), state: Some(state) })
         }
         other => Ok(other.clone()),
     }
+}
+
+/// Hour of the scene's day; `None` where the sun is given by angles.
+fn hour(file: &SceneFile) -> Result<Option<f64>, StudyError> {
+    let Some(time) = &file.sky.time else { return Ok(None) };
+    let time = parse_local_time(&time.text()).map_err(|error| StudyError::key("sky.time", error.to_string()))?;
+    Ok(Some(f64::from(time.hour()) + f64::from(time.minute()) / 60.0))
 }
 
 /// The state that keys name.

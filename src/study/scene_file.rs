@@ -3,6 +3,7 @@
 //! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². What the keys mean together is
 //! [`super::scene`]'s business.
 
+pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use serde::{Deserialize, Serialize};
@@ -85,6 +86,9 @@ pub struct ApertureKeys {
     /// Period of the visible structure (pitch of slats or cuts) where the dataset does not say or says it wrong. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub structure: Option<f64>,
+    /// What chooses the state here, instead of the scene's `[control]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlKeys>,
 }
 
 /// `aperture.reflectance`: a number, or "dataset".
@@ -375,31 +379,6 @@ pub struct PlaneKeys {
 
 const fn up() -> [f64; 3] {
     [0.0, 0.0, 1.0]
-}
-
-/// `control.mode`
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ControlMode {
-    /// The most open state that lets no direct sun through.
-    #[serde(rename = "cut-off")]
-    CutOff,
-    /// Closed while the façade gets direct sun.
-    #[serde(rename = "din-5034")]
-    Din5034,
-    /// The product's curve over the solar profile angle.
-    #[serde(rename = "curve")]
-    Curve,
-    /// The state that the aperture names, or the product's first.
-    #[serde(rename = "fixed")]
-    Fixed,
-}
-
-/// `[control]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ControlKeys {
-    /// Which rule.
-    pub mode: ControlMode,
 }
 
 /// `compute.interpolation`

@@ -1,9 +1,9 @@
 //! Where the systems of a scene come from: closed forms, files, the catalogue.
 
+use super::control::ControlQuestion;
 use super::error::StudyError;
-use super::scene_file::{ControlMode, IdealKind, SystemKeys};
+use super::scene_file::{IdealKind, SystemKeys};
 use crate::compute::btdf::{Btdf, Dataset};
-use crate::compute::lid::Facing;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,8 +23,8 @@ pub trait SystemLibrary: Sync {
     /// Loads a system. Key names in errors are relative to the aperture.
     fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError>;
 
-    /// The state that a control picks for a product under the given outside.
-    fn controlled_state(&self, product: &str, mode: ControlMode, facing: &Facing<'_>) -> Result<String, StudyError>;
+    /// The state that a control picks for a product.
+    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
 }
 
 /// An ideal system.

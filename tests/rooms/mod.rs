@@ -6,9 +6,9 @@ use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{Btdf, CellMatrix, Dataset};
 use cfs::compute::direction::{Dir, Facade};
 use cfs::compute::estimate::Silent;
-use cfs::compute::lid::Facing;
 use cfs::compute::room::direct::Sensor;
-use cfs::study::scene_file::{ControlMode, SystemKeys};
+use cfs::study::control::ControlQuestion;
+use cfs::study::scene_file::SystemKeys;
 use cfs::study::system::ideal;
 use cfs::study::{RoomResult, Scene, SceneFile, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
@@ -138,7 +138,7 @@ impl SystemLibrary for Made {
         }
     }
 
-    fn controlled_state(&self, _: &str, _: ControlMode, _: &Facing<'_>) -> Result<String, StudyError> {
+    fn controlled_state(&self, _: &str, _: &ControlQuestion<'_>) -> Result<String, StudyError> {
         Err(StudyError::key("system", "this test has no catalogue"))
     }
 }

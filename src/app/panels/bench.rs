@@ -1,5 +1,7 @@
 //! The bench: six tiles in three columns and two rows, or one that fills it.
 
+mod control_tile;
+
 use crate::app::App;
 use crate::app::command::Command;
 use crate::app::control as rules;
@@ -11,9 +13,8 @@ use crate::app::theme::{self, TILE_GAP};
 use crate::app::title;
 use crate::app::views::{btdf, control, lid, room, sky, transmittance};
 use crate::compute::angle::Bearing;
-use crate::compute::control::profile_angle;
 use crate::compute::direction::{Dir, Facade, Incident, Orientation, Surface, World};
-use crate::study::scene_file::{ControlMode, SceneFile, SurfaceKey};
+use crate::study::scene_file::{ControlKeys, SceneFile, SurfaceKey};
 use crate::study::sun_position::sun_path;
 use egui::{Rect, Sense, Ui, UiBuilder, vec2};
 use std::sync::Arc;
@@ -31,6 +32,7 @@ pub struct BenchState {
     incident: Option<Incident>,
     paths: Option<(PathKey, Vec<SunPath>)>,
     today: Option<(TodayKey, Vec<control::TracePoint>)>,
+    curve: Option<(CurveKey, Vec<[f64; 2]>)>,
     split: Option<(SplitKey, transmittance::FluxSplit)>,
     cells: Option<(usize, Vec<room::CellValue>)>,
     revisions: Revisions,
@@ -42,6 +44,8 @@ type SunPath = Vec<(f64, Incident)>;
 type PathKey = (i16, [u64; 4]);
 /// Rule and day that today's trace hangs on.
 type TodayKey = (rules::YearKey, i16);
+/// Product and rule that its curve hangs on.
+type CurveKey = (String, ControlKeys);
 /// Dataset, direction and surface that the flux split hangs on.
 type SplitKey = (u64, Incident, bool);
 
@@ -114,7 +118,7 @@ fn content(ui: &mut Ui, tile: Tile, app: &mut App, commands: &mut Vec<Command>) 
         Tile::Sky => sky_tile(ui, app, held, commands),
         Tile::Lid => lid_tile(ui, app, held),
         Tile::Room => room_tile(ui, app, held, commands),
-        Tile::Control => control_tile(ui, app, held, commands),
+        Tile::Control => control_tile::show(ui, app, held, commands),
     }
 }
 
@@ -358,139 +362,3 @@ fn room_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>
         commands.push(Command::Scene(Box::new(scene)));
     }
 }
-
-/// Today's sun against the façade, and the state that each half hour of it asks for.
-fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
-    let Some(product) = state.product.as_ref() else { return Vec::new() };
-    // A rule that cannot be followed is told where the state is picked; here its trace is missing.
-    let points = rules::today(product, key, &state.document.scene).unwrap_or_default();
-    let mut last = 0;
-    points
-        .into_iter()
-        .map(|(hour, point)| {
-            last = point.map_or(last, |(_, state)| usize::from(state));
-            control::TracePoint { hour, profile_angle: point.map(|(angle, _)| angle), state: last }
-        })
-        .collect()
-}
-
-/// What the numbers of a product's states are.
-fn quantity(product: &crate::catalogue::Product) -> &'static str {
-    let numeric = product.states.iter().all(|state| state.value.is_some());
-    match (numeric, product.kind.as_str()) {
-        (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
-        (true, _) => "state / °",
-        (false, _) => "state",
-    }
-}
-
-/// The rule by which the state is picked, under the tile.
-fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let mode = state.control_mode();
-    let curve = state.product.as_deref().is_some_and(|product| !product.control_curve.is_empty());
-    ui.horizontal_centered(|ui| {
-        ui.add_space(6.0);
-        for (rule, text) in
-            [(ControlMode::Fixed, "By hand"), (ControlMode::Curve, "Curve"), (ControlMode::Din5034, "DIN 5034")]
-        {
-            let chosen = mode == rule || (rule == ControlMode::Curve && mode == ControlMode::CutOff);
-            let button = egui::Button::selectable(chosen, text);
-            let response = ui.add_enabled(rule != ControlMode::Curve || curve, button);
-            let response = response
-                .on_hover_text(Command::Control(rule).info().tip)
-                .on_disabled_hover_text("This product has no control curve");
-            if response.clicked() && !chosen {
-                commands.push(Command::Control(rule));
-            }
-        }
-    });
-}
-
-fn control_tile(ui: &mut Ui, app: &mut App, held: bool, commands: &mut Vec<Command>) {
-    let state = &app.state;
-    let scene = &state.document.scene;
-    let product = state.product.clone();
-    let states: Vec<control::StatePoint> = product.as_deref().map_or_else(Vec::new, |product| {
-        let list = rules::ordered_states(product);
-        list.into_iter().map(|(key, value)| control::StatePoint { key, value }).collect()
-    });
-    let current = states.iter().position(|point| point.key == state.shown_state).unwrap_or(0);
-    let mode = state.control_mode();
-    let day = moment::of(scene).map_or(0, |time| time.day_of_year());
-    let key = rules::YearKey::new(scene, &state.document.selection.product, mode, &state.shown_state);
-    let key = key.filter(|key| product.as_deref().is_some_and(|product| product.key == key.product));
-    match &key {
-        Some(key) if app.bench.today.as_ref().is_none_or(|(old, _)| (&old.0, old.1) != (key, day)) => {
-            app.bench.today = Some(((key.clone(), day), trace(state, key)));
-        }
-        Some(_) => {}
-        None => app.bench.today = None,
-    }
-    let curve: Vec<[f64; 2]> = product.as_deref().map_or_else(Vec::new, |product| {
-        product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect()
-    });
-    let shown = &app.results.year;
-    // A map of another product's states would be drawn with this one's: rather none.
-    let year = shown.value.as_ref().filter(|year| {
-        year.states.iter().eq(states.iter().map(|point| &point.key))
-            && key.as_ref().is_some_and(|key| key.product == year.key.product)
-    });
-    let name = format!("{} · {}", title::selection(state), rules::word(mode));
-    let moving = states.len() > 1;
-    let sun = sun_incident(scene);
-    let input = control::Input {
-        states: &states,
-        quantity: product.as_deref().map_or("state", quantity),
-        curve: &curve,
-        name: &name,
-        today: app.bench.today.as_ref().map_or(&[], |(_, today)| today.as_slice()),
-        profile_angle: sun.and_then(|sun| profile_angle(sun.0)).map(f64::to_degrees),
-        current,
-        year: year.map_or(&[], |year| year.hours.as_slice()),
-        moment: moment::of(scene).map(|time| {
-            (
-                usize::try_from(time.day_of_year() - 1).unwrap_or(0),
-                f64::from(time.hour()) + f64::from(time.minute()) / 60.0,
-            )
-        }),
-        revision: app.bench.revisions.of(3, year),
-        status: status(
-            moving && (shown.stale || state.dataset.stale),
-            held,
-            shown.error.as_deref().or(state.dataset.error.as_deref()).filter(|_| moving && year.is_none()),
-        ),
-    };
-    if app.export.wants_numbers(Tile::Control) {
-        app.export.numbers(ui.ctx(), control::csv(&input));
-    }
-    let (upper, strip) = {
-        let whole = ui.available_rect_before_wrap();
-        whole.split_top_bottom_at_y(whole.bottom() - if moving { RULES_HEIGHT } else { 0.0 })
-    };
-    if moving {
-        ui.scope_builder(UiBuilder::new().max_rect(strip).id_salt("rules"), |ui| rules_strip(ui, state, commands));
-    }
-    let builder = UiBuilder::new().max_rect(upper).id_salt("control");
-    let actions = ui.scope_builder(builder, |ui| control::show(ui, &input, &mut app.bench.control)).inner;
-    for action in actions {
-        match action {
-            control::Action::ChooseState(index) => {
-                if let Some(state) = states.get(index) {
-                    commands.push(Command::SelectState(state.key.clone()));
-                }
-            }
-            control::Action::ChooseMoment { day, hour } => {
-                let mut scene = app.state.document.scene.clone();
-                if let Some(time) = moment::of(&scene) {
-                    let days = day as i32 + 1 - i32::from(time.day_of_year());
-                    let minutes = (hour * 60.0) as i32 - 60 * i32::from(time.hour()) - i32::from(time.minute());
-                    moment::step(&mut scene, days, minutes);
-                    commands.push(Command::Scene(Box::new(scene)));
-                }
-            }
-        }
-    }
-}
-
-/// Height of the strip of rules. \[points\]
-const RULES_HEIGHT: f32 = 26.0;

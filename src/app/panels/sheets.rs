@@ -212,7 +212,10 @@ fn keys(ui: &mut Ui) {
 
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
-        PathUse::Open => ("Dataset (.xml, .btdf.txt) or scene (.toml); or drop the file on the window.", "Open"),
+        PathUse::Open => (
+            "Dataset (.xml, .btdf.txt), scene (.toml) or control curve (.csv); or drop the file on the window.",
+            "Open",
+        ),
         PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
         PathUse::ExportLid => ("Luminaire file: .ldt (EULUMDAT) or .ies (LM-63); the ending decides.", "Export"),
         PathUse::ExportTile(_) => ("Numbers (.csv) or a picture (.png); the ending decides.", "Export"),

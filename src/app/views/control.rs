@@ -1,5 +1,7 @@
 //! Control: which state for which profile angle, today's way of the sun over that curve, and the year.
 
+mod edit;
+
 use super::Cache;
 use crate::app::paint::chart::{Axis, Chart, LEFT};
 use crate::app::paint::hemisphere::on_halo;
@@ -38,6 +40,8 @@ pub struct Input<'a> {
     pub quantity: &'a str,
     /// The rule: value [unit of the states] over profile angle \[°\], rising angle.
     pub curve: &'a [[f64; 2]],
+    /// May its points be moved?
+    pub editable: bool,
     /// Product and rule in words.
     pub name: &'a str,
     /// Today.
@@ -57,10 +61,12 @@ pub struct Input<'a> {
 }
 
 /// What the user did.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Action {
     /// A state was clicked: set it.
     ChooseState(usize),
+    /// The curve was changed.
+    EditCurve(Vec<[f64; 2]>),
     /// An hour of the year was clicked: day from 0, hour.
     ChooseMoment {
         /// Day of the year, from 0.
@@ -74,11 +80,14 @@ pub enum Action {
 #[derive(Debug, Clone, Default)]
 pub struct State {
     year: Cache<(u64, Rect, bool), Arc<Mesh>>,
+    editing: edit::Editing,
 }
 
 const HELP: &str = "Which state the control takes at which profile angle (the sun's angle in the vertical section \
 across the façade): the rule as a curve, the product's states as dots, today's way of the sun as a trace; under it the \
-state of every hour of the year. Click a state to set it, an hour to go there.\nSource: IEA SHC Task 31 report (2005); \
+state of every hour of the year. Click a state to set it, an hour to go there. With the rule “Curve” its points can be \
+dragged; a double click adds one, a right click takes one out; keys: , and . choose a point, arrows move it, + adds one, \
+Delete takes it out.\nSource: IEA SHC Task 31 report (2005); \
 profile angle tan ψ = tan h / cos Δaz.";
 const DAYS: usize = 365;
 /// First days of the months, from 0, in a year of 365 days.
@@ -107,7 +116,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     } else {
         (rect, None)
     };
-    let text = curve_ui(ui, top, input, out);
+    let text = curve_ui(ui, top, input, &mut state.editing, out);
     let year = bottom.and_then(|place| year_ui(ui, place, input, state, out));
     year.or(text).unwrap_or_else(|| {
         let now = input
@@ -147,14 +156,23 @@ fn state_marks(input: &Input<'_>, height: f32) -> Vec<(f64, String)> {
     input.states.iter().step_by(stride).map(|s| (s.value, tick(s.value))).collect()
 }
 
-fn curve_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Option<String> {
+fn curve_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    input: &Input<'_>,
+    editing: &mut edit::Editing,
+    out: &mut Vec<Action>,
+) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let (lo, hi) = extent(input);
     let x = Axis::linear(0.0, 90.0, "profile angle / °")
         .with_marks((0..=6).map(|k| (15.0 * f64::from(k), format!("{}", 15 * k))).collect());
     let y = Axis::linear(lo, hi, input.quantity).with_marks(state_marks(input, rect.height()));
     let chart = Chart::within(rect, x, y);
-    let response = ui.interact(chart.area, ui.scope_id().with("curve"), Sense::click());
+    let response = ui.interact(chart.area, ui.scope_id().with("curve"), Sense::click_and_drag());
+    let (edited, taken) =
+        if input.editable { edit::edit(ui, &response, &chart, input, editing) } else { (None, false) };
+    let curve = edited.as_deref().unwrap_or(input.curve);
     let painter = ui.painter();
     chart.paint(painter, &palette);
     for (k, s) in input.states.iter().enumerate() {
@@ -162,7 +180,14 @@ fn curve_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -
         let stroke = if k == input.current { Stroke::new(1.5, palette.ink) } else { Stroke::new(0.5, palette.outline) };
         painter.hline(chart.area.x_range(), y, stroke);
     }
-    chart.line(painter, input.curve.iter().map(|p| (p[0], p[1])), Stroke::new(2.2, palette.first));
+    chart.line(painter, curve.iter().map(|p| (p[0], p[1])), Stroke::new(2.2, palette.first));
+    for (k, p) in curve.iter().enumerate().filter(|_| input.editable) {
+        let at = chart.screen(p[0], p[1]);
+        let chosen = editing.chosen == Some(k);
+        let radius = if chosen { 5.5 } else { 3.5 };
+        let edge = if chosen { palette.ink } else { palette.first };
+        painter.circle(at, radius, palette.face, Stroke::new(2.0, edge));
+    }
     let value = |index: usize| input.states.get(index).map_or(f64::NAN, |s| s.value);
     let trace = input.today.iter().map(|p| (p.profile_angle.unwrap_or(f64::NAN), value(p.state)));
     chart.line(painter, trace, Stroke::new(1.4, palette.sun));
@@ -199,10 +224,19 @@ fn curve_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -
         (0..input.states.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
     if response.clicked()
+        && !taken
         && let Some(index) = response.interact_pointer_pos().and_then(nearest)
     {
         out.push(Action::ChooseState(index));
     }
+    if let Some(k) = editing.chosen.filter(|_| response.has_focus() && input.editable)
+        && let Some([angle, value]) = curve.get(k)
+    {
+        let text = format!("point {} of {}: {angle:.0}° → {}", k + 1, curve.len(), number(*value, 3));
+        out.extend(edited.map(Action::EditCurve));
+        return Some(text);
+    }
+    out.extend(edited.map(Action::EditCurve));
     let at = response.hover_pos()?;
     let (psi, _) = chart.value(at)?;
     let rule = curve_at(input.curve, psi).map_or_else(String::new, |v| format!(" · rule {}", number(v, 3)));

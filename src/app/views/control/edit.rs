@@ -1,0 +1,188 @@
+//! Editing the points of a control curve: dragged with the pointer, or with the keys while the chart has the keyboard.
+//!
+//! Profile angles snap to whole degrees and stay between their neighbours; values snap to the states' (with Shift held:
+//! to whole numbers). A double click adds a point on the line, a right click takes one out. Keys: `,` and `.` choose a
+//! point, arrows move it, Insert or + adds one after it, Delete takes it out.
+
+use super::{Input, curve_at};
+use crate::app::paint::chart::Chart;
+use egui::{EventFilter, Key, Modifiers, Pos2, Response, Ui};
+
+/// Pointers this near to a point mean it. \[points\]
+const REACH: f32 = 10.0;
+/// Least distance between neighbouring points. \[°\]
+const GAP: f64 = 1.0;
+
+/// The point that is chosen, and the one that is dragged.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Editing {
+    /// Marked in the picture, moved by the keys.
+    pub chosen: Option<usize>,
+    dragged: bool,
+}
+
+/// Index of the curve's point near a place on the screen.
+fn near(chart: &Chart, curve: &[[f64; 2]], at: Pos2) -> Option<usize> {
+    let distance = |k: usize| chart.screen(curve[k][0], curve[k][1]).distance(at);
+    (0..curve.len()).filter(|&k| distance(k) <= REACH).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+}
+
+/// The value of the nearest state.
+fn snapped(input: &Input<'_>, value: f64) -> f64 {
+    let states = input.states.iter().map(|state| state.value);
+    states.min_by(|a, b| (a - value).abs().total_cmp(&(b - value).abs())).unwrap_or(value)
+}
+
+/// A point at another place, kept between its neighbours and on the chart's axis.
+fn moved(curve: &[[f64; 2]], index: usize, [angle, value]: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut curve = curve.to_vec();
+    let low = if index > 0 { curve[index - 1][0] + GAP } else { 0.0_f64.min(curve[index][0]) };
+    let high = curve.get(index + 1).map_or(90.0, |next| next[0] - GAP);
+    curve[index] = [angle.round().clamp(low.min(high), high.max(low)), value];
+    curve
+}
+
+/// With a point more, on the line at a profile angle where there is room for it; its place in the curve.
+fn with_point(curve: &[[f64; 2]], angle: f64) -> Option<(Vec<[f64; 2]>, usize)> {
+    let angle = angle.round();
+    let value = curve_at(curve, angle)?;
+    let room = curve.iter().all(|point| (point[0] - angle).abs() >= GAP) && (0.0..=90.0).contains(&angle);
+    let at = curve.partition_point(|point| point[0] < angle);
+    room.then(|| {
+        let mut curve = curve.to_vec();
+        curve.insert(at, [angle, value]);
+        (curve, at)
+    })
+}
+
+/// Without a point; a curve keeps one.
+fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
+    (curve.len() > 1 && index < curve.len()).then(|| {
+        let mut curve = curve.to_vec();
+        curve.remove(index);
+        curve
+    })
+}
+
+/// What the pointer and the keys make of the curve: the new one if it changed, and whether the click was meant for it.
+pub fn edit(
+    ui: &Ui,
+    response: &Response,
+    chart: &Chart,
+    input: &Input<'_>,
+    editing: &mut Editing,
+) -> (Option<Vec<[f64; 2]>>, bool) {
+    let curve = input.curve;
+    editing.chosen = editing.chosen.filter(|&k| k < curve.len());
+    let pointer = response.interact_pointer_pos();
+    let mut taken = editing.dragged;
+    let mut new = None;
+    if response.drag_started() {
+        let origin = ui.input(|i| i.pointer.press_origin()).or(pointer);
+        let found = origin.and_then(|at| near(chart, curve, at));
+        editing.dragged = found.is_some();
+        editing.chosen = found.or(editing.chosen);
+    }
+    if editing.dragged
+        && let (Some(index), Some(at)) = (editing.chosen, pointer)
+    {
+        taken = true;
+        let inside = chart.area.clamp(at);
+        if let Some((angle, value)) = chart.value(inside) {
+            let free = ui.input(|i| i.modifiers.shift);
+            let value = if free { value.round() } else { snapped(input, value) };
+            new = Some(moved(curve, index, [angle, value]));
+        }
+    }
+    if response.drag_stopped() {
+        editing.dragged = false;
+    }
+    let here = pointer.and_then(|at| near(chart, curve, at));
+    if response.clicked() && here.is_some() {
+        (editing.chosen, taken) = (here, true);
+    }
+    if response.double_clicked() && here.is_none() {
+        let added = pointer.and_then(|at| chart.value(at)).and_then(|(angle, _)| with_point(curve, angle));
+        if let Some((curve, at)) = added {
+            (new, editing.chosen, taken) = (Some(curve), Some(at), true);
+        }
+    }
+    if response.secondary_clicked()
+        && let Some(index) = here
+    {
+        (new, editing.chosen) = (without(curve, index), None);
+    }
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    if response.has_focus() {
+        let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        new = by_keys(ui, input, editing).or(new);
+    }
+    (new.filter(|new| new != curve), taken)
+}
+
+/// What the keys of this frame make of the curve.
+fn by_keys(ui: &Ui, input: &Input<'_>, editing: &mut Editing) -> Option<Vec<[f64; 2]>> {
+    let curve = input.curve;
+    let last = curve.len().checked_sub(1)?;
+    let pressed =
+        |key: Key| ui.input_mut(|i| i.consume_key(Modifiers::NONE, key) || i.consume_key(Modifiers::SHIFT, key));
+    if pressed(Key::Comma) {
+        editing.chosen = Some(editing.chosen.map_or(last, |k| k.saturating_sub(1)));
+    }
+    if pressed(Key::Period) {
+        editing.chosen = Some(editing.chosen.map_or(0, |k| (k + 1).min(last)));
+    }
+    let step = [
+        (Key::ArrowLeft, [-1.0, 0.0]),
+        (Key::ArrowRight, [1.0, 0.0]),
+        (Key::ArrowDown, [0.0, -1.0]),
+        (Key::ArrowUp, [0.0, 1.0]),
+    ]
+    .into_iter()
+    .find_map(|(key, step)| pressed(key).then_some(step));
+    let index = editing.chosen?;
+    let [angle, value] = curve[index];
+    if let Some([right, up]) = step {
+        let states = || input.states.iter().map(|state| state.value);
+        let next = if up > 0.0 {
+            states().filter(|v| *v > value + 1e-9).fold(f64::INFINITY, f64::min)
+        } else {
+            states().filter(|v| *v < value - 1e-9).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let value = if up != 0.0 && next.is_finite() { next } else { value };
+        return Some(moved(curve, index, [angle + right, value]));
+    }
+    if pressed(Key::Insert) || pressed(Key::Plus) {
+        let next = curve.get(index + 1).map_or(90.0, |next| next[0]);
+        let (curve, at) = with_point(curve, 0.5 * (angle + next))?;
+        editing.chosen = Some(at);
+        return Some(curve);
+    }
+    if pressed(Key::Delete) || pressed(Key::Backspace) {
+        let curve = without(curve, index)?;
+        editing.chosen = Some(index.min(curve.len() - 1));
+        return Some(curve);
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_stay_in_order_and_a_curve_keeps_one() {
+        let curve = [[0.0, 60.0], [30.0, 20.0], [60.0, 0.0]];
+        assert_eq!(moved(&curve, 1, [75.0, 10.0])[1], [59.0, 10.0]);
+        assert_eq!(moved(&curve, 0, [-20.0, 10.0])[0], [0.0, 10.0]);
+        assert_eq!(moved(&curve, 2, [95.3, 5.0])[2], [90.0, 5.0]);
+        let (more, at) = with_point(&curve, 45.2).unwrap();
+        assert_eq!((more[at], at, more.len()), ([45.0, 10.0], 2, 4));
+        assert!(with_point(&curve, 30.3).is_none());
+        assert_eq!(without(&curve, 1).unwrap(), [[0.0, 60.0], [60.0, 0.0]]);
+        assert!(without(&[[0.0, 1.0]], 0).is_none() && without(&curve, 7).is_none());
+    }
+}

@@ -1,0 +1,129 @@
+//! `cfs control SCENE`: the states that controls pick over a year, as a table for other programs.
+
+use super::output::{print, write_file};
+use super::progress::TerminalProgress;
+use crate::study::control::year::{ClearSky, Moment, Moving, Situation, Summary, moving, summary, year};
+use crate::study::{Library, read_scene_file};
+use anyhow::anyhow;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// A year of states of a scene's controlled systems
+#[derive(Debug, Clone, clap::Args)]
+#[command(
+    after_help = "The table has a row for the middle of every step: time, sun_altitude_deg, sun_azimuth_deg, and for \
+each controlled aperture N (from 1): profile_angle_deg_N (empty while no part of the sun's disc is before it), demanded_N \
+(what the rule asks for, in the unit of the states), state_N (its key), direct_sun_N (1: direct sun passes between the \
+slats, 0: none does, empty: the slats are not known) and reason_N (sun, no-sun, night, bright, dark, schedule, fixed).
+
+The sun is taken to shine whenever any of its disc is up, as bright as under a clear sky."
+)]
+pub struct ControlArgs {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Minutes a step; divides a day
+    #[arg(long, value_name = "MINUTES", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1440))]
+    pub step: u32,
+    /// Write the table to a CSV file instead of standard output
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Print the summary as JSON on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs the command; errors name the file and the key.
+pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
+    let name = args.scene.display();
+    let file = read_scene_file(&args.scene)?;
+    let base = args.scene.parent().unwrap_or(Path::new("."));
+    let told = |error: crate::study::StudyError| anyhow!("{name}: {error}");
+    let list = moving(&file, base, &|key| library.product(key)).map_err(told)?;
+    let situation = Situation::of(&file).map_err(told)?;
+    let progress = TerminalProgress::new();
+    let moments = year(&situation, base, &list, args.step, &ClearSky, &progress).map_err(told)?;
+    drop(progress);
+    if let Some(path) = &args.out {
+        write_file(path, csv(&list, &moments).as_bytes())?;
+    }
+    let sums: Vec<Summary> =
+        (0..list.len()).map(|k| summary(&moments, k, list[k].device.keys.len(), args.step)).collect();
+    if args.json {
+        print(&format!("{:#}\n", json(&list, &sums, &situation, args.step)))?;
+    } else if args.out.is_none() {
+        print(&csv(&list, &moments))?;
+    }
+    for (one, sum) in list.iter().zip(&sums) {
+        let direct = match sum.direct_hours {
+            Some(hours) => format!("direct sun through it for {hours:.1} h"),
+            None => "its slats are not known: whether direct sun passes is not told".to_owned(),
+        };
+        eprintln!(
+            "aperture {}: {} ({}), {} movements, sun on it for {:.1} h, {direct}",
+            one.aperture,
+            one.device.name,
+            one.keys.mode.word(),
+            sum.movements,
+            sum.sun_hours
+        );
+        if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
+            eprintln!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
+        }
+    }
+    Ok(())
+}
+
+fn csv(list: &[Moving], moments: &[Moment]) -> String {
+    let mut text = String::from("time,sun_altitude_deg,sun_azimuth_deg");
+    // Writing to a String cannot fail.
+    for one in list {
+        let n = one.aperture;
+        let _ = write!(text, ",profile_angle_deg_{n},demanded_{n},state_{n},direct_sun_{n},reason_{n}");
+    }
+    text.push('\n');
+    let number = |value: Option<f64>| value.map(|value| format!("{:.4}", value + 0.0)).unwrap_or_default();
+    for moment in moments {
+        let altitude = moment.altitude.to_degrees();
+        let _ =
+            write!(text, "{},{altitude:.4},{:.4}", moment.time.strftime("%Y-%m-%dT%H:%M:%S"), moment.bearing.degrees());
+        for (one, setting) in list.iter().zip(&moment.settings) {
+            let psi = number(setting.profile_angle.map(f64::to_degrees));
+            let passes = setting.passes.map_or("", |passes| if passes { "1" } else { "0" });
+            let key = field(&one.device.keys[setting.state]);
+            let _ = write!(text, ",{psi},{},{key},{passes},{}", number(setting.demanded), setting.reason.word());
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A text as a field of the table.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+fn json(list: &[Moving], sums: &[Summary], situation: &Situation, step: u32) -> serde_json::Value {
+    let apertures: Vec<_> = list
+        .iter()
+        .zip(sums)
+        .map(|(one, sum)| {
+            let states: serde_json::Map<String, serde_json::Value> =
+                one.device.keys.iter().cloned().zip(sum.state_hours.iter().map(|h| serde_json::json!(h))).collect();
+            serde_json::json!({
+                "aperture": one.aperture,
+                "product": one.device.name,
+                "mode": one.keys.mode.word(),
+                "movements": sum.movements,
+                "sun_hours": sum.sun_hours,
+                "direct_sun_hours": sum.direct_hours,
+                "daylight_hours_by_state": states,
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "year": situation.year,
+        "step_minutes": step,
+        "light": "clear sky at all hours",
+        "apertures": apertures,
+    })
+}

@@ -1,0 +1,219 @@
+//! Tilts at which slats let no direct light through.
+//!
+//! Neighbouring slats' shadows across a beam of profile angle ψ repeat every s cosψ; light passes straight between them
+//! unless a slat's extent across the beam is that long: extent(β + ψ) ≥ s cosψ. Flat slats and arcs have an extent that
+//! grows with the angle α = β + ψ between beam and chord alone, so the tilts to avoid are an open interval about −ψ and
+//! its turns by 180°:
+//!
+//! * flat, chord w:                       extent = w sin|α|
+//! * arc, radius R, half opening η:       extent = R (1 − cos(η + |α|)) for |α| ≤ η, by the point where the beam touches
+//!   the arc, else w sin|α|
+//!
+//! Polylines are searched instead, with a bound on how fast extents change. Thickness is left out: it only shades more.
+
+use crate::compute::system::slat_profile::SlatProfile;
+use std::f64::consts::PI;
+
+/// Slats of one section, infinitely many and infinitely long.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Shape of a slat at tilt 0.
+    pub profile: SlatProfile,
+    /// Vertical pitch. \[m\]
+    pub spacing: f64,
+}
+
+/// Tilts to avoid: between two limits and those turned by any number of half turns. \[rad\]
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Avoid {
+    Nothing,
+    Between(f64, f64),
+    Everything,
+}
+
+/// Angles closer than this are the same. \[rad\]
+const SLACK: f64 = 1e-10;
+/// Step by which polylines are searched. \[rad\]
+const STEP: f64 = PI / 720.0;
+
+impl Section {
+    /// `None` where lengths are not above 0 and finite, an arc is more than a semicircle, or a polyline has no two points.
+    pub fn new(profile: SlatProfile, spacing: f64) -> Option<Self> {
+        let length = |x: f64| x > 0.0 && x.is_finite();
+        let sane = match &profile {
+            SlatProfile::Flat { width } => length(*width),
+            SlatProfile::Arc { width, rise } => length(*width) && length(rise.abs()) && rise.abs() <= 0.5 * width,
+            SlatProfile::Polyline(points) => {
+                points.len() >= 2
+                    && points.iter().flatten().all(|x| x.is_finite())
+                    && points.iter().any(|point| point != &points[0])
+            }
+        };
+        (sane && length(spacing)).then_some(Self { profile, spacing })
+    }
+
+    /// Share of light of a profile angle that passes straight between slats of a tilt. \[rad\]
+    pub fn direct_share(&self, tilt: f64, psi: f64) -> f64 {
+        let pitch = self.spacing * psi.cos();
+        if pitch > 0.0 { (1.0 - self.profile.extent(tilt + psi) / pitch).max(0.0) } else { 0.0 }
+    }
+
+    /// Is all direct light of the profile angles `span` kept out, by every tilt within `tolerance` of `tilt`? \[rad\]
+    pub fn blocks(&self, tilt: f64, tolerance: f64, span: [f64; 2]) -> bool {
+        match self.avoid(span) {
+            Some(Avoid::Nothing) => true,
+            Some(Avoid::Everything) => false,
+            Some(Avoid::Between(low, high)) => {
+                let (low, high) = (low - tolerance, high + tolerance);
+                // The half turn that brings the tilt next above the lower limit.
+                let turned = low + (tilt - low).rem_euclid(PI);
+                high - low < PI && (turned >= high - SLACK || turned <= low + SLACK)
+            }
+            None => self.blocks_by_search([tilt - tolerance, tilt + tolerance], span),
+        }
+    }
+
+    /// The most open tilt of `range` (nearest to 0; of two equally open ones the positive) that blocks all profile angles
+    /// of `span`, even when it is missed by `tolerance`. \[rad\] `None` where no tilt does.
+    pub fn cut_off(&self, range: [f64; 2], tolerance: f64, span: [f64; 2]) -> Option<f64> {
+        let start = 0.0_f64.clamp(range[0], range[1]);
+        match self.avoid(span) {
+            Some(Avoid::Nothing) => Some(start),
+            Some(Avoid::Everything) => None,
+            Some(Avoid::Between(low, high)) => {
+                if self.blocks(start, tolerance, span) {
+                    return Some(start);
+                }
+                let (low, high) = (low - tolerance, high + tolerance);
+                let turns = (-3..=3).flat_map(|n| [low, high].map(|limit| limit + PI * f64::from(n)));
+                turns
+                    .filter(|tilt| (range[0] - SLACK..=range[1] + SLACK).contains(tilt))
+                    .filter(|tilt| self.blocks(*tilt, tolerance, span))
+                    .min_by(|a, b| a.abs().total_cmp(&b.abs()).then(b.total_cmp(a)))
+            }
+            None => self.cut_off_by_search(start, range, tolerance, span),
+        }
+    }
+
+    /// The tilts to avoid for all profile angles of a span; `None` for polylines, which have no closed form.
+    fn avoid(&self, span: [f64; 2]) -> Option<Avoid> {
+        let s = self.spacing;
+        // Least extent, the extent up to which the beam touches the arc, and the profile angle of a stationary limit.
+        let (least, touched, stationary) = match self.profile {
+            SlatProfile::Flat { .. } => (0.0, 0.0, None),
+            SlatProfile::Arc { width, rise } => {
+                let (radius, half) = arc(width, rise);
+                // d/dψ (α_c + ψ) = 0 where s = 2R sin(½(η + α_c)).
+                (rise.abs(), 2.0 * radius * half.sin().powi(2), Some(0.5 * s / radius))
+            }
+            SlatProfile::Polyline(_) => return None,
+        };
+        // Steeper beams meet slats that are never too narrow for them: nothing to avoid.
+        let steep = (least / s).min(1.0).acos();
+        let (low, high) = (span[0].max(-steep), span[1].min(steep));
+        if low > high || least >= s {
+            return Some(Avoid::Nothing);
+        }
+        let kinks = [Some(touched / s), stationary].into_iter().flatten().filter(|cosine| *cosine <= 1.0);
+        let kinks = kinks.flat_map(|cosine| [-1.0, 1.0].map(|side| side * cosine.acos()));
+        let at = [low, high].into_iter().chain(kinks.filter(|psi| (low..=high).contains(psi)));
+        // Where slats are narrower than their pitch, the flattest beam of the span is the worst.
+        let flattest = 0.0_f64.clamp(low, high);
+        let mut limits = [f64::INFINITY, f64::NEG_INFINITY];
+        for psi in at.chain([flattest]) {
+            let Some(alpha) = self.critical(s * psi.cos()) else { return Some(Avoid::Everything) };
+            limits = [limits[0].min(-alpha - psi), limits[1].max(alpha - psi)];
+        }
+        Some(if limits[1] - limits[0] >= PI { Avoid::Everything } else { Avoid::Between(limits[0], limits[1]) })
+    }
+
+    /// The least angle between beam and chord at which the extent reaches `needed` \[m → rad\]; `None` where it never
+    /// does.
+    fn critical(&self, needed: f64) -> Option<f64> {
+        let flat = |width: f64| (needed <= width * (1.0 + 1e-12)).then(|| (needed / width).min(1.0).asin());
+        match self.profile {
+            SlatProfile::Flat { width } => flat(width),
+            SlatProfile::Arc { width, rise } => {
+                let (radius, half) = arc(width, rise);
+                if needed <= 2.0 * radius * half.sin().powi(2) {
+                    Some(((1.0 - needed / radius).clamp(-1.0, 1.0).acos() - half).max(0.0))
+                } else {
+                    flat(width)
+                }
+            }
+            SlatProfile::Polyline(_) => None,
+        }
+    }
+
+    /// Is the extent long enough over a rectangle of tilts and profile angles? Both it and the pitch across the beam
+    /// change no faster than the longest of their parts, so that one value speaks for its neighbourhood.
+    fn blocks_by_search(&self, tilts: [f64; 2], span: [f64; 2]) -> bool {
+        let reach = diameter(&self.profile);
+        let surplus = |tilt: f64, psi: f64| self.profile.extent(tilt + psi) - self.spacing * psi.cos();
+        let mut open = vec![(tilts, span)];
+        while let Some(([t0, t1], [p0, p1])) = open.pop() {
+            let value = surplus(0.5 * (t0 + t1), 0.5 * (p0 + p1));
+            let (dt, dp) = (0.5 * (t1 - t0), 0.5 * (p1 - p0));
+            let change = reach * (dt + dp) + self.spacing * dp;
+            if value < -SLACK * (reach + self.spacing) {
+                return false;
+            }
+            if value >= change || change <= SLACK * (reach + self.spacing) {
+                continue;
+            }
+            if dt > dp {
+                let middle = 0.5 * (t0 + t1);
+                open.extend([([t0, middle], [p0, p1]), ([middle, t1], [p0, p1])]);
+            } else {
+                let middle = 0.5 * (p0 + p1);
+                open.extend([([t0, t1], [p0, middle]), ([t0, t1], [middle, p1])]);
+            }
+        }
+        true
+    }
+
+    /// From the most open tilt outwards in both senses, in steps, then by bisection. Tilts that block over less than a
+    /// step (0.25°) may be missed: the answer is then a more closed one.
+    fn cut_off_by_search(&self, start: f64, range: [f64; 2], tolerance: f64, span: [f64; 2]) -> Option<f64> {
+        let blocks = |tilt: f64| self.blocks(tilt, tolerance, span);
+        if blocks(start) {
+            return Some(start);
+        }
+        let outwards = |end: f64| {
+            let steps = ((end - start).abs() / STEP).ceil() as usize;
+            let at = |k: usize| if k == steps { end } else { start + (end - start).signum() * STEP * k as f64 };
+            let first = (1..=steps).find(|&k| blocks(at(k)))?;
+            let (mut closed, mut open) = (at(first), at(first - 1));
+            while (closed - open).abs() > SLACK {
+                let middle = 0.5 * (closed + open);
+                if blocks(middle) { closed = middle } else { open = middle }
+            }
+            Some(closed)
+        };
+        [outwards(range[1]), outwards(range[0])]
+            .into_iter()
+            .flatten()
+            .min_by(|a, b| a.abs().total_cmp(&b.abs()).then(b.total_cmp(a)))
+    }
+}
+
+/// Radius and half opening angle of an arc.
+fn arc(width: f64, rise: f64) -> (f64, f64) {
+    let rise = rise.abs();
+    ((0.25 * width * width + rise * rise) / (2.0 * rise), 2.0 * (2.0 * rise).atan2(width))
+}
+
+/// Greatest distance between two points of a polyline; the chord of others, whose extent no beam exceeds.
+fn diameter(profile: &SlatProfile) -> f64 {
+    match profile {
+        SlatProfile::Flat { width } | SlatProfile::Arc { width, .. } => *width,
+        SlatProfile::Polyline(points) => {
+            let pairs = points.iter().flat_map(|a| points.iter().map(move |b| (a[0] - b[0]).hypot(a[1] - b[1])));
+            pairs.fold(0.0, f64::max)
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "cut_off/tests.rs"]
+mod tests;

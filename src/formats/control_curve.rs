@@ -1,0 +1,143 @@
+//! Control curves: CSV with the columns `profile_angle_deg` and `value_deg` (or `value`), profile angles rising.
+//!
+//! Read: separated by commas, semicolons, tabs or blanks; a header, which may name further columns, or two bare columns
+//! in this order; comments from `#` on. Not read: decimal commas, units other than degrees.
+
+use std::fmt::Write as _;
+
+/// Most points that a curve may have.
+const MOST_POINTS: usize = 10_000;
+
+/// Why the text is no control curve.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CurveError {
+    /// Not text.
+    #[error("not UTF-8 text at byte {0}")]
+    NotText(usize),
+    /// A header that names other things.
+    #[error("line {line}: the header needs the columns profile_angle_deg and value_deg")]
+    Header {
+        /// From 1.
+        line: usize,
+    },
+    /// A field that is no number.
+    #[error("line {line}: \"{found}\" is no number of degrees")]
+    Number {
+        /// From 1.
+        line: usize,
+        /// The field.
+        found: String,
+    },
+    /// A profile angle that is not above the one before.
+    #[error("line {line}: profile angle {found}° does not rise")]
+    Order {
+        /// From 1.
+        line: usize,
+        /// The angle.
+        found: f64,
+    },
+    /// Out of range.
+    #[error("line {line}: profile angle {found}° is out of range (allowed: -90 to 90)")]
+    Range {
+        /// From 1.
+        line: usize,
+        /// The angle.
+        found: f64,
+    },
+    /// No rows, or too many.
+    #[error("{0} points (expected 1 to 10000)")]
+    Count(usize),
+}
+
+/// Reads (profile angle \[°\], value) points.
+pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
+    let text = std::str::from_utf8(bytes).map_err(|error| CurveError::NotText(error.valid_up_to()))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut columns = [0, 1];
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    let mut first = true;
+    for (index, line) in text.lines().enumerate() {
+        let line_number = index + 1;
+        let line = line.split('#').next().unwrap_or("").trim();
+        if line.is_empty() {
+            continue;
+        }
+        let fields: Vec<&str> = match line.find([',', ';']) {
+            Some(_) => line.split([',', ';']).map(str::trim).collect(),
+            None => line.split_whitespace().collect(),
+        };
+        if std::mem::take(&mut first) && fields.iter().any(|field| field.parse::<f64>().is_err()) {
+            let named = |names: &[&str]| fields.iter().position(|field| names.contains(&field.trim_matches('"')));
+            let found = named(&["profile_angle_deg"]).zip(named(&["value_deg", "value"]));
+            let (angle, value) = found.ok_or(CurveError::Header { line: line_number })?;
+            columns = [angle, value];
+            continue;
+        }
+        let mut point = [0.0; 2];
+        for (number, column) in point.iter_mut().zip(columns) {
+            let field = fields.get(column).copied().unwrap_or("(missing)");
+            let parsed = field.parse::<f64>().ok().filter(|value| value.is_finite());
+            *number = parsed.ok_or_else(|| CurveError::Number {
+                line: line_number,
+                found: crate::formats::location::excerpt(field),
+            })?;
+        }
+        if point[0].abs() > 90.0 {
+            return Err(CurveError::Range { line: line_number, found: point[0] });
+        }
+        if points.last().is_some_and(|last| last[0] >= point[0]) {
+            return Err(CurveError::Order { line: line_number, found: point[0] });
+        }
+        points.push(point);
+        if points.len() > MOST_POINTS {
+            return Err(CurveError::Count(points.len()));
+        }
+    }
+    if points.is_empty() { Err(CurveError::Count(0)) } else { Ok(points) }
+}
+
+/// Writes what [`read_control_curve`] reads.
+pub fn write_control_curve(points: &[[f64; 2]]) -> String {
+    let mut text = String::from("profile_angle_deg,value_deg\n");
+    for [angle, value] in points {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{angle},{value}");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let points = vec![[-10.0, 75.0], [0.5, 64.25], [60.0, -12.0]];
+        assert_eq!(read_control_curve(write_control_curve(&points).as_bytes()).unwrap(), points);
+    }
+
+    #[test]
+    fn tables_of_others_are_read() {
+        let bare = "\u{feff}# retro\n0 90\n45\t45 # middle\n90 0\n";
+        assert_eq!(read_control_curve(bare.as_bytes()).unwrap(), [[0.0, 90.0], [45.0, 45.0], [90.0, 0.0]]);
+        let wide = "name;value_deg;profile_angle_deg\r\na;90;0\r\nb;80;10\r\n";
+        assert_eq!(read_control_curve(wide.as_bytes()).unwrap(), [[0.0, 90.0], [10.0, 80.0]]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_line() {
+        for (text, words) in [
+            ("", "0 points"),
+            ("angle,slat\n0,1\n", "line 1"),
+            ("0,1\n5,x\n", "line 2: \"x\""),
+            ("0,1\n5\n", "line 2"),
+            ("0,1\n0,2\n", "line 2: profile angle 0"),
+            ("0,1\n95,2\n", "line 2: profile angle 95"),
+            ("0,nan\n", "line 1"),
+        ] {
+            let error = read_control_curve(text.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(words), "{text:?}: {error}");
+        }
+        assert_eq!(read_control_curve(&[0x30, 0xff]), Err(CurveError::NotText(1)));
+    }
+}

@@ -1,0 +1,71 @@
+//! What a control needs to know of a product: its states with their numbers, its curve, and the section of its slats.
+
+use super::super::error::StudyError;
+use super::keys::SlatKeys;
+use crate::catalogue::{Product, builtin_slats};
+use crate::compute::control::cut_off::Section;
+use crate::compute::system::slat_profile::SlatProfile;
+
+/// A device that a controller can set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Device {
+    /// Key of the product, for messages.
+    pub name: String,
+    /// Keys of the states, in the product's order.
+    pub keys: Vec<String>,
+    /// Their numbers; `None` for a device that has states without numbers. \[°, or the state's own unit\]
+    pub values: Option<Vec<f64>>,
+    /// The product's curve: (profile angle \[°\], value).
+    pub curve: Vec<[f64; 2]>,
+    /// Section of its slats, where it is known.
+    pub section: Option<Section>,
+}
+
+impl Device {
+    /// Of a product of the catalogue.
+    ///
+    /// # Errors
+    /// A product without states.
+    pub fn of(product: &Product) -> Result<Self, StudyError> {
+        if product.states.is_empty() {
+            return Err(StudyError::Catalogue(format!("'{}' has no states", product.key)));
+        }
+        Ok(Self {
+            name: product.key.clone(),
+            keys: product.states.iter().map(|state| state.key.clone()).collect(),
+            values: product.states.iter().map(|state| state.value).collect(),
+            curve: product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect(),
+            section: section_of(product),
+        })
+    }
+
+    /// Index of a state by its key; the error names the key of the scene.
+    pub fn state(&self, key: &str, scene_key: &str) -> Result<usize, StudyError> {
+        self.keys.iter().position(|known| known == key).ok_or_else(|| {
+            StudyError::key(
+                scene_key,
+                format!("'{}' has no state '{key}'; it has: {}", self.name, self.keys.join(", ")),
+            )
+        })
+    }
+}
+
+/// The slats of a product. The one place that knows where products keep them: those that the program computes are
+/// described in it.
+fn section_of(product: &Product) -> Option<Section> {
+    let (width, spacing) = builtin_slats(&product.key).filter(|_| product.builtin)?;
+    Section::new(SlatProfile::Flat { width }, spacing)
+}
+
+/// The section that a scene describes.
+pub fn section_from_keys(keys: &SlatKeys) -> Result<Section, StudyError> {
+    let wrong = |message: &str| StudyError::key("control.slats", message);
+    let profile = match (keys.width, keys.profile.is_empty()) {
+        (Some(width), true) => SlatProfile::curved(width, keys.rise.unwrap_or(0.0)),
+        (None, false) if keys.rise.is_none() => SlatProfile::Polyline(keys.profile.clone()),
+        _ => return Err(wrong("needs either width (and rise) or profile, besides spacing")),
+    };
+    Section::new(profile, keys.spacing).ok_or_else(|| {
+        wrong("is no section: width and spacing are lengths above 0 m, rise is at most half the width, a profile has two points or more")
+    })
+}

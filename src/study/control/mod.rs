@@ -1,0 +1,231 @@
+//! Controls of a scene's moving systems: from the keys of `[control]` and a product to a controller, and the state that
+//! it picks at the scene's moment.
+
+pub mod device;
+pub mod keys;
+pub mod year;
+
+pub use device::Device;
+
+use super::error::StudyError;
+use crate::compute::control::controller::{Controller, Inputs, Period, Rounding, Rule, Settings, SunAt};
+use crate::compute::control::profile_angle::{Screen, disc_span};
+use crate::compute::direction::Dir;
+use crate::compute::lid::Facing;
+use crate::compute::sky::{SUN_HALF_ANGLE, irradiance};
+use crate::formats::control_curve::read_control_curve;
+use device::section_from_keys;
+use glam::DVec3;
+use keys::{ControlKeys, ControlMode, PeriodKeys, RoundingKey};
+use std::path::Path;
+
+/// Largest curve file that is read. \[bytes\]
+const LARGEST_CURVE: u64 = 1 << 20;
+
+/// What is asked of a control at one moment.
+#[derive(Debug, Clone, Copy)]
+pub struct ControlQuestion<'a> {
+    /// The rule.
+    pub keys: &'a ControlKeys,
+    /// What its curve file is relative to.
+    pub base: &'a Path,
+    /// Hour of the day; `None` where the scene has no clock.
+    pub hour: Option<f64>,
+    /// The aperture's outside.
+    pub facing: Facing<'a>,
+}
+
+/// The key of the state that a control picks for a device at one moment.
+///
+/// # Errors
+/// Keys that are wrong or do not belong together, a device that the rule cannot move.
+pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+    let settings = settings(asked.keys, device, asked.base)?;
+    if matches!(&settings.rule, Rule::User(_, periods) if !periods.is_empty()) && asked.hour.is_none() {
+        return Err(StudyError::key("control.schedule", "needs sky.time: with sun angles alone there is no clock"));
+    }
+    let inputs = inputs(&asked.facing, asked.hour.unwrap_or(0.0), asked.keys.indoor, settings.close_above.is_some());
+    let state = Controller::new(settings).step(0.0, &inputs).state;
+    Ok(device.keys[state].clone())
+}
+
+/// What the façade's and the room's sensors see of a moment. `global`: with sky and ground, which takes an integral.
+pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool) -> Inputs {
+    let direct = facing.sun_illuminance();
+    let normal = facing.surface.room_dir(Dir::from_unit(DVec3::Z));
+    let normal = facing.orientation.world_from_room(normal);
+    Inputs {
+        hour,
+        day: facing.sun.is_some() || facing.outside.diffuse_horizontal() > 0.0,
+        sun: sun_at(facing).filter(|_| direct > 0.0),
+        facade_direct: direct,
+        facade_global: if global { direct + irradiance(facing.outside, normal).value } else { direct },
+        indoor,
+    }
+}
+
+/// The sun's disc in the section across the slats; `None` where nothing of it is seen.
+pub fn sun_at(facing: &Facing<'_>) -> Option<SunAt> {
+    let direction = facing.sun_direction()?;
+    let zenith = facing.surface.facade_from_room(DVec3::Z);
+    let screen = Screen { normal: zenith, offset: facing.outside.skyline_altitude().sin() };
+    let span = disc_span(direction, SUN_HALF_ANGLE, screen)?;
+    let v = direction.vector();
+    Some(SunAt { centre: v.y.atan2(v.z).clamp(span[0], span[1]), span })
+}
+
+/// The settings of a controller for a device. Angles of `keys` and `device` are degrees, those of the result radians;
+/// numbers of states that are no angles are scaled like them throughout, which changes nothing.
+///
+/// # Errors
+/// As [`pick_state`].
+pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Settings, StudyError> {
+    if let Some((key, modes)) = keys.misplaced() {
+        return Err(StudyError::key(format!("control.{key}"), format!("belongs to mode = {modes}: leave it out")));
+    }
+    let unmoved = || Settings::new(vec![0.0; device.keys.len()], Rule::Fixed(0));
+    let by_name = matches!(keys.mode, ControlMode::Fixed | ControlMode::User);
+    let values = match &device.values {
+        Some(values) => values.iter().map(|value| value.to_radians()).collect(),
+        None if by_name || device.keys.len() == 1 => {
+            (0..device.keys.len()).map(|k| (k as f64).to_radians()).collect::<Vec<f64>>()
+        }
+        None => {
+            let message = format!("'{}' has states without numbers; name one of them instead", device.name);
+            return Err(StudyError::key("system.state", message));
+        }
+    };
+    let rule = if device.keys.len() == 1 { Rule::Fixed(0) } else { rule(keys, device, base)? };
+    let empty = || StudyError::Catalogue(format!("'{}' has no states", device.name));
+    let mut settings = Settings::new(values, rule).or_else(unmoved).ok_or_else(empty)?;
+    let within = |key: &str, value: Option<f64>, default: f64, [min, max]: [f64; 2], unit: &str| match value {
+        Some(value) if !(min..=max).contains(&value) => Err(StudyError::key(
+            format!("control.{key}"),
+            format!("{value}{unit} is out of range (allowed: {min} to {max}{unit})"),
+        )),
+        value => Ok(value.unwrap_or(default)),
+    };
+    const LUX: [f64; 2] = [0.0, 1e6];
+    settings.threshold = within("threshold", keys.threshold, 0.0, LUX, " lx")?;
+    within("close_above", keys.close_above, 0.0, LUX, " lx")?;
+    within("open_below", keys.open_below, 0.0, LUX, " lx")?;
+    within("indoor", keys.indoor, 0.0, LUX, " lx")?;
+    (settings.close_above, settings.open_below) = (keys.close_above, keys.open_below);
+    settings.release = within("release", keys.release, 1.0, [0.0, 1.0], "")?;
+    settings.hysteresis = within("hysteresis", keys.hysteresis, 0.0, [0.0, 360.0], "")?.to_radians();
+    settings.dwell = 60.0 * within("dwell", keys.dwell, 0.0, [0.0, 1440.0], " min")?;
+    for (key, name, place) in [
+        (&keys.open_state, "control.open_state", &mut settings.open),
+        (&keys.closed_state, "control.closed_state", &mut settings.closed),
+        (&keys.night_state, "control.night_state", &mut settings.night),
+    ] {
+        if let Some(key) = key {
+            *place = device.state(key, name)?;
+        }
+    }
+    if keys.night_state.is_none() {
+        settings.night = settings.open;
+    }
+    Ok(settings)
+}
+
+fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyError> {
+    let rounding = |default| match keys.rounding {
+        Some(RoundingKey::Closed) => Rounding::Closed,
+        Some(RoundingKey::Nearest) => Rounding::Nearest,
+        None => default,
+    };
+    let named = || keys.state.as_deref().map_or(Ok(0), |key| device.state(key, "control.state"));
+    Ok(match keys.mode {
+        ControlMode::CutOff => {
+            let tolerance = keys.tolerance.unwrap_or(0.0);
+            if !(0.0..=45.0).contains(&tolerance) {
+                let message = format!("{tolerance}° is out of range (allowed: 0 to 45°)");
+                return Err(StudyError::key("control.tolerance", message));
+            }
+            let described = keys.slats.as_ref().map(section_from_keys).transpose()?;
+            match described.or_else(|| device.section.clone()) {
+                Some(section) => Rule::CutOff { section, tolerance: tolerance.to_radians() },
+                None if device.curve.is_empty() => {
+                    let message = format!(
+                        "'{}' has neither slats nor a control curve; give control.slats, or use \"din-5034\" or \"fixed\"",
+                        device.name
+                    );
+                    return Err(StudyError::key("control.mode", message));
+                }
+                None => Rule::Curve(radians(&device.curve), Rounding::Closed),
+            }
+        }
+        ControlMode::Din5034 => Rule::Din5034,
+        ControlMode::Curve => Rule::Curve(radians(&curve(keys, device, base)?), rounding(Rounding::Closed)),
+        ControlMode::RetroReflect => Rule::RetroReflect(rounding(Rounding::Closed)),
+        ControlMode::Redirect => {
+            let elevation = keys.elevation.unwrap_or(DEFAULT_ELEVATION);
+            if !(-90.0..=90.0).contains(&elevation) {
+                let message = format!("{elevation}° is out of range (allowed: -90 to 90°)");
+                return Err(StudyError::key("control.elevation", message));
+            }
+            Rule::Redirect(elevation.to_radians(), rounding(Rounding::Nearest))
+        }
+        ControlMode::Fixed => Rule::Fixed(named()?),
+        ControlMode::User => {
+            let periods = keys.schedule.iter().map(|keys| period(keys, device)).collect::<Result<_, _>>()?;
+            Rule::User(named()?, periods)
+        }
+    })
+}
+
+/// Elevation at which redirected light reaches the ceiling deep in a room of usual height. \[°\]
+pub const DEFAULT_ELEVATION: f64 = 30.0;
+
+fn radians(curve: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    curve.iter().map(|[angle, value]| (angle.to_radians(), value.to_radians())).collect()
+}
+
+/// The curve of mode "curve": the scene's table or file, else the product's.
+pub fn curve(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
+    if let Some(file) = &keys.curve_file {
+        if !keys.curve.is_empty() {
+            return Err(StudyError::key("control.curve", "give curve or curve_file, not both"));
+        }
+        let path = base.join(file);
+        let wrong = |message: String| StudyError::key("control.curve_file", format!("{}: {message}", path.display()));
+        let length = std::fs::metadata(&path).map_err(|error| wrong(error.to_string()))?.len();
+        if length > LARGEST_CURVE {
+            return Err(wrong(format!("{length} bytes; curves of up to {LARGEST_CURVE} bytes are read")));
+        }
+        let bytes = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
+        return read_control_curve(&bytes).map_err(|error| wrong(error.to_string()));
+    }
+    if keys.curve.is_empty() {
+        if device.curve.is_empty() {
+            let message = format!("'{}' has no control curve; give control.curve or control.curve_file", device.name);
+            return Err(StudyError::key("control.mode", message));
+        }
+        return Ok(device.curve.clone());
+    }
+    let finite = keys.curve.iter().flatten().all(|number| number.is_finite());
+    let rising = keys.curve.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+    if !finite || !rising || keys.curve.iter().any(|point| point[0].abs() > 90.0) {
+        let message = "profile angles must rise, from -90 to 90°, and all numbers be finite";
+        return Err(StudyError::key("control.curve", message));
+    }
+    Ok(keys.curve.clone())
+}
+
+fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
+    let hour = |text: &str| {
+        let (hours, minutes) = text.split_once(':')?;
+        let (hours, minutes): (u32, u32) = (hours.parse().ok()?, minutes.parse().ok()?);
+        (minutes < 60 && 60 * hours + minutes <= 24 * 60).then(|| f64::from(hours) + f64::from(minutes) / 60.0)
+    };
+    let read = |text: &str| {
+        hour(text).ok_or_else(|| {
+            StudyError::key(
+                "control.schedule",
+                format!("\"{text}\" is no time of the day: write HH:MM, 00:00 to 24:00"),
+            )
+        })
+    };
+    Ok(Period { from: read(&keys.from)?, to: read(&keys.to)?, state: device.state(&keys.state, "control.schedule")? })
+}

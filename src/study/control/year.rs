@@ -1,0 +1,336 @@
+//! A year of states: every step from 1 January, in the middle of each step, the sun before every aperture, what its
+//! control asks for, and the state that results.
+//!
+//! The sun shines whenever any of its disc is up, as bright as a clear sky's (IES RP-21), and the sky is taken as
+//! equally bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
+//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone.
+
+use super::device::section_from_keys;
+use super::keys::ControlKeys;
+use super::{Device, inputs, settings};
+use crate::catalogue::Product;
+use crate::compute::angle::Bearing;
+use crate::compute::control::controller::{Controller, Reason};
+use crate::compute::control::cut_off::Section;
+use crate::compute::direction::{Dir, Orientation, Surface};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::lid::Facing;
+use crate::compute::sky::availability::{Cover, typical_illuminances};
+use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
+use crate::study::error::StudyError;
+use crate::study::scene_file::{SceneFile, SurfaceKey, SystemKeys};
+use crate::study::sun_position::{Place, parse_local_time, sun_position};
+use jiff::ToSpan;
+use jiff::civil::{Date, DateTime};
+use std::path::Path;
+
+/// The word that leaves an aperture's state to a control.
+pub const CONTROLLED: &str = "controlled";
+
+/// Illuminances of a year: on a plane facing the sun, diffuse on a horizontal plane. \[lx\]
+pub trait Weather: Sync {
+    /// At a moment with the sun at an altitude \[rad\]; `None` where it does not know.
+    fn illuminances(&self, time: DateTime, altitude: f64) -> Option<(f64, f64)>;
+}
+
+/// Least beam while any of the disc is up: what passes is asked, not how much. \[lx\]
+const LEAST_BEAM: f64 = 1.0;
+
+/// Clear at all hours.
+#[derive(Debug, Clone, Copy)]
+pub struct ClearSky;
+
+impl Weather for ClearSky {
+    fn illuminances(&self, _: DateTime, altitude: f64) -> Option<(f64, f64)> {
+        let (direct, diffuse) = typical_illuminances(Cover::Clear, altitude);
+        Some(if altitude > -SUN_HALF_ANGLE { (direct.max(LEAST_BEAM), diffuse) } else { (0.0, 0.0) })
+    }
+}
+
+/// One moving aperture, ready to be stepped.
+#[derive(Debug, Clone)]
+pub struct Moving {
+    /// Number of the aperture, from 1.
+    pub aperture: usize,
+    /// Façade or roof.
+    pub surface: Surface,
+    /// What moves.
+    pub device: Device,
+    /// Its rule.
+    pub keys: ControlKeys,
+    /// The slats, where they are known: they say whether direct sun passes.
+    pub section: Option<Section>,
+}
+
+/// One aperture at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// Profile angle of the sun's centre \[rad\]; `None` while nothing of it is before the aperture.
+    pub profile_angle: Option<f64>,
+    /// What the rule asks for, in the unit of the states' numbers.
+    pub demanded: Option<f64>,
+    /// Index of the state.
+    pub state: usize,
+    /// Does direct sun pass between the slats? `None` where they are not known.
+    pub passes: Option<bool>,
+    /// Why this state.
+    pub reason: Reason,
+    /// Another state than the step before.
+    pub moved: bool,
+}
+
+/// All apertures at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// Local standard time.
+    pub time: DateTime,
+    /// True altitude of the sun. \[rad\]
+    pub altitude: f64,
+    /// Its bearing.
+    pub bearing: Bearing,
+    /// By moving aperture.
+    pub settings: Vec<Setting>,
+}
+
+/// The apertures whose state a control picks, with what is known of them. Products come from `product`.
+///
+/// # Errors
+/// No such product, or a control that cannot be.
+pub fn moving(
+    file: &SceneFile,
+    base: &Path,
+    product: &dyn Fn(&str) -> Result<Product, StudyError>,
+) -> Result<Vec<Moving>, StudyError> {
+    let mut list = Vec::new();
+    for (index, aperture) in file.aperture.iter().enumerate() {
+        let SystemKeys::Catalogue { key, state: Some(word) } = &aperture.system else { continue };
+        if word != CONTROLLED {
+            continue;
+        }
+        let keys = aperture.control.as_ref().or(file.control.as_ref()).ok_or_else(|| {
+            StudyError::key(
+                format!("aperture[{}].system.state", index + 1),
+                "\"controlled\" needs a [control] section with a mode",
+            )
+        })?;
+        let device = Device::of(&product(key)?)?;
+        // Judged here, so that a wrong key is told before the year starts.
+        settings(keys, &device, base)?;
+        let described = keys.slats.as_ref().map(section_from_keys).transpose()?;
+        let section = described.or_else(|| device.section.clone());
+        let surface = match aperture.surface {
+            SurfaceKey::Facade => Surface::Facade,
+            SurfaceKey::Roof => Surface::Roof,
+        };
+        list.push(Moving { aperture: index + 1, surface, device, keys: keys.clone(), section });
+    }
+    if list.is_empty() {
+        let message = "nothing moves: give an aperture system = { catalogue = \"…\", state = \"controlled\" }";
+        return Err(StudyError::key("aperture", message));
+    }
+    Ok(list)
+}
+
+/// All that a year of control hangs on besides what moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Situation {
+    /// Where the sun is seen from.
+    pub place: Place,
+    /// Which year.
+    pub year: i16,
+    /// Bearing of the façade's outward normal.
+    pub facade: Bearing,
+    /// Uniform ground.
+    pub ground_reflectance: f64,
+    /// Altitude of the skyline. \[rad\]
+    pub skyline: f64,
+}
+
+impl Situation {
+    /// Of a scene; without a time the year 2026.
+    ///
+    /// # Errors
+    /// A scene without a whole place, or with a wrong one.
+    pub fn of(file: &SceneFile) -> Result<Self, StudyError> {
+        let site = &file.site;
+        let need = |key: &str, value: Option<f64>| {
+            value.ok_or_else(|| StudyError::key(format!("site.{key}"), "missing: a year needs the place and its clock"))
+        };
+        let [latitude, longitude, offset] = [
+            need("latitude", site.latitude)?,
+            need("longitude", site.longitude)?,
+            need("utc_offset", site.utc_offset)?,
+        ];
+        let place =
+            Place::new(latitude, longitude, offset).map_err(|error| StudyError::key("site", error.to_string()))?;
+        let year = match &file.sky.time {
+            Some(time) => {
+                parse_local_time(&time.text()).map_err(|error| StudyError::key("sky.time", error.to_string()))?.year()
+            }
+            None => 2026,
+        };
+        let skyline = file.sky.obstruction.map_or(0.0, |keys| keys.altitude);
+        for (key, value, [min, max]) in [
+            ("site.azimuth", site.azimuth, [-360.0, 360.0]),
+            ("site.ground_reflectance", site.ground_reflectance, [0.0, 1.0]),
+            ("sky.obstruction.altitude", skyline, [0.0, 89.999]),
+        ] {
+            if !(min..=max).contains(&value) {
+                return Err(StudyError::key(key, format!("{value} is out of range (allowed: {min} to {max})")));
+            }
+        }
+        Ok(Self {
+            place,
+            year,
+            facade: Bearing::from_degrees(site.azimuth),
+            ground_reflectance: site.ground_reflectance,
+            skyline: skyline.to_radians(),
+        })
+    }
+}
+
+/// Steps the controls through a year; `minutes` from 1 to 1440 a step, which divide a day.
+///
+/// # Errors
+/// A wrong scene, or [`Cancelled`].
+pub fn year(
+    situation: &Situation,
+    base: &Path,
+    moving: &[Moving],
+    minutes: u32,
+    weather: &dyn Weather,
+    progress: &dyn Progress,
+) -> Result<Vec<Moment>, StudyError> {
+    if minutes == 0 || 1440 % minutes != 0 {
+        return Err(StudyError::key("step", format!("{minutes} min does not divide a day: e.g. 5, 15, 60")));
+    }
+    let wrong = |error: jiff::Error| StudyError::key("sky.time", error.to_string());
+    let first = Date::new(situation.year, 1, 1).map_err(wrong)?;
+    let days = usize::try_from(first.days_in_year()).unwrap_or(365);
+    let a_day = (1440 / minutes) as usize;
+    let controllers: Result<Vec<Controller>, StudyError> =
+        moving.iter().map(|one| Ok(Controller::new(settings(&one.keys, &one.device, base)?))).collect();
+    let mut stepper = Stepper { situation, moving, controllers: controllers?, weather };
+    let mut moments = Vec::with_capacity(days * a_day);
+    let start = first.at(0, 0, 0, 0).checked_add((30 * i64::from(minutes)).seconds()).map_err(wrong)?;
+    for step in 0..days * a_day {
+        if step % a_day == 0 {
+            if progress.cancelled() {
+                return Err(Cancelled.into());
+            }
+            progress.advance("days", step / a_day, days);
+        }
+        let since = 60 * i64::from(minutes) * step as i64;
+        let time = start.checked_add(since.seconds()).map_err(wrong)?;
+        moments.push(stepper.moment(time, since as f64)?);
+    }
+    Ok(moments)
+}
+
+/// Every `minutes` of one day from midnight to midnight, hysteresis and dwell time included.
+///
+/// # Errors
+/// As [`year`].
+pub fn day(
+    situation: &Situation,
+    base: &Path,
+    moving: &[Moving],
+    date: Date,
+    minutes: u32,
+    weather: &dyn Weather,
+) -> Result<Vec<Moment>, StudyError> {
+    let controllers: Result<Vec<Controller>, StudyError> =
+        moving.iter().map(|one| Ok(Controller::new(settings(&one.keys, &one.device, base)?))).collect();
+    let mut stepper = Stepper { situation, moving, controllers: controllers?, weather };
+    let wrong = |error: jiff::Error| StudyError::key("sky.time", error.to_string());
+    (0..=1440 / minutes.max(1))
+        .map(|step| {
+            let since = 60 * i64::from(minutes * step);
+            let time = date.at(0, 0, 0, 0).checked_add(since.seconds()).map_err(wrong)?;
+            stepper.moment(time, since as f64)
+        })
+        .collect()
+}
+
+/// The controllers on their way through time.
+struct Stepper<'a> {
+    situation: &'a Situation,
+    moving: &'a [Moving],
+    controllers: Vec<Controller>,
+    weather: &'a dyn Weather,
+}
+
+impl Stepper<'_> {
+    fn moment(&mut self, time: DateTime, seconds: f64) -> Result<Moment, StudyError> {
+        let here = *self.situation;
+        let at_site = |error: &dyn std::fmt::Display| StudyError::key("site", error.to_string());
+        let (altitude, bearing) = sun_position(&here.place, time).map_err(|error| at_site(&error))?;
+        let (direct, diffuse) = self.weather.illuminances(time, altitude).unwrap_or((0.0, 0.0));
+        let up = altitude > -SUN_HALF_ANGLE;
+        let outside = Outside::new(Distribution::uniform(), if up { diffuse.max(LEAST_BEAM) } else { 0.0 })
+            .and_then(|outside| outside.with_skyline(here.skyline, 0.0))
+            .map_err(|error| at_site(&error))?;
+        let sun = Sun { direction: Dir::from_altitude_bearing(altitude, bearing), direct_normal: direct };
+        let hour = f64::from(time.hour()) + f64::from(time.minute()) / 60.0 + f64::from(time.second()) / 3600.0;
+        let mut list = Vec::with_capacity(self.moving.len());
+        for (one, controller) in self.moving.iter().zip(&mut self.controllers) {
+            let facing = Facing {
+                outside: &outside,
+                sun: (up && direct > 0.0).then_some(&sun),
+                orientation: Orientation::new(here.facade),
+                surface: one.surface,
+            };
+            let mut inputs = inputs(&facing, hour, one.keys.indoor, false);
+            // An even sky, and the ground below it.
+            inputs.facade_global += match one.surface {
+                Surface::Roof => diffuse,
+                Surface::Facade => {
+                    0.5 * (diffuse + here.ground_reflectance * (diffuse + direct * altitude.sin().max(0.0)))
+                }
+            };
+            let decision = controller.step(seconds, &inputs);
+            let value = controller.settings().values[decision.state];
+            let passes = |section: &Section| inputs.sun.is_some_and(|sun| !section.blocks(value, 0.0, sun.span));
+            list.push(Setting {
+                profile_angle: inputs.sun.map(|sun| sun.centre),
+                demanded: decision.demanded.map(f64::to_degrees),
+                state: decision.state,
+                passes: one.section.as_ref().map(passes),
+                reason: decision.reason,
+                moved: decision.moved,
+            });
+        }
+        Ok(Moment { time, altitude, bearing, settings: list })
+    }
+}
+
+/// What a year of one aperture comes to. Times in hours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Changes of state.
+    pub movements: usize,
+    /// With sun on the aperture.
+    pub sun_hours: f64,
+    /// With direct sun through it; `None` where the slats are not known.
+    pub direct_hours: Option<f64>,
+    /// In each state, by day.
+    pub state_hours: Vec<f64>,
+}
+
+/// Sums up a year for the moving aperture `index`, with steps of `minutes`.
+pub fn summary(moments: &[Moment], index: usize, states: usize, minutes: u32) -> Summary {
+    let hours = f64::from(minutes) / 60.0;
+    let of = |moment: &Moment| moment.settings[index];
+    let count = |what: &dyn Fn(&Setting) -> bool| moments.iter().filter(|m| what(&of(m))).count();
+    let mut state_hours = vec![0.0; states];
+    for moment in moments.iter().filter(|moment| moment.altitude > 0.0) {
+        state_hours[of(moment).state] += hours;
+    }
+    let known = moments.first().is_some_and(|moment| of(moment).passes.is_some());
+    Summary {
+        movements: count(&|setting| setting.moved),
+        sun_hours: hours * count(&|setting| setting.profile_angle.is_some()) as f64,
+        direct_hours: known.then(|| hours * count(&|setting| setting.passes == Some(true)) as f64),
+        state_hours,
+    }
+}

@@ -1,0 +1,210 @@
+//! Controls in the window: a curve edited by pointer and by keys, rules of the scene and of single apertures, undo.
+
+use cfs::app::App;
+use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::command::Command;
+use cfs::app::paint::tile::Status;
+use cfs::app::views::control::{self, Action, StatePoint};
+use cfs::study::scene_file::{ControlKeys, ControlMode};
+use egui::{Key, PointerButton, pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+type Curve = Vec<[f64; 2]>;
+
+/// The tile alone, with a curve that follows what is done to it.
+fn tile() -> Harness<'static, (control::State, Curve)> {
+    let states: Vec<StatePoint> =
+        (0..=8).map(|k| StatePoint { key: format!("{}", 10 * k), value: f64::from(10 * k) }).collect();
+    Harness::builder().with_size([600.0, 400.0]).build_ui_state(
+        move |ui, (state, curve): &mut (control::State, Curve)| {
+            let input = control::Input {
+                states: &states,
+                quantity: "slat angle / °",
+                curve,
+                editable: true,
+                name: "blind",
+                today: &[],
+                profile_angle: None,
+                current: 0,
+                year: &[],
+                moment: None,
+                revision: 0,
+                status: Status { coarse: false, stale: false, hold_scale: false, error: None },
+            };
+            for action in control::show(ui, &input, state) {
+                if let Action::EditCurve(new) = action {
+                    *curve = new;
+                }
+            }
+        },
+        (control::State::default(), vec![[0.0, 60.0], [45.0, 40.0], [90.0, 0.0]]),
+    )
+}
+
+/// Where a point of the curve stands: the axis of values has a margin of 8 % on either side.
+fn place(h: &Harness<'_, (control::State, Curve)>, [psi, value]: [f64; 2]) -> egui::Pos2 {
+    let area = h.get_by_label("Control curve").rect();
+    let share = (value + 6.4) / (80.0 + 2.0 * 6.4);
+    pos2(area.left() + area.width() * (psi / 90.0) as f32, area.bottom() - area.height() * share as f32)
+}
+
+fn curve(h: &Harness<'_, (control::State, Curve)>) -> Curve {
+    h.state().1.clone()
+}
+
+#[test]
+fn points_are_dragged_to_states_and_added_and_taken_out() {
+    let mut h = tile();
+    h.run();
+    let (from, to) = (place(&h, [45.0, 40.0]), place(&h, [60.2, 22.0]));
+    h.hover_at(from);
+    h.run();
+    h.drag_at(from);
+    h.run();
+    for k in 1..=4 {
+        h.hover_at(from + (to - from) * (k as f32 / 4.0));
+        h.run();
+    }
+    h.drop_at(to);
+    h.run();
+    assert_eq!(curve(&h), [[0.0, 60.0], [60.0, 20.0], [90.0, 0.0]]);
+    // A right click on it takes it out.
+    let here = place(&h, [60.0, 20.0]);
+    h.hover_at(here);
+    h.run();
+    for pressed in [true, false] {
+        let button = PointerButton::Secondary;
+        h.event(egui::Event::PointerButton { pos: here, button, pressed, modifiers: egui::Modifiers::NONE });
+    }
+    h.run();
+    assert_eq!(curve(&h), [[0.0, 60.0], [90.0, 0.0]]);
+}
+
+#[test]
+fn the_keyboard_alone_makes_a_curve() {
+    let mut h = tile();
+    h.run();
+    h.get_by_label("Control curve").focus();
+    h.run();
+    let mut press = |key: Key| {
+        h.key_press(key);
+        h.run();
+        curve(&h)
+    };
+    // The first point, two states down, ten degrees right.
+    press(Key::Period);
+    press(Key::ArrowDown);
+    assert_eq!(press(Key::ArrowDown)[0], [0.0, 40.0]);
+    for _ in 0..10 {
+        press(Key::ArrowRight);
+    }
+    assert_eq!(curve(&h)[0], [10.0, 40.0]);
+    let mut press = |key: Key| {
+        h.key_press(key);
+        h.run();
+        curve(&h)
+    };
+    // One more after it, half way to the next: 27.5° is 28°, and the line there is level.
+    assert_eq!(press(Key::Insert), [[10.0, 40.0], [28.0, 40.0], [45.0, 40.0], [90.0, 0.0]]);
+    assert_eq!(press(Key::ArrowUp)[1], [28.0, 50.0]);
+    assert_eq!(press(Key::Delete), [[10.0, 40.0], [45.0, 40.0], [90.0, 0.0]]);
+    press(Key::Delete);
+    press(Key::Delete);
+    // A curve keeps one point.
+    assert_eq!(press(Key::Delete).len(), 1);
+}
+
+fn window() -> Harness<'static, App> {
+    let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
+    let mut harness = Harness::builder().with_size([1600.0, 900.0]).with_max_steps(200).build_ui_state(
+        |ui, app: &mut App| {
+            let ctx = ui.ctx().clone();
+            app.logic(&ctx);
+            app.draw(ui);
+        },
+        app,
+    );
+    let scene = &mut harness.state_mut().state.document.scene;
+    let plane = scene.sensors.plane.as_mut().unwrap();
+    (plane.nx, plane.ny) = (1, 2);
+    // A lower and an upper part.
+    scene.aperture[0].size[1] = 1.0;
+    let mut upper = scene.aperture[0].clone();
+    upper.origin[1] = 2.0;
+    upper.size[1] = 0.6;
+    scene.aperture.push(upper);
+    settle(&mut harness);
+    harness
+}
+
+/// Steps until no job is left.
+fn settle(harness: &mut Harness<'_, App>) {
+    let start = Instant::now();
+    harness.run_steps(3);
+    while harness.state().busy() && start.elapsed() < Duration::from_secs(120) {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    assert!(!harness.state().busy(), "jobs end");
+    harness.run_steps(3);
+}
+
+fn apply(harness: &mut Harness<'_, App>, command: Command) {
+    harness.state_mut().apply(command);
+    settle(harness);
+}
+
+#[test]
+fn parts_of_a_window_follow_rules_of_their_own_and_undo_takes_them_back() {
+    let mut h = window();
+    apply(&mut h, Command::Select("venetian-80-72".into()));
+    apply(&mut h, Command::Control(ControlMode::CutOff));
+    let rules = |h: &Harness<'_, App>| {
+        let scene = &h.state().state.document.scene;
+        [0, 1].map(|k| scene.aperture[k].control.as_ref().or(scene.control.as_ref()).map(|keys| keys.mode))
+    };
+    assert_eq!(rules(&h), [Some(ControlMode::CutOff); 2]);
+    // Noon of the equinox at 41°: 2° of tilt by the closed form, up to the next state.
+    assert_eq!(h.state().state.shown_state, "5");
+    apply(&mut h, Command::ControlOf(Some(1)));
+    apply(&mut h, Command::Control(ControlMode::RetroReflect));
+    assert_eq!(rules(&h), [Some(ControlMode::CutOff), Some(ControlMode::RetroReflect)]);
+    assert_eq!(h.state().state.shown_state, "50");
+    // Hysteresis and dwell time are part of the year, which moves less often with them.
+    let free = h.state().results.year.value.as_ref().unwrap().movements;
+    let keys = ControlKeys { dwell: Some(180.0), ..ControlKeys::of(ControlMode::RetroReflect) };
+    apply(&mut h, Command::ControlKeys(Box::new(keys)));
+    assert!(h.state().results.year.value.as_ref().unwrap().movements < free);
+    apply(&mut h, Command::Control(ControlMode::Redirect));
+    apply(&mut h, Command::Undo);
+    assert_eq!(rules(&h)[1], Some(ControlMode::RetroReflect));
+    let again = toml::to_string(&h.state().state.document.scene).unwrap();
+    assert_eq!(cfs::study::SceneFile::parse(&again).unwrap(), h.state().state.document.scene);
+    // By hand for this part alone; then one rule for all again.
+    apply(&mut h, Command::Control(ControlMode::Fixed));
+    assert_eq!(rules(&h), [Some(ControlMode::CutOff), Some(ControlMode::Fixed)]);
+    apply(&mut h, Command::ControlOf(None));
+    apply(&mut h, Command::Control(ControlMode::Din5034));
+    assert_eq!(rules(&h), [Some(ControlMode::Din5034); 2]);
+}
+
+#[test]
+fn a_curve_of_a_file_becomes_the_rule_and_a_wrong_one_is_told() {
+    let mut h = window();
+    apply(&mut h, Command::Select("venetian-80-72".into()));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("retro.csv");
+    std::fs::write(&path, "profile_angle_deg,value_deg\n0,70\n50,30\n90,0\n").unwrap();
+    apply(&mut h, Command::OpenPaths(vec![path.clone()]));
+    let state = &h.state().state;
+    assert_eq!(state.control_mode(), ControlMode::Curve);
+    assert_eq!(state.control_keys().curve, [[0.0, 70.0], [50.0, 30.0], [90.0, 0.0]]);
+    // 70° − 0.8 ψ at about 41° and a little less: 37.7°.
+    assert_eq!(state.shown_state, "40");
+    std::fs::write(&path, "profile_angle_deg,value_deg\n50,70\n20,30\n").unwrap();
+    apply(&mut h, Command::OpenPaths(vec![path]));
+    assert_eq!(h.state().state.control_keys().curve.len(), 3);
+}
