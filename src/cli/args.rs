@@ -2,7 +2,7 @@
 
 use super::{
     accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, convert::ConvertArgs, info::InfoArgs,
-    lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+    lid::LidArgs, repair::RepairArgs, room::RoomArgs, sky::SkyArgs,
 };
 use std::path::PathBuf;
 
@@ -22,6 +22,7 @@ Examples:
   cfs accuracy office.toml              error against run time of every method for this scene
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs sky office.toml                   luminances of the 145 sky patches
+  cfs repair blind.xml --repair transpose --out mended.xml   what cfs info offers
   cfs convert blind.xml copy.xml        between dataset formats
   cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
   cfs catalogue list --search blind     products, built in and your own
@@ -53,6 +54,8 @@ pub enum Command {
     Sky(SkyArgs),
     /// What a dataset file is
     Info(InfoArgs),
+    /// A dataset mended as its findings offer
+    Repair(RepairArgs),
     /// A dataset in another format
     Convert(ConvertArgs),
     /// What the compact form of a dataset saves and costs

@@ -20,6 +20,7 @@ pub mod basis;
 pub mod btdf;
 pub mod control;
 pub mod direction;
+pub mod doctor;
 pub mod estimate;
 pub mod goniophotometer;
 pub mod incidence;

@@ -16,7 +16,6 @@ pub mod lid_tables;
 mod location;
 pub mod log_chart;
 pub mod luminaire;
-mod on_cells;
 pub mod package;
 pub mod scan;
 

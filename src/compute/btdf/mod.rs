@@ -11,6 +11,7 @@ mod dataset;
 mod finding;
 mod ideal;
 mod indicatrices;
+mod on_cells;
 mod pyramid;
 mod rows;
 mod tensor_emission;
@@ -24,6 +25,7 @@ pub use checks::{reciprocity_error, tau_max};
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
 pub use indicatrices::Indicatrices;
+pub use on_cells::matrix_on;
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 pub use zones::zone_shares;
 

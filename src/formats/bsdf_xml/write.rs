@@ -6,10 +6,9 @@
 //! τ/PΩ in every cell. The Geometry element is empty.
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered};
+use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
-use crate::formats::on_cells::matrix_on;
 use std::fmt::Write as _;
 
 /// One dataset as a file. Blocks that were derived when it was read are written like the others.

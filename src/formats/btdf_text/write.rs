@@ -8,11 +8,10 @@ use super::FORMAT;
 use super::frame::{Naming, tidy};
 use super::points::even_rings;
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis, same_cells};
-use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Scattered};
+use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::compute::direction::{Dir, Facade};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
-use crate::formats::on_cells::matrix_on;
 use std::fmt::Write as _;
 
 /// The dataset's transmission from outside as a file, or, without one, its first function. Findings tell what else it

@@ -1,13 +1,13 @@
 //! Any function as a matrix between the cells of two bases: what writers of cell formats make of functions that are
 //! not on their cells.
 
+use super::{Btdf, CellMatrix, Scattered, TensorTree};
 use crate::compute::basis::{Resampling, RingBasis, SquareGrid, resample_matrix};
-use crate::compute::btdf::{Btdf, CellMatrix, Scattered, TensorTree};
 use std::f64::consts::PI;
 
 /// Means over incident and emergent cells; flux is kept. Light that goes straight on fills the emergent cells that its
 /// incident cell covers. Single incident directions stand for the cells around them.
-pub(super) fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
+pub fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     let n = emergent.len();
     let mut values = match &btdf.scattered {
         None => vec![0.0; incident.len() * n],

@@ -1,0 +1,258 @@
+//! The data doctor on files of makers and programs, as they are and with faults planted in them; and on small systems
+//! made here, whose faults are known by construction.
+
+use cfs::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, Severity, tau_max};
+use cfs::compute::doctor::{BlockScope, Diagnosis, Repair, RepairKind, examine, repaired};
+use cfs::formats::bsdf_xml;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+fn data_folder() -> Option<PathBuf> {
+    let given = std::env::var_os("CFS_TEST_DATA").map(PathBuf::from);
+    let folder = given.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"));
+    folder.join("data/bsdf").is_dir().then_some(folder)
+}
+
+fn walk(folder: &Path, list: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            walk(&path, list);
+        } else if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xml")) {
+            list.push(path);
+        }
+    }
+}
+
+/// Every dataset that can be read, by file name. Parser samples and a hand-made tree are no products.
+fn genuine() -> Vec<(String, Dataset)> {
+    let Some(folder) = data_folder() else {
+        println!("SKIPPED: no data of makers (set CFS_TEST_DATA)");
+        return Vec::new();
+    };
+    let mut files = Vec::new();
+    walk(&folder.join("data/bsdf"), &mut files);
+    walk(&folder.join("reference/systems"), &mut files);
+    if let Some(more) = std::env::var_os("CFS_TEST_MORE_XML") {
+        walk(Path::new(&more), &mut files);
+    }
+    files.sort();
+    let product = |path: &PathBuf| {
+        let text = path.to_string_lossy();
+        !text.contains("parser_samples") && !text.contains("tiny_tensor_tree")
+    };
+    files
+        .into_iter()
+        .filter(product)
+        .map(|path| {
+            let dataset = bsdf_xml::read(&std::fs::read(&path).unwrap()).unwrap();
+            (path.file_name().unwrap().to_string_lossy().into_owned(), dataset)
+        })
+        .collect()
+}
+
+#[test]
+fn no_genuine_product_is_called_broken() {
+    for (name, dataset) in genuine() {
+        let found = examine(&dataset);
+        for one in found.iter().filter(|one| one.finding.severity == Severity::Warning) {
+            println!("{name}: {} {}", one.finding.code, one.finding.message);
+        }
+        let broken: Vec<&Diagnosis> = found.iter().filter(|one| one.finding.severity == Severity::Error).collect();
+        assert!(broken.is_empty(), "{name}: {broken:?}");
+    }
+}
+
+const FRONT: Component = Component::TransmissionFront;
+const BACK: Component = Component::TransmissionBack;
+
+struct Plant {
+    name: &'static str,
+    codes: &'static [&'static str],
+    make: fn(&Dataset) -> Option<Dataset>,
+}
+
+fn by(dataset: &Dataset, word: &str) -> Option<Dataset> {
+    let repair: Repair = word.parse().unwrap();
+    let blocks = dataset.visible.components();
+    let meant = |c: &Component| repair.blocks.holds(*c) && !dataset.derived.contains(c);
+    if let BlockScope::One(component) = repair.blocks
+        && (!blocks.contains(&component) || dataset.derived.contains(&component))
+    {
+        return None;
+    }
+    if !blocks.iter().any(meant) {
+        return None;
+    }
+    if repair.blocks == BlockScope::Transmission || repair.kind == RepairKind::SwapSides {
+        // What belongs together only makes sense in pairs.
+        let both = [FRONT, BACK].iter().all(|c| blocks.contains(c) && !dataset.derived.contains(c));
+        if !both {
+            return None;
+        }
+    }
+    // A file that lost a function is read again: what was derived is derived anew.
+    let mut source = dataset.clone();
+    for component in &dataset.derived {
+        source = repaired(&source, Repair { blocks: BlockScope::One(*component), ..Repair::whole(RepairKind::DropBlock) }).ok()?;
+    }
+    source.derived.clear();
+    let mut planted = repaired(&source, repair).ok()?;
+    planted.description.clear();
+    if !dataset.derived.is_empty() || planted.visible.transmission_front.is_none() {
+        let derive = Repair { blocks: BlockScope::One(FRONT), ..Repair::whole(RepairKind::DeriveByReciprocity) };
+        planted = repaired(&planted, derive).unwrap_or(planted);
+    }
+    Some(planted)
+}
+
+fn copied(dataset: &Dataset, from: Component, to: Component) -> Option<Dataset> {
+    let mut planted = dataset.clone();
+    let Scattered::Cells(source) = dataset.visible.get(from)?.scattered.as_ref()? else { return None };
+    let Scattered::Cells(target) = dataset.visible.get(to)?.scattered.as_ref()? else { return None };
+    let matrix =
+        CellMatrix::new(target.incident().clone(), target.emergent().clone(), source.values().into_owned()).unwrap();
+    planted.visible.set(to, Btdf::from_cells(matrix));
+    (tau_max(dataset.visible.get(from)?) > 0.0).then_some(planted)
+}
+
+fn zeroed(dataset: &Dataset, component: Component) -> Option<Dataset> {
+    let mut planted = dataset.clone();
+    let Scattered::Cells(matrix) = dataset.visible.get(component)?.scattered.as_ref()? else { return None };
+    let zero = vec![0.0; matrix.values().len()];
+    let zero = CellMatrix::new(matrix.incident().clone(), matrix.emergent().clone(), zero).unwrap();
+    planted.visible.set(component, Btdf::from_cells(zero));
+    Some(planted)
+}
+
+const WAYS: &[&str] =
+    &["upside-down-block", "mirrored-block", "transposed-block", "sides-swapped", "maybe-upside-down", "maybe-sides-swapped", "energy-above-one"];
+const SCALE: &[&str] = &["cosine-factor", "energy-above-one"];
+
+const PLANTS: &[Plant] = &[
+    Plant { name: "flip T back", codes: WAYS, make: |d| by(d, "turn-upside-down:transmission_back") },
+    Plant { name: "flip T front", codes: WAYS, make: |d| by(d, "turn-upside-down:transmission_front") },
+    Plant { name: "half turn T back", codes: WAYS, make: |d| by(d, "turn-half-round:transmission_back") },
+    Plant { name: "flip R front", codes: WAYS, make: |d| by(d, "turn-upside-down:reflection_front") },
+    Plant { name: "flip R back", codes: WAYS, make: |d| by(d, "turn-upside-down:reflection_back") },
+    Plant { name: "flip R both", codes: WAYS, make: |d| by(d, "turn-upside-down:reflection") },
+    Plant { name: "flip T both", codes: WAYS, make: |d| by(d, "turn-upside-down:transmission") },
+    Plant { name: "flip all", codes: WAYS, make: |d| by(d, "turn-upside-down") },
+    Plant { name: "swap T", codes: WAYS, make: |d| by(d, "swap-sides:transmission") },
+    Plant { name: "swap R", codes: WAYS, make: |d| by(d, "swap-sides:reflection") },
+    Plant { name: "swap all", codes: WAYS, make: |d| by(d, "swap-sides") },
+    Plant { name: "transpose T front", codes: WAYS, make: |d| by(d, "transpose:transmission_front") },
+    Plant { name: "transpose T back", codes: WAYS, make: |d| by(d, "transpose:transmission_back") },
+    Plant { name: "transpose R front", codes: WAYS, make: |d| by(d, "transpose:reflection_front") },
+    Plant { name: "transpose all", codes: WAYS, make: |d| by(d, "transpose") },
+    Plant { name: "percent T front", codes: &["percent"], make: |d| by(d, "multiply-by-100:transmission_front") },
+    Plant { name: "percent R back", codes: &["percent"], make: |d| by(d, "multiply-by-100:reflection_back") },
+    Plant { name: "percent all", codes: &["percent"], make: |d| by(d, "multiply-by-100") },
+    Plant { name: "cosine x T front", codes: SCALE, make: |d| by(d, "multiply-cosine:transmission_front") },
+    Plant { name: "cosine x T", codes: SCALE, make: |d| by(d, "multiply-cosine:transmission") },
+    Plant { name: "cosine x R front", codes: SCALE, make: |d| by(d, "multiply-cosine:reflection_front") },
+    Plant { name: "cosine x all", codes: SCALE, make: |d| by(d, "multiply-cosine") },
+    Plant { name: "cosine / T front", codes: SCALE, make: |d| by(d, "remove-cosine:transmission_front") },
+    Plant { name: "cosine / T", codes: SCALE, make: |d| by(d, "remove-cosine:transmission") },
+    Plant { name: "cosine / R back", codes: SCALE, make: |d| by(d, "remove-cosine:reflection_back") },
+    Plant { name: "cosine / all", codes: SCALE, make: |d| by(d, "remove-cosine") },
+    Plant { name: "solid angle x all", codes: SCALE, make: |d| by(d, "multiply-solid-angle") },
+    Plant { name: "missing T back", codes: &["missing-block"], make: |d| by(d, "drop-block:transmission_back") },
+    Plant { name: "missing R back", codes: &["missing-block"], make: |d| by(d, "drop-block:reflection_back") },
+    Plant { name: "missing R both", codes: &["missing-block"], make: |d| by(d, "drop-block:reflection") },
+    Plant { name: "zero T back", codes: &["back-zero", "front-zero"], make: |d| zeroed(d, BACK) },
+    Plant { name: "zero R back", codes: &["zero-block"], make: |d| zeroed(d, Component::ReflectionBack) },
+    Plant { name: "copy T front to T back", codes: &["copied-block"], make: |d| copied(d, FRONT, BACK) },
+    Plant {
+        name: "copy R front to R back",
+        codes: &["copied-block"],
+        make: |d| copied(d, Component::ReflectionFront, Component::ReflectionBack),
+    },
+    Plant { name: "copy T front to R front", codes: &["block-mislabelled"], make: |d| copied(d, FRONT, Component::ReflectionFront) },
+];
+
+/// Largest weighted relative change of any function; a plant without effect is none.
+fn effect(before: &Dataset, after: &Dataset) -> f64 {
+    let mut largest = 0.0_f64;
+    for component in Component::ALL {
+        let (Some(a), Some(b)) = (before.visible.get(component), after.visible.get(component)) else {
+            if before.visible.get(component).is_some() {
+                largest = 1.0;
+            }
+            continue;
+        };
+        let (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) = (&a.scattered, &b.scattered) else {
+            largest = largest.max(if a == b { 0.0 } else { 1.0 });
+            continue;
+        };
+        let (wi, wo) = (a.incident().projected_solid_angles(), a.emergent().projected_solid_angles());
+        let (mut difference, mut sum) = (0.0, 0.0);
+        for (i, wi) in wi.iter().enumerate() {
+            for (o, wo) in wo.iter().enumerate() {
+                difference += wi * wo * (a.value(i, o) - b.value(i, o)).abs();
+                sum += wi * wo * 0.5 * (a.value(i, o) + b.value(i, o));
+            }
+        }
+        if sum > 1e-9 {
+            largest = largest.max(difference / sum);
+        }
+    }
+    largest
+}
+
+fn warned(dataset: &Dataset) -> BTreeMap<&'static str, Severity> {
+    let mut codes = BTreeMap::new();
+    for one in examine(dataset) {
+        let worst = codes.entry(one.finding.code).or_insert(one.finding.severity);
+        *worst = one.finding.severity.max(*worst);
+    }
+    codes
+}
+
+#[test]
+fn planted_faults_in_genuine_products_are_found() {
+    let genuine = genuine();
+    let mut totals = (0, 0);
+    println!("| fault | planted | found | as error | without effect (< 2 %) | not found |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    for plant in PLANTS {
+        let (mut planted, mut found, mut errors, mut nothing) = (0, 0, 0, 0);
+        let mut missed = Vec::new();
+        for (name, dataset) in &genuine {
+            let Some(broken) = (plant.make)(dataset) else { continue };
+            let change = effect(dataset, &broken);
+            if change < 0.02 {
+                nothing += 1;
+                continue;
+            }
+            planted += 1;
+            let (before, after) = (warned(dataset), warned(&broken));
+            let new = after.iter().filter(|(code, severity)| before.get(*code).is_none_or(|old| old < severity));
+            let told: Vec<&str> = new.clone().map(|(code, _)| *code).collect();
+            let hits: Vec<_> = new.filter(|(code, _)| plant.codes.contains(code)).collect();
+            // A block that repeats itself anew is told again even where something of the kind was told before.
+            let again = plant.codes.iter().any(|code| {
+                let count = |d: &Dataset| examine(d).iter().filter(|one| one.finding.code == *code).count();
+                count(&broken) > count(dataset)
+            });
+            if hits.is_empty() && !again {
+                missed.push(format!("{name} ({change:.2}{}{})", if told.is_empty() { "" } else { ": " }, told.join(" ")));
+            } else {
+                found += 1;
+                errors += usize::from(hits.iter().any(|(_, severity)| **severity == Severity::Error));
+            }
+        }
+        totals.0 += planted;
+        totals.1 += found;
+        println!("| {} | {planted} | {found} | {errors} | {nothing} | {} |", plant.name, missed.join(", "));
+    }
+    println!("{} of {} found", totals.1, totals.0);
+    assert!(totals.1 * 10 >= totals.0 * 8, "{} of {}", totals.1, totals.0);
+}
+
+#[test]
+fn nothing_is_said_about_an_empty_dataset_but_that_it_is_empty() {
+    let empty = Dataset { format: "made here".into(), visible: Band::default(), ..Dataset::default() };
+    assert!(examine(&empty).iter().any(|one| one.finding.code == "no-transmission"));
+}
