@@ -1,7 +1,7 @@
 //! The functions of a band on common cells in through-names, so that any two can be compared number by number.
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Band, Component, Dataset, Scattered, matrix_on};
+use crate::compute::btdf::{Band, Component, Dataset, Scattered, matrix_roughly_on};
 use crate::compute::direction::Dir;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
@@ -65,7 +65,7 @@ impl Blocks {
             .unwrap_or_else(|| RingBasis::klems_full(AzimuthMap::FACADE));
         let mut given = [const { None }; 4];
         for component in &components {
-            let matrix = matrix_on(band.get(*component)?, &basis, &basis);
+            let matrix = matrix_roughly_on(band.get(*component)?, &basis, &basis);
             given[*component as usize] =
                 Some(Block { tau: matrix.tau_by_cell().to_vec(), q: matrix.values().to_vec() });
         }

@@ -64,28 +64,33 @@ fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
     let mut list = identity::check(dataset);
     list.extend(copies::between_bands(dataset));
     list.extend(energy::between_bands(dataset));
-    let visible = band(dataset, &dataset.visible, "visible", BandScope::Visible);
-    let solar = dataset.solar.as_ref().map(|solar| band(dataset, solar, "solar", BandScope::Solar)).unwrap_or_default();
+    let blocks = Blocks::new(dataset, &dataset.visible);
+    let visible = band(dataset, &dataset.visible, "visible", BandScope::Visible, blocks.as_ref());
+    let solar = dataset.solar.as_ref().map(|solar| {
+        let blocks = Blocks::new(dataset, solar);
+        band(dataset, solar, "solar", BandScope::Solar, blocks.as_ref())
+    });
+    let solar = solar.unwrap_or_default();
     list.extend(diagnosis::merged(visible, solar));
-    list.extend(orientation::check(dataset));
+    list.extend(orientation::check(dataset, blocks.as_ref()));
     list.extend(resolution::check(dataset));
     list
 }
 
-fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope) -> Vec<Diagnosis> {
+fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     let at = At { dataset, band, name, scope };
     let mut list = energy::check(&at);
     list.extend(copies::check(&at));
     let scaled = list.iter().any(|one| one.finding.code == "percent");
-    let Some(blocks) = Blocks::new(dataset, band) else { return list };
-    list.extend(patches::check(&at, &blocks));
-    list.extend(symmetry::check(&at, &blocks));
-    let cosine = cosine::check(&at, &blocks);
+    let Some(blocks) = blocks else { return list };
+    list.extend(patches::check(&at, blocks));
+    list.extend(symmetry::check(&at, blocks));
+    let cosine = cosine::check(&at, blocks);
     // One explanation is enough: a cosine too many upsets every comparison that follows, as percent do.
     let explained = !cosine.is_empty() || scaled || list.iter().any(|one| one.finding.code == "copied-block");
     list.extend(cosine);
     if !explained {
-        list.extend(sides::check(&at, &blocks));
+        list.extend(sides::check(&at, blocks));
     }
     list.extend(reciprocity::check(&at));
     list

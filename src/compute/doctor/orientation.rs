@@ -69,11 +69,11 @@ fn from(btdf: &Btdf, phi: f64) -> f64 {
     angles.iter().map(|theta| btdf.tau(Incident(Dir::from_theta_phi(theta.to_radians(), phi)))).sum::<f64>() / 4.0
 }
 
-pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
+pub(super) fn check(dataset: &Dataset, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     let Some(btdf) = dataset.transmission() else { return list };
     let turn = Repair::whole(RepairKind::TurnUpsideDown);
-    let uneven = Blocks::new(dataset, &dataset.visible).is_some_and(|blocks| {
+    let uneven = blocks.is_some_and(|blocks| {
         Component::ALL.iter().filter_map(|c| blocks.get(*c)).any(|block| blocks.asymmetry(block, Turn::UpDown) > 0.1)
     });
     if let Some(sentence) = sun_from_above(btdf) {
@@ -101,6 +101,8 @@ pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
     }
     let reflectance = |component| dataset.visible.get(component).map(Btdf::tau_hemispherical);
     if let (Some(front), Some(back)) = (reflectance(Component::ReflectionFront), reflectance(Component::ReflectionBack))
+        // A slat's two faces show in proportions that depend on its tilt.
+        && !uneven
         && back > 0.2
         && front < 0.6 * back
     {

@@ -1,6 +1,6 @@
 //! Directions without data, and spikes at grazing angles.
 
-use super::blocks::{Block, Blocks};
+use super::blocks::{Block, Blocks, Turn};
 use super::copies::words;
 use super::{At, Diagnosis};
 use crate::compute::btdf::{Component, Finding};
@@ -71,7 +71,9 @@ fn alone(blocks: &Blocks, values: &[f64], largest: f64) -> Vec<usize> {
         let first = blocks.basis.first_cell(index);
         let around = |k: usize| values[first + k % ring.sectors];
         for k in 0..ring.sectors {
-            if values[first + k] != 0.0 {
+            // What is dark on both sides alike is dark by construction, as mirrors are from along their slats.
+            let image = blocks.turned(Turn::LeftRight, first + k);
+            if values[first + k] != 0.0 || (image != first + k && values[image] == 0.0) {
                 continue;
             }
             let lit = if ring.sectors == 1 {
@@ -102,7 +104,13 @@ fn spikes(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Opti
     let rings = blocks.tau_by_ring(block);
     let [.., before, last] = rings.as_slice() else { return None };
     // Reflection rises towards grazing everywhere; transmission nowhere.
-    if transmission && last.0 > GRAZING && last.1 > 0.02 && last.1 > 1.25 * before.1 {
+    // Scattering systems may leak there; panes never do.
+    if transmission
+        && blocks.straight_share(block) > 0.9
+        && last.0 > GRAZING
+        && last.1 > 0.02
+        && last.1 > 1.25 * before.1
+    {
         let message = format!(
             "{} ({}) rises towards grazing incidence, from {:.3} at {:.0}° to {:.3} at {:.0}°, where it should fall.",
             words(component),
@@ -122,7 +130,13 @@ fn spikes(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Opti
     let median = sorted[count / 2];
     let odd = (0..count).find(|k| {
         let (left, right) = (values[(k + count - 1) % count], values[(k + 1) % count]);
-        count > 4 && median > 0.01 && values[*k] > SPIKE * left.max(right).max(median) && values[*k] > 0.1
+        // Along slats and ribs light slips through on both sides.
+        let opposite = blocks.turned(Turn::HalfRound, first + k);
+        count > 4
+            && median > 0.01
+            && values[*k] > SPIKE * left.max(right).max(median)
+            && values[*k] > 0.1
+            && values[*k] > SPIKE * block.tau[opposite]
     })?;
     let cell = blocks.basis.cell(first + odd);
     let message = format!(
