@@ -41,6 +41,9 @@ fn genuine() -> Vec<(String, Dataset)> {
         walk(Path::new(&more), &mut files);
     }
     files.sort();
+    // Copies of one file under two names would count twice.
+    let mut seen = std::collections::BTreeSet::new();
+    files.retain(|path| seen.insert(std::fs::read(path).unwrap()));
     let product = |path: &PathBuf| {
         let text = path.to_string_lossy();
         !text.contains("parser_samples") && !text.contains("tiny_tensor_tree")
@@ -307,7 +310,7 @@ fn blind() -> Dataset {
             transmission_front: Some(matrix(&outside, &through)),
             transmission_back: Some(matrix(&inside, &|i, o| through(o, i))),
             reflection_front: Some(matrix(&outside, &|i, o| mirror(i, o, 0.8))),
-            reflection_back: Some(matrix(&inside, &|i, o| mirror(i, o, 0.3))),
+            reflection_back: Some(matrix(&inside, &|i, o| mirror(i, o, -0.3))),
         },
         ..Dataset::default()
     }

@@ -110,7 +110,7 @@ impl App {
             Command::EditPath(text) => state.path = text,
             Command::EditImport(fields) => self.edit_import(*fields),
             Command::Repair(repair) => self.repair_import(|repairs| repairs.push(repair)),
-            Command::UndoRepair => self.repair_import(|repairs| drop(repairs.pop())),
+            Command::UndoRepair => self.repair_import(|repairs| repairs.truncate(repairs.len().saturating_sub(1))),
             Command::AddImport => self.add_import(),
             Command::DiscardImport => {
                 state.import = None;

@@ -48,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 /// What the doctor says about the selected dataset; asked once a dataset, not once a frame.
 pub(super) fn of_selection(ui: &mut Ui, dataset: &Arc<Dataset>) {
     type Examined = Arc<(usize, Vec<Diagnosis>)>;
-    let (id, place) = (egui::Id::new("examined"), Arc::as_ptr(dataset) as usize);
+    let (id, place) = (egui::Id::unique("examined"), Arc::as_ptr(dataset) as usize);
     let kept: Option<Examined> = ui.data(|data| data.get_temp(id));
     let examined = match kept.filter(|kept| kept.0 == place) {
         Some(kept) => kept,

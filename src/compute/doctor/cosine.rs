@@ -51,7 +51,7 @@ impl Suspect {
     /// Makers' fabrics lack light at grazing incidence, which looks like a cosine divided out of transmission.
     const fn limits(self, transmission: bool) -> (f64, f64) {
         match (self, transmission) {
-            (Self::CosineTooMuch, _) => (0.08, 0.6),
+            (Self::CosineTooMuch, _) => (0.05, 0.6),
             (Self::CosineTooLittle, false) => (0.08, 0.6),
             (Self::CosineTooLittle, true) => (0.12, 0.45),
             (Self::SolidAngle, _) => (0.03, 0.3),
@@ -81,6 +81,9 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
             found.extend(own(blocks, component, block, transmission));
         }
         if !found.iter().any(|one| one.component == component) {
+            found.extend(emission(blocks, component, block));
+        }
+        if !found.iter().any(|one| one.component == component) {
             found.extend(if transmission { pane(blocks, component, block) } else { mirror(blocks, component, block) });
         }
     }
@@ -98,6 +101,9 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
                 }
             }
         }
+    }
+    if found.is_empty() {
+        found.extend(fluxes(blocks));
     }
     told(at, blocks, &found)
 }
@@ -215,6 +221,57 @@ fn shape(blocks: &Blocks, block: &Block) -> Option<(f64, (f64, f64), (f64, f64))
     let middle = rings.iter().min_by(|a, b| (a.0 - 0.7).abs().total_cmp(&(b.0 - 0.7).abs()))?;
     let last = rings.last()?;
     Some((first, (middle.0.cos(), middle.1 / first), (last.0.cos(), last.1 / first)))
+}
+
+/// Light emitted exactly as the cosine of the emergent angle, or its inverse, whatever the incidence: an ideal diffuser
+/// with the factor in its values.
+fn emission(blocks: &Blocks, component: Component, block: &Block) -> Option<Found> {
+    if blocks.straight_share(block) > 0.3 || !isotropic(blocks, block) {
+        return None;
+    }
+    let rings = blocks.reversed_tau_by_ring(block);
+    let spread = |f: fn(f64, f64) -> f64| {
+        let values: Vec<f64> = rings.iter().map(|(theta, value)| f(*value, theta.cos())).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+        if mean > 0.0 { (high - low) / mean } else { 0.0 }
+    };
+    let suspect = match spread(|value, _| value) {
+        ..0.3 => return None,
+        _ if spread(|value, cosine| value / cosine) < 0.06 => Suspect::CosineTooMuch,
+        _ if spread(|value, cosine| value * cosine) < 0.06 => Suspect::CosineTooLittle,
+        _ => return None,
+    };
+    let evidence = "without it the emission is that of an ideal diffuser, with it that of none".to_owned();
+    Some(Found { component, suspect, confidence: Confidence::Likely, evidence })
+}
+
+/// Values that sum up to what a system may transmit and reflect without being weighted, and to next to nothing when
+/// they are: fluxes into cells rather than luminances.
+fn fluxes(blocks: &Blocks) -> Vec<Found> {
+    let n = blocks.weight.len();
+    let given: Vec<Component> = Component::ALL.into_iter().filter(|c| blocks.get(*c).is_some()).collect();
+    let (Some(t), Some(r)) = (blocks.get(Component::TransmissionFront), blocks.get(Component::ReflectionFront)) else {
+        return Vec::new();
+    };
+    if n < 40 || !given.iter().all(|c| blocks.get(*c).is_some_and(tiny)) {
+        return Vec::new();
+    }
+    let sum = |block: &Block, i: usize| block.q[i * n..(i + 1) * n].iter().sum::<f64>();
+    let sums: Vec<f64> = (0..n).map(|i| sum(t, i) + sum(r, i)).collect();
+    let mean = sums.iter().sum::<f64>() / n as f64;
+    if mean < 0.3 || sums.iter().any(|sum| *sum > 1.02) {
+        return Vec::new();
+    }
+    let evidence =
+        format!("summed up without weights they give {:.0} % of the light, with them nearly none", 100.0 * mean);
+    let found = |component| Found {
+        component,
+        suspect: Suspect::SolidAngle,
+        confidence: Confidence::Possible,
+        evidence: evidence.clone(),
+    };
+    given.into_iter().map(found).collect()
 }
 
 /// A clear pane keeps its transmittance to 40° within 10 %.

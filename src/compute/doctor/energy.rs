@@ -78,7 +78,11 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         let (sum, ratio) = (largest(component), ratio(component));
         // Light goes both ways alike, so that the two transmissions under uniform light are equal.
         let by_partner = ratio.is_some_and(|ratio| (50.0..200.0).contains(&ratio));
-        let by_itself = sum > OTHER_UNIT && sum <= 150.0 && ratio.is_none_or(|r| !(2.0..50.0).contains(&r));
+        // Values divided by the cosine exceed 1 at grazing angles alone.
+        let mean = hemispherical(component);
+        let everywhere = mean > 2.2 || sum < 2.5 * mean;
+        let by_itself =
+            sum > OTHER_UNIT && sum <= 150.0 && everywhere && ratio.is_none_or(|r| !(2.0..50.0).contains(&r));
         by_partner || by_itself
     };
     let percent: Vec<Component> = components.iter().copied().filter(own).filter(|c| is_percent(*c)).collect();

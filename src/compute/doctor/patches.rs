@@ -4,6 +4,7 @@ use super::blocks::{Block, Blocks, Turn};
 use super::copies::words;
 use super::{At, Diagnosis};
 use crate::compute::btdf::{Component, Finding};
+use crate::compute::direction::Dir;
 
 /// A spike in the last 10° before grazing is this much above the values beside it.
 const SPIKE: f64 = 2.0;
@@ -91,7 +92,14 @@ fn alone(blocks: &Blocks, values: &[f64], largest: f64) -> Vec<usize> {
             } else {
                 false
             };
-            if lit {
+            // A patch is missing when light comes from all around it, also from the rings beside it.
+            let cell = blocks.basis.cell(first + k);
+            let beside = |theta: f64| {
+                let inside = theta > 0.0 && theta < std::f64::consts::FRAC_PI_2;
+                let other = inside.then(|| blocks.basis.index(Dir::from_theta_phi(theta, cell.phi))).flatten();
+                other.is_none_or(|other| values[other] > 0.02 * largest)
+            };
+            if lit && beside(cell.theta_min - 1e-3) && beside(cell.theta_max + 1e-3) {
                 list.push(first + k);
             }
         }

@@ -8,7 +8,7 @@
 use super::blocks::{Block, Blocks, Turn};
 use super::copies::words;
 use super::{At, BlockScope, Confidence, Diagnosis, RepairKind};
-use crate::compute::btdf::Component;
+use crate::compute::btdf::{Component, Scattered, TreeRank};
 
 /// A way in which a block can be wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +60,10 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     list
 }
 
+fn rank_three(scattered: &Scattered) -> bool {
+    matches!(scattered, Scattered::Tree(tree) if tree.rank() == TreeRank::Three)
+}
+
 fn turned(blocks: &Blocks, block: &Block, turn: Turn) -> Block {
     let n = blocks.weight.len();
     let at = |k| blocks.turned(turn, k);
@@ -101,6 +105,10 @@ fn modelled(blocks: &Blocks, block: &Block) -> bool {
 /// The transmissions of both sides, one of them put right in every way: is there one that fits far better?
 fn pair(at: &At, blocks: &Blocks, four: &Four) -> Option<(Diagnosis, Four)> {
     let (front, back) = (four[0].as_ref()?, four[1].as_ref()?);
+    // Trees of rank 3 have no azimuth to be wrong about, and averaged azimuths are not reciprocal.
+    if at.band.transmission_front.as_ref().and_then(|btdf| btdf.scattered.as_ref()).is_some_and(rank_three) {
+        return None;
+    }
     let n = blocks.weight.len();
     let error = |fault: Option<Fault>| {
         blocks.difference(
@@ -130,18 +138,22 @@ fn pair(at: &At, blocks: &Blocks, four: &Four) -> Option<(Diagnosis, Four)> {
         }
     }
     let (fault, after) = best?;
-    let explained = after < 0.25 * before || (before > 0.3 && after < 0.4 * before);
+    let explained = after < 0.25 * before || (before > 0.15 && after < 0.4 * before);
     if !explained {
         return None;
     }
-    let same_all_round = isotropic(blocks, front) && isotropic(blocks, back);
+    let unevenness = |block: &Block| {
+        let turns = [Turn::UpDown, Turn::LeftRight, Turn::QuarterRound];
+        turns.iter().map(|turn| blocks.asymmetry(block, *turn)).fold(0.0, f64::max)
+    };
+    let uneven = unevenness(front).min(unevenness(back));
     // A maker's fabric measured, or modelled, alike on both sides is not reciprocal but not transposed either.
-    if fault == Fault::Transposed && same_all_round && (modelled(blocks, front) || modelled(blocks, back)) {
+    if fault == Fault::Transposed && uneven < 0.1 && (modelled(blocks, front) || modelled(blocks, back)) {
         return None;
     }
     let confidence = match before {
-        _ if fault == Fault::Transposed && same_all_round => Confidence::Possible,
-        0.2.. => Confidence::Certain,
+        _ if fault == Fault::Transposed && uneven < 0.2 => Confidence::Possible,
+        0.2.. if after < 0.25 * before => Confidence::Certain,
         0.05.. => Confidence::Likely,
         _ => Confidence::Possible,
     };
@@ -291,8 +303,8 @@ fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
     let close: Vec<&Reading> =
         rated.iter().filter(|(score, _)| *score < 1.05 * least + 0.005).map(|(_, one)| one).collect();
     let best = close.first()?;
-    let confidence =
-        if least < 0.55 * before && (worst > 0.8 || won) { Confidence::Certain } else { Confidence::Likely };
+    // Only light out of nothing is beyond doubt.
+    let confidence = if least < 0.55 * before && won { Confidence::Certain } else { Confidence::Likely };
     let others: Vec<&str> = close.iter().skip(1).map(|one| one.0).collect();
     let others = if others.is_empty() { String::new() } else { format!(" As well possible: {}.", others.join("; ")) };
     let message = format!(
