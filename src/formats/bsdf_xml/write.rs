@@ -112,8 +112,8 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
     xml.push_str(
         "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
     );
-    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(&dataset.name));
-    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(&dataset.manufacturer));
+    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(or_unknown(&dataset.name)));
+    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(or_unknown(&dataset.manufacturer)));
     if let Some(thickness) = dataset.thickness {
         let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
     }
@@ -141,6 +141,11 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
 /// Degrees without the noise of the way through radians.
 fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
+}
+
+/// Some readers do not stand empty elements.
+fn or_unknown(text: &str) -> &str {
+    if text.trim().is_empty() { "Unknown" } else { text }
 }
 
 fn escape(text: &str) -> String {
