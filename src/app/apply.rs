@@ -8,6 +8,8 @@ use super::moment;
 use super::shelf::Addition;
 use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
 use super::work;
+use crate::catalogue::Provenance;
+use crate::compute::doctor::{Repair, record};
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
 use std::path::PathBuf;
@@ -129,6 +131,8 @@ impl App {
             Command::Write(what, path) => self.write(what, path),
             Command::EditPath(text) => state.path = text,
             Command::EditImport(fields) => self.edit_import(*fields),
+            Command::Repair(repair) => self.repair_import(|repairs| repairs.push(repair)),
+            Command::UndoRepair => self.repair_import(|repairs| repairs.truncate(repairs.len().saturating_sub(1))),
             Command::AddImport => self.add_import(),
             Command::DiscardImport => {
                 state.import = None;
@@ -255,6 +259,15 @@ impl App {
         }
     }
 
+    /// What was read with other repairs, made and examined in the background.
+    fn repair_import(&mut self, change: impl FnOnce(&mut Vec<Repair>)) {
+        let Some(import) = &self.state.import else { return };
+        let mut repairs = import.repairs.clone();
+        change(&mut repairs);
+        let originals = import.originals.clone();
+        self.start(Lane::Import, move |_| work::mend(&originals, repairs));
+    }
+
     fn add_import(&mut self) {
         let Some(import) = self.state.import.take() else { return };
         let addition = Addition {
@@ -263,7 +276,7 @@ impl App {
             manufacturer: import.manufacturer.trim().to_owned(),
             kind: import.kind.trim().to_owned(),
             tags: import.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect(),
-            provenance: import.provenance,
+            provenance: Provenance { method: record(&import.provenance.method, &import.repairs), ..import.provenance },
         };
         self.state.sheet = None;
         let number = self.state.additions.len();

@@ -5,6 +5,7 @@ use super::jobs::Lane;
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
 use super::theme::ThemeChoice;
+use crate::compute::doctor::Repair;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
@@ -95,6 +96,10 @@ pub enum Command {
     EditPalette(String),
     /// Fill in what an import lacks.
     EditImport(Box<ImportFields>),
+    /// Try a repair on what was read.
+    Repair(Repair),
+    /// Take the last repair back.
+    UndoRepair,
     /// Store what was read.
     AddImport,
     /// Forget what was read.
@@ -266,6 +271,8 @@ impl Command {
             Self::OpenPaths(_) => ("Read files".into(), "Datasets or a scene", None),
             Self::Write(..) => ("Write a file".into(), "To the path given", None),
             Self::EditPath(_) | Self::EditPalette(_) | Self::EditImport(_) => ("Type".into(), "Edit a field", None),
+            Self::Repair(repair) => (repair.label(), "Try this repair on what was read", None),
+            Self::UndoRepair => ("Undo the repair".into(), "Take the last repair back", None),
             Self::AddImport => ("Add to catalogue".into(), "Store what was read; undo takes it out again", None),
             Self::DiscardImport => ("Discard".into(), "Forget what was read; nothing was stored", None),
             Self::RetryCatalogue => ("Try again".into(), "Open the catalogue once more", None),

@@ -4,6 +4,7 @@ use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
 use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
+use crate::compute::doctor::{Diagnosis, Repair};
 use crate::compute::sky::{Outside, Sun};
 use crate::study::scene_file::{
     ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys,
@@ -156,12 +157,18 @@ pub struct Daylight {
 }
 
 /// Which files were read and are not stored yet.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Import {
     /// File names.
     pub files: Vec<String>,
-    /// What was recognised, one a state.
+    /// What was recognised, one a state, with the repairs made.
     pub datasets: Vec<Arc<Dataset>>,
+    /// The same as the files hold it.
+    pub originals: Vec<Arc<Dataset>>,
+    /// What the data doctor says about each.
+    pub diagnoses: Vec<Vec<Diagnosis>>,
+    /// Repairs made, in order; recorded when the product is stored.
+    pub repairs: Vec<Repair>,
     /// Files that could not be read: file, place, what, what would be right.
     pub failures: Vec<String>,
     /// Fields for the user to fill in.

@@ -10,6 +10,7 @@ use crate::catalogue::{Gathered, Product, SourceFile, gather};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
+use crate::compute::doctor::{Diagnosis, Repair, examine, repaired_all};
 use crate::compute::lid::Facing;
 use crate::formats::control_curve::read_control_curve;
 use crate::study::accuracy::Accuracy;
@@ -47,6 +48,8 @@ pub enum Outcome {
     Target(PathUse, Result<Option<PathBuf>, String>),
     /// Files were read.
     Read(Box<Import>),
+    /// What was read, with repairs: the datasets, what is said about them, and the repairs; or why not.
+    Mended(Result<Mended, String>),
     /// A scene was read.
     ReadScene(PathBuf, Result<Box<SceneFile>, String>),
     /// A control curve was read.
@@ -137,7 +140,9 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
     }
     let mut products = gather(sources, false).into_iter();
     if let Some(Gathered { meta, datasets, .. }) = products.next() {
+        import.diagnoses = datasets.iter().map(examine).collect();
         import.datasets = datasets.into_iter().map(Arc::new).collect();
+        import.originals = import.datasets.clone();
         import.name = meta.name;
         import.manufacturer = meta.manufacturer;
         import.kind = meta.kind;
@@ -149,6 +154,27 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
         import.failures.push(format!("{files}: another product (\"{name}\"); open it after this one"));
     }
     Outcome::Read(Box::new(import))
+}
+
+/// Datasets with repairs made.
+#[derive(Debug)]
+pub struct Mended {
+    /// One a state.
+    pub datasets: Vec<Arc<Dataset>>,
+    /// What the data doctor says about each now.
+    pub diagnoses: Vec<Vec<Diagnosis>>,
+    /// The repairs.
+    pub repairs: Vec<Repair>,
+}
+
+/// Makes repairs on all states and examines what comes of it.
+pub(super) fn mend(originals: &[Arc<Dataset>], repairs: Vec<Repair>) -> Outcome {
+    let mended: Result<Vec<Dataset>, _> = originals.iter().map(|dataset| repaired_all(dataset, &repairs)).collect();
+    Outcome::Mended(mended.map_err(|error| error.to_string()).map(|datasets| Mended {
+        diagnoses: datasets.iter().map(examine).collect(),
+        datasets: datasets.into_iter().map(Arc::new).collect(),
+        repairs,
+    }))
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
@@ -286,6 +312,15 @@ impl App {
             Outcome::Read(import) => {
                 self.state.import = Some(*import);
                 self.state.sheet = Some(Sheet::Import);
+            }
+            Outcome::Mended(Ok(mended)) => {
+                if let Some(import) = &mut self.state.import {
+                    (import.datasets, import.diagnoses, import.repairs) =
+                        (mended.datasets, mended.diagnoses, mended.repairs);
+                }
+            }
+            Outcome::Mended(Err(error)) => {
+                self.toasts.error(error);
             }
             Outcome::ReadScene(path, Ok(scene)) => {
                 self.undoer.add_undo(&self.state.document);

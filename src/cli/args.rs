@@ -2,7 +2,8 @@
 
 use super::{
     accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, control::ControlArgs, convert::ConvertArgs,
-    goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, room::RoomArgs, sky::SkyArgs,
+    goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, repair::RepairArgs, room::RoomArgs,
+    sky::SkyArgs,
 };
 use std::path::PathBuf;
 
@@ -23,6 +24,7 @@ Examples:
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs control blind.toml --out year.csv a year of states of controlled systems
   cfs sky office.toml                   luminances of the 145 sky patches
+  cfs repair blind.xml --repair transpose --out mended.xml   what cfs info offers
   cfs convert blind.xml copy.xml        between dataset formats
   cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
   cfs goniophotometer blind.system.toml --out blind.cfsp   datasets from geometry and material
@@ -59,6 +61,8 @@ pub enum Command {
     Control(ControlArgs),
     /// What a dataset file is
     Info(InfoArgs),
+    /// A dataset mended as its findings offer
+    Repair(RepairArgs),
     /// A dataset in another format
     Convert(ConvertArgs),
     /// What the compact form of a dataset saves and costs

@@ -1,8 +1,9 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
-use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, check, gather};
+use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, gather};
 use crate::cli::dataset_file;
 use crate::compute::btdf::{Dataset, Severity};
+use crate::compute::doctor::{examine, meaning};
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
@@ -177,6 +178,7 @@ fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
 fn finding_json(finding: &ProductFinding) -> Value {
     json!({
         "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,
+        "meaning": meaning(&finding.code),
     })
 }
 
@@ -340,56 +342,80 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     print(&text)
 }
 
+/// What was found about one item: the product's state, the finding, and the repair offered.
+struct Judged {
+    finding: ProductFinding,
+    repair: Option<String>,
+}
+
 fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Result<()> {
     let all = catalogue.search(&Query::default())?;
     let items =
         if args.items.is_empty() { all.iter().map(|row| row.key.clone()).collect() } else { args.items.clone() };
     let mut results = Vec::new();
     for item in items {
-        let findings = if all.iter().any(|row| row.key == item) {
-            catalogue.validate(&item)?
+        let judged: Vec<Judged> = if all.iter().any(|row| row.key == item) {
+            catalogue.validate(&item)?.into_iter().map(|finding| Judged { finding, repair: None }).collect()
         } else if Path::new(&item).exists() {
             of_file(Path::new(&item))?
         } else {
             bail!("{item}: neither a product of the catalogue nor a file");
         };
-        results.push((item, findings));
+        results.push((item, judged));
     }
-    let bad = results.iter().filter(|(_, f)| f.iter().any(|f| f.severity == Severity::Error)).count();
+    let valid = |judged: &[Judged]| judged.iter().all(|one| one.finding.severity != Severity::Error);
+    let bad = results.iter().filter(|(_, judged)| !valid(judged)).count();
     if args.json {
-        let list = results.iter().map(|(item, findings)| {
-            let valid = findings.iter().all(|finding| finding.severity != Severity::Error);
-            json!({"item": item, "valid": valid, "findings": findings.iter().map(finding_json).collect::<Vec<_>>()})
+        let list = results.iter().map(|(item, judged)| {
+            let findings = judged.iter().map(|one| {
+                let mut value = finding_json(&one.finding);
+                value["repair"] = one.repair.clone().into();
+                value
+            });
+            json!({"item": item, "valid": valid(judged), "findings": findings.collect::<Vec<_>>()})
         });
         print(&(serde_json::to_string_pretty(&list.collect::<Vec<_>>())? + "\n"))?;
     } else {
         let mut text = String::new();
-        for (item, findings) in &results {
-            let worst = findings.iter().map(|finding| finding.severity).max();
-            writeln!(text, "{item}: {}", worst.map_or("ok", Severity::word))?;
-            for finding in findings {
+        for (item, judged) in &results {
+            let worst = judged.iter().map(|one| one.finding.severity).max();
+            writeln!(text, "{item}: {}", worst.filter(|worst| *worst > Severity::Info).map_or("ok", Severity::word))?;
+            for Judged { finding, repair } in judged {
                 writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
+                if let Some(repair) = repair {
+                    writeln!(text, "    offers: --repair {repair}")?;
+                }
             }
         }
         print(&text)?;
     }
     if bad > 0 {
-        bail!("{bad} of {} not fit for use", results.len());
+        return Err(NotFit { bad, of: results.len() }.into());
     }
     Ok(())
 }
 
-/// What reader and checks say about a file.
-fn of_file(path: &Path) -> anyhow::Result<Vec<ProductFinding>> {
-    let mut findings = Vec::new();
+/// Data that are not fit for use; the program ends with status 1, unlike for input that it cannot read.
+#[derive(Debug, thiserror::Error)]
+#[error("{bad} of {of} not fit for use")]
+pub struct NotFit {
+    bad: usize,
+    of: usize,
+}
+
+/// What reader and doctor say about a file.
+fn of_file(path: &Path) -> anyhow::Result<Vec<Judged>> {
+    let mut list = Vec::new();
     for dataset in dataset_file::read(path)? {
-        let own = check(&dataset).into_iter().filter(|finding| !dataset.findings.contains(finding));
-        findings.extend(dataset.findings.iter().cloned().chain(own).map(|finding| ProductFinding {
-            state: dataset.state.clone(),
-            severity: finding.severity,
-            code: finding.code.to_owned(),
-            message: finding.message,
+        list.extend(examine(&dataset).into_iter().map(|one| Judged {
+            finding: ProductFinding {
+                state: dataset.state.clone(),
+                severity: one.finding.severity,
+                code: one.finding.code.to_owned(),
+                message: one.finding.message,
+            },
+            repair: one.repair.map(|repair| repair.to_string()),
         }));
     }
-    Ok(findings)
+    Ok(list)
 }

@@ -3,6 +3,7 @@
 use crate::cli::{dataset_file, luminaire_info};
 use crate::compute::btdf::{Btdf, Component, Dataset, Scattered, Severity, TreeRank, reciprocity_error};
 use crate::compute::direction::Incident;
+use crate::compute::doctor::{Diagnosis, examine};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -71,12 +72,16 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("hemispherical_hemispherical".into(), hemispherical(dataset));
     object.insert("tau_dir_hem".into(), transmission.map_or_else(|| json!([]), tau_dir_hem));
     object.insert("reciprocity_error".into(), reciprocity(dataset).into());
-    let findings = dataset
-        .findings
-        .iter()
-        .map(|finding| json!({"severity": finding.severity.word(), "code": finding.code, "message": finding.message}));
-    object.insert("findings".into(), findings.collect::<Vec<_>>().into());
+    object.insert("findings".into(), examine(dataset).iter().map(finding_json).collect::<Vec<_>>().into());
     Value::Object(object)
+}
+
+/// What was found, what it means, and the repair that `cfs repair` would make (null: none is offered).
+pub(super) fn finding_json(one: &Diagnosis) -> Value {
+    json!({
+        "severity": one.finding.severity.word(), "code": one.finding.code, "message": one.finding.message,
+        "meaning": one.meaning, "repair": one.repair.map(|repair| repair.to_string()),
+    })
 }
 
 fn hemispherical(dataset: &Dataset) -> Value {
@@ -178,12 +183,17 @@ fn to_text(dataset: &Dataset) -> String {
         let _ = write!(text, "\n{}", tau_table(transmission));
     }
     let _ = writeln!(text, "\nFindings");
-    if dataset.findings.is_empty() {
+    let found = examine(dataset);
+    if found.is_empty() {
         let _ = writeln!(text, "  none");
     }
-    for severity in [Severity::Error, Severity::Warning, Severity::Info] {
-        for finding in dataset.findings.iter().filter(|finding| finding.severity == severity) {
-            let _ = writeln!(text, "  {:<8} {:<22} {}", severity.word(), finding.code, finding.message);
+    for Diagnosis { finding, meaning, repair } in found {
+        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+        if finding.severity != Severity::Info && !meaning.is_empty() {
+            let _ = writeln!(text, "{:34}{meaning}", "");
+        }
+        if let Some(repair) = repair {
+            let _ = writeln!(text, "{:34}offers: --repair {repair}", "");
         }
     }
     text

@@ -13,6 +13,7 @@ pub mod lid;
 mod luminaire_info;
 mod output;
 mod progress;
+pub mod repair;
 pub mod room;
 pub mod sky;
 
@@ -37,6 +38,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Compact(args) => compact::run(args),
+        Command::Repair(args) => repair::run(args),
         Command::Catalogue(args) => catalogue::run(args, catalogue),
     }
 }

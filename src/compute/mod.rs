@@ -21,6 +21,7 @@ pub mod btdf;
 pub mod control;
 pub mod dielectric;
 pub mod direction;
+pub mod doctor;
 pub mod estimate;
 pub mod goniophotometer;
 pub mod incidence;

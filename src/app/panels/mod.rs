@@ -2,6 +2,7 @@
 
 pub mod bench;
 mod catalogue;
+mod import;
 mod menu;
 mod palette;
 mod scene;

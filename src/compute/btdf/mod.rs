@@ -25,7 +25,7 @@ pub use checks::{reciprocity_error, tau_max};
 pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
 pub use indicatrices::Indicatrices;
-pub use on_cells::matrix_on;
+pub use on_cells::{matrix_on, matrix_roughly_on};
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 pub use zones::zone_shares;
 

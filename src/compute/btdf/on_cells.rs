@@ -8,6 +8,15 @@ use std::f64::consts::PI;
 /// Means over incident and emergent cells; flux is kept. Light that goes straight on fills the emergent cells that its
 /// incident cell covers. Single incident directions stand for the cells around them.
 pub fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
+    sampled_on(btdf, incident, emergent, 1024)
+}
+
+/// The same with tensor trees sampled at a sixteenth of the directions: for comparisons, not for files.
+pub fn matrix_roughly_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
+    sampled_on(btdf, incident, emergent, 256)
+}
+
+fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usize) -> CellMatrix {
     let n = emergent.len();
     let mut values = match &btdf.scattered {
         None => vec![0.0; incident.len() * n],
@@ -20,7 +29,7 @@ pub fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> Cel
                 std::iter::repeat_n(mean / PI, n)
             })
             .collect(),
-        Some(Scattered::Tree(tree)) => tree_on(tree, incident, emergent),
+        Some(Scattered::Tree(tree)) => tree_on(tree, incident, emergent, side),
     };
     if let Some(tau) = &btdf.regular {
         let mean: Vec<f64> = incident
@@ -52,11 +61,11 @@ fn ring_mean((from, to): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of tree cells in
-/// ring cells are counted on a million directions of equal weight; every distribution is then scaled to its exact flux.
-fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis) -> Vec<f64> {
+/// ring cells are counted on `side`² directions of equal weight; every distribution is then scaled to its exact flux.
+fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis, side: usize) -> Vec<f64> {
     let grid = tree.incident_grid();
-    let inward = grid_shares(grid, incident);
-    let outward = if incident == emergent { inward.clone() } else { grid_shares(grid, emergent) };
+    let inward = grid_shares(grid, incident, side);
+    let outward = if incident == emergent { inward.clone() } else { grid_shares(grid, emergent, side) };
     let weights = emergent.projected_solid_angles();
     let from_rings = Resampling::new(&grid.rings(), emergent);
     let tau = tree.tau_by_cell();
@@ -83,9 +92,8 @@ fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis) -> Vec
 }
 
 /// For every cell of the basis the grid cells that fill it, with their shares (sum 1).
-fn grid_shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
-    const SIDE: usize = 1024;
-    let per_side = SIDE / grid.resolution();
+fn grid_shares(grid: SquareGrid, basis: &RingBasis, side: usize) -> Vec<Vec<(usize, f64)>> {
+    let per_side = (side / grid.resolution()).max(1);
     let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); basis.len()];
     for (k, cell) in grid.cells().enumerate() {
         for direction in cell.samples(per_side) {

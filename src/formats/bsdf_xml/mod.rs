@@ -138,7 +138,8 @@ fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_, '_>) {
                 "template-word",
                 format!("The {element} of the file is the template's own word '{word}': tell the product's."),
             ));
-        } else {
+        } else if word != "Unknown" {
+            // What the writer puts where nothing is known.
             *place = word;
         }
     }

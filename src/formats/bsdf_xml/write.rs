@@ -4,13 +4,21 @@
 //! every ring centred on 0. Functions on other cells are averaged over those cells (flux kept); tensor trees are
 //! sampled cell by cell from their finest grid; light that goes straight on becomes the diagonal of its matrix,
 //! τ/PΩ in every cell. The Geometry element is empty.
+//!
+//! Elements, their order and their words are those of LBNL's schema (BSDF-v1.7.5.xsd), so that WINDOW imports the file:
+//! both bands where there are two, each with its spectra; reflection under the data type "BTDF", the only one that the
+//! schema has; thermal properties that a dataset of light does not know as the defaults of Radiance's template for
+//! WINDOW, which the file's own comment and a finding name as such.
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::matrix_on;
-use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered};
+use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
+
+/// Thermal properties of the file that no dataset of light knows.
+const DEFAULTS: &str =
+    "device type Other, conductivity 1 W/mK, emissivities 0.9, infrared transmittance 0.1, effective openness 0.05";
 
 /// One dataset as a file. Blocks that were derived when it was read are written like the others.
 ///
@@ -59,6 +67,16 @@ fn changes(dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
             tell("derived-written", format!("{name}: derived, written like a block of the source."));
         }
     }
+    tell("window-defaults", format!("Not known and written as defaults for WINDOW: {DEFAULTS}."));
+    if dataset.thickness.is_none() {
+        tell("window-thickness", "The thickness is not known and not written; WINDOW asks for it.".to_owned());
+    }
+    if dataset.solar.is_none() {
+        tell(
+            "window-solar",
+            "There is no solar band; WINDOW needs one for heat gains, and none is invented.".to_owned(),
+        );
+    }
     if !dataset.state.is_empty() {
         tell("state-not-written", format!("The state key '{}' has no place in the format.", dataset.state));
     }
@@ -94,12 +112,16 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
     xml.push_str(
         "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
     );
-    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(&dataset.name));
-    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(&dataset.manufacturer));
+    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(or_unknown(&dataset.name)));
+    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(or_unknown(&dataset.manufacturer)));
     if let Some(thickness) = dataset.thickness {
         let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
     }
-    xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
+    xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t\t<ThermalConductivity>1</ThermalConductivity>\n");
+    xml.push_str("\t\t\t\t<EmissivityFront>0.9</EmissivityFront>\n\t\t\t\t<EmissivityBack>0.9</EmissivityBack>\n");
+    xml.push_str("\t\t\t\t<TIR>0.1</TIR>\n\t\t\t\t<EffectiveOpennessFraction>0.05</EffectiveOpennessFraction>\n");
+    let _ = writeln!(xml, "\t\t\t\t<Comments>Defaults, not measured: {DEFAULTS}.</Comments>");
+    xml.push_str("\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
     xml.push_str("\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>Columns</IncidentDataStructure>\n");
     let _ = writeln!(xml, "\t\t\t\t<AngleBasis>\n\t\t\t\t\t<AngleBasisName>{}</AngleBasisName>", escape(basis.name()));
     for ring in basis.rings() {
@@ -121,19 +143,32 @@ fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }
 
+/// Some readers do not stand empty elements.
+fn or_unknown(text: &str) -> &str {
+    if text.trim().is_empty() { "Unknown" } else { text }
+}
+
 fn escape(text: &str) -> String {
     let clean: String = text.chars().filter(|c| !c.is_control()).collect();
     clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
+    // What WINDOW takes for the band when nothing else is said.
+    let spectra = if name == "Visible" {
+        "\t\t\t\t<SourceSpectrum>CIE Illuminant D65 1nm.ssp</SourceSpectrum>\n\t\t\t\t<DetectorSpectrum>ASTM E308 1931 \
+         Y.dsp</DetectorSpectrum>\n"
+    } else {
+        "\t\t\t\t<SourceSpectrum>ASTM E891 Table 1 Direct AM1_5.ssp</SourceSpectrum>\n\t\t\t\t<DetectorSpectrum>None\
+         </DetectorSpectrum>\n"
+    };
     for component in band.components() {
         let Some(btdf) = band.get(component) else { continue };
-        let (title, kind, map) = match component {
-            Component::TransmissionFront => ("Transmission Front", "BTDF", AzimuthMap::KLEMS_FRONT),
-            Component::TransmissionBack => ("Transmission Back", "BTDF", AzimuthMap::KLEMS_BACK),
-            Component::ReflectionFront => ("Reflection Front", "BRDF", AzimuthMap::KLEMS_FRONT),
-            Component::ReflectionBack => ("Reflection Back", "BRDF", AzimuthMap::KLEMS_BACK),
+        let (title, map) = match component {
+            Component::TransmissionFront => ("Transmission Front", AzimuthMap::KLEMS_FRONT),
+            Component::TransmissionBack => ("Transmission Back", AzimuthMap::KLEMS_BACK),
+            Component::ReflectionFront => ("Reflection Front", AzimuthMap::KLEMS_FRONT),
+            Component::ReflectionBack => ("Reflection Back", AzimuthMap::KLEMS_BACK),
         };
         let basis_of_side = basis.clone().with_azimuth(map);
         let matrix = matrix_on(btdf, &basis_of_side, &basis_of_side);
@@ -141,11 +176,11 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
         let _ = write!(
             xml,
             "\t\t\t<WavelengthData>\n\t\t\t\t<LayerNumber>System</LayerNumber>\n\
-             \t\t\t\t<Wavelength unit=\"Integral\">{name}</Wavelength>\n\t\t\t\t<WavelengthDataBlock>\n\
+             \t\t\t\t<Wavelength unit=\"Integral\">{name}</Wavelength>\n{spectra}\t\t\t\t<WavelengthDataBlock>\n\
              \t\t\t\t\t<WavelengthDataDirection>{title}</WavelengthDataDirection>\n\
              \t\t\t\t\t<ColumnAngleBasis>{basis_name}</ColumnAngleBasis>\n\
              \t\t\t\t\t<RowAngleBasis>{basis_name}</RowAngleBasis>\n\
-             \t\t\t\t\t<ScatteringDataType>{kind}</ScatteringDataType>\n\t\t\t\t\t<ScatteringData>\n"
+             \t\t\t\t\t<ScatteringDataType>BTDF</ScatteringDataType>\n\t\t\t\t\t<ScatteringData>\n"
         );
         let n = basis.len();
         let values = matrix.values();

@@ -1,0 +1,85 @@
+//! `cfs repair`: datasets mended as findings offer, written anew.
+
+use crate::cli::dataset_file;
+use crate::compute::btdf::Dataset;
+use crate::compute::doctor::{Repair, examine, record, recorded, repaired_all, sun_from_above};
+use crate::formats::{format_to_write, write_dataset};
+use anyhow::{anyhow, bail};
+use std::path::PathBuf;
+
+/// Arguments of `cfs repair`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct RepairArgs {
+    /// Dataset file to mend; it stays as it is.
+    pub file: PathBuf,
+    /// What to do, in this order, as `cfs info` offers it: e.g. transpose, turn-upside-down:transmission_back,
+    /// divide-by-100:solar.all. All that `cfs info` offers for errors with `auto`.
+    #[arg(long, value_delimiter = ',', required_unless_present = "undo")]
+    pub repair: Vec<String>,
+    /// Undo the repairs that the file records, the last first.
+    #[arg(long, conflicts_with = "repair")]
+    pub undo: bool,
+    /// File to write; the extension says in which format.
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+/// Reads, mends, records, writes.
+///
+/// # Errors
+/// Input that cannot be read, a word that names no repair, a repair that the data do not allow, an output format that
+/// cannot hold them. Nothing is left behind then.
+pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
+    let name = args.file.display();
+    let out_name = args.out.to_string_lossy();
+    let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    let mut datasets = dataset_file::read(&args.file)?;
+    for dataset in &mut datasets {
+        let repairs = if args.undo { undoing(dataset)? } else { asked(dataset, &args.repair)? };
+        if repairs.is_empty() {
+            bail!("{name}: nothing to repair; expected repairs by name, or a file with findings that offer one");
+        }
+        let mut mended = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
+        // What the description recorded before is kept, and undone repairs cancel out.
+        mended.description = record(&dataset.description, &repairs);
+        let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
+        eprintln!("repaired: {}", words.join(", "));
+        if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
+            eprintln!("{sentence}");
+        }
+        *dataset = mended;
+    }
+    let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    dataset_file::write(&args.out, &written.bytes)?;
+    for finding in &written.findings {
+        eprintln!("{}: {}", finding.severity.word(), finding.message);
+    }
+    Ok(())
+}
+
+fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
+    let mut list = Vec::new();
+    for word in words {
+        if word == "auto" {
+            let offered = examine(dataset).into_iter().filter(|one| one.finding.severity.word() == "error");
+            for repair in offered.filter_map(|one| one.repair) {
+                if !list.contains(&repair) {
+                    list.push(repair);
+                }
+            }
+        } else {
+            list.push(word.parse()?);
+        }
+    }
+    Ok(list)
+}
+
+fn undoing(dataset: &Dataset) -> anyhow::Result<Vec<Repair>> {
+    let (_, repairs) = recorded(&dataset.description);
+    let undo = |repair: &Repair| {
+        repair
+            .inverse()
+            .ok_or_else(|| anyhow!("{repair} cannot be undone: it left values out, which only the source file has"))
+    };
+    repairs.iter().rev().map(undo).collect()
+}

@@ -1,0 +1,208 @@
+//! Blocks that are there twice, empty, or not at all.
+
+use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind};
+use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
+
+/// The name of a function as files write it.
+pub(super) const fn words(component: Component) -> &'static str {
+    match component {
+        Component::TransmissionFront => "Transmission Front",
+        Component::TransmissionBack => "Transmission Back",
+        Component::ReflectionFront => "Reflection Front",
+        Component::ReflectionBack => "Reflection Back",
+    }
+}
+
+/// Do two functions hold the same numbers in the same order, as when one is a copy of the other?
+pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
+    match (&a.scattered, &b.scattered) {
+        (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) => a.values() == b.values(),
+        (Some(Scattered::Tree(a)), Some(Scattered::Tree(b))) => a.nodes() == b.nodes(),
+        (Some(Scattered::Directions(a)), Some(Scattered::Directions(b))) => {
+            a.incident().len() == b.incident().len() && (0..a.incident().len()).all(|k| a.row(k) == b.row(k))
+        }
+        _ => false,
+    }
+}
+
+/// A solar band that repeats the visible one.
+pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
+    let Some(solar) = &dataset.solar else { return Vec::new() };
+    let shared: Vec<Component> =
+        dataset.visible.components().into_iter().filter(|component| solar.get(*component).is_some()).collect();
+    let same = |component: &Component| {
+        let (Some(a), Some(b)) = (dataset.visible.get(*component), solar.get(*component)) else { return false };
+        same_values(a, b) && tau_max(a) > 0.0
+    };
+    if shared.iter().any(same)
+        && shared.iter().all(|c| same(c) || dataset.visible.get(*c).is_some_and(|b| tau_max(b) == 0.0))
+    {
+        return vec![
+            Finding::info(
+                "band-copied",
+                "The solar band repeats the visible one number by number: one of them is not its own.",
+            )
+            .into(),
+        ];
+    }
+    Vec::new()
+}
+
+pub(super) fn check(at: &At) -> Vec<Diagnosis> {
+    let mut list: Vec<Diagnosis> = copied_transmission(at).into_iter().collect();
+    list.extend(copied_reflection(at));
+    list.extend(reflection_of_transmission(at));
+    list.extend(empty(at));
+    list.extend(missing(at));
+    list
+}
+
+fn copied_transmission(at: &At) -> Option<Diagnosis> {
+    let (front, back) = (at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?);
+    if tau_max(front) == 0.0 || !same_values(front, back) {
+        return None;
+    }
+    let error = reciprocity_error(front, back).filter(|error| *error > 0.01)?;
+    let confidence = if error > 0.5 { Confidence::Certain } else { Confidence::Likely };
+    let message = format!(
+        "Transmission Back ({}) repeats the front number by number although light does not go both ways alike \
+         (reciprocity error {:.0} %): {} a copied block.",
+        at.name,
+        100.0 * error,
+        confidence.word()
+    );
+    let derive = at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(Component::TransmissionBack));
+    Some(if error > 0.05 {
+        Diagnosis::suspicion(confidence, "copied-block", message).with(derive)
+    } else {
+        Diagnosis::from(Finding::info("copied-block", message)).with(derive)
+    })
+}
+
+/// Two sides of a system measured apart never agree in every digit; that they do is telling when their transmissions
+/// do not.
+fn copied_reflection(at: &At) -> Option<Diagnosis> {
+    let (front, back) = (at.band.reflection_front.as_ref()?, at.band.reflection_back.as_ref()?);
+    if tau_max(front) == 0.0 || !same_values(front, back) {
+        return None;
+    }
+    let transmissions = at.band.transmission_front.as_ref().zip(at.band.transmission_back.as_ref());
+    let derived = at.dataset.derived.contains(&Component::TransmissionFront);
+    let apart = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !same_values(f, b));
+    let message = format!("Reflection Back ({}) repeats the front number by number", at.name);
+    let one = if apart {
+        Diagnosis::suspicion(
+            Confidence::Likely,
+            "copied-block",
+            format!("{message} although the transmissions of both sides differ: probably a copied block."),
+        )
+    } else {
+        Finding::info("copied-block", format!("{message}: a system that is alike on both sides, or a copied block."))
+            .into()
+    };
+    Some(one.with(at.repair(RepairKind::DropBlock, BlockScope::One(Component::ReflectionBack))))
+}
+
+fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
+    let mut list = Vec::new();
+    for reflection in [Component::ReflectionFront, Component::ReflectionBack] {
+        for transmission in [Component::TransmissionFront, Component::TransmissionBack] {
+            let (Some(r), Some(t)) = (at.band.get(reflection), at.band.get(transmission)) else { continue };
+            if tau_max(t) > 0.0 && same_values(r, t) {
+                let message = format!(
+                    "{} ({}) repeats {} number by number: a mislabelled or copied block.",
+                    words(reflection),
+                    at.name,
+                    words(transmission)
+                );
+                let drop = at.repair(RepairKind::DropBlock, BlockScope::One(reflection));
+                list.push(Diagnosis::from(Finding::warning("block-mislabelled", message)).with(drop));
+                break;
+            }
+        }
+    }
+    list
+}
+
+fn empty(at: &At) -> Vec<Diagnosis> {
+    let zero = |component| at.band.get(component).is_some_and(|btdf| tau_max(btdf) == 0.0);
+    let mut list = Vec::new();
+    for (this, other, words_of_zero) in [
+        (Component::TransmissionFront, Component::TransmissionBack, "front-zero"),
+        (Component::TransmissionBack, Component::TransmissionFront, "back-zero"),
+    ] {
+        if zero(this) && at.band.get(other).is_some_and(|btdf| tau_max(btdf) > 1e-6) {
+            let message = format!(
+                "{} ({}) is zero everywhere although light passes the other way: a missing block filled with zeros.",
+                words(this),
+                at.name
+            );
+            let derive = at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(this));
+            list.push(Diagnosis::from(Finding::warning(words_of_zero, message)).with(derive));
+        }
+    }
+    for (this, through) in [
+        (Component::ReflectionFront, Component::TransmissionFront),
+        (Component::ReflectionBack, Component::TransmissionBack),
+    ] {
+        if !zero(this) {
+            continue;
+        }
+        let passes = at.band.get(through).or(at.band.transmission_front.as_ref()).map_or(0.0, tau_max);
+        let message = format!("{} ({}) is zero everywhere", words(this), at.name);
+        list.push(if passes > 0.97 {
+            Finding::info("zero-block", format!("{message}, as behind an empty opening.")).into()
+        } else {
+            Diagnosis::from(Finding::warning(
+                "zero-block",
+                format!("{message}: perfectly black, which no real surface is, or a missing block filled with zeros."),
+            ))
+            .with(at.repair(RepairKind::DropBlock, BlockScope::One(this)))
+        });
+    }
+    if at.scope == BandScope::Visible
+        && zero(Component::TransmissionFront)
+        && !list.iter().any(|d| d.finding.code == "front-zero")
+    {
+        list.push(
+            Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque).").into(),
+        );
+    }
+    list
+}
+
+fn missing(at: &At) -> Vec<Diagnosis> {
+    let has = |component| at.band.get(component).is_some() && !at.dataset.derived.contains(&component);
+    let mut list = Vec::new();
+    let visible = at.scope == BandScope::Visible;
+    if visible && at.band.transmission_front.is_none() && at.band.transmission_back.is_none() {
+        list.push(
+            Finding::warning("no-transmission", "The file holds no visible transmission; it cannot light a room.")
+                .into(),
+        );
+    }
+    let absent: Vec<Component> = Component::ALL.into_iter().filter(|c| !has(*c)).collect();
+    for component in &absent {
+        let partner = match component {
+            Component::TransmissionFront => Component::TransmissionBack,
+            Component::TransmissionBack => Component::TransmissionFront,
+            Component::ReflectionFront => Component::ReflectionBack,
+            Component::ReflectionBack => Component::ReflectionFront,
+        };
+        let message = format!("{} ({}) is missing", words(*component), at.name);
+        let one = match component {
+            Component::TransmissionFront | Component::TransmissionBack if has(partner) => Diagnosis::from(
+                Finding::info("missing-block", format!("{message}; it follows from the other side by reciprocity.")),
+            )
+            .with(at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(*component))),
+            Component::TransmissionFront | Component::TransmissionBack => continue,
+            // The other side was measured, or both ways of the light: this one was meant to be there.
+            _ if has(partner) => {
+                Finding::warning("missing-block", format!("{message} although the other side is there.")).into()
+            }
+            _ => Finding::info("missing-block", format!("{message}.")).into(),
+        };
+        list.push(one);
+    }
+    list
+}

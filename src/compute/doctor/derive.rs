@@ -1,0 +1,30 @@
+//! A function made from its counterpart by reciprocity.
+
+use crate::compute::basis::{AzimuthMap, resample_matrix};
+use crate::compute::btdf::{Btdf, Scattered, TreeRank};
+
+/// The transmission of the other side, as the light goes the other way, and how well that is known. Cells are counted
+/// as files count them on that side. `to_front`: the result is for light from outside. `None` for functions without
+/// values between all directions.
+pub fn by_reciprocity(given: &Btdf, to_front: bool) -> Option<(Btdf, &'static str)> {
+    let map = if to_front { AzimuthMap::KLEMS_FRONT } else { AzimuthMap::KLEMS_BACK };
+    let (scattered, how) = match given.scattered.as_ref()? {
+        Scattered::Cells(matrix) => {
+            let reversed = matrix.reversed();
+            let incident = reversed.incident().clone().with_azimuth(map);
+            let emergent = reversed.emergent().clone().with_azimuth(map);
+            (Scattered::Cells(Box::new(resample_matrix(&reversed, &incident, &emergent))), "exactly")
+        }
+        Scattered::Tree(tree) => {
+            // A tree keeps its axes: they say how its squares stand to the façade, not which side it is for.
+            let reversed = tree.reversed();
+            let how = match tree.rank() {
+                TreeRank::Four => "exactly",
+                TreeRank::Three => "with its leaves averaged anew, as rank 3 demands",
+            };
+            (Scattered::Tree(Box::new(reversed)), how)
+        }
+        Scattered::Lambert(_) | Scattered::Directions(_) => return None,
+    };
+    Some((Btdf { regular: given.regular.clone(), scattered: Some(scattered) }, how))
+}

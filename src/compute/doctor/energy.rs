@@ -1,0 +1,223 @@
+//! Is light won? Are numbers percent, negative, or no numbers?
+
+use super::copies::words;
+use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, tau_max};
+use crate::compute::direction::{Dir, Facade, Incident};
+use crate::compute::system::cell_mean;
+use glam::DVec3;
+
+/// Sums up to here are rounding.
+const ROUNDING: f64 = 1.001;
+/// Measured and simulated functions may exceed 1 by this without being useless; the sum of two independent
+/// measurements by twice as much.
+const PLAUSIBLE: f64 = 1.05;
+/// Beyond this the numbers are in another unit.
+const OTHER_UNIT: f64 = 1.5;
+
+pub(super) fn check(at: &At) -> Vec<Diagnosis> {
+    let mut list = not_numbers(at);
+    let percent = percent(at);
+    if percent.is_empty() {
+        list.extend(sums(at));
+    }
+    list.extend(percent);
+    list
+}
+
+fn values(btdf: &Btdf, mut each: impl FnMut(f64)) {
+    match &btdf.scattered {
+        Some(Scattered::Cells(matrix)) => matrix.values().iter().for_each(|q| each(*q)),
+        Some(Scattered::Directions(data)) => {
+            (0..data.incident().len()).for_each(|k| data.row(k).iter().for_each(|q| each(*q)));
+        }
+        Some(Scattered::Lambert(_) | Scattered::Tree(_)) | None => {}
+    }
+}
+
+fn not_numbers(at: &At) -> Vec<Diagnosis> {
+    let mut list = Vec::new();
+    for component in at.band.components() {
+        let (mut negative, mut broken) = (0, 0);
+        let Some(btdf) = at.band.get(component) else { continue };
+        values(btdf, |q| {
+            negative += usize::from(q < 0.0);
+            broken += usize::from(!q.is_finite());
+        });
+        let place = format!("{} ({})", words(component), at.name);
+        if negative > 0 {
+            let message = format!("{negative} values of {place} are below zero; light cannot be.");
+            let clamp = at.repair(RepairKind::ClampNegative, BlockScope::One(component));
+            list.push(Diagnosis::from(Finding::warning("negative-values", message)).with(clamp));
+        }
+        if broken > 0 {
+            let message = format!("{broken} values of {place} are infinite or no numbers.");
+            list.push(Finding::error("not-a-number", message).into());
+        }
+    }
+    list
+}
+
+/// Sums about 100 times too large, by what is possible and by what the other side says.
+fn percent(at: &At) -> Vec<Diagnosis> {
+    let components = at.band.components();
+    let largest = |component: Component| at.band.get(component).map_or(0.0, tau_max);
+    let partner = |component| match component {
+        Component::TransmissionFront => Some(Component::TransmissionBack),
+        Component::TransmissionBack => Some(Component::TransmissionFront),
+        _ => None,
+    };
+    let own = |component: &Component| !at.dataset.derived.contains(component);
+    let hemispherical = |component| at.band.get(component).map_or(0.0, Btdf::tau_hemispherical);
+    let ratio = |component: Component| {
+        let other = partner(component).filter(own).map_or(0.0, hemispherical);
+        (other > 0.0).then(|| hemispherical(component) / other)
+    };
+    let is_percent = |component: Component| {
+        let (sum, ratio) = (largest(component), ratio(component));
+        // Light goes both ways alike, so that the two transmissions under uniform light are equal.
+        let by_partner = ratio.is_some_and(|ratio| (50.0..200.0).contains(&ratio));
+        // Values divided by the cosine exceed 1 at grazing angles alone.
+        let mean = hemispherical(component);
+        let everywhere = mean > 2.2 || sum < 2.5 * mean;
+        let by_itself =
+            sum > OTHER_UNIT && sum <= 150.0 && everywhere && ratio.is_none_or(|r| !(2.0..50.0).contains(&r));
+        by_partner || by_itself
+    };
+    let percent: Vec<Component> = components.iter().copied().filter(own).filter(|c| is_percent(*c)).collect();
+    if percent.is_empty() {
+        return Vec::new();
+    }
+    let rest: Vec<Component> = components.into_iter().filter(own).filter(|c| !percent.contains(c)).collect();
+    let names = |list: &[Component]| list.iter().map(|c| words(*c)).collect::<Vec<_>>().join(", ");
+    let most = percent.iter().map(|c| largest(*c)).fold(0.0, f64::max);
+    let mut message = format!(
+        "{} ({}): directional-hemispherical sums up to {most:.2} where at most 1 is possible: percent instead of fractions.",
+        names(&percent),
+        at.name
+    );
+    if !rest.is_empty() {
+        message.push_str(&format!(" {} may be in fractions already and would stay.", names(&rest)));
+    }
+    let scope = |components: &[Component]| -> Vec<BlockScope> {
+        if rest.is_empty() { vec![BlockScope::All] } else { components.iter().map(|c| BlockScope::One(*c)).collect() }
+    };
+    scope(&percent)
+        .into_iter()
+        .map(|blocks| {
+            Diagnosis::suspicion(Confidence::Certain, "percent", message.clone())
+                .with(at.repair(RepairKind::DivideBy100, blocks))
+        })
+        .collect()
+}
+
+/// A band whose transmission is about 100 times that of the other.
+pub(super) fn between_bands(dataset: &Dataset) -> Option<Diagnosis> {
+    let solar = dataset.solar.as_ref()?;
+    let hemispherical = |btdf: Option<&Btdf>| btdf.map_or(0.0, Btdf::tau_hemispherical);
+    let (visible, solar) = (hemispherical(dataset.transmission()), hemispherical(solar.transmission_front.as_ref()));
+    let ratio = if visible > 0.0 && solar > 0.0 { visible / solar } else { return None };
+    let (name, larger, bands) =
+        if ratio > 1.0 { ("visible", visible, BandScope::Visible) } else { ("solar", solar, BandScope::Solar) };
+    // What is beyond 1 is found without the other band.
+    ((50.0..200.0).contains(&ratio.max(1.0 / ratio)) && larger < 1.0).then(|| {
+        Diagnosis::from(Finding::warning(
+            "percent",
+            format!(
+                "The {name} transmission is {:.0} times that of the other band: possibly percent.",
+                ratio.max(1.0 / ratio)
+            ),
+        ))
+        .with(super::Repair { kind: RepairKind::DivideBy100, bands, blocks: BlockScope::Transmission })
+    })
+}
+
+/// More light leaves than arrives?
+fn sums(at: &At) -> Vec<Diagnosis> {
+    let mut list = Vec::new();
+    for (side, through, back) in [
+        ("outside", Component::TransmissionFront, Component::ReflectionFront),
+        ("inside", Component::TransmissionBack, Component::ReflectionBack),
+    ] {
+        let mut single = false;
+        for component in [through, back] {
+            let Some(btdf) = at.band.get(component) else { continue };
+            let largest = tau_max(btdf);
+            if largest > 1.0 {
+                let message = format!(
+                    "The largest directional-hemispherical sum of {} ({}) is {largest:.4}, above 1",
+                    words(component),
+                    at.name
+                );
+                single |= largest > ROUNDING;
+                list.push(Diagnosis::from(graded(message, largest, PLAUSIBLE)));
+            }
+        }
+        let (Some(transmitted), Some(reflected)) = (at.band.get(through), at.band.get(back)) else { continue };
+        let (total, direction) = largest_sum(transmitted, reflected);
+        if !single && total > ROUNDING {
+            let message = format!(
+                "{:.1} % of the {} light from {side} at θ {:.0}°, φ {:.0}° leaves again, transmitted and reflected",
+                100.0 * total,
+                at.name,
+                direction.theta().to_degrees(),
+                direction.phi().to_degrees()
+            );
+            list.push(Diagnosis::from(graded(message, total, 2.0 * PLAUSIBLE - 1.0)));
+        }
+    }
+    list
+}
+
+fn graded(message: String, sum: f64, limit: f64) -> Finding {
+    let code = "energy-above-one";
+    if sum > limit {
+        Finding::error(code, format!("{message}: unphysical."))
+    } else if sum > ROUNDING {
+        Finding::warning(code, format!("{message} (measuring or sampling error)."))
+    } else {
+        Finding::info(code, format!("{message} by rounding."))
+    }
+}
+
+fn largest_sum(transmitted: &Btdf, reflected: &Btdf) -> (f64, Dir<Facade>) {
+    let mut worst = (0.0, Dir::from_unit(DVec3::Z));
+    let mut ask = |total: f64, direction: Dir<Facade>| {
+        if total > worst.0 {
+            worst = (total, direction);
+        }
+    };
+    match &transmitted.scattered {
+        // Where the data lie, in cells of whatever list.
+        Some(Scattered::Directions(data)) => {
+            for direction in data.incident() {
+                ask(transmitted.tau(*direction) + reflected.tau(*direction), direction.0);
+            }
+        }
+        _ => {
+            let basis = transmitted.incident_basis();
+            for index in 0..basis.len() {
+                let total = tau_of_cell(transmitted, &basis, index) + tau_of_cell(reflected, &basis, index);
+                ask(total, basis.cell(index).centre());
+            }
+        }
+    }
+    worst
+}
+
+/// Directional-hemispherical value of an incident cell: means over the cell for functions of θ, the stored mean for
+/// matrices on the same cells, the centre's value for all else.
+fn tau_of_cell(btdf: &Btdf, basis: &RingBasis, index: usize) -> f64 {
+    let cell = basis.cell(index);
+    let regular = btdf.regular.as_ref().map_or(0.0, |tau| cell_mean(&cell, 6, |d| tau.at(d.theta())));
+    let scattered = match &btdf.scattered {
+        None => 0.0,
+        Some(Scattered::Lambert(tau)) => cell_mean(&cell, 6, |d| tau.at(d.theta())),
+        Some(Scattered::Cells(matrix)) if matrix.incident() == basis => matrix.tau_by_cell()[index],
+        Some(Scattered::Cells(matrix)) => matrix.tau(Incident(cell.centre())),
+        Some(Scattered::Directions(data)) => data.tau(Incident(cell.centre())),
+        Some(Scattered::Tree(tree)) => tree.tau(Incident(cell.centre())),
+    };
+    regular + scattered
+}

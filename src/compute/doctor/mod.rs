@@ -1,0 +1,112 @@
+//! The data doctor: what is odd about a dataset, what that does to results, and how it may be mended.
+//!
+//! [`examine`] asks everything that can be asked of the numbers themselves; what only a reader can know (syntax,
+//! labels, counts) is already in [`Dataset::findings`] and is passed on with its meaning. [`repaired`] does what a
+//! finding offers, and nothing is ever mended without being asked for.
+//!
+//! Comparisons between functions are made on common cells in through-names ([`blocks`]), where a clear pane is a
+//! diagonal matrix and reciprocity a plain transpose. Three independent witnesses decide what is wrong with a block:
+//! the block of the other side (reciprocity of transmission), the block itself (reciprocity of reflection), and the
+//! light that is left over (what is not transmitted is mostly reflected). Where no witness speaks against a reading,
+//! as when all functions are upside down together, the data cannot tell; the sentence about the sun then asks the
+//! user.
+
+pub mod blocks;
+mod copies;
+mod cosine;
+mod derive;
+mod diagnosis;
+mod energy;
+mod identity;
+mod meaning;
+mod orientation;
+mod patches;
+mod reciprocity;
+mod repair;
+mod repaired;
+mod resolution;
+mod sides;
+mod symmetry;
+
+pub use copies::same_values;
+pub use derive::by_reciprocity;
+pub use diagnosis::{Confidence, Diagnosis};
+pub use meaning::meaning;
+pub use orientation::{Ways, sun_from_above};
+pub use repair::{BandScope, BlockScope, Repair, RepairKind, record, recorded};
+pub use repaired::{RepairError, repaired, repaired_all};
+
+use crate::compute::btdf::{Band, Dataset, Finding};
+use blocks::Blocks;
+
+/// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's.
+pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
+    let mut list: Vec<Diagnosis> = dataset.findings.iter().cloned().map(Diagnosis::from).collect();
+    list.extend(examined(dataset));
+    // A reader's finding that the doctor makes too is said once, with its repair.
+    let mut kept: Vec<Diagnosis> = Vec::new();
+    for one in list {
+        match kept.iter_mut().find(|other| other.finding == one.finding) {
+            Some(other) => other.repair = other.repair.or(one.repair),
+            None => kept.push(one),
+        }
+    }
+    kept.sort_by_key(|one| std::cmp::Reverse(one.finding.severity));
+    kept
+}
+
+/// What the doctor itself finds, without the reader's findings.
+pub fn findings(dataset: &Dataset) -> Vec<Finding> {
+    examined(dataset).into_iter().map(|one| one.finding).collect()
+}
+
+fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
+    let mut list = identity::check(dataset);
+    list.extend(copies::between_bands(dataset));
+    list.extend(energy::between_bands(dataset));
+    let blocks = Blocks::new(dataset, &dataset.visible);
+    let visible = band(dataset, &dataset.visible, "visible", BandScope::Visible, blocks.as_ref());
+    let solar = dataset.solar.as_ref().map(|solar| {
+        let blocks = Blocks::new(dataset, solar);
+        band(dataset, solar, "solar", BandScope::Solar, blocks.as_ref())
+    });
+    let solar = solar.unwrap_or_default();
+    list.extend(diagnosis::merged(visible, solar));
+    list.extend(orientation::check(dataset, blocks.as_ref()));
+    list.extend(resolution::check(dataset));
+    list
+}
+
+fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
+    let at = At { dataset, band, name, scope };
+    let mut list = energy::check(&at);
+    list.extend(copies::check(&at));
+    let scaled = list.iter().any(|one| one.finding.code == "percent");
+    let Some(blocks) = blocks else { return list };
+    list.extend(patches::check(&at, blocks));
+    list.extend(symmetry::check(&at, blocks));
+    let cosine = cosine::check(&at, blocks);
+    // One explanation is enough: a cosine too many upsets every comparison that follows, as percent do.
+    let explained = !cosine.is_empty() || scaled || list.iter().any(|one| one.finding.code == "copied-block");
+    list.extend(cosine);
+    if !explained {
+        list.extend(sides::check(&at, blocks));
+    }
+    list.extend(reciprocity::check(&at));
+    list
+}
+
+/// The band under examination.
+struct At<'a> {
+    dataset: &'a Dataset,
+    band: &'a Band,
+    name: &'a str,
+    scope: BandScope,
+}
+
+impl At<'_> {
+    /// A repair of this band.
+    fn repair(&self, kind: RepairKind, blocks: BlockScope) -> Repair {
+        Repair { kind, bands: self.scope, blocks }
+    }
+}

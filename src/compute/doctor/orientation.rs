@@ -1,0 +1,134 @@
+//! Where a sun 45° above goes: the user knows the product and sees whether up is up.
+//!
+//! A dataset all of whose functions are upside down, or whose sides are all exchanged, contradicts nothing. What can
+//! be said is what is usual: devices are mounted so that the sun from above passes less than light from below, and
+//! with the brighter face out. What is unusual is asked about.
+
+use super::blocks::{Blocks, Turn};
+use super::{Diagnosis, Repair, RepairKind};
+use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Indicatrix};
+use crate::compute::direction::{Dir, Emergent, Incident};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// Where the light of one incidence goes, as shares of what is transmitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ways {
+    /// Transmittance of that incidence.
+    pub tau: f64,
+    /// Share that leaves upwards; the rest leaves downwards.
+    pub up: f64,
+    /// Share that leaves to the right seen from the room; the rest leaves to the left.
+    pub right: f64,
+}
+
+impl Ways {
+    /// Of one incidence; `None` when nothing passes.
+    pub fn of(btdf: &Btdf, incident: Incident) -> Option<Self> {
+        let half = |value: f64| if value.abs() < 1e-9 { 0.5 } else { f64::from(u8::from(value > 0.0)) };
+        let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
+        let straight = Emergent::from_through_name(incident.0).0.vector();
+        // The façade frame's x runs right seen from outside.
+        let (mut sum, mut up, mut right) = (regular, regular * half(straight.y), regular * half(-straight.x));
+        if let Some(Indicatrix { basis, q }) = btdf.indicatrix(incident) {
+            for (cell, q) in basis.cells().zip(q) {
+                let flux = q * cell.projected_solid_angle();
+                let way = Emergent::from_through_name(cell.centre()).0.vector();
+                // A cap about the normal is half above and half below.
+                let (y, x) = if cell.is_cap() { (0.0, 0.0) } else { (way.y, way.x) };
+                sum += flux;
+                up += flux * half(y);
+                right += flux * half(-x);
+            }
+        }
+        (sum > 0.0).then(|| Self { tau: sum, up: up / sum, right: right / sum })
+    }
+}
+
+/// The sentence about a sun 45° above in front; `None` when nothing of it passes.
+pub fn sun_from_above(btdf: &Btdf) -> Option<String> {
+    let ways = Ways::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2)))?;
+    let (up, down) = (100.0 * ways.up, 100.0 * (1.0 - ways.up));
+    let mut text = if up > 55.0 {
+        format!("{up:.0} % of the transmitted light goes up")
+    } else if down > 55.0 {
+        format!("{down:.0} % of the transmitted light goes down")
+    } else {
+        "the transmitted light goes up and down alike".to_owned()
+    };
+    let aside = 100.0 * ways.right.max(1.0 - ways.right);
+    if aside > 60.0 {
+        let side = if ways.right > 0.5 { "right" } else { "left" };
+        text.push_str(&format!(", and {aside:.0} % to the {side} seen from the room"));
+    }
+    Some(format!("With the sun 45° above in front, {:.0} % passes; {text}.", 100.0 * ways.tau))
+}
+
+/// Mean transmittance of light from 30 to 60° above (or below) in front.
+fn from(btdf: &Btdf, phi: f64) -> f64 {
+    let angles = [30.0_f64, 40.0, 50.0, 60.0];
+    angles.iter().map(|theta| btdf.tau(Incident(Dir::from_theta_phi(theta.to_radians(), phi)))).sum::<f64>() / 4.0
+}
+
+pub(super) fn check(dataset: &Dataset, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
+    let mut list = Vec::new();
+    let Some(btdf) = dataset.transmission() else { return list };
+    let turn = Repair::whole(RepairKind::TurnUpsideDown);
+    let uneven = blocks.is_some_and(|blocks| {
+        Component::ALL.iter().filter_map(|c| blocks.get(*c)).any(|block| blocks.asymmetry(block, Turn::UpDown) > 0.1)
+    });
+    if let Some(sentence) = sun_from_above(btdf) {
+        list.push(if uneven {
+            let ask = "If that is not so, the data are upside down, or outside and inside are exchanged: the numbers alone cannot tell.";
+            Diagnosis::from(Finding::info("orientation", format!("{sentence} {ask}"))).with(turn)
+        } else {
+            let alike = "Above and below are alike, so that it cannot be upside down.";
+            Finding::info("orientation", format!("{sentence} {alike}")).into()
+        });
+    }
+    // Closed forms of this program know their orientation.
+    if dataset.format.is_empty() {
+        return list;
+    }
+    let (above, below) = (from(btdf, FRAC_PI_2), from(btdf, -FRAC_PI_2));
+    if uneven && above > 1.25 * below + 0.02 {
+        let message = format!(
+            "Sun from above passes better ({:.0} %) than light from below ({:.0} %), against the purpose of most devices: \
+             possibly upside down, or outside and inside swapped, or slats tilted the other way.",
+            100.0 * above,
+            100.0 * below
+        );
+        list.push(Diagnosis::from(Finding::warning("maybe-upside-down", message)).with(turn));
+    }
+    let reflectance = |component| dataset.visible.get(component).map(Btdf::tau_hemispherical);
+    if let (Some(front), Some(back)) = (reflectance(Component::ReflectionFront), reflectance(Component::ReflectionBack))
+        // A slat's two faces show in proportions that depend on its tilt.
+        && !uneven
+        && back > 0.2
+        && front < 0.6 * back
+    {
+        let message = format!(
+            "The inside is much brighter (reflectance {back:.2}) than the outside ({front:.2}); most devices have the \
+             brighter face out: possibly outside and inside are swapped."
+        );
+        let swap = Repair::whole(RepairKind::SwapSides);
+        list.push(Diagnosis::from(Finding::warning("maybe-sides-swapped", message)).with(swap));
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::btdf::{AngularTransmittance, Scattered};
+
+    #[test]
+    fn orientation_of_what_is_known() {
+        let opal = Btdf { regular: None, scattered: Some(Scattered::Lambert(AngularTransmittance::Constant(0.5))) };
+        assert!(sun_from_above(&opal).is_some_and(|text| text.contains("up and down alike")));
+        let clear = Btdf { regular: Some(AngularTransmittance::Constant(0.8)), scattered: None };
+        assert!(sun_from_above(&clear).is_some_and(|text| text.contains("100 % of the transmitted light goes down")));
+        // A sun on the right seen from outside shines to the left seen from outside, which is right from the room.
+        let right = Ways::of(&clear, Incident(Dir::from_theta_phi(0.5, 0.0))).unwrap();
+        assert_eq!((right.right, right.up), (1.0, 0.5));
+    }
+}

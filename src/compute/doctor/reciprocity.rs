@@ -1,0 +1,31 @@
+//! Does light go both ways alike? Graded, never passed or failed: fabrics as makers measure them miss it by 20 to 60 %.
+
+use super::{At, Diagnosis};
+use crate::compute::btdf::{Component, Finding, reciprocity_error};
+
+/// Mean difference between the transmissions of both sides; `None` unless the source has both.
+pub(super) fn of(at: &At) -> Option<f64> {
+    let derived = &at.dataset.derived;
+    if derived.contains(&Component::TransmissionFront) || derived.contains(&Component::TransmissionBack) {
+        return None;
+    }
+    reciprocity_error(at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?)
+}
+
+pub(super) fn check(at: &At) -> Option<Diagnosis> {
+    let error = of(at)?;
+    let (grade, remark) = match error {
+        ..0.02 => ("excellent", ""),
+        ..0.1 => ("good", ""),
+        ..0.3 => ("fair", ", as measured fabrics have it"),
+        _ => ("poor", ", as measured fabrics may have it"),
+    };
+    let message = format!(
+        "Reciprocity of the {} transmission is {grade}: both sides differ by {:.1} % on average{remark}.",
+        at.name,
+        100.0 * error
+    );
+    let finding =
+        if error > 0.3 { Finding::warning("reciprocity", message) } else { Finding::info("reciprocity", message) };
+    Some(finding.into())
+}

@@ -1,0 +1,39 @@
+//! How finely directions are resolved, and what that is good for.
+
+use super::Diagnosis;
+use crate::compute::btdf::{Dataset, Finding, Scattered};
+
+/// The sun's lobe is kept, and with it the luminance that glares. \[rad\]
+const GLARE: f64 = 0.026;
+/// Patches of redirected sun are where they are, if softened. \[rad\]
+const PATCHES: f64 = 0.07;
+
+pub(super) fn check(dataset: &Dataset) -> Option<Diagnosis> {
+    let btdf = dataset.transmission().or(dataset.visible.transmission_back.as_ref())?;
+    let side = |count: usize| (2.0 * std::f64::consts::PI / count as f64).sqrt();
+    let (what, width) = match btdf.scattered.as_ref() {
+        None => ("Light goes straight on".to_owned(), 0.0),
+        Some(Scattered::Lambert(_)) => ("Ideally diffuse, a function of the angle of incidence".to_owned(), 0.0),
+        Some(Scattered::Cells(matrix)) => {
+            let (i, o) = (matrix.incident().len(), matrix.emergent().len());
+            (format!("{i} × {o} directions"), side(i.min(o)))
+        }
+        Some(Scattered::Directions(data)) => {
+            let (i, o) = (data.incident().len(), data.emergent().len());
+            (format!("{i} incident directions × {o} emergent cells"), side(o))
+        }
+        Some(Scattered::Tree(tree)) => {
+            let n = tree.incident_resolution();
+            (format!("a tensor tree of {n} × {n} emergent cells at its finest"), side(n * n))
+        }
+    };
+    let fit = if width <= GLARE {
+        "daylight amounts: yes; patches of direct sun: yes; glare: yes"
+    } else if width <= PATCHES {
+        "daylight amounts: yes; patches of direct sun: roughly; glare: no"
+    } else {
+        "daylight amounts: yes; patches of direct sun: no (their light is spread over whole cells); glare: no"
+    };
+    let size = if width > 0.0 { format!(", about {:.0}° each", width.to_degrees()) } else { String::new() };
+    Some(Finding::info("resolution", format!("{what}{size}. Fit for {fit}.")).into())
+}

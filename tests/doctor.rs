@@ -1,0 +1,409 @@
+//! The data doctor on files of makers and programs, as they are and with faults planted in them; and on small systems
+//! made here, whose faults are known by construction.
+
+use cfs::compute::basis::{AzimuthMap, Cell, RingBasis};
+use cfs::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, Severity, tau_max};
+use cfs::compute::direction::Dir;
+use cfs::compute::doctor::{BlockScope, Diagnosis, Repair, RepairKind, examine, recorded, repaired};
+use cfs::formats::bsdf_xml;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+fn data_folder() -> Option<PathBuf> {
+    let given = std::env::var_os("CFS_TEST_DATA").map(PathBuf::from);
+    let folder = given.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"));
+    folder.join("data/bsdf").is_dir().then_some(folder)
+}
+
+fn walk(folder: &Path, list: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            walk(&path, list);
+        } else if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xml")) {
+            list.push(path);
+        }
+    }
+}
+
+/// Every dataset that can be read, by file name. Parser samples and a hand-made tree are no products.
+fn genuine() -> Vec<(String, Dataset)> {
+    let Some(folder) = data_folder() else {
+        println!("SKIPPED: no data of makers (set CFS_TEST_DATA)");
+        return Vec::new();
+    };
+    let mut files = Vec::new();
+    walk(&folder.join("data/bsdf"), &mut files);
+    walk(&folder.join("reference/systems"), &mut files);
+    if let Some(more) = std::env::var_os("CFS_TEST_MORE_XML") {
+        walk(Path::new(&more), &mut files);
+    }
+    files.sort();
+    // Copies of one file under two names would count twice.
+    let mut seen = std::collections::BTreeSet::new();
+    files.retain(|path| seen.insert(std::fs::read(path).unwrap()));
+    let product = |path: &PathBuf| {
+        let text = path.to_string_lossy();
+        !text.contains("parser_samples") && !text.contains("tiny_tensor_tree")
+    };
+    files
+        .into_iter()
+        .filter(product)
+        .map(|path| {
+            let dataset = bsdf_xml::read(&std::fs::read(&path).unwrap()).unwrap();
+            (path.file_name().unwrap().to_string_lossy().into_owned(), dataset)
+        })
+        .collect()
+}
+
+#[test]
+fn no_genuine_product_is_called_broken() {
+    for (name, dataset) in genuine() {
+        let found = examine(&dataset);
+        for one in found.iter().filter(|one| one.finding.severity == Severity::Warning) {
+            println!("{name}: {} {}", one.finding.code, one.finding.message);
+        }
+        let broken: Vec<&Diagnosis> = found.iter().filter(|one| one.finding.severity == Severity::Error).collect();
+        assert!(broken.is_empty(), "{name}: {broken:?}");
+    }
+}
+
+const FRONT: Component = Component::TransmissionFront;
+const BACK: Component = Component::TransmissionBack;
+
+struct Plant {
+    name: &'static str,
+    codes: &'static [&'static str],
+    make: fn(&Dataset) -> Option<Dataset>,
+}
+
+fn by(dataset: &Dataset, word: &str) -> Option<Dataset> {
+    let repair: Repair = word.parse().unwrap();
+    let blocks = dataset.visible.components();
+    let meant = |c: &Component| repair.blocks.holds(*c) && !dataset.derived.contains(c);
+    if let BlockScope::One(component) = repair.blocks
+        && (!blocks.contains(&component) || dataset.derived.contains(&component))
+    {
+        return None;
+    }
+    if !blocks.iter().any(meant) {
+        return None;
+    }
+    if repair.blocks == BlockScope::Transmission || repair.kind == RepairKind::SwapSides {
+        // What belongs together only makes sense in pairs.
+        let both = [FRONT, BACK].iter().all(|c| blocks.contains(c) && !dataset.derived.contains(c));
+        if !both {
+            return None;
+        }
+    }
+    // A file that lost a function is read again: what was derived is derived anew.
+    let mut source = dataset.clone();
+    for component in &dataset.derived {
+        source =
+            repaired(&source, Repair { blocks: BlockScope::One(*component), ..Repair::whole(RepairKind::DropBlock) })
+                .ok()?;
+    }
+    source.derived.clear();
+    let mut planted = repaired(&source, repair).ok()?;
+    planted.description.clear();
+    if !dataset.derived.is_empty() || planted.visible.transmission_front.is_none() {
+        let derive = Repair { blocks: BlockScope::One(FRONT), ..Repair::whole(RepairKind::DeriveByReciprocity) };
+        planted = repaired(&planted, derive).unwrap_or(planted);
+    }
+    Some(planted)
+}
+
+fn copied(dataset: &Dataset, from: Component, to: Component) -> Option<Dataset> {
+    let mut planted = dataset.clone();
+    let Scattered::Cells(source) = dataset.visible.get(from)?.scattered.as_ref()? else { return None };
+    let Scattered::Cells(target) = dataset.visible.get(to)?.scattered.as_ref()? else { return None };
+    let matrix =
+        CellMatrix::new(target.incident().clone(), target.emergent().clone(), source.values().into_owned()).unwrap();
+    planted.visible.set(to, Btdf::from_cells(matrix));
+    (tau_max(dataset.visible.get(from)?) > 0.0).then_some(planted)
+}
+
+fn zeroed(dataset: &Dataset, component: Component) -> Option<Dataset> {
+    let mut planted = dataset.clone();
+    let Scattered::Cells(matrix) = dataset.visible.get(component)?.scattered.as_ref()? else { return None };
+    let zero = vec![0.0; matrix.values().len()];
+    let zero = CellMatrix::new(matrix.incident().clone(), matrix.emergent().clone(), zero).unwrap();
+    planted.visible.set(component, Btdf::from_cells(zero));
+    Some(planted)
+}
+
+const WAYS: &[&str] = &[
+    "upside-down-block",
+    "mirrored-block",
+    "transposed-block",
+    "sides-swapped",
+    "maybe-upside-down",
+    "maybe-sides-swapped",
+    "energy-above-one",
+];
+const SCALE: &[&str] = &["cosine-factor", "energy-above-one"];
+
+const PLANTS: &[Plant] = &[
+    Plant { name: "flip T back", codes: WAYS, make: |d| by(d, "turn-upside-down:transmission_back") },
+    Plant { name: "flip T front", codes: WAYS, make: |d| by(d, "turn-upside-down:transmission_front") },
+    Plant { name: "half turn T back", codes: WAYS, make: |d| by(d, "turn-half-round:transmission_back") },
+    Plant { name: "flip R front", codes: WAYS, make: |d| by(d, "turn-upside-down:reflection_front") },
+    Plant { name: "flip R back", codes: WAYS, make: |d| by(d, "turn-upside-down:reflection_back") },
+    Plant { name: "flip R both", codes: WAYS, make: |d| by(d, "turn-upside-down:reflection") },
+    Plant { name: "flip T both", codes: WAYS, make: |d| by(d, "turn-upside-down:transmission") },
+    Plant { name: "flip all", codes: WAYS, make: |d| by(d, "turn-upside-down") },
+    Plant { name: "swap T", codes: WAYS, make: |d| by(d, "swap-sides:transmission") },
+    Plant { name: "swap R", codes: WAYS, make: |d| by(d, "swap-sides:reflection") },
+    Plant { name: "swap all", codes: WAYS, make: |d| by(d, "swap-sides") },
+    Plant { name: "transpose T front", codes: WAYS, make: |d| by(d, "transpose:transmission_front") },
+    Plant { name: "transpose T back", codes: WAYS, make: |d| by(d, "transpose:transmission_back") },
+    Plant { name: "transpose R front", codes: WAYS, make: |d| by(d, "transpose:reflection_front") },
+    Plant { name: "transpose all", codes: WAYS, make: |d| by(d, "transpose") },
+    Plant { name: "percent T front", codes: &["percent"], make: |d| by(d, "multiply-by-100:transmission_front") },
+    Plant { name: "percent R back", codes: &["percent"], make: |d| by(d, "multiply-by-100:reflection_back") },
+    Plant { name: "percent all", codes: &["percent"], make: |d| by(d, "multiply-by-100") },
+    Plant { name: "cosine x T front", codes: SCALE, make: |d| by(d, "multiply-cosine:transmission_front") },
+    Plant { name: "cosine x T", codes: SCALE, make: |d| by(d, "multiply-cosine:transmission") },
+    Plant { name: "cosine x R front", codes: SCALE, make: |d| by(d, "multiply-cosine:reflection_front") },
+    Plant { name: "cosine x all", codes: SCALE, make: |d| by(d, "multiply-cosine") },
+    Plant { name: "cosine / T front", codes: SCALE, make: |d| by(d, "remove-cosine:transmission_front") },
+    Plant { name: "cosine / T", codes: SCALE, make: |d| by(d, "remove-cosine:transmission") },
+    Plant { name: "cosine / R back", codes: SCALE, make: |d| by(d, "remove-cosine:reflection_back") },
+    Plant { name: "cosine / all", codes: SCALE, make: |d| by(d, "remove-cosine") },
+    Plant { name: "solid angle x all", codes: SCALE, make: |d| by(d, "multiply-solid-angle") },
+    Plant { name: "missing T back", codes: &["missing-block"], make: |d| by(d, "drop-block:transmission_back") },
+    Plant { name: "missing R back", codes: &["missing-block"], make: |d| by(d, "drop-block:reflection_back") },
+    Plant { name: "missing R both", codes: &["missing-block"], make: |d| by(d, "drop-block:reflection") },
+    Plant { name: "zero T back", codes: &["back-zero", "front-zero"], make: |d| zeroed(d, BACK) },
+    Plant { name: "zero R back", codes: &["zero-block"], make: |d| zeroed(d, Component::ReflectionBack) },
+    Plant { name: "copy T front to T back", codes: &["copied-block"], make: |d| copied(d, FRONT, BACK) },
+    Plant {
+        name: "copy R front to R back",
+        codes: &["copied-block"],
+        make: |d| copied(d, Component::ReflectionFront, Component::ReflectionBack),
+    },
+    Plant {
+        name: "copy T front to R front",
+        codes: &["block-mislabelled"],
+        make: |d| copied(d, FRONT, Component::ReflectionFront),
+    },
+];
+
+/// Largest weighted relative change of any function; a plant without effect is none.
+fn effect(before: &Dataset, after: &Dataset) -> f64 {
+    let mut largest = 0.0_f64;
+    for component in Component::ALL {
+        let (Some(a), Some(b)) = (before.visible.get(component), after.visible.get(component)) else {
+            if before.visible.get(component).is_some() {
+                largest = 1.0;
+            }
+            continue;
+        };
+        let (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) = (&a.scattered, &b.scattered) else {
+            largest = largest.max(if a == b { 0.0 } else { 1.0 });
+            continue;
+        };
+        let (wi, wo) = (a.incident().projected_solid_angles(), a.emergent().projected_solid_angles());
+        let (mut difference, mut sum) = (0.0, 0.0);
+        for (i, wi) in wi.iter().enumerate() {
+            for (o, wo) in wo.iter().enumerate() {
+                difference += wi * wo * (a.value(i, o) - b.value(i, o)).abs();
+                sum += wi * wo * 0.5 * (a.value(i, o) + b.value(i, o));
+            }
+        }
+        if sum > 1e-9 {
+            largest = largest.max(difference / sum);
+        }
+    }
+    largest
+}
+
+fn warned(found: &[Diagnosis]) -> BTreeMap<&'static str, Severity> {
+    let mut codes = BTreeMap::new();
+    for one in found {
+        let worst = codes.entry(one.finding.code).or_insert(one.finding.severity);
+        *worst = one.finding.severity.max(*worst);
+    }
+    codes
+}
+
+#[test]
+fn planted_faults_in_genuine_products_are_found() {
+    let cells = |dataset: &Dataset| !dataset.format.contains("tree");
+    let genuine: Vec<(String, Dataset)> = genuine().into_iter().filter(|(_, dataset)| cells(dataset)).collect();
+    let examined: BTreeMap<&String, Vec<Diagnosis>> = genuine.iter().map(|(name, one)| (name, examine(one))).collect();
+    let known: BTreeMap<&String, _> = examined.iter().map(|(name, found)| (*name, warned(found))).collect();
+    let mut totals = (0, 0);
+    println!("| fault | planted | found | as error | without effect (< 2 %) | not found |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    for plant in PLANTS {
+        let (mut planted, mut found, mut errors, mut nothing) = (0, 0, 0, 0);
+        let mut missed = Vec::new();
+        for (name, dataset) in &genuine {
+            let Some(broken) = (plant.make)(dataset) else { continue };
+            let change = effect(dataset, &broken);
+            if change < 0.02 {
+                nothing += 1;
+                continue;
+            }
+            planted += 1;
+            let found_now = examine(&broken);
+            let (before, after) = (&known[name], warned(&found_now));
+            let new = after.iter().filter(|(code, severity)| before.get(*code).is_none_or(|old| old < severity));
+            let told: Vec<&str> = new.clone().map(|(code, _)| *code).collect();
+            let hits: Vec<_> = new.filter(|(code, _)| plant.codes.contains(code)).collect();
+            // A block that repeats itself anew is told again even where something of the kind was told before.
+            let again = plant.codes.iter().any(|code| {
+                let count = |list: &[Diagnosis]| list.iter().filter(|one| one.finding.code == *code).count();
+                count(&found_now) > count(&examined[name])
+            });
+            if hits.is_empty() && !again {
+                missed.push(format!(
+                    "{name} ({change:.2}{}{})",
+                    if told.is_empty() { "" } else { ": " },
+                    told.join(" ")
+                ));
+            } else {
+                found += 1;
+                errors += usize::from(hits.iter().any(|(_, severity)| **severity == Severity::Error));
+            }
+        }
+        totals.0 += planted;
+        totals.1 += found;
+        println!("| {} | {planted} | {found} | {errors} | {nothing} | {} |", plant.name, missed.join(", "));
+    }
+    println!("{} of {} found", totals.1, totals.0);
+    assert!(totals.1 * 10 >= totals.0 * 8, "{} of {}", totals.1, totals.0);
+}
+
+#[test]
+fn nothing_is_said_about_an_empty_dataset_but_that_it_is_empty() {
+    let empty = Dataset { format: "made here".into(), visible: Band::default(), ..Dataset::default() };
+    assert!(examine(&empty).iter().any(|one| one.finding.code == "no-transmission"));
+}
+
+/// A blind whose slats throw light from above back and let light from below through: reciprocal by construction, light
+/// from outside scattered more evenly than light from inside.
+fn blind() -> Dataset {
+    let basis = |map| RingBasis::klems_full(map);
+    let (outside, inside) = (basis(AzimuthMap::KLEMS_FRONT), basis(AzimuthMap::KLEMS_BACK));
+    let rise = |cell: &Cell| cell.centre().vector().y;
+    let side = |cell: &Cell| cell.centre().vector().x;
+    // Through-names: light from above has a positive height. Incident and emergent weights differ, so that a transpose shows.
+    let enters = |cell: &Cell| 0.4 * (1.0 - 0.9 * rise(cell)) * (1.0 + 0.1 * side(cell));
+    let leaves = |cell: &Cell| (1.0 + 0.5 * rise(cell)) * cell.theta().cos();
+    let through = |i: &Cell, o: &Cell| enters(i) * leaves(o) / PI;
+    // Names of reflected light are turned by 180°, which makes r(ω, ω′) = r(ω′, ω) a product of turned halves.
+    let mirror = |i: &Cell, o: &Cell, a: f64| 0.3 * (1.0 + a * rise(i)) * (1.0 - a * rise(o)) / PI;
+    let matrix = |basis: &RingBasis, q: &dyn Fn(&Cell, &Cell) -> f64| {
+        let cells: Vec<Cell> = basis.cells().collect();
+        let values = cells.iter().flat_map(|i| cells.iter().map(move |o| q(i, o))).collect();
+        Btdf::from_cells(CellMatrix::new(basis.clone(), basis.clone(), values).unwrap())
+    };
+    Dataset {
+        name: "Blind".into(),
+        manufacturer: "Tests".into(),
+        format: "made here".into(),
+        visible: Band {
+            transmission_front: Some(matrix(&outside, &through)),
+            transmission_back: Some(matrix(&inside, &|i, o| through(o, i))),
+            reflection_front: Some(matrix(&outside, &|i, o| mirror(i, o, 0.8))),
+            reflection_back: Some(matrix(&inside, &|i, o| mirror(i, o, -0.3))),
+        },
+        ..Dataset::default()
+    }
+}
+
+/// New values from the old: (incident cell, emergent cell, value of any pair).
+fn rewritten(dataset: &Dataset, component: Component, q: impl Fn(usize, usize, &CellMatrix) -> f64) -> Dataset {
+    let Some(Scattered::Cells(old)) = &dataset.visible.get(component).unwrap().scattered else { unreachable!() };
+    let n = old.incident().len();
+    let values = (0..n).flat_map(|i| (0..n).map(move |o| (i, o))).map(|(i, o)| q(i, o, old)).collect();
+    let mut out = dataset.clone();
+    let matrix = CellMatrix::new(old.incident().clone(), old.emergent().clone(), values).unwrap();
+    out.visible.set(component, Btdf::from_cells(matrix));
+    out
+}
+
+/// The cell at the same place above instead of below.
+fn upside(matrix: &CellMatrix, k: usize) -> usize {
+    let v = matrix.incident().cell(k).centre().vector();
+    matrix.incident().index(Dir::from_unit(glam::DVec3::new(v.x, -v.y, v.z))).unwrap()
+}
+
+fn largest_difference(a: &Dataset, b: &Dataset) -> f64 {
+    let mut largest = 0.0_f64;
+    for component in Component::ALL {
+        let (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) = (
+            a.visible.get(component).and_then(|btdf| btdf.scattered.as_ref()),
+            b.visible.get(component).and_then(|btdf| btdf.scattered.as_ref()),
+        ) else {
+            continue;
+        };
+        assert_eq!(a.incident(), b.incident(), "{component:?}");
+        largest = a.values().iter().zip(b.values().iter()).map(|(a, b)| (a - b).abs()).fold(largest, f64::max);
+    }
+    largest
+}
+
+#[test]
+fn a_sound_blind_is_called_sound() {
+    let found = examine(&blind());
+    let worse: Vec<_> = found.iter().filter(|one| one.finding.severity > Severity::Info).collect();
+    assert!(worse.is_empty(), "{worse:?}");
+    assert!(found.iter().any(|one| one.finding.message.contains("excellent")));
+}
+
+#[test]
+fn faults_planted_number_by_number_are_found_and_the_repair_offered_undoes_them() {
+    let sound = blind();
+    let cosine = |m: &CellMatrix, o: usize| m.emergent().cell(o).theta().cos();
+    let all = |dataset: &Dataset, q: &dyn Fn(usize, usize, &CellMatrix) -> f64| {
+        Component::ALL.into_iter().fold(dataset.clone(), |dataset, c| rewritten(&dataset, c, q))
+    };
+    let cases: Vec<(&str, Dataset)> = vec![
+        ("transposed-block", rewritten(&sound, BACK, |i, o, m| m.value(o, i))),
+        ("upside-down-block", rewritten(&sound, BACK, |i, o, m| m.value(upside(m, i), upside(m, o)))),
+        ("cosine-factor", all(&sound, &|i, o, m| m.value(i, o) * cosine(m, o))),
+        ("percent", all(&sound, &|i, o, m| 100.0 * m.value(i, o))),
+    ];
+    for (code, broken) in cases {
+        let found = examine(&broken);
+        let one = found.iter().find(|one| one.finding.code == code).unwrap_or_else(|| panic!("{code}: {found:?}"));
+        assert!(one.finding.severity > Severity::Info && !one.meaning.is_empty(), "{one:?}");
+        let repair = one.repair.unwrap();
+        let mended = repaired(&broken, repair).unwrap();
+        assert!(largest_difference(&mended, &sound) < 1e-12, "{code} by {repair}");
+        assert_eq!(recorded(&mended.description).1, [repair]);
+        let back = repaired(&mended, repair.inverse().unwrap()).unwrap();
+        assert!(largest_difference(&back, &broken) < 1e-9, "{code}");
+        assert_eq!(back.description, broken.description);
+    }
+}
+
+#[test]
+fn copies_and_gaps_are_found() {
+    let sound = blind();
+    let code = |dataset: &Dataset, code: &str| examine(dataset).into_iter().find(|one| one.finding.code == code);
+    let copy = copied(&sound, FRONT, BACK).unwrap();
+    let derive = code(&copy, "copied-block").unwrap().repair.unwrap();
+    assert!(largest_difference(&repaired(&copy, derive).unwrap(), &sound) < 1e-12);
+    let gap = rewritten(&sound, FRONT, |i, o, m| if i == 40 { 0.0 } else { m.value(i, o) });
+    assert!(code(&gap, "missing-patches").is_some());
+    assert!(code(&sound, "missing-patches").is_none());
+    let mut less = sound.clone();
+    less.visible.reflection_back = None;
+    assert!(code(&less, "missing-block").is_some_and(|one| one.finding.severity == Severity::Warning));
+}
+
+#[test]
+fn what_no_data_can_tell_is_asked() {
+    let turned = repaired(&blind(), "turn-upside-down".parse().unwrap()).unwrap();
+    for dataset in [blind(), turned] {
+        let found = examine(&dataset);
+        let ask = found.iter().find(|one| one.finding.code == "orientation").unwrap();
+        assert!(ask.finding.message.contains("If that is not so") && ask.repair.is_some(), "{ask:?}");
+    }
+}
