@@ -17,24 +17,28 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 /// The catalogue's file, one request at a time.
-struct CatalogueShelf(Mutex<Catalogue>);
+struct CatalogueShelf {
+    catalogue: Mutex<Catalogue>,
+    /// Is it to be filled with the built-in products that take longer?
+    fills: bool,
+}
 
 /// Opens a catalogue's file, or the user's own.
 pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, String> {
     let catalogue = path.map_or_else(Catalogue::open_default, Catalogue::open).map_err(|error| error.to_string())?;
-    Ok(Arc::new(CatalogueShelf(Mutex::new(catalogue))))
+    Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), fills: true }))
 }
 
 /// A new catalogue in memory with the built-in products.
 pub fn memory_shelf() -> Result<Arc<dyn Shelf>, String> {
     let catalogue = Catalogue::in_memory().map_err(|error| error.to_string())?;
-    Ok(Arc::new(CatalogueShelf(Mutex::new(catalogue))))
+    Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), fills: false }))
 }
 
 /// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
 pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, String> {
     let catalogue = Catalogue::empty_in_memory().map_err(told)?;
-    let shelf = CatalogueShelf(Mutex::new(catalogue));
+    let shelf = CatalogueShelf { catalogue: Mutex::new(catalogue), fills: false };
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
     {
         let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
@@ -54,7 +58,7 @@ pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, String> {
 impl CatalogueShelf {
     fn lock(&self) -> MutexGuard<'_, Catalogue> {
         // Every change is a transaction: what a panic left behind is whole.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.catalogue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -112,6 +116,18 @@ impl Shelf for CatalogueShelf {
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         let product = self.lock().product(product).map_err(|error| StudyError::Catalogue(error.to_string()))?;
         pick_state(&Device::of(&product)?, asked)
+    }
+
+    fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, String> {
+        if !self.fills {
+            return Ok(None);
+        }
+        let missing = self.lock().missing_builtin().map_err(told)?;
+        Ok(missing.first().map(|&name| (name, missing.len())))
+    }
+
+    fn put_builtin(&self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), String> {
+        self.lock().put_builtin(name, product, datasets).map_err(told)
     }
 
     fn add(&self, addition: &Addition) -> Result<String, String> {

@@ -31,6 +31,8 @@ pub enum Lane {
     Year,
     /// Error against run time.
     Accuracy,
+    /// Computing built-in products.
+    Builtin,
     /// Writing files.
     Export,
 }
@@ -47,6 +49,7 @@ impl Lane {
             Self::Room => "room",
             Self::Year => "year of control",
             Self::Accuracy => "error against time",
+            Self::Builtin => "built-in products",
             Self::Export => "writing file",
         }
     }

@@ -1,6 +1,6 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
-use crate::catalogue::{Product, Provenance};
+use crate::catalogue::{NewProduct, Product, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::study::StudyError;
 use crate::study::control::ControlQuestion;
@@ -82,6 +82,14 @@ pub trait Shelf: Send + Sync {
     fn add(&self, addition: &Addition) -> Result<String, String>;
     /// Takes a product out.
     fn remove(&self, product: &str) -> Result<(), String>;
+    /// A built-in description whose product is not stored yet, and how many there are.
+    fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, String> {
+        Ok(None)
+    }
+    /// Stores the product of a built-in description.
+    fn put_builtin(&self, _name: &str, _product: NewProduct, _datasets: &[Dataset]) -> Result<(), String> {
+        Ok(())
+    }
     /// Sets or takes the star.
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), String>;
 }

@@ -6,11 +6,12 @@ use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::jobs::{JobState, Lane};
 use super::shelf::{Addition, Found, Shelf};
 use super::state::{CatalogueState, Daylight, Import, PathUse, Selection, Sheet};
-use crate::catalogue::{Gathered, Product, SourceFile, gather};
+use crate::catalogue::{Gathered, Product, SYSTEMS, SourceFile, gather};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::doctor::{Diagnosis, Repair, examine, repaired_all};
+use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::control_curve::read_control_curve;
 use crate::study::accuracy::Accuracy;
@@ -58,6 +59,8 @@ pub enum Outcome {
     Added(usize, Result<String, String>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), String>),
+    /// A built-in product is in the catalogue; how many are left.
+    Builtin(Result<usize, String>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, String>),
 }
@@ -70,6 +73,19 @@ pub struct Shelved {
     pub state: String,
     /// Its dataset.
     pub dataset: Arc<Dataset>,
+}
+
+/// Computes and stores one built-in product; how many are left.
+fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
+    let Some((name, missing)) = shelf.next_builtin()? else { return Ok(0) };
+    progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
+    // One core stays free for what the user is doing.
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
+    let compute = || crate::study::builtin::compute(name, progress).map_err(|error| error.to_string());
+    let (product, datasets) = pool.map_err(|error| error.to_string())?.install(compute)?;
+    shelf.put_builtin(name, product, &datasets)?;
+    Ok(missing - 1)
 }
 
 /// The selection's product, state and dataset.
@@ -236,6 +252,13 @@ impl App {
         }
     }
 
+    /// Computes the next built-in product that is not stored yet, beside everything else. Stopped, it goes on when the
+    /// catalogue is opened next.
+    pub(super) fn fill_catalogue(&mut self) {
+        let Some(shelf) = self.state.shelf() else { return };
+        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_one(&*shelf, progress)));
+    }
+
     /// Changes the catalogue, one change after the other.
     pub(super) fn store(&mut self, change: impl FnOnce(&dyn Shelf) -> Result<(), String> + Send + 'static) {
         self.pending_changes.push_back(Box::new(move |shelf| Outcome::Stored(change(shelf))));
@@ -288,7 +311,17 @@ impl App {
             Outcome::Opened(Ok(shelf)) => {
                 self.state.catalogue = CatalogueState::Ready(shelf);
                 self.search();
+                self.fill_catalogue();
                 self.asked = None;
+            }
+            Outcome::Builtin(Ok(left)) => {
+                self.search();
+                if left > 0 {
+                    self.fill_catalogue();
+                }
+            }
+            Outcome::Builtin(Err(error)) => {
+                self.toasts.warning(format!("Built-in products: {error}"));
             }
             Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error),
             Outcome::Found(Ok(found)) => {

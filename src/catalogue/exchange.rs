@@ -73,6 +73,7 @@ fn packed(product: Product) -> PackageProduct {
             .into_iter()
             .map(|p| PackageCurvePoint { profile_angle: p.profile_angle, value: p.value })
             .collect(),
+        system: product.system,
     }
 }
 
@@ -101,5 +102,6 @@ fn unpacked(product: PackageProduct) -> NewProduct {
             .iter()
             .map(|p| super::CurvePoint { profile_angle: p.profile_angle, value: p.value })
             .collect(),
+        system: product.system,
     }
 }

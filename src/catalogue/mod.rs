@@ -13,6 +13,7 @@
 //! Every change is one transaction: it happens as a whole or not at all.
 
 mod builtin;
+mod described;
 mod error;
 mod exchange;
 mod gather;
@@ -22,7 +23,8 @@ mod search;
 mod store;
 mod validate;
 
-pub use builtin::{BUILTIN_VERSION, builtin_products, builtin_slats};
+pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, SYSTEMS, blind_of, builtin_products, builtin_system};
+pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
 pub use open::{Catalogue, default_path};

@@ -10,7 +10,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// The steps from an empty file to the present layout; `PRAGMA user_version` counts those done.
-const MIGRATIONS: &[&str] = &[include_str!("../../migrations/0001_products.sql")];
+const MIGRATIONS: &[&str] =
+    &[include_str!("../../migrations/0001_products.sql"), include_str!("../../migrations/0002_system.sql")];
 
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.
 const APPLICATION: i64 = 0x4346_5358;

@@ -134,6 +134,8 @@ pub struct Product {
     pub control_curve: Vec<CurvePoint>,
     /// What readers and checks had to say on import.
     pub findings: Vec<ProductFinding>,
+    /// Text of the description that it was computed from; empty for others.
+    pub system: String,
     /// Marked by the user.
     pub favourite: bool,
     /// Comes with the program.
@@ -170,6 +172,8 @@ pub struct NewProduct {
     pub states: Vec<StateName>,
     /// Points of the control curve.
     pub control_curve: Vec<CurvePoint>,
+    /// Text of the description that it was computed from; empty for others.
+    pub system: String,
 }
 
 /// What an import did.

@@ -99,6 +99,7 @@ pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed,
         states,
         control_curve: meta.control_curve,
         findings,
+        system: meta.system,
         favourite: false,
         builtin: false,
     };
@@ -134,8 +135,8 @@ pub(super) fn insert(tx: &Transaction, record: &Removed, rank: i64) -> Result<()
     let (p, from) = (&record.product, &record.product.provenance);
     tx.prepare_cached(
         "INSERT INTO product (key, name, manufacturer, kind, description, origin, author, method, date, source_file,
-                              source_hash, inside_face, builtin, rank)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
+                              source_hash, inside_face, builtin, rank, system)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)",
     )?
     .execute(params![
         p.key,
@@ -151,7 +152,8 @@ pub(super) fn insert(tx: &Transaction, record: &Removed, rank: i64) -> Result<()
         from.source_hash,
         from.inside_face,
         p.builtin,
-        rank
+        rank,
+        p.system
     ])?;
     let id = tx.last_insert_rowid();
     for (hash, blob) in &record.datasets {
@@ -247,7 +249,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
     let found = db
         .prepare_cached(
             "SELECT id, name, manufacturer, kind, description, origin, author, method, date, source_file, source_hash,
-                    inside_face, builtin, EXISTS (SELECT 1 FROM favourite WHERE product_key = key)
+                    inside_face, builtin, EXISTS (SELECT 1 FROM favourite WHERE product_key = key), system
              FROM product WHERE key = ?",
         )?
         .query_row([key], |row| {
@@ -273,6 +275,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
                 findings: Vec::new(),
                 builtin: row.get(12)?,
                 favourite: row.get(13)?,
+                system: row.get(14)?,
             };
             Ok((row.get::<_, i64>(0)?, product))
         })

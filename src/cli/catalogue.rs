@@ -2,8 +2,10 @@
 
 use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, gather};
 use crate::cli::dataset_file;
+use crate::cli::progress::TerminalProgress;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::doctor::{examine, meaning};
+use crate::compute::estimate::Progress;
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
@@ -33,6 +35,8 @@ pub enum Action {
     Import(ImportArgs),
     /// Write products into a package.
     Export(ExportArgs),
+    /// Compute the built-in products that are not stored yet
+    Build(BuildArgs),
     /// Check stored products or dataset files: energy, reciprocity, integrity.
     Validate(ValidateArgs),
 }
@@ -106,6 +110,14 @@ pub struct ExportArgs {
     pub out: PathBuf,
 }
 
+/// Arguments of `cfs catalogue build`.
+#[derive(Debug, clap::Args)]
+pub struct BuildArgs {
+    /// Write all built-in products as a package, too.
+    #[arg(long, value_name = "FILE.cfsp")]
+    pub out: Option<PathBuf>,
+}
+
 /// Arguments of `cfs catalogue validate`.
 #[derive(Debug, clap::Args)]
 pub struct ValidateArgs {
@@ -122,13 +134,44 @@ pub struct ValidateArgs {
 /// One line that names the product or the file. `validate` fails when anything is not fit for use.
 pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()> {
     let mut catalogue = catalogue.map_or_else(Catalogue::open_default, Catalogue::open)?;
+    if matches!(&args.action, Action::List(_) | Action::Show(_) | Action::Export(_) | Action::Build(_)) {
+        complete(&mut catalogue)?;
+    }
     match &args.action {
+        Action::Build(args) => build(&catalogue, args),
         Action::List(args) => list(&catalogue, args),
         Action::Show(args) => show(&catalogue, args),
         Action::Import(args) => import(&mut catalogue, args),
         Action::Export(args) => dataset_file::write(&args.out, &catalogue.export_package(&args.keys)?),
         Action::Validate(args) => validate(&catalogue, args),
     }
+}
+
+/// Computes the built-in products that the catalogue does not hold yet: once, on its first use.
+fn complete(catalogue: &mut Catalogue) -> anyhow::Result<()> {
+    let missing = catalogue.missing_builtin()?;
+    if missing.is_empty() {
+        return Ok(());
+    }
+    eprintln!("computing {} built-in products, once", missing.len());
+    let progress = TerminalProgress::new();
+    for (done, name) in missing.iter().enumerate() {
+        progress.advance("built-in products", done, missing.len());
+        let (product, datasets) = crate::study::builtin::compute(name, &progress)?;
+        catalogue.put_builtin(name, product, &datasets)?;
+    }
+    Ok(())
+}
+
+/// Says what is built in, and writes it as a package where asked.
+fn build(catalogue: &Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
+    let rows = catalogue.search(&Query { builtin: Some(true), ..Query::default() })?;
+    let keys: Vec<String> = rows.iter().map(|row| row.key.clone()).collect();
+    if let Some(out) = &args.out {
+        dataset_file::write(out, &catalogue.export_package(&keys)?)?;
+    }
+    let states: usize = rows.iter().map(|row| row.state_keys.len().max(1)).sum();
+    print(&format!("{} built-in products, {states} states\n", keys.len()))
 }
 
 /// Prints; a reader that has seen enough (`| head`) is no error.

@@ -7,7 +7,6 @@ use crate::compute::btdf::{Component, Dataset};
 use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
 use crate::study::Library;
 use crate::study::goniophotometer::{Computed, Described, Request};
-use crate::study::product_of;
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -154,7 +153,7 @@ fn write_results(
             let datasets: Vec<Dataset> = computed.iter().map(|one| one.dataset.clone()).collect();
             let shown = path.display();
             let mut catalogue = Catalogue::empty_in_memory().map_err(|error| anyhow!("{shown}: {error}"))?;
-            let imported = catalogue.import(&datasets, product_of(described, request, &datasets));
+            let imported = catalogue.import(&datasets, described.product(request, &datasets));
             let key = imported.map_err(|error| anyhow!("{shown}: {error}"))?.key;
             let bytes = catalogue.export_package(&[key]).map_err(|error| anyhow!("{shown}: {error}"))?;
             dataset_file::write(path, &bytes)

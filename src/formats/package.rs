@@ -64,6 +64,9 @@ pub struct PackageProduct {
     /// Points of the control curve.
     #[serde(default)]
     pub control_curve: Vec<PackageCurvePoint>,
+    /// Text of the description that it was computed from; empty for others.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub system: String,
 }
 
 /// Provenance in the manifest.

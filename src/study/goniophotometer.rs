@@ -5,14 +5,15 @@ use super::error::StudyError;
 use super::library::Library;
 use super::scene_file::SystemKeys;
 use super::system::SystemLibrary;
+use crate::catalogue::{NewProduct, builtin_system, described_dataset, method, product_of};
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::{Dataset, Finding};
+use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::goniophotometer::specimen::specimen;
 use crate::compute::goniophotometer::stack::{DataLayer, Stack};
 use crate::compute::goniophotometer::upright::Upright;
 use crate::compute::goniophotometer::{Quality, Setting, Specimen};
-use crate::compute::system::description::{Layer, LayerSource, SystemDescription, SystemKind};
+use crate::compute::system::description::{Layer, LayerSource, SystemKind};
 use crate::formats::dataset_blob;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use std::path::{Path, PathBuf};
@@ -30,8 +31,17 @@ pub struct Described {
     pub file: SystemFile,
     /// The file's text, which is the whole input of the computation but for other layers' files.
     pub text: String,
-    /// Folder of the file.
-    pub base: PathBuf,
+    /// From where it names other files.
+    pub base: Base,
+}
+
+/// From where a description names other files.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Base {
+    /// A folder.
+    Folder(PathBuf),
+    /// The descriptions that come with the program.
+    Builtin,
 }
 
 /// On which cells, and how exactly.
@@ -63,15 +73,42 @@ impl Described {
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = std::fs::read(path).map_err(|e| error(format!("cannot be read: {e}")))?;
-        let base = path.parent().unwrap_or(Path::new(".")).to_owned();
+        let base = Base::Folder(path.parent().unwrap_or(Path::new(".")).to_owned());
         Self::from_text(&String::from_utf8_lossy(&bytes), base).map_err(|e| error(e.to_string()))
+    }
+
+    /// A built-in one by the name of its file.
+    pub fn builtin(name: &str) -> Option<Self> {
+        let (file, text) = builtin_system(name)?;
+        Some(Self { file, text: text.to_owned(), base: Base::Builtin })
+    }
+
+    /// Another system file that this one names.
+    fn other(&self, name: &str) -> Result<Self, StudyError> {
+        match &self.base {
+            Base::Folder(folder) => Self::read(&folder.join(name)),
+            Base::Builtin => Self::builtin(name).ok_or_else(|| {
+                StudyError::key(
+                    "stack.layers",
+                    format!("no built-in description {name}; save this one beside its layers"),
+                )
+            }),
+        }
+    }
+
+    /// Where dataset files lie that it names.
+    fn folder(&self) -> &Path {
+        match &self.base {
+            Base::Folder(folder) => folder,
+            Base::Builtin => Path::new("."),
+        }
     }
 
     /// From the text of a system file, which names others relative to `base`.
     ///
     /// # Errors
     /// What is wrong with the text.
-    pub fn from_text(text: &str, base: PathBuf) -> Result<Self, crate::formats::FormatError> {
+    pub fn from_text(text: &str, base: Base) -> Result<Self, crate::formats::FormatError> {
         Ok(Self { file: system_toml::read(text.as_bytes())?, text: text.to_owned(), base })
     }
 
@@ -80,9 +117,9 @@ impl Described {
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.system.states()) };
         let Some(layer) = layers.iter().find(|layer| layer.state == EACH_STATE) else { return Ok(vec![String::new()]) };
         match &layer.source {
-            LayerSource::File(name) if is_system_file(name) => Self::read(&self.base.join(name))?.states(library),
+            LayerSource::File(name) if is_system_file(name) => self.other(name)?.states(library),
             LayerSource::File(name) => {
-                let systems = library.load_file(&self.base.join(name))?;
+                let systems = library.load_file(&self.folder().join(name))?;
                 Ok(systems.iter().map(|system| system.state.clone()).collect())
             }
             LayerSource::Catalogue(key) => {
@@ -125,12 +162,12 @@ impl Described {
         let told = (!state.is_empty()).then(|| state.to_owned());
         let keys = match &layer.source {
             LayerSource::File(name) if is_system_file(name) => {
-                return Self::read(&self.base.join(name))?.nested(state, library, depth + 1);
+                return self.other(name)?.nested(state, library, depth + 1);
             }
             LayerSource::File(name) => SystemKeys::File { path: name.into(), state: told },
             LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
         };
-        let system = library.load(&keys, &self.base)?;
+        let system = library.load(&keys, self.folder())?;
         Ok(Box::new(DataLayer(system.dataset.visible.clone())))
     }
 
@@ -154,23 +191,22 @@ impl Described {
         let Request { incident, emergent, error, seed } = request;
         let setting = Setting { incident, emergent, error: *error, seed: *seed };
         let (visible, quality) = self.specimen(state, library)?.examine(&setting, progress)?;
-        let system = &self.file.system;
-        let dataset = Dataset {
-            name: system.name.clone(),
-            description: system.description.clone(),
-            state: state.to_owned(),
-            structure: system.structure(),
-            visible,
-            incident_basis: incident.name().to_owned(),
-            emergent_basis: emergent.name().to_owned(),
-            findings: findings(system, request, &quality),
-            ..Dataset::default()
-        };
+        let dataset = described_dataset(&self.file, state.to_owned(), visible, &quality, *error);
         if let Some(path) = &kept {
             // A state that cannot be kept is computed again next time: nothing is lost.
             drop(std::fs::write(path, dataset_blob::encode(&dataset)));
         }
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
+    }
+
+    /// What the catalogue is told about its datasets.
+    pub fn product(&self, request: &Request, datasets: &[Dataset]) -> NewProduct {
+        product_of(&self.file, &self.text, self.method(request), datasets)
+    }
+
+    /// How its values come to be.
+    pub fn method(&self, request: &Request) -> String {
+        method(&self.file.system, request.error, [request.incident.len(), request.emergent.len()])
     }
 
     /// Name of a kept state: by everything that decides its values but the files of other layers.
@@ -189,67 +225,9 @@ impl Described {
     fn layer_files(&self) -> Vec<PathBuf> {
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Vec::new() };
         let file = |layer: &Layer| match &layer.source {
-            LayerSource::File(name) => Some(self.base.join(name)),
+            LayerSource::File(name) => Some(self.folder().join(name)),
             LayerSource::Catalogue(_) => None,
         };
         layers.iter().filter_map(file).collect()
     }
-
-    /// How the values came to be, for the catalogue: method, program, and what it was asked.
-    pub fn method(&self, request: &Request) -> String {
-        format!(
-            "Numerical goniophotometer of cfs {}: {}; error target {}, {} × {} cells",
-            env!("CARGO_PKG_VERSION"),
-            method_words(&self.file.system),
-            request.error,
-            request.incident.len(),
-            request.emergent.len(),
-        )
-    }
-}
-
-/// The method in words, with its source.
-pub fn method_words(system: &SystemDescription) -> &'static str {
-    match &system.kind {
-        SystemKind::Venetian(_) => {
-            "section of endless slats, direct share in closed form, strip radiosity, mirror chains as bundles of lines"
-        }
-        SystemKind::LaserCutPanel(_) => {
-            "Edmonds' shares (Solar Energy Materials and Solar Cells 29, 1993), Fresnel faces"
-        }
-        SystemKind::Prismatic(_) | SystemKind::RedirectingGlass(_) => {
-            "section of endless clear bodies, beams followed with their polarisation, no dispersion, no interference"
-        }
-        SystemKind::Pane(_) => {
-            "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
-        }
-        SystemKind::Diffuser(_) => "separable diffuse light and a balanced Gaussian lobe in direction cosines",
-        SystemKind::Woven(_) => "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)",
-        SystemKind::Perforated(_) => "radiosity in the hole, straight share by clipped polygons",
-        SystemKind::Stack(_) => "adding method on matrices of refined cells (Klems, ASHRAE Transactions 100, 1994)",
-    }
-}
-
-fn findings(system: &SystemDescription, request: &Request, quality: &Quality) -> Vec<Finding> {
-    let reciprocity = match quality.reciprocity {
-        Some(error) => format!("reciprocity within {:.2} % of the flux", 100.0 * error),
-        None => "reciprocity not counted on unequal cells".to_owned(),
-    };
-    let text = format!(
-        "Computed ({}): τ + ρ + α = 1 within {:.3} %, {reciprocity}, estimated error of τ and ρ at most {:.4}.",
-        method_words(system),
-        100.0 * quality.balance,
-        quality.error
-    );
-    let mut list = vec![Finding::info("computed", text)];
-    if quality.error > request.error {
-        list.push(Finding::warning(
-            "error-target-missed",
-            format!(
-                "The error target {} was not reached at every incidence; {:.4} at the worst.",
-                request.error, quality.error
-            ),
-        ));
-    }
-    list
 }

@@ -4,7 +4,8 @@ use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::scene_file::SystemKeys;
 use super::system::{System, SystemLibrary, ideal};
-use crate::catalogue::{Catalogue, CatalogueError, Product};
+use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
+use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -31,22 +32,37 @@ impl Library {
         Self { catalogue_path: path.map(Path::to_owned), ..Self::default() }
     }
 
-    fn in_catalogue<T>(&self, ask: impl FnOnce(&Catalogue) -> Result<T, CatalogueError>) -> Result<T, StudyError> {
+    fn in_catalogue<T>(&self, ask: impl FnOnce(&mut Catalogue) -> Result<T, CatalogueError>) -> Result<T, StudyError> {
         let mut open = self.catalogue.lock().unwrap_or_else(PoisonError::into_inner);
         let told = |error: CatalogueError| StudyError::Catalogue(error.to_string());
-        let catalogue = match open.take() {
+        let mut catalogue = match open.take() {
             Some(catalogue) => catalogue,
             None => {
                 self.catalogue_path.as_deref().map_or_else(Catalogue::open_default, Catalogue::open).map_err(told)?
             }
         };
-        let answer = ask(&catalogue).map_err(told);
+        let answer = ask(&mut catalogue).map_err(told);
         *open = Some(catalogue);
         answer
     }
 
+    /// Computes a built-in product that is asked for before the catalogue holds it.
+    fn provide_builtin(&self, key: &str) -> Result<(), StudyError> {
+        let name = format!("{key}.system.toml");
+        if !SYSTEMS.iter().any(|(file, _)| *file == name) {
+            return Ok(());
+        }
+        let missing = |catalogue: &mut Catalogue| Ok(catalogue.missing_builtin()?.contains(&name.as_str()));
+        if !self.in_catalogue(missing)? {
+            return Ok(());
+        }
+        let (product, datasets) = super::builtin::compute(&name, &Silent)?;
+        self.in_catalogue(|catalogue| catalogue.put_builtin(&name, product, &datasets))
+    }
+
     /// A product of the catalogue without its datasets.
     pub fn product(&self, key: &str) -> Result<Product, StudyError> {
+        self.provide_builtin(key)?;
         self.in_catalogue(|catalogue| catalogue.product(key))
     }
 
@@ -91,11 +107,14 @@ impl SystemLibrary for Library {
                 let systems = self.load_file(&base.join(path))?;
                 pick(&systems, state.as_deref(), &path.display().to_string())
             }
-            SystemKeys::Catalogue { key, state } => self.in_catalogue(|catalogue| {
-                let dataset = catalogue.dataset(key, state.as_deref())?;
-                let label = catalogue.product(key)?.name;
-                Ok(Arc::new(System { label, state: dataset.state.clone(), dataset }))
-            }),
+            SystemKeys::Catalogue { key, state } => {
+                self.provide_builtin(key)?;
+                self.in_catalogue(|catalogue| {
+                    let dataset = catalogue.dataset(key, state.as_deref())?;
+                    let label = catalogue.product(key)?.name;
+                    Ok(Arc::new(System { label, state: dataset.state.clone(), dataset }))
+                })
+            }
         }
     }
 

@@ -4,11 +4,11 @@
 
 pub mod accuracy;
 pub mod accuracy_plot;
+pub mod builtin;
 pub mod cache;
 pub mod coefficients;
 pub mod compact;
 pub mod control;
-mod described_product;
 mod error;
 pub mod goniophotometer;
 pub mod library;
@@ -24,7 +24,6 @@ pub mod sun_position;
 pub mod system;
 
 pub use coefficients::Coefficients;
-pub use described_product::product_of;
 pub use error::StudyError;
 pub use library::Library;
 pub use scene::Scene;

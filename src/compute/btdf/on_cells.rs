@@ -54,7 +54,7 @@ fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usi
 
 /// Mean over a ring by projected solid angle: midpoints in sin²θ.
 fn ring_mean((from, to): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
-    const STEPS: usize = 32;
+    const STEPS: usize = 512;
     let (a, b) = (from.sin().powi(2), to.sin().powi(2));
     let theta = |k: usize| (a + (b - a) * (k as f64 + 0.5) / STEPS as f64).sqrt().asin();
     (0..STEPS).map(|k| f(theta(k))).sum::<f64>() / STEPS as f64

@@ -2,7 +2,7 @@
 
 use super::super::error::StudyError;
 use super::keys::SlatKeys;
-use crate::catalogue::{Product, builtin_slats};
+use crate::catalogue::{Product, blind_of};
 use crate::compute::control::cut_off::Section;
 use crate::compute::system::slat_profile::SlatProfile;
 
@@ -53,8 +53,8 @@ impl Device {
 /// The slats of a product. The one place that knows where products keep them: those that the program computes are
 /// described in it.
 fn section_of(product: &Product) -> Option<Section> {
-    let (width, spacing) = builtin_slats(&product.key).filter(|_| product.builtin)?;
-    Section::new(SlatProfile::Flat { width }, spacing)
+    let blind = blind_of(&product.system)?;
+    Section::new(blind.profile, blind.spacing)
 }
 
 /// The section that a scene describes.

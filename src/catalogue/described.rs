@@ -1,0 +1,172 @@
+//! A described system as a product: where its data come from, how its states are named, its control curve.
+
+use super::builtin::blind_of;
+use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
+use crate::compute::btdf::{Band, Dataset, Finding};
+use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
+use crate::compute::control::cut_off::Section;
+use crate::compute::goniophotometer::Quality;
+use crate::compute::system::description::{SystemDescription, SystemKind, Venetian};
+use crate::formats::system_toml::SystemFile;
+use std::f64::consts::FRAC_PI_2;
+
+/// Elevation to which redirecting slats send the sun: flat enough to reach deep into a room, steep enough to stay on
+/// the ceiling. \[rad\]
+const ELEVATION: f64 = 0.611;
+/// Half of the sun's width, which has to stay out as well. \[rad\]
+const HALF_SUN: f64 = 0.004_65;
+/// Step of the curves over the profile angle. \[°\]
+const STEP: u32 = 5;
+
+/// What the catalogue is told about the datasets of a described system. `text`: the description's own text, whose hash
+/// stands for the inputs; `method`: how the datasets were computed.
+pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dataset]) -> NewProduct {
+    let system = &file.system;
+    NewProduct {
+        key: (!file.key.is_empty()).then(|| file.key.clone()),
+        name: system.name.clone(),
+        kind: system.kind.word().to_owned(),
+        description: system.description.clone(),
+        provenance: Provenance {
+            origin: Origin::Computed,
+            author: "cfs".to_owned(),
+            method,
+            source_hash: blake3::hash(text.as_bytes()).to_hex().to_string(),
+            inside_face: inside_face(system).to_owned(),
+            ..Provenance::default()
+        },
+        tags: file.tags.clone(),
+        states: datasets.iter().map(state_name).collect(),
+        control_curve: blind_of(text).map(|blind| control_curve(&file.control, &blind)).unwrap_or_default(),
+        system: text.to_owned(),
+        ..NewProduct::default()
+    }
+}
+
+/// How the values of a described system come to be: the program, its method, what it was asked.
+pub fn method(system: &SystemDescription, error: f64, [incident, emergent]: [usize; 2]) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let words = method_words(system);
+    format!("Numerical goniophotometer of cfs {version}: {words}; error target {error}, {incident} × {emergent} cells")
+}
+
+/// A computed state as a dataset, with what is known about its quality. `error`: the target that was asked for.
+pub fn described_dataset(file: &SystemFile, state: String, visible: Band, quality: &Quality, error: f64) -> Dataset {
+    let system = &file.system;
+    let reciprocity = match quality.reciprocity {
+        Some(error) => format!("reciprocity within {:.2} % of the flux", 100.0 * error),
+        None => "reciprocity not counted on unequal cells".to_owned(),
+    };
+    let balance = 100.0 * quality.balance;
+    let text = format!(
+        "Computed ({}): τ + ρ + α = 1 within {balance:.3} %, {reciprocity}, estimated error of τ and ρ at most {:.4}.",
+        method_words(system),
+        quality.error
+    );
+    let mut findings = vec![Finding::info("computed", text)];
+    if quality.error > error {
+        let reached = quality.error;
+        let text = format!("The error target {error} was not reached at every incidence; {reached:.4} at the worst.");
+        findings.push(Finding::warning("error-target-missed", text));
+    }
+    Dataset {
+        name: system.name.clone(),
+        description: system.description.clone(),
+        state,
+        structure: system.structure(),
+        visible,
+        findings,
+        ..Dataset::default()
+    }
+}
+
+/// The method in words, with its source.
+fn method_words(system: &SystemDescription) -> &'static str {
+    match &system.kind {
+        SystemKind::Venetian(_) => {
+            "section of endless slats, direct share in closed form, strip radiosity, mirror chains as bundles of lines"
+        }
+        SystemKind::LaserCutPanel(_) => {
+            "Edmonds' shares (Solar Energy Materials and Solar Cells 29, 1993), Fresnel faces"
+        }
+        SystemKind::Prismatic(_) | SystemKind::RedirectingGlass(_) => {
+            "section of endless clear bodies, beams followed with their polarisation, no dispersion, no interference"
+        }
+        SystemKind::Pane(_) => {
+            "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
+        }
+        SystemKind::Diffuser(_) => "separable diffuse light and a balanced Gaussian lobe in direction cosines",
+        SystemKind::Woven(_) => "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)",
+        SystemKind::Perforated(_) => "radiosity in the hole, straight share by clipped polygons",
+        SystemKind::Stack(_) => "adding method on matrices of refined cells (Klems, ASHRAE Transactions 100, 1994)",
+    }
+}
+
+const fn inside_face(system: &SystemDescription) -> &'static str {
+    match system.kind {
+        SystemKind::Venetian(_) => "room side of the description: outer edges lowered at positive angles",
+        SystemKind::Stack(_) => "last layer of the description",
+        _ => "room side of the description",
+    }
+}
+
+fn state_name(dataset: &Dataset) -> StateName {
+    match dataset.state.parse::<f64>().ok().filter(|value| value.is_finite()) {
+        Some(degrees) => StateName { label: format!("slats {degrees}°"), value: Some(degrees) },
+        None => StateName { label: dataset.state.clone(), value: None },
+    }
+}
+
+/// The control curve of slats by the word of its rule: `cut-off` keeps the sun out, `retro` throws it back, `redirect`
+/// sends it to the ceiling; none for other words. Values are held within the states' range.
+pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
+    let range = blind.angles.iter().fold([FRAC_PI_2, -FRAC_PI_2], |[low, high], &a| [low.min(a), high.max(a)]);
+    let Some(section) = Section::new(blind.profile.clone(), blind.spacing) else { return Vec::new() };
+    let tilt = |psi: f64| match rule {
+        "cut-off" => {
+            let most_open = [range[0].max(0.0), range[1]];
+            Some(section.cut_off(most_open, 0.0, [psi - HALF_SUN, psi + HALF_SUN]).unwrap_or(range[1]))
+        }
+        "retro" => Some(retro_tilt(psi)),
+        "redirect" => Some(redirecting_tilt(psi, ELEVATION)),
+        _ => None,
+    };
+    (0..90_u32.div_ceil(STEP))
+        .filter_map(|k| {
+            let profile_angle = f64::from(k * STEP);
+            let value = tilt(profile_angle.to_radians())?.clamp(range[0], range[1]).to_degrees();
+            Some(CurvePoint { profile_angle, value: (value * 100.0).round() / 100.0 })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::section::Surface;
+    use crate::compute::system::slat_profile::SlatProfile;
+
+    fn blind() -> Venetian {
+        Venetian {
+            profile: SlatProfile::Flat { width: 0.08 },
+            spacing: 0.072,
+            thickness: 0.0,
+            angles: (-5..=15).map(|k| f64::from(5 * k).to_radians()).collect(),
+            upper: Surface::mirror(0.85),
+            lower: Surface::matt(0.5),
+        }
+    }
+
+    #[test]
+    fn curves_follow_their_closed_forms() {
+        let at = |rule: &str, psi: f64| {
+            let curve = control_curve(rule, &blind());
+            curve.iter().find(|point| point.profile_angle == psi).unwrap().value
+        };
+        // asin(0.9 cosψ) − ψ, the sun's lower edge deciding.
+        assert!((at("cut-off", 20.0) - 37.8).abs() < 1.0 && at("cut-off", 60.0) == 0.0);
+        assert!((at("retro", 30.0) - 60.0).abs() < 1e-9 && at("retro", 5.0) == 75.0);
+        assert!((at("redirect", 45.0) + 5.0).abs() < 0.1 && at("redirect", 85.0) == -25.0);
+        assert!(control_curve("", &blind()).is_empty());
+    }
+}
