@@ -143,6 +143,9 @@ fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_, '_>) {
             *place = word;
         }
     }
+    if child_text(material, "Comments").starts_with(write::INVENTED_THICKNESS) {
+        return;
+    }
     let Some(thickness) = child(material, "Thickness") else { return };
     let value = text(thickness);
     if value.is_empty() {

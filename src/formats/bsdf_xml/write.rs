@@ -16,6 +16,12 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
+/// Thickness where none is known. \[m\]
+const THICKNESS: f64 = 0.003;
+/// How the list of defaults begins.
+const INVENTED: &str = "Defaults, not measured: ";
+/// How it begins where the thickness is one of them: readers leave such a thickness out.
+pub(super) const INVENTED_THICKNESS: &str = "Defaults, not measured: thickness, ";
 /// Thermal properties of the file that no dataset of light knows.
 const DEFAULTS: &str =
     "device type Other, conductivity 1 W/mK, emissivities 0.9, infrared transmittance 0.1, effective openness 0.05";
@@ -69,7 +75,8 @@ fn changes(dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
     }
     tell("window-defaults", format!("Not known and written as defaults for WINDOW: {DEFAULTS}."));
     if dataset.thickness.is_none() {
-        tell("window-thickness", "The thickness is not known and not written; WINDOW asks for it.".to_owned());
+        let text = format!("The thickness is not known; {THICKNESS} m is written, since WINDOW asks for it.");
+        tell("window-thickness", text);
     }
     if dataset.solar.is_none() {
         tell(
@@ -114,13 +121,13 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
     );
     let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(or_unknown(&dataset.name)));
     let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(or_unknown(&dataset.manufacturer)));
-    if let Some(thickness) = dataset.thickness {
-        let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
-    }
+    let thickness = dataset.thickness.unwrap_or(THICKNESS);
+    let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
     xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t\t<ThermalConductivity>1</ThermalConductivity>\n");
     xml.push_str("\t\t\t\t<EmissivityFront>0.9</EmissivityFront>\n\t\t\t\t<EmissivityBack>0.9</EmissivityBack>\n");
     xml.push_str("\t\t\t\t<TIR>0.1</TIR>\n\t\t\t\t<EffectiveOpennessFraction>0.05</EffectiveOpennessFraction>\n");
-    let _ = writeln!(xml, "\t\t\t\t<Comments>Defaults, not measured: {DEFAULTS}.</Comments>");
+    let first = if dataset.thickness.is_none() { INVENTED_THICKNESS } else { INVENTED };
+    let _ = writeln!(xml, "\t\t\t\t<Comments>{first}{DEFAULTS}.</Comments>");
     xml.push_str("\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
     xml.push_str("\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>Columns</IncidentDataStructure>\n");
     let _ = writeln!(xml, "\t\t\t\t<AngleBasis>\n\t\t\t\t\t<AngleBasisName>{}</AngleBasisName>", escape(basis.name()));
