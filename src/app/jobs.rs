@@ -31,6 +31,8 @@ pub enum Lane {
     Year,
     /// Error against run time.
     Accuracy,
+    /// Data computed from a description.
+    Goniophotometer,
     /// Writing files.
     Export,
 }
@@ -47,6 +49,7 @@ impl Lane {
             Self::Room => "room",
             Self::Year => "year of control",
             Self::Accuracy => "error against time",
+            Self::Goniophotometer => "goniophotometer",
             Self::Export => "writing file",
         }
     }
