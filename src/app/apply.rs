@@ -8,7 +8,7 @@ use super::moment;
 use super::shelf::Addition;
 use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
 use super::work;
-use crate::catalogue::Provenance;
+use crate::catalogue::{NewProduct, Provenance};
 use crate::compute::doctor::{Repair, record};
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
@@ -95,7 +95,10 @@ impl App {
                 state.sheet = if state.sheet == sheet { None } else { sheet };
             }
             Command::Cancel(lane) => {
-                if self.jobs.cancel(lane) {
+                let stopped = self.jobs.cancel(lane);
+                if stopped && lane == Lane::Goniophotometer {
+                    self.toasts.info("Stopped; finished states are kept, and Compute goes on after them");
+                } else if stopped {
                     self.toasts.info(format!("{} stopped; what is shown is older than the scene", lane.word()));
                 }
             }
@@ -139,6 +142,13 @@ impl App {
                 state.sheet = None;
             }
             Command::MeasureAccuracy => self.measure_accuracy(),
+            Command::SystemExample(number) => self.open_example(number),
+            Command::EditSystem(text) => state.goniophotometer.set_text(text),
+            Command::SystemSetup(setup) => state.goniophotometer.setup = setup,
+            Command::DrawState(number) => state.goniophotometer.drawn = number,
+            Command::MeasureSystem => self.measure_system(),
+            Command::AddMeasured => self.add_measured(),
+            Command::ExportMeasured => self.ask_target(PathUse::ExportMeasured),
             Command::RetryCatalogue => self.open_catalogue(),
         }
     }
@@ -272,12 +282,23 @@ impl App {
         let Some(import) = self.state.import.take() else { return };
         let addition = Addition {
             datasets: import.datasets,
-            name: import.name.trim().to_owned(),
-            manufacturer: import.manufacturer.trim().to_owned(),
-            kind: import.kind.trim().to_owned(),
-            tags: import.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect(),
-            provenance: Provenance { method: record(&import.provenance.method, &import.repairs), ..import.provenance },
+            product: NewProduct {
+                name: import.name.trim().to_owned(),
+                manufacturer: import.manufacturer.trim().to_owned(),
+                kind: import.kind.trim().to_owned(),
+                tags: import.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect(),
+                provenance: Provenance {
+                    method: record(&import.provenance.method, &import.repairs),
+                    ..import.provenance
+                },
+                ..NewProduct::default()
+            },
         };
+        self.add_to_catalogue(addition);
+    }
+
+    /// Stores a product as a step of its own, and closes the sheet that it came from.
+    pub(super) fn add_to_catalogue(&mut self, addition: Addition) {
         self.state.sheet = None;
         let number = self.state.additions.len();
         self.state.additions.push(Added { addition: addition.clone(), key: None });
@@ -299,6 +320,7 @@ impl App {
             (PathUse::SaveScene, Some(path)) => path.display().to_string(),
             (PathUse::ExportLid, _) => "window.ldt".to_owned(),
             (PathUse::ExportTile(tile), _) => super::export::file_name(tile),
+            (PathUse::ExportMeasured, _) => "system.cfsp".to_owned(),
             _ => "scene.toml".to_owned(),
         };
         self.state.sheet = Some(Sheet::Path(what));
@@ -324,6 +346,15 @@ impl App {
                 self.start(Lane::Export, move |_| work::save_scene(&path, text));
             }
             PathUse::ExportTile(tile) => self.export_tile(tile, path),
+            PathUse::ExportMeasured => {
+                self.state.sheet = Some(Sheet::Goniophotometer);
+                match self.state.goniophotometer.run.clone() {
+                    Some(run) => self.start(Lane::Export, move |_| {
+                        work::Outcome::Written(what, super::goniophotometer::export(&run, &path))
+                    }),
+                    None => drop(self.toasts.info("Compute the system first")),
+                }
+            }
             PathUse::ExportLid => {
                 let (engine, lid) = (self.services.engine.clone(), self.results.lid.value.clone());
                 self.start(Lane::Export, move |_| work::export_lid(&path, lid.as_deref(), &*engine));

@@ -2,7 +2,7 @@
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, NewProduct, Product, Provenance};
+use crate::catalogue::{self, Catalogue, NewProduct, Product};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::formats::ies::IesEdition;
@@ -45,11 +45,7 @@ pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, String> {
         dataset.visible.transmission_front = Some(btdf);
         shelf.add(&Addition {
             datasets: vec![Arc::new(dataset)],
-            name: name.to_owned(),
-            manufacturer: String::new(),
-            kind: "ideal".to_owned(),
-            tags: Vec::new(),
-            provenance: Provenance::default(),
+            product: NewProduct { name: name.to_owned(), kind: "ideal".to_owned(), ..NewProduct::default() },
         })?;
     }
     Ok(Arc::new(shelf))
@@ -132,15 +128,7 @@ impl Shelf for CatalogueShelf {
 
     fn add(&self, addition: &Addition) -> Result<String, String> {
         let datasets: Vec<Dataset> = addition.datasets.iter().map(|dataset| stored_by_default(dataset)).collect();
-        let meta = NewProduct {
-            name: addition.name.clone(),
-            manufacturer: addition.manufacturer.clone(),
-            kind: addition.kind.clone(),
-            tags: addition.tags.clone(),
-            provenance: addition.provenance.clone(),
-            ..NewProduct::default()
-        };
-        self.lock().import(&datasets, meta).map(|imported| imported.key).map_err(told)
+        self.lock().import(&datasets, addition.product.clone()).map(|imported| imported.key).map_err(told)
     }
 
     fn remove(&self, product: &str) -> Result<(), String> {

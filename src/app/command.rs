@@ -1,6 +1,8 @@
 //! Everything that the window can do: one enum. Menu, palette, shortcuts and tests read it; drawing returns it;
 //! [`super::apply`] is the only place that acts on it.
 
+use super::examples::EXAMPLES;
+use super::goniophotometer::Setup;
 use super::jobs::Lane;
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
@@ -9,6 +11,9 @@ use crate::compute::doctor::Repair;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
+
+/// Name of the field in which a system file is typed.
+pub const SYSTEM_EDITOR: &str = "system file";
 
 /// The fields of an import sheet, as edited.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,6 +111,20 @@ pub enum Command {
     DiscardImport,
     /// Run the present scene with rising effort by every method.
     MeasureAccuracy,
+    /// Fill the goniophotometer's sheet with an example.
+    SystemExample(usize),
+    /// Type a system file.
+    EditSystem(String),
+    /// On which cells the goniophotometer measures, and how exactly.
+    SystemSetup(Setup),
+    /// Draw this state of the described system.
+    DrawState(usize),
+    /// Compute all states of the described system; a stopped run goes on.
+    MeasureSystem,
+    /// Store what was computed.
+    AddMeasured,
+    /// Ask where to write what was computed.
+    ExportMeasured,
     /// Open the catalogue once more after a failure.
     RetryCatalogue,
 }
@@ -148,6 +167,8 @@ impl Command {
         list.extend(ThemeChoice::ALL.map(Theme));
         list.extend([ResetScene, Sheet(Some(super::state::Sheet::Findings))]);
         list.extend([Sheet(Some(super::state::Sheet::Accuracy)), MeasureAccuracy]);
+        list.extend([Sheet(Some(super::state::Sheet::Goniophotometer)), MeasureSystem, AddMeasured, ExportMeasured]);
+        list.extend((0..EXAMPLES.len()).map(SystemExample));
         list.extend([Sheet(Some(super::state::Sheet::Keys)), Quit]);
         list
     }
@@ -155,7 +176,9 @@ impl Command {
     /// Text, tip and keys.
     pub fn info(&self) -> Info {
         let (text, tip, shortcut): (String, &'static str, _) = match self {
-            Self::Open => ("Open…".into(), "Read datasets or a scene; or drop files on the window", ctrl(Key::O)),
+            Self::Open => {
+                ("Open…".into(), "Read datasets, a system or a scene; or drop files on the window", ctrl(Key::O))
+            }
             Self::SaveScene => ("Save scene…".into(), "Write everything this study needs as a text file", ctrl(Key::S)),
             Self::ExportLid => {
                 ("Export LID…".into(), "Write the window as a luminaire (.ldt, .ies) for other programs", ctrl(Key::E))
@@ -254,6 +277,34 @@ impl Command {
                 "Compute the scene with rising effort by every method: some seconds to a minute",
                 None,
             ),
+            Self::Sheet(Some(Sheet::Goniophotometer)) => (
+                "Goniophotometer".into(),
+                "Compute a system's data from its geometry and material, with a drawing of its section",
+                plain(Key::G),
+            ),
+            Self::SystemExample(number) => (
+                format!("System example: {}", EXAMPLES.get(*number).map_or("none", |example| example.name)),
+                "Fill the goniophotometer's sheet with this system",
+                None,
+            ),
+            Self::MeasureSystem => (
+                "Compute the described system".into(),
+                "All states, on as many threads as there are; a run that was stopped goes on",
+                ctrl(Key::Enter),
+            ),
+            Self::AddMeasured => (
+                "Add the computed system to the catalogue".into(),
+                "Store all its states as a product; undo takes it out again",
+                None,
+            ),
+            Self::ExportMeasured => (
+                "Export the computed system…".into(),
+                "All states as a package (.cfsp), or a file a state (.xml, .btdf.txt)",
+                None,
+            ),
+            Self::EditSystem(_) => ("Type a system file".into(), "Geometry and material as text", None),
+            Self::SystemSetup(_) => ("Change the cells".into(), "Incident and emergent cells, error target", None),
+            Self::DrawState(_) => ("Draw another state".into(), "The section of this state", None),
             Self::Sheet(Some(Sheet::Import)) => ("Import sheet".into(), "Files that were read", None),
             Self::Sheet(Some(Sheet::Path(_))) => ("Type a path".into(), "Give a path instead of choosing a file", None),
             Self::Sheet(None) => ("Close the sheet".into(), "Close the sheet at the side", None),
@@ -284,10 +335,13 @@ impl Command {
 /// The commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard.
 pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let typing = ctx.memory(|memory| memory.focused().is_some());
+    // The editor of system files has a history of its own.
+    let editing = ctx.memory(|memory| memory.focused()) == Some(egui::Id::unique(SYSTEM_EDITOR));
     let mut list: Vec<(KeyboardShortcut, Command)> = Command::listed()
         .into_iter()
         .filter_map(|command| Some((command.info().shortcut?, command)))
         .filter(|(keys, _)| !typing || keys.modifiers.command)
+        .filter(|(_, command)| !(editing && matches!(command, Command::Undo | Command::Redo)))
         .collect();
     // Egui matches Ctrl+Z also while Shift is down: ask for the longer combination first.
     list.sort_by_key(|(keys, _)| std::cmp::Reverse((keys.modifiers.command, keys.modifiers.shift)));

@@ -16,7 +16,8 @@ pub struct NativeDialogs;
 
 impl FileDialogs for NativeDialogs {
     fn open(&self) -> Result<Vec<PathBuf>, String> {
-        let dialog = rfd::FileDialog::new().set_title("Open datasets or a scene").add_filter("All files", &["*"]);
+        let dialog =
+            rfd::FileDialog::new().set_title("Open datasets, a system or a scene").add_filter("All files", &["*"]);
         Ok(dialog.pick_files().unwrap_or_default())
     }
 
@@ -32,6 +33,12 @@ impl FileDialogs for NativeDialogs {
                 .set_file_name(super::export::file_name(tile))
                 .add_filter("Numbers", &["csv"])
                 .add_filter("Picture", &["png"]),
+            PathUse::ExportMeasured => rfd::FileDialog::new()
+                .set_title("Export the computed data")
+                .set_file_name("system.cfsp")
+                .add_filter("Package of all states", &["cfsp"])
+                .add_filter("BSDF", &["xml"])
+                .add_filter("BTDF text", &["btdf.txt"]),
             PathUse::SaveScene | PathUse::Open => rfd::FileDialog::new()
                 .set_title("Save the scene")
                 .set_file_name("scene.toml")

@@ -33,6 +33,8 @@ pub enum Lane {
     Accuracy,
     /// Computing built-in products.
     Builtin,
+    /// Data computed from a description.
+    Goniophotometer,
     /// Writing files.
     Export,
 }
@@ -50,6 +52,7 @@ impl Lane {
             Self::Year => "year of control",
             Self::Accuracy => "error against time",
             Self::Builtin => "built-in products",
+            Self::Goniophotometer => "goniophotometer",
             Self::Export => "writing file",
         }
     }

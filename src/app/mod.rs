@@ -10,7 +10,9 @@ pub mod control;
 pub mod daylight;
 pub mod dialogs;
 pub mod engine;
+pub mod examples;
 pub mod export;
+pub mod goniophotometer;
 pub mod jobs;
 pub mod moment;
 pub mod paint;
@@ -23,6 +25,7 @@ pub mod title;
 pub mod views;
 pub mod work;
 
+use crate::study::Library;
 use crate::study::accuracy::Accuracy;
 use command::Command;
 use dialogs::{FileDialogs, NativeDialogs, NoDialogs};
@@ -78,6 +81,8 @@ pub struct App {
     /// What was computed.
     pub results: Results,
     services: Services,
+    /// Files and products that system files name.
+    library: Arc<Library>,
     jobs: Jobs<Outcome>,
     pending_changes: VecDeque<Change>,
     undoer: Undoer<Document>,
@@ -87,6 +92,7 @@ pub struct App {
     toasts: egui_notify::Toasts,
     bench: panels::bench::BenchState,
     accuracy_view: views::accuracy::State,
+    section_view: views::section::State,
     ctx: egui::Context,
     installed: bool,
     shown_title: String,
@@ -107,6 +113,7 @@ impl App {
             state,
             results: Results::default(),
             services,
+            library: Arc::default(),
             jobs: Jobs::default(),
             pending_changes: VecDeque::new(),
             asked: None,
@@ -115,6 +122,7 @@ impl App {
             toasts: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
             bench: panels::bench::BenchState::default(),
             accuracy_view: views::accuracy::State::default(),
+            section_view: views::section::State::default(),
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),
@@ -227,6 +235,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
                 .and_then(|storage| storage.get_string(SETTINGS_KEY))
                 .and_then(|text| serde_json::from_str(&text).ok())
                 .unwrap_or_default();
+            let library = Arc::new(Library::with_catalogue(catalogue.as_deref()));
             let services = Services {
                 open_catalogue: Arc::new(move || backend::open_shelf(catalogue.as_deref())),
                 read: read_dataset,
@@ -234,6 +243,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
                 engine: Arc::new(backend::StudyEngine::default()),
             };
             let mut app = App::new(services, settings);
+            app.library = library;
             app.logic(&cc.egui_ctx);
             app.apply(Command::OpenPaths(open));
             Ok(Box::new(app))

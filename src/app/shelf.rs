@@ -1,6 +1,6 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
-use crate::catalogue::{NewProduct, Product, Provenance};
+use crate::catalogue::{NewProduct, Product};
 use crate::compute::btdf::Dataset;
 use crate::study::StudyError;
 use crate::study::control::ControlQuestion;
@@ -56,16 +56,8 @@ pub struct Found {
 pub struct Addition {
     /// Datasets, one a state.
     pub datasets: Vec<Arc<Dataset>>,
-    /// Product name.
-    pub name: String,
-    /// Maker.
-    pub manufacturer: String,
-    /// Kind of system.
-    pub kind: String,
-    /// Words to find it by.
-    pub tags: Vec<String>,
-    /// Where the data come from.
-    pub provenance: Provenance,
+    /// Name, kind, where the data come from.
+    pub product: NewProduct,
 }
 
 /// A catalogue as the window sees it. Every error is a sentence for the user.

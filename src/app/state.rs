@@ -1,5 +1,6 @@
 //! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
 
+use super::goniophotometer::Bench;
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
 use crate::catalogue::{Product, Provenance};
@@ -194,6 +195,8 @@ pub enum Sheet {
     Keys,
     /// Error against run time.
     Accuracy,
+    /// Data computed from a description of geometry and material.
+    Goniophotometer,
     /// A path to open or write.
     Path(PathUse),
 }
@@ -209,6 +212,8 @@ pub enum PathUse {
     ExportLid,
     /// Write a tile as numbers (.csv) or as a picture (.png).
     ExportTile(Tile),
+    /// Write what the goniophotometer computed.
+    ExportMeasured,
 }
 
 /// Everything.
@@ -233,6 +238,8 @@ pub struct State {
     pub path: String,
     /// Files that were read.
     pub import: Option<Import>,
+    /// The goniophotometer's sheet.
+    pub goniophotometer: Bench,
     /// Additions of this session.
     pub additions: Vec<Added>,
     /// Command palette: its words while open.
@@ -336,6 +343,7 @@ impl State {
             sheet: None,
             path: String::new(),
             import: None,
+            goniophotometer: Bench::default(),
             additions: Vec::new(),
             palette: None,
             focus_search: false,

@@ -3,6 +3,7 @@
 use super::App;
 use super::control::{CONTROLLED, Year, YearKey};
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
+use super::goniophotometer::Finished;
 use super::jobs::{JobState, Lane};
 use super::shelf::{Addition, Found, Shelf};
 use super::state::{CatalogueState, Daylight, Import, PathUse, Selection, Sheet};
@@ -14,6 +15,7 @@ use crate::compute::doctor::{Diagnosis, Repair, examine, repaired_all};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::control_curve::read_control_curve;
+use crate::formats::system_toml::is_system_file;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -51,6 +53,10 @@ pub enum Outcome {
     Read(Box<Import>),
     /// What was read, with repairs: the datasets, what is said about them, and the repairs; or why not.
     Mended(Result<Mended, String>),
+    /// A system file was read: its text and folder.
+    ReadSystem(Result<(String, PathBuf), String>),
+    /// A state of a system was measured; the keys of all.
+    Measured(Result<Box<(Vec<String>, Finished)>, String>),
     /// A scene was read.
     ReadScene(PathBuf, Result<Box<SceneFile>, String>),
     /// A control curve was read.
@@ -119,20 +125,23 @@ fn take_from_shelf(
     Ok(Shelved { product, state, dataset })
 }
 
-/// Reads files: one scene, or datasets.
+/// Reads files: one scene, system or control curve, or datasets.
 pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
+    let text_of = |path: &Path, what: &str| {
+        String::from_utf8(read_bytes(path)?).map_err(|e| {
+            format!("{}: byte {} is not UTF-8; {what} is a text file", path.display(), e.utf8_error().valid_up_to())
+        })
+    };
+    if let [path] = paths
+        && is_system_file(&path.to_string_lossy())
+    {
+        let base = path.parent().map(PathBuf::from).unwrap_or_default();
+        return Outcome::ReadSystem(text_of(path, "a system").map(|text| (text, base)));
+    }
     if let [path] = paths
         && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
-        && !path.to_string_lossy().ends_with(".system.toml")
     {
-        let scene = read_bytes(path).and_then(|bytes| {
-            let text = String::from_utf8(bytes).map_err(|e| {
-                format!(
-                    "{}: byte {} is not UTF-8; a scene is a text file",
-                    path.display(),
-                    e.utf8_error().valid_up_to()
-                )
-            })?;
+        let scene = text_of(path, "a scene").and_then(|text| {
             SceneFile::parse(&text).map(Box::new).map_err(|error| format!("{}: {error}", path.display()))
         });
         return Outcome::ReadScene(path.clone(), scene);
@@ -294,6 +303,7 @@ impl App {
                         Lane::Lid => self.results.lid.error = Some(text),
                         Lane::Room => self.results.room.error = Some(text),
                         Lane::Accuracy => self.results.accuracy.error = Some(text),
+                        Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
                         Lane::Year => self.results.year.error = Some(text),
                         Lane::Catalogue => self.state.search_error = Some(text),
                         _ => {}
@@ -367,7 +377,9 @@ impl App {
                 let keys = ControlKeys { curve, curve_file: None, ..keys };
                 self.apply(super::command::Command::ControlKeys(Box::new(keys)));
             }
-            Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) => {
+            Outcome::ReadSystem(Ok((text, base))) => self.open_system(text, base),
+            Outcome::Measured(result) => self.take_measured(result),
+            Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
                 self.toasts.error(error).duration(None);
             }
             Outcome::Added(number, result) => self.take_added(number, result),

@@ -8,5 +8,6 @@ pub mod drawing;
 pub mod hemisphere;
 pub mod palette;
 pub mod polar;
+pub mod polygon;
 pub mod ticks;
 pub mod tile;

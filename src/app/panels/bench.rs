@@ -130,7 +130,7 @@ fn incident(scene: &SceneFile, altitude: f64, bearing: Bearing) -> Dir<Facade> {
 }
 
 /// The sun, if it is up and before the façade.
-fn sun_incident(scene: &SceneFile) -> Option<Incident> {
+pub(super) fn sun_incident(scene: &SceneFile) -> Option<Incident> {
     let (altitude, bearing) = moment::sun(scene)?;
     let direction = incident(scene, altitude, Bearing::from_degrees(bearing));
     (altitude > 0.0 && direction.vector().z > 0.0).then_some(Incident(direction))

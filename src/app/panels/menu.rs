@@ -48,6 +48,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             }
             entry(ui, Command::Maximise(None), commands);
             ui.separator();
+            entry(ui, Command::Sheet(Some(Sheet::Goniophotometer)), commands);
             entry(ui, Command::Sheet(Some(Sheet::Accuracy)), commands);
             ui.separator();
             entry(ui, Command::ToggleCatalogue, commands);

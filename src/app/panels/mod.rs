@@ -2,6 +2,7 @@
 
 pub mod bench;
 mod catalogue;
+mod goniophotometer;
 mod import;
 mod menu;
 mod palette;
@@ -11,6 +12,7 @@ mod status;
 
 use super::App;
 use super::command::Command;
+use super::state::Sheet;
 use super::theme;
 
 /// Draws the whole window.
@@ -27,15 +29,18 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .size_range(240.0..=380.0)
             .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut commands));
     }
+    // The goniophotometer needs the bench's room; the scene's sun goes on shining on its drawing.
+    let wide = app.state.sheet == Some(Sheet::Goniophotometer);
+    let room_for_scene = app.state.sheet.is_none() || (wide && ui.available_width() > 900.0);
     // A sheet takes the scene's place: beside both the tiles would be too narrow to read.
-    if app.state.settings.scene_open && app.state.sheet.is_none() {
+    if app.state.settings.scene_open && room_for_scene {
         egui::Panel::right("scene")
             .frame(side)
             .default_size(250.0)
             .size_range(250.0..=340.0)
             .show(ui, |ui| scene::show(ui, &app.state, &mut commands));
     }
-    if let Some(sheet) = app.state.sheet {
+    if let Some(sheet) = app.state.sheet.filter(|_| !wide) {
         egui::Panel::right("sheet")
             .frame(side)
             .default_size(330.0)
@@ -43,7 +48,12 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .show(ui, |ui| sheets::show(ui, app, sheet, &mut commands));
     }
     let ground = egui::Frame::new().fill(theme::palette(ui).ground).inner_margin(theme::TILE_GAP);
-    egui::CentralPanel::default().frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
+    let centre = egui::CentralPanel::default();
+    if wide {
+        centre.frame(side).show(ui, |ui| sheets::show(ui, app, Sheet::Goniophotometer, &mut commands));
+    } else {
+        centre.frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
+    }
     palette::show(ui, &app.state, &mut commands);
     commands
 }

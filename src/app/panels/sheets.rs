@@ -16,10 +16,12 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Findings => "Findings of the dataset",
         Sheet::Keys => "Keys",
         Sheet::Accuracy => "Accuracy",
+        Sheet::Goniophotometer => "Goniophotometer",
         Sheet::Path(PathUse::Open) => "Open",
         Sheet::Path(PathUse::SaveScene) => "Save the scene",
         Sheet::Path(PathUse::ExportLid) => "Export the LID",
         Sheet::Path(PathUse::ExportTile(_)) => "Export a tile",
+        Sheet::Path(PathUse::ExportMeasured) => "Export the computed data",
     };
     ui.horizontal(|ui| {
         ui.heading(title);
@@ -43,6 +45,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         },
         Sheet::Keys => keys(ui),
         Sheet::Accuracy => ladder(ui, app, commands),
+        Sheet::Goniophotometer => super::goniophotometer::show(ui, app, commands),
         Sheet::Path(what) => path(ui, &app.state, what, commands),
     });
 }
@@ -81,11 +84,12 @@ fn keys(ui: &mut Ui) {
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
         PathUse::Open => (
-            "Dataset (.xml, .btdf.txt), scene (.toml) or control curve (.csv); or drop the file on the window.",
+            "Dataset (.xml, .btdf.txt), system (.system.toml), scene (.toml) or control curve (.csv); or drop the file on the window.",
             "Open",
         ),
         PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
         PathUse::ExportLid => ("Luminaire file: .ldt (EULUMDAT) or .ies (LM-63); the ending decides.", "Export"),
+        PathUse::ExportMeasured => ("All states in a package (.cfsp), or a file a state (.xml, .btdf.txt).", "Export"),
         PathUse::ExportTile(_) => ("Numbers (.csv) or a picture (.png); the ending decides.", "Export"),
     };
     ui.add(egui::Label::new(hint).wrap());

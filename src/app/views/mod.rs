@@ -7,6 +7,7 @@ pub mod btdf;
 pub mod control;
 pub mod lid;
 pub mod room;
+pub mod section;
 pub mod sky;
 pub mod transmittance;
 

@@ -13,6 +13,7 @@
 
 pub mod beams;
 mod cells;
+pub mod outline;
 pub mod panels;
 pub mod panes;
 mod perforated;

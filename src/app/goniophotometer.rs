@@ -1,0 +1,342 @@
+//! The sheet of the numerical goniophotometer: the system file as typed, what is asked, the states that are finished.
+//!
+//! Every state is a job of its own, so that finished ones show at once and stay when the run is stopped.
+
+use super::App;
+use super::examples::EXAMPLES;
+use super::jobs::{JobState, Lane};
+use super::shelf::Addition;
+use super::state::Sheet;
+use super::work::{Outcome, write_whole};
+use crate::catalogue::{Catalogue, NewProduct};
+use crate::compute::basis::{AzimuthMap, RingBasis};
+use crate::compute::btdf::Dataset;
+use crate::compute::goniophotometer::Quality;
+use crate::compute::system::description::SystemKind;
+use crate::formats::{Format, write_dataset};
+use crate::study::Library;
+use crate::study::compact::stored_by_default;
+use crate::study::goniophotometer::{Base, Described, Request};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Seed of what is drawn at random.
+const SEED: u64 = 1;
+/// States on more emergent cells than this are held in compact form: a family at 1° would fill the memory.
+const MOST_WHOLE_CELLS: usize = 1000;
+
+/// Incident cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Incidence {
+    /// LBNL/Klems Full.
+    Klems,
+    /// Tregenza's lattice on the façade.
+    Tregenza,
+}
+
+/// Emergent cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Emergence {
+    /// LBNL/Klems Full.
+    Klems,
+    /// Even cells of this width. \[°\]
+    Even(u8),
+}
+
+impl Incidence {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Klems, Self::Tregenza];
+
+    /// As listed.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Klems => "Klems 145",
+            Self::Tregenza => "Tregenza 145",
+        }
+    }
+}
+
+impl Emergence {
+    /// What is listed.
+    pub const ALL: [Self; 4] = [Self::Klems, Self::Even(5), Self::Even(2), Self::Even(1)];
+
+    /// As listed.
+    pub fn word(self) -> String {
+        match self {
+            Self::Klems => "Klems 145".to_owned(),
+            Self::Even(degrees) => format!("{degrees}° cells"),
+        }
+    }
+}
+
+/// On which cells, and how exactly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setup {
+    /// Incident cells.
+    pub incidence: Incidence,
+    /// Emergent cells.
+    pub emergence: Emergence,
+    /// Absolute error allowed in τ and ρ of any incidence.
+    pub error: f64,
+}
+
+impl Default for Setup {
+    fn default() -> Self {
+        Self { incidence: Incidence::Klems, emergence: Emergence::Klems, error: 0.01 }
+    }
+}
+
+impl Setup {
+    /// For the study.
+    pub fn request(&self) -> Request {
+        let klems = || RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        Request {
+            incident: match self.incidence {
+                Incidence::Klems => klems(),
+                Incidence::Tregenza => RingBasis::tregenza(),
+            },
+            emergent: match self.emergence {
+                Emergence::Klems => klems(),
+                Emergence::Even(degrees) => RingBasis::even(f64::from(degrees).to_radians()),
+            },
+            error: self.error,
+            seed: SEED,
+        }
+    }
+}
+
+/// A finished state.
+#[derive(Debug, Clone)]
+pub struct Finished {
+    /// The four functions.
+    pub dataset: Arc<Dataset>,
+    /// Transmittance at normal incidence.
+    pub tau_normal: f64,
+    /// Balance, reciprocity, error.
+    pub quality: Option<Quality>,
+    /// Time it took. \[s\]
+    pub seconds: f64,
+}
+
+/// A run of all states of one text.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// What is measured.
+    pub described: Arc<Described>,
+    /// On which cells.
+    pub setup: Setup,
+    /// Keys of the states; `None` until the first job has found them.
+    pub states: Option<Vec<String>>,
+    /// Finished ones, in order.
+    pub finished: Vec<Finished>,
+}
+
+impl Run {
+    /// Are all states finished?
+    pub fn complete(&self) -> bool {
+        self.states.as_ref().is_some_and(|states| states.len() == self.finished.len())
+    }
+}
+
+/// What the sheet holds. Not under undo: nothing of it is in the catalogue before it is added.
+#[derive(Debug, Clone, Default)]
+pub struct Bench {
+    /// The system file as typed.
+    pub text: String,
+    /// What the text names other files relative to.
+    pub base: PathBuf,
+    /// The text as read, or what is wrong with it; `None` while there is none.
+    pub described: Option<Result<Arc<Described>, String>>,
+    /// Counts the texts.
+    pub revision: u64,
+    /// Number of the state that is drawn.
+    pub drawn: usize,
+    /// On which cells.
+    pub setup: Setup,
+    /// The last run.
+    pub run: Option<Run>,
+    /// Why the last run ended early.
+    pub failure: Option<String>,
+}
+
+impl Bench {
+    /// Takes a new text.
+    pub fn set_text(&mut self, text: String) {
+        self.revision += 1;
+        self.described = (!text.trim().is_empty()).then(|| check(&text, self.base.clone()).map(Arc::new));
+        self.text = text;
+        self.drawn = self.drawn.min(self.states().len().saturating_sub(1));
+    }
+
+    /// The text as read, if it is right.
+    pub fn valid(&self) -> Option<&Arc<Described>> {
+        self.described.as_ref()?.as_ref().ok()
+    }
+
+    /// Keys of the states that can be drawn.
+    pub fn states(&self) -> Vec<String> {
+        self.valid().map(|described| described.file.system.states()).unwrap_or_default()
+    }
+
+    /// Does the last run belong to what is asked now?
+    pub fn is_current(&self, run: &Run) -> bool {
+        run.setup == self.setup && self.valid().is_some_and(|described| *described == run.described)
+    }
+}
+
+/// Reads a text and tries its geometry, which only building the system shows to be possible.
+fn check(text: &str, base: PathBuf) -> Result<Described, String> {
+    let described = Described::from_text(text, Base::Folder(base)).map_err(|error| error.to_string())?;
+    let system = &described.file.system;
+    if !matches!(system.kind, SystemKind::Stack(_)) {
+        let nothing_else = Library::default();
+        for state in system.states() {
+            described.specimen(&state, &nothing_else).map_err(|error| error.to_string())?;
+        }
+    }
+    Ok(described)
+}
+
+/// Measures the state after those that are finished.
+fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<String>, Finished), String> {
+    let told = |error: crate::study::StudyError| error.to_string();
+    let states = match &run.states {
+        Some(states) => states.clone(),
+        None => run.described.states(library).map_err(told)?,
+    };
+    let state = states.get(run.finished.len()).ok_or("the system has no states: give it at least one angle")?;
+    let request = run.setup.request();
+    let computed = run.described.measure(state, &request, library, None, job).map_err(told)?;
+    let tau_normal = computed.dataset.transmission().map_or(0.0, crate::compute::btdf::Btdf::tau_normal);
+    let dataset =
+        if request.emergent.len() > MOST_WHOLE_CELLS { stored_by_default(&computed.dataset) } else { computed.dataset };
+    let finished =
+        Finished { dataset: Arc::new(dataset), tau_normal, quality: computed.quality, seconds: computed.seconds };
+    Ok((states, finished))
+}
+
+fn product(run: &Run) -> NewProduct {
+    // Names hang on the states alone.
+    let named = |finished: &Finished| Dataset { state: finished.dataset.state.clone(), ..Dataset::default() };
+    let names: Vec<Dataset> = run.finished.iter().map(named).collect();
+    run.described.product(&run.setup.request(), &names)
+}
+
+/// Writes all states: one package (.cfsp), or a file a state (.xml, .btdf.txt), named by the states if there are several.
+pub(super) fn export(run: &Run, path: &Path) -> Result<PathBuf, String> {
+    let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cfsp")) {
+        let datasets: Vec<Dataset> = run.finished.iter().map(|one| (*one.dataset).clone()).collect();
+        let mut catalogue = Catalogue::empty_in_memory().map_err(|error| told(&error))?;
+        let imported = catalogue.import(&datasets, product(run)).map_err(|error| told(&error))?;
+        let bytes = catalogue.export_package(&[imported.key]).map_err(|error| told(&error))?;
+        return write_whole(path, &bytes);
+    }
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let format = Format::from_name(&name)
+        .ok_or_else(|| told(&"an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt"))?;
+    let stem = Format::stem(&name);
+    for one in &run.finished {
+        let path = match run.finished.len() {
+            1 => path.to_owned(),
+            _ => path.with_file_name(format!("{stem}_{}{}", one.dataset.state, &name[stem.len()..])),
+        };
+        let written = write_dataset(format, std::slice::from_ref(&*one.dataset)).map_err(|error| told(&error))?;
+        write_whole(&path, &written.bytes)?;
+    }
+    Ok(path.to_owned())
+}
+
+impl App {
+    /// Fills the sheet with a text and opens it.
+    pub(super) fn open_system(&mut self, text: String, base: PathBuf) {
+        self.state.sheet = Some(Sheet::Goniophotometer);
+        let bench = &mut self.state.goniophotometer;
+        bench.base = base;
+        bench.drawn = 0;
+        bench.failure = None;
+        bench.set_text(text);
+    }
+
+    /// Fills the sheet with an example.
+    pub(super) fn open_example(&mut self, number: usize) {
+        if let Some(example) = EXAMPLES.get(number) {
+            self.open_system(example.text.to_owned(), PathBuf::new());
+        }
+    }
+
+    /// Measures what is described; a run that was stopped goes on.
+    pub(super) fn measure_system(&mut self) {
+        self.state.sheet = Some(Sheet::Goniophotometer);
+        if self.jobs.busy(Lane::Goniophotometer) {
+            return;
+        }
+        let bench = &mut self.state.goniophotometer;
+        let Some(described) = bench.valid().cloned() else {
+            self.toasts.info("Describe a system first: an example, a file, or a text");
+            return;
+        };
+        bench.failure = None;
+        let goes_on = bench.run.take().filter(|run| bench.is_current(run) && !run.complete());
+        let run = goes_on.unwrap_or(Run { described, setup: bench.setup, states: None, finished: Vec::new() });
+        bench.run = Some(run);
+        self.measure_next_state();
+    }
+
+    fn measure_next_state(&mut self) {
+        let Some(run) = self.state.goniophotometer.run.clone() else { return };
+        let library = self.library.clone();
+        self.start(Lane::Goniophotometer, move |job| Outcome::Measured(next_state(&run, &library, job).map(Box::new)));
+    }
+
+    /// Takes in a finished state and goes on to the next.
+    pub(super) fn take_measured(&mut self, result: Result<Box<(Vec<String>, Finished)>, String>) {
+        let bench = &mut self.state.goniophotometer;
+        match (result, &mut bench.run) {
+            (Ok(measured), Some(run)) => {
+                run.states = Some(measured.0);
+                run.finished.push(measured.1);
+                if !run.complete() {
+                    self.measure_next_state();
+                }
+            }
+            (Ok(_), None) => {}
+            (Err(error), _) => bench.failure = Some(error),
+        }
+    }
+
+    /// Stores all states as a product; undo takes it out again.
+    pub(super) fn add_measured(&mut self) {
+        let Some(run) = self.state.goniophotometer.run.as_ref().filter(|run| run.complete()) else {
+            self.toasts.info("Compute the system first");
+            return;
+        };
+        let datasets = run.finished.iter().map(|one| one.dataset.clone()).collect();
+        let addition = Addition { datasets, product: product(run) };
+        self.add_to_catalogue(addition);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_key_is_told_at_once() {
+        let mut bench = Bench::default();
+        bench.set_text(EXAMPLES[0].text.to_owned());
+        assert_eq!(bench.states().len(), 8);
+        bench.drawn = 7;
+        bench.set_text(EXAMPLES[0].text.replace("step = 15", "step = 35"));
+        assert_eq!((bench.states().len(), bench.drawn), (4, 3));
+        bench.set_text(EXAMPLES[0].text.replace("reflectance = 0.50", "reflectance = 5"));
+        let error = bench.described.clone().unwrap().unwrap_err();
+        assert!(error.contains("venetian.lower.reflectance: 5; expected 0 to 1"), "{error}");
+        // Keys that are right one by one, and a slat that cannot be.
+        bench.set_text(EXAMPLES[0].text.replace("spacing = 0.072", "spacing = 900"));
+        let error = bench.described.clone().unwrap().unwrap_err();
+        assert!(error.contains("spacing"), "{error}");
+        bench.set_text("  \n".to_owned());
+        assert!(bench.described.is_none() && bench.states().is_empty());
+    }
+}

@@ -1,0 +1,237 @@
+//! The goniophotometer's sheet: what is described as text and drawing, what is asked, what came out.
+
+use super::bench::sun_incident;
+use crate::app::App;
+use crate::app::command::{Command, SYSTEM_EDITOR};
+use crate::app::examples::EXAMPLES;
+use crate::app::goniophotometer::{Bench, Emergence, Incidence, Run};
+use crate::app::jobs::Lane;
+use crate::app::theme;
+use crate::app::views::section;
+use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
+
+/// Least height of editor and drawing. \[points\]
+const LEAST_HEIGHT: f32 = 220.0;
+/// What stands above and below them. \[points\]
+const REST: f32 = 250.0;
+
+/// Draws it.
+pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+    examples(ui, commands);
+    let height = (ui.ctx().content_rect().height() - REST - 150.0).max(LEAST_HEIGHT);
+    ui.columns(2, |columns| {
+        editor(&mut columns[0], &app.state.goniophotometer, height, commands);
+        drawing(&mut columns[1], app, height, commands);
+    });
+    ui.separator();
+    let running = app.jobs.views().iter().find(|job| job.lane == Lane::Goniophotometer).map(|job| job.state.clone());
+    let fraction = running.map(|state| state.fraction().unwrap_or(0.0));
+    let bench = &app.state.goniophotometer;
+    setup(ui, bench, fraction.is_some(), commands);
+    measure(ui, bench, fraction, commands);
+    if let Some(error) = &bench.failure {
+        ui.add(Label::new(egui::RichText::new(error).color(theme::palette(ui).error)).wrap());
+    }
+    match &bench.run {
+        Some(run) => results(ui, bench, run, commands),
+        None => {
+            ui.weak(
+                "Compute gives transmission and reflection from both sides, with balance, reciprocity and error; then \
+                 it can be added to the catalogue.",
+            );
+        }
+    }
+}
+
+fn examples(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        let open = ui.button("Open…").on_hover_text("Read a .system.toml (Ctrl+O), or drop it on the window");
+        if open.clicked() {
+            commands.push(Command::Open);
+        }
+        ui.weak("or start from");
+        for (number, example) in EXAMPLES.iter().enumerate() {
+            if ui.button(example.name).clicked() {
+                commands.push(Command::SystemExample(number));
+            }
+        }
+    });
+}
+
+fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) {
+    let name = ui.label("Geometry and material");
+    let mut text = bench.text.clone();
+    ScrollArea::both().id_salt("editor").max_height(height).min_scrolled_height(height).show(ui, |ui| {
+        let rows = (height / ui.text_style_height(&TextStyle::Monospace)) as usize;
+        let field = TextEdit::multiline(&mut text)
+            .id(Id::unique(SYSTEM_EDITOR))
+            .font(TextStyle::Monospace)
+            .hint_text("name = \"…\"\nkind = \"venetian\"\n…")
+            .desired_rows(rows.saturating_sub(1).max(4))
+            .desired_width(f32::INFINITY);
+        ui.add(field).labelled_by(name.id);
+    });
+    if text != bench.text {
+        commands.push(Command::EditSystem(text));
+    }
+    let palette = theme::palette(ui);
+    match &bench.described {
+        Some(Err(error)) => {
+            ui.add(Label::new(egui::RichText::new(error).color(palette.error)).wrap());
+        }
+        Some(Ok(described)) => {
+            let system = &described.file.system;
+            let states = match system.states().len() {
+                1 => String::new(),
+                many => format!(", {many} states"),
+            };
+            ui.colored_label(palette.good, format!("{} ({}){states}", system.name, system.kind.word()));
+        }
+        None => {
+            ui.weak("Lengths in metres, angles in degrees.");
+        }
+    }
+}
+
+fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>) {
+    let bench = &app.state.goniophotometer;
+    let system = bench.valid().map(|described| &described.file.system);
+    let states = bench.states();
+    let label = ui.label(if system.is_some_and(|system| system.upright) { "Section from above" } else { "Section" });
+    let sun = sun_incident(&app.state.document.scene).map(|sun| sun.0.vector());
+    let input = section::Input {
+        system,
+        revision: bench.revision,
+        state: bench.drawn,
+        sun: sun.map(|v| if system.is_some_and(|system| system.upright) { v.x } else { v.y }.atan2(v.z)),
+    };
+    let size = vec2(ui.available_width(), height);
+    section::show(ui, &input, size, &mut app.section_view);
+    if let Some(state) = states.get(bench.drawn).filter(|_| states.len() > 1) {
+        ui.horizontal(|ui| {
+            let mut drawn = bench.drawn;
+            if ui.add_enabled(drawn > 0, Button::new("◀")).on_hover_text("Previous state").clicked() {
+                drawn -= 1;
+            }
+            let slider = Slider::new(&mut drawn, 0..=states.len() - 1).show_value(false);
+            ui.add(slider).labelled_by(label.id);
+            if ui.add_enabled(drawn + 1 < states.len(), Button::new("▶")).on_hover_text("Next state").clicked() {
+                drawn += 1;
+            }
+            ui.label(format!("{state}°"));
+            if drawn != bench.drawn {
+                commands.push(Command::DrawState(drawn));
+            }
+        });
+    }
+}
+
+fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>) {
+    let mut setup = bench.setup;
+    ui.horizontal_wrapped(|ui| {
+        ui.add_enabled_ui(!running, |ui| {
+            let label = ui.label("Incident");
+            let combo = ComboBox::from_id_salt("incident cells").selected_text(setup.incidence.word());
+            let combo = combo.show_ui(ui, |ui| {
+                for one in Incidence::ALL {
+                    ui.selectable_value(&mut setup.incidence, one, one.word());
+                }
+            });
+            combo.response.labelled_by(label.id);
+        });
+        ui.add_enabled_ui(!running, |ui| {
+            let label = ui.label("Emergent");
+            let combo = ComboBox::from_id_salt("emergent cells").selected_text(setup.emergence.word());
+            let combo = combo.show_ui(ui, |ui| {
+                for one in Emergence::ALL {
+                    ui.selectable_value(&mut setup.emergence, one, one.word());
+                }
+            });
+            combo.response.labelled_by(label.id);
+        });
+        ui.add_enabled_ui(!running, |ui| {
+            let label = ui.label("Error of τ, ρ at most");
+            let field = DragValue::new(&mut setup.error).range(1e-5..=0.1).speed(1e-4).max_decimals(5);
+            ui.add(field).labelled_by(label.id).on_hover_text("Absolute, of every incidence; the effort follows it");
+        });
+    });
+    if setup != bench.setup {
+        commands.push(Command::SystemSetup(setup));
+    }
+}
+
+fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        if let Some(fraction) = running {
+            if ui.button("Stop").on_hover_text("Finished states are kept; Compute goes on after them").clicked() {
+                commands.push(Command::Cancel(Lane::Goniophotometer));
+            }
+            let finished = bench.run.as_ref().map_or(0, |run| run.finished.len());
+            let states = bench.run.as_ref().and_then(|run| run.states.as_ref()).map_or(0, Vec::len);
+            let text = if states > 1 { format!("state {} of {states}", finished + 1) } else { String::new() };
+            let share = if states > 0 { (finished as f32 + fraction) / states as f32 } else { fraction };
+            ui.add(ProgressBar::new(share).desired_width(200.0).show_percentage());
+            ui.label(text);
+            return;
+        }
+        let compute = Command::MeasureSystem;
+        let keys = compute.info().shortcut.map(|keys| ui.ctx().format_shortcut(&keys)).unwrap_or_default();
+        let button = ui.add_enabled(bench.valid().is_some(), Button::new("Compute").shortcut_text(keys));
+        let button = button.on_disabled_hover_text("Describe a system first");
+        if button.on_hover_text("All states, both sides, transmission and reflection").clicked() {
+            commands.push(compute);
+        }
+        if let Some(run) = bench.run.as_ref().filter(|run| bench.is_current(run) && !run.complete()) {
+            ui.weak(format!("stopped after {} states; goes on after them", run.finished.len()));
+        }
+    });
+}
+
+fn results(ui: &mut Ui, bench: &Bench, run: &Run, commands: &mut Vec<Command>) {
+    if run.finished.is_empty() {
+        return;
+    }
+    if !bench.is_current(run) {
+        let name = &run.described.file.system.name;
+        ui.weak(format!("\"{name}\" as it was computed; the text or the cells have changed since."));
+    }
+    ui.horizontal(|ui| {
+        let add = ui.add_enabled(run.complete(), Button::new("Add to catalogue"));
+        let add = add.on_disabled_hover_text("When all states are finished");
+        if add.on_hover_text("All states as one product; Ctrl+Z takes it out again").clicked() {
+            commands.push(Command::AddMeasured);
+        }
+        let export = ui.add_enabled(run.complete(), Button::new("Export…"));
+        if export.on_hover_text(Command::ExportMeasured.info().tip).clicked() {
+            commands.push(Command::ExportMeasured);
+        }
+    });
+    egui::Grid::new("measured").num_columns(6).striped(true).show(ui, |ui| {
+        for (head, tip) in [
+            ("State", "Key of the state"),
+            ("τ normal", "Transmittance at normal incidence, all light that passes"),
+            ("τ+ρ+α−1", "Energy balance, at the worst incidence"),
+            ("Reciprocity", "Flux that reciprocity would place elsewhere, a share of all"),
+            ("Error", "Estimated error of τ and ρ, at the worst incidence"),
+            ("Time", "Wall-clock time"),
+        ] {
+            ui.strong(head).on_hover_text(tip);
+        }
+        ui.end_row();
+        for one in &run.finished {
+            let state = &one.dataset.state;
+            ui.label(if state.is_empty() { "–" } else { state });
+            ui.label(format!("{:.4}", one.tau_normal));
+            match one.quality {
+                Some(quality) => {
+                    ui.label(format!("{:.1e}", quality.balance));
+                    ui.label(quality.reciprocity.map_or_else(|| "–".to_owned(), |e| format!("{:.3} %", 100.0 * e)));
+                    ui.label(format!("{:.1e}", quality.error));
+                }
+                None => (0..3).for_each(|_| drop(ui.label("–"))),
+            }
+            ui.label(format!("{:.2} s", one.seconds));
+            ui.end_row();
+        }
+    });
+}

@@ -1,0 +1,178 @@
+//! A described system in section: three periods, outside left and inside right, with a scale and the sun's ray.
+
+use super::Cache;
+use crate::app::paint::polygon::fill;
+use crate::app::theme;
+use crate::compute::goniophotometer::outline::{drawing_period, is_schematic, section_drawing};
+use crate::compute::system::description::{SystemDescription, SystemKind};
+use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+
+/// Periods drawn.
+const PERIODS: usize = 3;
+/// Free room at either side, for the words and the ray. \[points\]
+const SIDE: f32 = 62.0;
+/// Free room above and below. \[points\]
+const EDGE: f32 = 26.0;
+/// Length of the sun's ray. \[points\]
+const RAY: f32 = 52.0;
+
+/// What only this view knows.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    outlines: Cache<(u64, usize), Vec<Vec<[f64; 2]>>>,
+}
+
+/// What is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// The system; `None`: nothing is described.
+    pub system: Option<&'a SystemDescription>,
+    /// Counts the descriptions.
+    pub revision: u64,
+    /// Number of the state.
+    pub state: usize,
+    /// Angle of the sun in the section, > 0 above (to the right, in a section seen from above). \[rad\]
+    pub sun: Option<f64>,
+}
+
+/// The polygons of all periods drawn. \[m\]
+fn stacked(system: &SystemDescription, state: usize) -> Vec<Vec<[f64; 2]>> {
+    let states = system.states();
+    let one = states.get(state).map(|state| section_drawing(system, state)).unwrap_or_default();
+    let Some(period) = drawing_period(system) else { return one };
+    let lifted = |k: usize, polygon: &Vec<[f64; 2]>| {
+        let lift = k as f64 * period;
+        polygon.iter().map(|[z, y]| [*z, y + lift]).collect()
+    };
+    (0..PERIODS).flat_map(|k| one.iter().map(move |polygon| lifted(k, polygon))).collect()
+}
+
+/// The longest of 1, 2, 5, 10 … mm that is at most `most` \[m\], in mm.
+fn scale_bar(most: f64) -> f64 {
+    let millimetres = 1000.0 * most;
+    let decade = 10_f64.powf(millimetres.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|step| step * decade).find(|&length| length <= millimetres).unwrap_or(decade)
+}
+
+/// Words instead of a drawing.
+fn nothing_drawn(system: Option<&SystemDescription>) -> &'static str {
+    match system.map(|system| &system.kind) {
+        None => "Choose an example, open a .system.toml, or type: the section shows here at once.",
+        Some(SystemKind::Stack(_)) => "A stack of layers, from outside to inside; each has a section of its own.",
+        Some(_) => "This state has no section.",
+    }
+}
+
+/// Draws into a rectangle of the given size.
+pub fn show(ui: &mut Ui, input: &Input<'_>, size: Vec2, state: &mut State) {
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let palette = theme::palette(ui);
+    let painter = ui.painter_at(rect);
+    painter.rect(rect, 4.0, palette.ground, Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
+    let outlines = match input.system {
+        Some(system) => &**state.outlines.get((input.revision, input.state), || stacked(system, input.state)),
+        None => &[],
+    };
+    let words = match (input.system, bounds(outlines)) {
+        (Some(system), Some(bounds)) => draw(&painter, rect, palette, (system, outlines, bounds), input.sun),
+        (system, _) => {
+            let words = nothing_drawn(system);
+            let wrapped =
+                painter.layout(words.to_owned(), FontId::proportional(13.5), palette.weak, rect.width() - 24.0);
+            painter.galley(rect.center() - 0.5 * wrapped.size(), wrapped, palette.weak);
+            words.to_owned()
+        }
+    };
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "Section");
+        info.current_text_value = Some(words.clone());
+        info
+    });
+}
+
+/// Least and greatest (outward, upward).
+fn bounds(outlines: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
+    outlines.iter().flatten().fold(None, |bounds: Option<[[f64; 2]; 2]>, point| {
+        let [low, high] = bounds.unwrap_or([*point; 2]);
+        Some([[low[0].min(point[0]), low[1].min(point[1])], [high[0].max(point[0]), high[1].max(point[1])]])
+    })
+}
+
+/// Draws polygons with all that explains them; returns the same in words.
+fn draw(
+    painter: &Painter,
+    rect: Rect,
+    palette: &theme::Palette,
+    (system, outlines, [low, high]): (&SystemDescription, &[Vec<[f64; 2]>], [[f64; 2]; 2]),
+    sun: Option<f64>,
+) -> String {
+    let room = vec2((rect.width() - 2.0 * SIDE).max(20.0), (rect.height() - 2.0 * EDGE).max(20.0));
+    let (depth, height) = ((high[0] - low[0]).max(1e-9), (high[1] - low[1]).max(1e-9));
+    let scale = (f64::from(room.x) / depth).min(f64::from(room.y) / height);
+    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+    // Outside is on the left: outward runs to the left.
+    let place = |[z, y]: [f64; 2]| {
+        let (right, down) = (scale * (middle[0] - z), scale * (middle[1] - y));
+        pos2(rect.center().x + right as f32, rect.center().y + down as f32)
+    };
+    for polygon in outlines {
+        let corners: Vec<Pos2> = polygon.iter().map(|point| place(*point)).collect();
+        painter.add(Shape::mesh(fill(&corners, palette.chosen)));
+        painter.add(Shape::closed_line(corners, Stroke::new(1.5, palette.text)));
+    }
+    let font = FontId::proportional(13.0);
+    let write = |at: Pos2, align: Align2, text: &str| painter.text(at, align, text, font.clone(), palette.weak);
+    write(rect.left_top() + vec2(7.0, 5.0), Align2::LEFT_TOP, "outside");
+    write(rect.right_top() + vec2(-7.0, 5.0), Align2::RIGHT_TOP, "inside");
+    let view = match (system.upright, is_schematic(system)) {
+        (true, true) => "seen from above, schematic",
+        (true, false) => "seen from above",
+        (false, true) => "schematic",
+        (false, false) => "",
+    };
+    write(rect.right_bottom() + vec2(-7.0, -5.0), Align2::RIGHT_BOTTOM, view);
+    let bar = scale_bar(f64::from(rect.width()) * 0.3 / scale);
+    let start = rect.left_bottom() + vec2(8.0, -8.0);
+    let end = start + vec2((1e-3 * bar * scale) as f32, 0.0);
+    let stroke = Stroke::new(1.5, palette.weak);
+    painter.line_segment([start, end], stroke);
+    for tick in [start, end] {
+        painter.line_segment([tick - vec2(0.0, 4.0), tick + vec2(0.0, 4.0)], stroke);
+    }
+    let length = format!("{} mm", (1e6 * bar).round() / 1e6);
+    write(end + vec2(6.0, 0.0), Align2::LEFT_CENTER, &length);
+    let mut words = format!("{} outlines, scale bar {length}", outlines.len());
+    if !view.is_empty() {
+        words.push_str(&format!(", {view}"));
+    }
+    if let Some(angle) = sun {
+        let tip = place([high[0], middle[1]]) - vec2(6.0, 0.0);
+        let back = RAY * vec2(-angle.cos() as f32, -angle.sin() as f32);
+        painter.arrow(tip + back, -back, Stroke::new(2.0, palette.sun));
+        words.push_str(&format!(", sun at {:.0}°", angle.to_degrees()));
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scale_bars_are_round_and_fit() {
+        for (most, bar) in [(0.0123, 10.0), (0.05, 50.0), (0.0499, 20.0), (0.00031, 0.2), (1.7, 1000.0)] {
+            assert!((scale_bar(most) - bar).abs() < 1e-9 * bar, "{most}: {}", scale_bar(most));
+        }
+    }
+
+    #[test]
+    fn three_periods_stand_one_above_the_other() {
+        let text = crate::app::examples::EXAMPLES[0].text;
+        let system = crate::formats::system_toml::read(text.as_bytes()).unwrap().system;
+        let outlines = stacked(&system, 2);
+        assert_eq!(outlines.len(), 3);
+        let lift = outlines[2][0][1] - outlines[0][0][1];
+        assert!((lift - 2.0 * 0.072).abs() < 1e-12);
+        assert!(stacked(&system, 99).is_empty());
+    }
+}

@@ -1,0 +1,228 @@
+//! The window's goniophotometer: from an example or a file to a product of the catalogue, and out again.
+
+use cfs::app::App;
+use cfs::app::command::Command;
+use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::goniophotometer::{Emergence, Incidence, Setup};
+use cfs::app::jobs::Lane;
+use cfs::app::state::{PathUse, Sheet};
+use cfs::catalogue::{Catalogue, Origin};
+use cfs::compute::estimate::{Estimate, Progress};
+use cfs::study::accuracy::Accuracy;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Theme};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Nothing of the room is asked here.
+struct Idle;
+
+impl Engine for Idle {
+    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, String> {
+        let estimate = vec![Estimate::new(500.0, 2.0)];
+        Ok(RoomFigures {
+            positions: vec![[2.0, 3.0, 0.85]],
+            direct: estimate.clone(),
+            interreflected: estimate,
+            grid: Some([1, 1]),
+            seconds: 0.001,
+        })
+    }
+
+    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, String> {
+        Err("no LID in this test".to_owned())
+    }
+
+    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, String> {
+        Err("no ladder in this test".to_owned())
+    }
+
+    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, String> {
+        Err("no luminaire in this test".to_owned())
+    }
+}
+
+fn window(theme: Theme) -> Harness<'static, App> {
+    let app = App::for_test(Arc::new(Idle));
+    let mut harness =
+        Harness::builder().with_size([1280.0, 800.0]).with_theme(theme).with_max_steps(200).build_ui_state(
+            |ui, app: &mut App| {
+                let ctx = ui.ctx().clone();
+                app.logic(&ctx);
+                app.draw(ui);
+            },
+            app,
+        );
+    wait(&mut harness, |app| !app.busy());
+    harness
+}
+
+/// Steps until the window is as wanted, then a few frames more.
+fn wait(harness: &mut Harness<'_, App>, wanted: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    harness.run_steps(2);
+    while !wanted(harness.state()) && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    assert!(wanted(harness.state()));
+    harness.run_steps(3);
+}
+
+fn section(harness: &Harness<'_, App>) -> String {
+    harness.get_by_role_and_label(Role::Image, "Section").value().unwrap()
+}
+
+#[test]
+fn from_an_example_to_the_catalogue_and_out_again() {
+    let mut harness = window(Theme::Dark);
+    harness.key_press(Key::G);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
+    assert!(section(&harness).contains("Choose an example"));
+    let before = harness.state().state.found.total;
+    harness.get_by_label("Panes").click();
+    harness.run_steps(3);
+    assert!(section(&harness).starts_with("2 outlines"), "{}", section(&harness));
+    assert!(section(&harness).contains("sun at"), "the scene's noon sun shines on it");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| run.complete()));
+    let run = harness.state().state.goniophotometer.run.clone().unwrap();
+    // A pane of 0.89 lets 0.89² / (1 − ρ²) through twice, with ρ between Fresnel's 0.08 and what is not let through.
+    let tau = run.finished[0].tau_normal;
+    let between = |rho: f64| 0.89 * 0.89 / (1.0 - rho * rho);
+    assert!(tau > between(0.07) && tau < between(0.11), "{tau}");
+    assert!(harness.query_by_label(&format!("{tau:.4}")).is_some());
+
+    harness.get_by_label("Add to catalogue").click();
+    wait(&mut harness, |app| !app.busy() && app.state.found.total == before + 1);
+    let state = &harness.state().state;
+    assert_eq!(state.sheet, None);
+    let product = state.product.clone().unwrap();
+    assert_eq!(product.key, state.document.selection.product);
+    assert_eq!((product.name.as_str(), product.provenance.origin), ("Double glazing, clear", Origin::Computed));
+    assert!(product.provenance.method.contains("Fresnel"));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    wait(&mut harness, |app| !app.busy() && app.state.found.total == before);
+    // What was computed is still in the sheet.
+    harness.state_mut().apply(Command::Sheet(Some(Sheet::Goniophotometer)));
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Add to catalogue").is_some());
+}
+
+#[test]
+fn the_drawing_follows_the_text_and_its_states() {
+    let mut harness = window(Theme::Light);
+    harness.state_mut().apply(Command::SystemExample(0));
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("(venetian), 8 states").is_some());
+    assert!(section(&harness).starts_with("3 outlines"));
+    assert!(harness.query_by_label("-30°").is_some());
+    harness.get_by_label("▶").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("-15°").is_some());
+    let wrong = harness.state().state.goniophotometer.text.replace("spacing = 0.072", "spacing = -1");
+    harness.state_mut().apply(Command::EditSystem(wrong));
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("venetian.spacing: -1; expected metres").is_some());
+    assert!(section(&harness).contains("Choose an example"));
+    harness.state_mut().apply(Command::MeasureSystem);
+    assert!(!harness.state().busy());
+    harness.state_mut().apply(Command::SystemExample(1));
+    harness.run_steps(3);
+    assert!(section(&harness).contains("seen from above"));
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state.sheet, None);
+}
+
+#[test]
+fn keys_typed_into_the_text_stay_in_the_text() {
+    let mut harness = window(Theme::Light);
+    harness.state_mut().apply(Command::SystemExample(5));
+    harness.run_steps(3);
+    let editor = harness.get_by_role(Role::MultilineTextInput);
+    editor.focus();
+    harness.run_steps(2);
+    let before = harness.state().state.document.clone();
+    harness.get_by_role(Role::MultilineTextInput).type_text("#g1");
+    harness.run_steps(3);
+    assert!(harness.state().state.goniophotometer.text.contains("#g1"));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state.document, before);
+    assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
+}
+
+#[test]
+fn a_stopped_run_goes_on_after_its_finished_states() {
+    let mut harness = window(Theme::Dark);
+    let text = "name = \"b\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 0.072\nangles = [0, 30]\n\
+                upper = { reflectance = 0.5 }\nlower = { reflectance = 0.5 }\n";
+    harness.state_mut().apply(Command::EditSystem(text.to_owned()));
+    harness.state_mut().apply(Command::MeasureSystem);
+    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| !run.finished.is_empty()));
+    harness.state_mut().apply(Command::Cancel(Lane::Goniophotometer));
+    wait(&mut harness, |app| !app.busy());
+    let first = harness.state().state.goniophotometer.run.clone().unwrap().finished[0].dataset.clone();
+    harness.state_mut().apply(Command::MeasureSystem);
+    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| run.complete()));
+    let run = harness.state().state.goniophotometer.run.clone().unwrap();
+    assert!(Arc::ptr_eq(&run.finished[0].dataset, &first));
+    assert_eq!(run.finished.iter().map(|one| one.dataset.state.as_str()).collect::<Vec<_>>(), ["0", "30"]);
+    // Flat slats at 0° hide nothing at normal incidence; at 30° they overlap by 0.08 sin 30° of 0.072.
+    assert!((run.finished[0].tau_normal - 1.0).abs() < 0.1 && run.finished[1].tau_normal < 0.8);
+    // Other cells: nothing of the old run is taken for the new one.
+    let setup = Setup { incidence: Incidence::Tregenza, emergence: Emergence::Even(5), error: 0.02 };
+    harness.state_mut().apply(Command::SystemSetup(setup));
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("have changed since").is_some());
+}
+
+#[test]
+fn files_open_the_sheet_and_packages_come_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("screen.system.toml");
+    std::fs::write(&file, cfs::app::examples::EXAMPLES[8].text).unwrap();
+    let mut harness = window(Theme::Dark);
+    harness.state_mut().apply(Command::OpenPaths(vec![file]));
+    wait(&mut harness, |app| app.state.sheet == Some(Sheet::Goniophotometer));
+    assert_eq!(harness.state().state.goniophotometer.base, folder.path());
+    assert!(section(&harness).contains("schematic"));
+    harness.get_by_label("Compute").click();
+    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| run.complete()));
+    let package = folder.path().join("screen.cfsp");
+    harness.state_mut().apply(Command::Write(PathUse::ExportMeasured, package.clone()));
+    wait(&mut harness, |app| !app.busy());
+    let mut catalogue = Catalogue::empty_in_memory().unwrap();
+    let imported = catalogue.import_package(&std::fs::read(&package).unwrap()).unwrap();
+    assert_eq!(imported.len(), 1);
+    let product = catalogue.product(&imported[0].key).unwrap();
+    assert_eq!((product.kind.as_str(), product.states.len()), ("woven", 1));
+    let xml = folder.path().join("screen.xml");
+    harness.state_mut().apply(Command::Write(PathUse::ExportMeasured, xml.clone()));
+    wait(&mut harness, |app| !app.busy());
+    let read = cfs::formats::read_dataset("screen.xml", &std::fs::read(&xml).unwrap()).unwrap();
+    let (ours, theirs) = (harness.state().state.goniophotometer.run.clone().unwrap(), &read[0]);
+    let tau = theirs.transmission().unwrap().tau_normal();
+    assert!((tau - ours.finished[0].tau_normal).abs() < 1e-3, "{tau}");
+    assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
+}
+
+/// Written where asked for, to be looked at; nothing to compare.
+#[test]
+fn both_themes_draw_every_example() {
+    for theme in [Theme::Light, Theme::Dark] {
+        let mut harness = window(theme);
+        for number in 0..cfs::app::examples::EXAMPLES.len() {
+            harness.state_mut().apply(Command::SystemExample(number));
+            harness.run_steps(3);
+            let rect = harness.get_by_role_and_label(Role::Image, "Section").rect();
+            assert!(rect.width() > 250.0 && rect.height() > 200.0 && rect.right() < 1280.0, "{rect:?}");
+            assert!(!section(&harness).contains("no section"), "{number}");
+        }
+    }
+}
