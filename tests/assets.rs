@@ -123,7 +123,9 @@ fn states(list: &BTreeMap<String, SystemFile>, key: &str) -> Vec<String> {
 fn key_of(source: &LayerSource) -> String {
     match source {
         LayerSource::File(name) => name.strip_suffix(".system.toml").expect("a system file").to_owned(),
-        LayerSource::Catalogue(key) => panic!("layer {key} by its key: the catalogue is not there yet when it is filled"),
+        LayerSource::Catalogue(key) => {
+            panic!("layer {key} by its key: the catalogue is not there yet when it is filled")
+        }
     }
 }
 
@@ -196,7 +198,11 @@ fn layers_are_there_with_their_states() {
             let of = key_of(&layer.source);
             assert!(list.contains_key(&of), "{key}: no layer {of}");
             let has = states(&list, &of);
-            assert!(layer.state == EACH_STATE || has.contains(&layer.state), "{key}: {of} has no state {}", layer.state);
+            assert!(
+                layer.state == EACH_STATE || has.contains(&layer.state),
+                "{key}: {of} has no state {}",
+                layer.state
+            );
         }
     }
 }
