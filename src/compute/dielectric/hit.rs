@@ -5,13 +5,16 @@
 //! changes only at their ends.
 
 use super::beam::{Axes, Front};
-use super::section::{Plane, Region};
+use super::section::{Edge, Plane, Region};
 use glam::DVec2;
 
 /// Places closer than this are the same. \[periods\]
 const SLACK: f64 = 1e-10;
 /// Periods that grazing light is followed along before it is given up.
 const MOST_PERIODS: i64 = 20_000;
+
+/// Ranges of more copies are not gone through one by one.
+const MANY_COPIES: i64 = 12;
 
 /// What was met.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +32,11 @@ pub(super) struct Hit {
 }
 
 impl Hit {
+    /// On a copy of an edge that ends at these places across the beam; distance at its start, and slope.
+    fn new(edge: &Edge, [ca, cb]: [f64; 2], ta: f64, slope: f64, copy: i64) -> Self {
+        Self { line: [ta - ca * slope, slope], end: cb, normal: DVec2::from(edge.normal), beyond: edge.beyond, copy }
+    }
+
     /// Distance along the beam at c.
     pub fn at(&self, c: f64) -> f64 {
         self.line[0] + self.line[1] * c
@@ -89,6 +97,17 @@ pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Op
             (range.1, range.0.max(range.1 - MOST_PERIODS))
         }
     };
+    if (last - first).abs() > MANY_COPIES {
+        let range = [first.min(last), first.max(last)];
+        for edge in &region.edges {
+            if let Some((t, hit)) = first_copy(edge, axes, c, start, range)
+                && best.is_none_or(|(nearest, _)| t < nearest)
+            {
+                best = Some((t, hit));
+            }
+        }
+        return best.map(|(_, hit)| hit);
+    }
     let mut copy = first;
     while if rises { copy <= last } else { copy >= last } {
         if let Some((t, _)) = best {
@@ -111,21 +130,56 @@ pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Op
             let slope = (tb - ta) / (cb - ca);
             let t = ta + (c - ca) * slope;
             if t > start && best.is_none_or(|(nearest, _)| t < nearest) {
-                best = Some((
-                    t,
-                    Hit {
-                        line: [ta - ca * slope, slope],
-                        end: cb,
-                        normal: DVec2::from(edge.normal),
-                        beyond: edge.beyond,
-                        copy,
-                    },
-                ));
+                best = Some((t, Hit::new(edge, [ca, cb], ta, slope, copy)));
             }
         }
         copy += if rises { 1 } else { -1 };
     }
     best.map(|(_, hit)| hit)
+}
+
+/// The first copy of an edge, of those in a range, that the ray at c meets behind `start`: the copies in its way follow
+/// one another evenly, so that they need not be tried one by one.
+fn first_copy(edge: &Edge, axes: &Axes, c: f64, start: f64, range: [i64; 2]) -> Option<(f64, Hit)> {
+    let across = |p: [f64; 2]| p[0] * axes.across.x + p[1] * axes.across.y;
+    let along = |p: [f64; 2]| p[0] * axes.along.x + p[1] * axes.along.y;
+    let (ca, cb) = (across(edge.a), across(edge.b));
+    if cb <= ca {
+        return None;
+    }
+    let (ta, tb) = (along(edge.a), along(edge.b));
+    let slope = (tb - ta) / (cb - ca);
+    // Distance of copy k: t + k·later.
+    let (t, later) = (ta + (c - ca) * slope, axes.along.y - axes.across.y * slope);
+    let [mut low, mut high] = sideways(range, axes, [c - cb, c - ca]);
+    if later > 0.0 {
+        low = low.max(((start - t) / later).floor());
+    } else if later < 0.0 {
+        high = high.min(((start - t) / later).ceil());
+    }
+    if low > high {
+        return None;
+    }
+    let (low, high) = (low as i64, high as i64);
+    // Rounding may take the first one or two out again.
+    (0..(high - low + 1).min(4)).find_map(|k| {
+        let copy = if later < 0.0 { high - k } else { low + k };
+        let (dc, dt) = (copy as f64 * axes.across.y, copy as f64 * axes.along.y);
+        let t = ta + dt + (c - ca - dc) * slope;
+        let met = ca + dc <= c && c < cb + dc && t > start;
+        met.then(|| (t, Hit::new(edge, [ca + dc, cb + dc], ta + dt, slope, copy)))
+    })
+}
+
+/// Those copies of a range that lie across the beam within the given distances of copy 0, one more at either end.
+fn sideways(range: [i64; 2], axes: &Axes, distances: [f64; 2]) -> [f64; 2] {
+    let [first, last] = range.map(|copy| copy as f64);
+    let step = axes.across.y;
+    if step.abs() < 1e-14 {
+        return [first, last];
+    }
+    let [a, b] = distances.map(|distance| distance / step);
+    [first.max(a.min(b).floor()), last.min(a.max(b).ceil())]
 }
 
 /// The hit on a flat face, if light of this direction sees it.
@@ -164,16 +218,18 @@ pub(super) fn extent(region: &Region, axes: &Axes, front: &Front, c: f64, hit: O
         }
         copies(region, range[0] - SLACK, range[1] + SLACK)
     };
-    for copy in first..=last {
-        let lift = copy as f64;
-        let (dc, dt) = (lift * axes.across.y, lift * axes.along.y);
-        for edge in &region.edges {
-            let ca = edge.a[0] * axes.across.x + edge.a[1] * axes.across.y + dc;
+    for edge in &region.edges {
+        let ca0 = edge.a[0] * axes.across.x + edge.a[1] * axes.across.y;
+        let cb0 = edge.b[0] * axes.across.x + edge.b[1] * axes.across.y;
+        if cb0 <= ca0 {
+            continue;
+        }
+        let [low, high] = if region.confined { [0.0; 2] } else { sideways([first, last], axes, [c - ca0, end - ca0]) };
+        for copy in low as i64..=high as i64 {
+            let lift = copy as f64;
+            let (dc, dt) = (lift * axes.across.y, lift * axes.along.y);
+            let (ca, cb) = (ca0 + dc, cb0 + dc);
             if !(ca > c + SLACK && ca < end) {
-                continue;
-            }
-            let cb = edge.b[0] * axes.across.x + edge.b[1] * axes.across.y + dc;
-            if cb <= ca {
                 continue;
             }
             let ta = edge.a[0] * axes.along.x + edge.a[1] * axes.along.y + dt;

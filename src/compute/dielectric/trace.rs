@@ -39,6 +39,8 @@ pub struct Emission {
     /// Share that was given up: light still caught between total reflections after very many surfaces, which the
     /// least absorption would take; slips of rounding at corners. An error of all shares.
     pub lost: f64,
+    /// Room for the beams still to be followed; empty between traces.
+    waiting: Vec<Beam>,
 }
 
 impl Emission {
@@ -72,12 +74,15 @@ impl Section {
     /// emptied before.
     pub fn trace(&self, direction: DVec3, effort: Effort, out: &mut Emission) {
         out.clear();
-        let mut work = Work { section: self, effort, random: Random(effort.seed), stack: Vec::with_capacity(64), out };
+        let stack = std::mem::take(&mut out.waiting);
+        let mut work = Work { section: self, effort, random: Random(effort.seed), stack, out };
         let beam = self.incident(direction);
         work.meet_pane(beam, usize::from(direction.z > 0.0), true);
         while let Some(beam) = work.stack.pop() {
             work.follow(beam);
         }
+        let stack = std::mem::take(&mut work.stack);
+        out.waiting = stack;
     }
 
     /// Light before the section, one period high.
@@ -87,6 +92,26 @@ impl Section {
         let front = Front::new(&axes, [DVec2::new(z, 0.0), DVec2::new(z, 1.0)]);
         let change = [DVec2::new(-k.x / k.z, 0.0), DVec2::new(-k.y / k.z, 1.0)];
         Beam { region: 0, k, light: Light::unpolarised(k), front, change, surfaces: 0 }
+    }
+}
+
+/// Parts of a beam that are too small to be followed each on its own: one of them, chosen at random in proportion to
+/// its flux, stands for all. Their flux is kept exactly.
+#[derive(Default)]
+struct Handful {
+    /// What the chosen part meets, and where across the beam it is.
+    hit: Option<Hit>,
+    range: [f64; 2],
+    /// Flux of all.
+    flux: f64,
+}
+
+impl Handful {
+    fn add(&mut self, hit: Option<Hit>, range: [f64; 2], flux: f64, random: &mut Random) {
+        self.flux += flux;
+        if random.next() * self.flux < flux {
+            (self.hit, self.range) = (hit, range);
+        }
     }
 }
 
@@ -121,6 +146,7 @@ impl Work<'_> {
         }
         let mut c = c0;
         let mut left = beam.light.stokes.i;
+        let mut small = Handful::default();
         while c1 - c > 1e-10 * width {
             let probe = c + (1e-9_f64).min(0.5 * (c1 - c));
             let hit = nearest(region, &axes, &beam.front, probe);
@@ -130,9 +156,24 @@ impl Work<'_> {
             }
             let flux = if end == c1 { left } else { beam.light.stokes.i * ((end - c) / width) };
             left -= flux;
-            self.surface(&beam, &axes, region, hit.as_ref(), [c, end], flux);
+            if flux >= self.effort.share {
+                self.surface(&beam, &axes, region, hit.as_ref(), [c, end], flux);
+            } else if flux > 0.0 {
+                small.add(hit, [c, end], flux, &mut self.random);
+                if small.flux >= self.effort.share {
+                    self.one_of(&beam, &axes, region, &mut small);
+                }
+            }
             c = end;
         }
+        self.one_of(&beam, &axes, region, &mut small);
+    }
+
+    /// A single ray for all parts of a handful.
+    fn one_of(&mut self, beam: &Beam, axes: &Axes, region: &Region, small: &mut Handful) {
+        let Handful { hit, range, flux } = std::mem::take(small);
+        let c = range[0] + (range[1] - range[0]) * self.random.next();
+        self.surface(beam, axes, region, hit.as_ref(), [c, c], flux);
     }
 
     /// The part of a beam between two places across it, at what it meets there.
@@ -202,10 +243,7 @@ impl Work<'_> {
         let (fa, fb) = (a.light.stokes.i, b.light.stokes.i);
         let total = fa + fb;
         let least = NEGLIGIBLE * self.effort.share;
-        let whole = |mut beam: Beam| {
-            beam.light.stokes = beam.light.stokes.scaled(total / beam.light.stokes.i);
-            beam
-        };
+        let whole = |beam: Beam| whole(beam, total);
         if total < self.effort.share {
             let first = self.random.next() * total < fa;
             self.stack.push(whole(if first { a } else { b }));
@@ -248,6 +286,14 @@ impl Work<'_> {
         if inwards {
             self.leave(&back);
             self.stack.push(through);
+        } else if before < self.effort.share {
+            // Weak light does one of both, or weaker and weaker parts would go on between two panes.
+            let total = through.light.stokes.i + back.light.stokes.i;
+            if self.random.next() * total < through.light.stokes.i {
+                self.leave(&whole(through, total));
+            } else if total > 0.0 {
+                self.stack.push(whole(self.behind(back), total));
+            }
         } else {
             self.leave(&through);
             self.stack.push(self.behind(back));
@@ -284,6 +330,12 @@ impl Work<'_> {
             self.out.leaving.push(Leaving { share, y: k.y, z: k.z, change: beam.change.map(|change| change.y) });
         }
     }
+}
+
+/// A beam that carries this flux, so as to stand for others.
+fn whole(mut beam: Beam, flux: f64) -> Beam {
+    beam.light.stokes = beam.light.stokes.scaled(flux / beam.light.stokes.i);
+    beam
 }
 
 /// Mean internal transmittance over a beam whose ends travel the given lengths in the section.
