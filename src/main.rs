@@ -14,7 +14,8 @@ fn main() -> ExitCode {
         Err(error) => {
             // One line whatever the causes say, so that scripts can show it.
             eprintln!("cfs: {}", format!("{error:#}").replace('\n', " "));
-            ExitCode::from(2)
+            // 1: compared, and different; 2: anything that could not be done.
+            ExitCode::from(if error.is::<cfs::cli::packages::Differ>() { 1 } else { 2 })
         }
     }
 }

@@ -13,6 +13,7 @@
 //! Every change is one transaction: it happens as a whole or not at all.
 
 mod builtin;
+mod compare;
 mod error;
 mod exchange;
 mod gather;
@@ -23,6 +24,7 @@ mod store;
 mod validate;
 
 pub use builtin::{BUILTIN_VERSION, builtin_products, builtin_slats};
+pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
 pub use open::{Catalogue, default_path};

@@ -2,6 +2,7 @@
 
 use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, check, gather};
 use crate::cli::dataset_file;
+use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
@@ -34,6 +35,10 @@ pub enum Action {
     Export(ExportArgs),
     /// Check stored products or dataset files: energy, reciprocity, integrity.
     Validate(ValidateArgs),
+    /// How two packages differ; ends with status 1 when they do.
+    Diff(DiffArgs),
+    /// Two packages as one.
+    Merge(MergeArgs),
 }
 
 /// Arguments of `cfs catalogue list`.
@@ -120,13 +125,16 @@ pub struct ValidateArgs {
 /// # Errors
 /// One line that names the product or the file. `validate` fails when anything is not fit for use.
 pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()> {
-    let mut catalogue = catalogue.map_or_else(Catalogue::open_default, Catalogue::open)?;
+    // Not opened for packages, which need none.
+    let open = || catalogue.map_or_else(Catalogue::open_default, Catalogue::open);
     match &args.action {
-        Action::List(args) => list(&catalogue, args),
-        Action::Show(args) => show(&catalogue, args),
-        Action::Import(args) => import(&mut catalogue, args),
-        Action::Export(args) => dataset_file::write(&args.out, &catalogue.export_package(&args.keys)?),
-        Action::Validate(args) => validate(&catalogue, args),
+        Action::List(args) => list(&open()?, args),
+        Action::Show(args) => show(&open()?, args),
+        Action::Import(args) => import(&mut open()?, args),
+        Action::Export(args) => dataset_file::write(&args.out, &open()?.export_package(&args.keys)?),
+        Action::Validate(args) => validate(&open()?, args),
+        Action::Diff(args) => packages::diff(args),
+        Action::Merge(args) => packages::merge(args),
     }
 }
 

@@ -12,6 +12,7 @@ pub mod info;
 pub mod lid;
 mod luminaire_info;
 mod output;
+pub mod packages;
 mod progress;
 pub mod room;
 pub mod sky;

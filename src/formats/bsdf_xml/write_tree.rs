@@ -1,7 +1,7 @@
 //! Writing BSDF XML as tensor trees (`TensorTree3`, `TensorTree4`), for Radiance and whatever else reads them.
 //!
-//! Trees of the asked rank are written leaf by leaf as they are: numbers as short as they can be read back exactly,
-//! at most ten digits. Every other function is averaged over a grid and pruned by [`tree_on`]; what that costs is told.
+//! Trees of the asked rank are written leaf by leaf as they are: numbers of ten digits at most, as short as they
+//! can be read back. Every other function is averaged over a grid and pruned by [`tree_on`]; what that costs is told.
 //! Functions that were derived when the dataset was read are left out, for readers derive them the same way: a file
 //! that is read and written again holds the blocks that it had. The Geometry element is empty.
 
@@ -222,13 +222,9 @@ fn node(xml: &mut String, tree: &TensorTree, index: usize) {
     xml.push_str("}\n");
 }
 
-/// The shorter of the exact number and ten digits of it.
+/// The number rounded to ten digits, as short as it can be read back.
 fn leaf(xml: &mut String, node: TreeNode) {
     let TreeNode::Leaf(q) = node else { return };
-    let start = xml.len();
-    let _ = write!(xml, "{q:e} ");
-    if xml.len() - start > 15 {
-        xml.truncate(start);
-        let _ = write!(xml, "{q:.9e} ");
-    }
+    let rounded = format!("{q:.9e}").parse::<f64>().unwrap_or(q);
+    let _ = write!(xml, "{rounded:e} ");
 }
