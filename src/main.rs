@@ -14,8 +14,9 @@ fn main() -> ExitCode {
         Err(error) => {
             // One line whatever the causes say, so that scripts can show it.
             eprintln!("cfs: {}", format!("{error:#}").replace('\n', " "));
-            // 1: read, judged, and not fit for use; 2: anything that could not be done.
-            ExitCode::from(if error.is::<cfs::cli::catalogue::NotFit>() { 1 } else { 2 })
+            // 1: read and judged, but not fit for use, or different; 2: anything that could not be done.
+            let judged = error.is::<cfs::cli::catalogue::NotFit>() || error.is::<cfs::cli::packages::Differ>();
+            ExitCode::from(if judged { 1 } else { 2 })
         }
     }
 }

@@ -13,6 +13,7 @@
 //! Every change is one transaction: it happens as a whole or not at all.
 
 mod builtin;
+mod compare;
 mod described;
 mod error;
 mod exchange;
@@ -24,6 +25,7 @@ mod store;
 mod validate;
 
 pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, SYSTEMS, blind_of, builtin_products, builtin_system};
+pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};

@@ -1,11 +1,11 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
 use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, gather};
+use crate::cli::builtin::{build, complete, not_computed, provide};
 use crate::cli::dataset_file;
-use crate::cli::progress::TerminalProgress;
+use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::doctor::{examine, meaning};
-use crate::compute::estimate::Progress;
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
@@ -39,6 +39,10 @@ pub enum Action {
     Build(BuildArgs),
     /// Check stored products or dataset files: energy, reciprocity, integrity.
     Validate(ValidateArgs),
+    /// How two packages differ; ends with status 1 when they do.
+    Diff(DiffArgs),
+    /// Two packages as one.
+    Merge(MergeArgs),
 }
 
 /// Arguments of `cfs catalogue list`.
@@ -133,45 +137,30 @@ pub struct ValidateArgs {
 /// # Errors
 /// One line that names the product or the file. `validate` fails when anything is not fit for use.
 pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()> {
-    let mut catalogue = catalogue.map_or_else(Catalogue::open_default, Catalogue::open)?;
-    if matches!(&args.action, Action::List(_) | Action::Show(_) | Action::Export(_) | Action::Build(_)) {
-        complete(&mut catalogue)?;
-    }
+    // Not opened for packages, which need none.
+    let open = || catalogue.map_or_else(Catalogue::open_default, Catalogue::open);
     match &args.action {
-        Action::Build(args) => build(&catalogue, args),
-        Action::List(args) => list(&catalogue, args),
-        Action::Show(args) => show(&catalogue, args),
-        Action::Import(args) => import(&mut catalogue, args),
-        Action::Export(args) => dataset_file::write(&args.out, &catalogue.export_package(&args.keys)?),
-        Action::Validate(args) => validate(&catalogue, args),
+        Action::Build(args) => {
+            let mut catalogue = open()?;
+            complete(&mut catalogue, |_| true)?;
+            build(&catalogue, args)
+        }
+        Action::List(args) => list(&open()?, args),
+        Action::Show(args) => {
+            let mut catalogue = open()?;
+            provide(&mut catalogue, std::slice::from_ref(&args.key))?;
+            show(&catalogue, args)
+        }
+        Action::Import(args) => import(&mut open()?, args),
+        Action::Export(args) => {
+            let mut catalogue = open()?;
+            provide(&mut catalogue, &args.keys)?;
+            dataset_file::write(&args.out, &catalogue.export_package(&args.keys)?)
+        }
+        Action::Validate(args) => validate(&open()?, args),
+        Action::Diff(args) => packages::diff(args),
+        Action::Merge(args) => packages::merge(args),
     }
-}
-
-/// Computes the built-in products that the catalogue does not hold yet: once, on its first use.
-fn complete(catalogue: &mut Catalogue) -> anyhow::Result<()> {
-    let missing = catalogue.missing_builtin()?;
-    if missing.is_empty() {
-        return Ok(());
-    }
-    eprintln!("computing {} built-in products, once", missing.len());
-    let progress = TerminalProgress::new();
-    for (done, name) in missing.iter().enumerate() {
-        progress.advance("built-in products", done, missing.len());
-        let (product, datasets) = crate::study::builtin::compute(name, &progress)?;
-        catalogue.put_builtin(name, product, &datasets)?;
-    }
-    Ok(())
-}
-
-/// Says what is built in, and writes it as a package where asked.
-fn build(catalogue: &Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
-    let rows = catalogue.search(&Query { builtin: Some(true), ..Query::default() })?;
-    let keys: Vec<String> = rows.iter().map(|row| row.key.clone()).collect();
-    if let Some(out) = &args.out {
-        dataset_file::write(out, &catalogue.export_package(&keys)?)?;
-    }
-    let states: usize = rows.iter().map(|row| row.state_keys.len().max(1)).sum();
-    print(&format!("{} built-in products, {states} states\n", keys.len()))
 }
 
 /// Prints; a reader that has seen enough (`| head`) is no error.
@@ -188,7 +177,15 @@ fn figure(value: Option<f64>) -> String {
 
 fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     let kinds = args.kind.iter().cloned().collect();
-    let rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
+    let mut rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
+    let waiting = not_computed(catalogue, args)?;
+    if !waiting.is_empty() {
+        eprintln!(
+            "{} built-in products have no figures yet: they are computed when first used, all by `cfs catalogue build`",
+            waiting.len()
+        );
+        rows.extend(waiting);
+    }
     if args.json {
         let rows = rows.iter().map(|row| {
             json!({

@@ -1,8 +1,9 @@
 //! `cfs convert`: between the dataset formats that the program reads and writes.
 
 use crate::cli::dataset_file;
-use crate::compute::btdf::Component;
-use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
+use crate::compute::btdf::{Component, Dataset, TreeRank};
+use crate::formats::bsdf_xml::{self, TreeForm};
+use crate::formats::{Format, FormatError, Written, btdf_text, format_to_write, write_dataset};
 use anyhow::anyhow;
 use std::path::PathBuf;
 
@@ -20,6 +21,41 @@ pub struct ConvertArgs {
     /// reflection_back.
     #[arg(long, value_parser = component)]
     pub component: Option<Component>,
+    /// Form of the functions in BSDF XML; by default datasets of trees stay trees, all others become matrices.
+    #[arg(long, value_enum)]
+    pub tree: Option<TreeChoice>,
+    /// Steps of a tree's coordinates, as a power of two: 1 … 6 for rank 4, 1 … 8 for rank 3; by default as the source
+    /// resolves, at most 6.
+    #[arg(long, requires = "tree")]
+    pub level: Option<u32>,
+    /// Largest share of the light that pruning a tree may misplace; 0.01 by default, and trees that stay trees are not
+    /// pruned.
+    #[arg(long, requires = "tree")]
+    pub tolerance: Option<f64>,
+}
+
+/// Forms of the functions in BSDF XML.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum TreeChoice {
+    /// Tensor trees of rank 4
+    #[value(name = "4")]
+    Four,
+    /// Tensor trees of rank 3, for rotationally symmetric systems
+    #[value(name = "3")]
+    Three,
+    /// Matrices on Klems' bases
+    #[value(alias = "none")]
+    Klems,
+}
+
+/// BSDF XML in the form that was asked for.
+fn in_form(dataset: &Dataset, choice: TreeChoice, args: &ConvertArgs) -> Result<Written, FormatError> {
+    let rank = match choice {
+        TreeChoice::Four => TreeRank::Four,
+        TreeChoice::Three => TreeRank::Three,
+        TreeChoice::Klems => return bsdf_xml::write_matrices(dataset),
+    };
+    bsdf_xml::write_tree(dataset, TreeForm { rank, level: args.level, tolerance: args.tolerance })
 }
 
 fn component(word: &str) -> Result<Component, String> {
@@ -45,7 +81,14 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
             return Err(anyhow!("{}: no state '{state}'; expected one of {}", args.input.display(), keys.join(", ")));
         }
     }
+    if args.tree == Some(TreeChoice::Klems) && (args.level.is_some() || args.tolerance.is_some()) {
+        return Err(anyhow!("--level and --tolerance are for trees; expected --tree 3 or --tree 4"));
+    }
+    if args.tree.is_some() && format != Format::BsdfXml {
+        return Err(anyhow!("{out_name}: --tree for {}; expected a BSDF XML file (.xml)", format.name()));
+    }
     let written = match (format, args.component, datasets.as_slice()) {
+        (Format::BsdfXml, None, [one]) if let Some(choice) = args.tree => in_form(one, choice, args),
         (_, None, all) => write_dataset(format, all),
         (Format::BtdfText, Some(component), [one]) => btdf_text::write_component(one, component),
         (_, Some(component), _) => {

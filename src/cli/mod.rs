@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod args;
+mod builtin;
 pub mod catalogue;
 pub mod compact;
 pub mod control;
@@ -12,6 +13,7 @@ pub mod info;
 pub mod lid;
 mod luminaire_info;
 mod output;
+pub mod packages;
 mod progress;
 pub mod repair;
 pub mod room;

@@ -102,7 +102,6 @@ pub const SYSTEMS: &[(&str, &str)] = &[
     ("prismatic-45-45.system.toml", include_str!("../../../assets/systems/prismatic-45-45.system.toml")),
     ("prismatic-63-27.system.toml", include_str!("../../../assets/systems/prismatic-63-27.system.toml")),
     ("prismatic-film-40-90.system.toml", include_str!("../../../assets/systems/prismatic-film-40-90.system.toml")),
-    ("prismatic-film-60-80.system.toml", include_str!("../../../assets/systems/prismatic-film-60-80.system.toml")),
     ("egg-crate-facade.system.toml", include_str!("../../../assets/systems/egg-crate-facade.system.toml")),
     ("egg-crate-white.system.toml", include_str!("../../../assets/systems/egg-crate-white.system.toml")),
     ("expanded-metal-fine.system.toml", include_str!("../../../assets/systems/expanded-metal-fine.system.toml")),
@@ -110,11 +109,6 @@ pub const SYSTEMS: &[(&str, &str)] = &[
     ("perforated-round-33.system.toml", include_str!("../../../assets/systems/perforated-round-33.system.toml")),
     ("perforated-round-51.system.toml", include_str!("../../../assets/systems/perforated-round-51.system.toml")),
     ("perforated-square-44.system.toml", include_str!("../../../assets/systems/perforated-square-44.system.toml")),
-    ("redirecting-glass-bars.system.toml", include_str!("../../../assets/systems/redirecting-glass-bars.system.toml")),
-    (
-        "redirecting-glass-hollow.system.toml",
-        include_str!("../../../assets/systems/redirecting-glass-hollow.system.toml"),
-    ),
     (
         "double-integral-micro-blind.system.toml",
         include_str!("../../../assets/systems/double-integral-micro-blind.system.toml"),

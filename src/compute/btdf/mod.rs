@@ -12,6 +12,7 @@ mod finding;
 mod ideal;
 mod indicatrices;
 mod on_cells;
+mod on_tree;
 mod pyramid;
 mod rows;
 mod tensor_emission;
@@ -26,6 +27,7 @@ pub use dataset::{Band, Component, Dataset};
 pub use finding::{Finding, Severity};
 pub use indicatrices::Indicatrices;
 pub use on_cells::{matrix_on, matrix_roughly_on};
+pub use on_tree::{OnTree, OnTreeError, TreeShape, tree_on};
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 pub use zones::zone_shares;
 

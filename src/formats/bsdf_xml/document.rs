@@ -238,3 +238,9 @@ pub(super) fn text(node: Node<'_, '_>) -> String {
 pub(super) fn child_text(node: Node<'_, '_>, name: &str) -> String {
     child(node, name).map(text).unwrap_or_default()
 }
+
+/// Text as the content of an element: control characters dropped, markup escaped.
+pub(super) fn escaped(text: &str) -> String {
+    let clean: String = text.chars().filter(|c| !c.is_control()).collect();
+    clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

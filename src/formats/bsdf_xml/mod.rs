@@ -13,17 +13,32 @@ mod basis;
 mod document;
 mod numbers;
 mod write;
+mod write_tree;
 
-pub use write::write;
+pub use write::write as write_matrices;
+pub use write_tree::{TreeForm, rank_of, write_tree};
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{
     Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeRank,
 };
+use crate::formats::Written;
 use crate::formats::location::{FormatError, Location, excerpt};
 use basis::Bases;
 use document::{Source, child, child_text, children, text};
 use roxmltree::Node;
+
+/// One dataset as a file: trees where all its functions are trees of one rank ([`write_tree`]), matrices otherwise
+/// ([`write_matrices`]).
+///
+/// # Errors
+/// A dataset without any visible function.
+pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
+    match rank_of(dataset) {
+        Some(rank) => write_tree(dataset, TreeForm::of_rank(rank)),
+        None => write_matrices(dataset),
+    }
+}
 
 /// How the incident directions run through the data.
 #[derive(Debug, Clone, Copy, PartialEq)]

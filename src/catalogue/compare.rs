@@ -1,0 +1,234 @@
+//! Packages compared and merged, without a catalogue.
+
+use super::CatalogueError;
+use crate::compute::btdf::Btdf;
+use crate::compute::direction::{Dir, Incident};
+use crate::formats::dataset_blob::decode;
+use crate::formats::package::{Package, PackageProduct, PackageState};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How two packages differ. Empty lists: they hold the same.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PackageDiff {
+    /// Keys of products that the first alone holds.
+    pub only_first: Vec<String>,
+    /// Keys of products that the second alone holds.
+    pub only_second: Vec<String>,
+    /// Products of both that differ.
+    pub changed: Vec<ProductDiff>,
+}
+
+/// How a product differs between two packages.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ProductDiff {
+    /// Its key.
+    pub key: String,
+    /// Fields that differ beside the states: name, first value, second value.
+    pub fields: Vec<(String, String, String)>,
+    /// Keys of states that the first alone holds.
+    pub only_first: Vec<String>,
+    /// Keys of states that the second alone holds.
+    pub only_second: Vec<String>,
+    /// States of both whose data differ.
+    pub states: Vec<StateDiff>,
+}
+
+/// How the data of a state differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateDiff {
+    /// Its key.
+    pub key: String,
+    /// Hashes of the two datasets.
+    pub hashes: [String; 2],
+    /// τ for uniform light of both, outside to inside; `None` where a dataset holds no transmission.
+    pub tau_hemispherical: [Option<f64>; 2],
+    /// Largest difference of τ over incident directions every 10° of θ and 30° of φ; `None` unless both transmit.
+    pub tau_change: Option<f64>,
+}
+
+impl PackageDiff {
+    /// Whether both packages hold the same.
+    pub fn is_same(&self) -> bool {
+        self.only_first.is_empty() && self.only_second.is_empty() && self.changed.is_empty()
+    }
+}
+
+/// Compares two packages product by product and state by state. The order of products does not count, that of states
+/// does.
+///
+/// # Errors
+/// Keys that are not distinct; a dataset that differs and cannot be read.
+pub fn diff_packages(first: &Package, second: &Package) -> Result<PackageDiff, CatalogueError> {
+    let (a, b) = (by_key(first)?, by_key(second)?);
+    let mut diff = PackageDiff::default();
+    for (key, product) in &a {
+        match b.get(key) {
+            None => diff.only_first.push((*key).to_owned()),
+            Some(other) if product != other => diff.changed.push(diff_products(product, other, first, second)?),
+            Some(_) => {}
+        }
+    }
+    diff.only_second = b.keys().filter(|key| !a.contains_key(*key)).map(|key| (*key).to_owned()).collect();
+    Ok(diff)
+}
+
+fn by_key(package: &Package) -> Result<BTreeMap<&str, &PackageProduct>, CatalogueError> {
+    let mut map = BTreeMap::new();
+    for product in &package.products {
+        if map.insert(product.key.as_str(), product).is_some() {
+            return Err(CatalogueError::Import(format!("the package holds two products \"{}\"", product.key)));
+        }
+    }
+    Ok(map)
+}
+
+fn diff_products(
+    a: &PackageProduct,
+    b: &PackageProduct,
+    first: &Package,
+    second: &Package,
+) -> Result<ProductDiff, CatalogueError> {
+    let mut diff = ProductDiff { key: a.key.clone(), ..ProductDiff::default() };
+    let (p, q) = (&a.provenance, &b.provenance);
+    let curve = |product: &PackageProduct| {
+        let points = product.control_curve.iter().map(|point| format!("{}: {}", point.profile_angle, point.value));
+        points.collect::<Vec<_>>().join(", ")
+    };
+    let mut field = |name: String, x: String, y: String| {
+        if x != y {
+            diff.fields.push((name, x, y));
+        }
+    };
+    for (name, x, y) in [
+        ("name", &a.name, &b.name),
+        ("manufacturer", &a.manufacturer, &b.manufacturer),
+        ("kind", &a.kind, &b.kind),
+        ("description", &a.description, &b.description),
+        ("provenance.origin", &p.origin, &q.origin),
+        ("provenance.author", &p.author, &q.author),
+        ("provenance.method", &p.method, &q.method),
+        ("provenance.date", &p.date, &q.date),
+        ("provenance.source_file", &p.source_file, &q.source_file),
+        ("provenance.source_hash", &p.source_hash, &q.source_hash),
+        ("provenance.inside_face", &p.inside_face, &q.inside_face),
+    ] {
+        field(name.to_owned(), x.clone(), y.clone());
+    }
+    field("tags".to_owned(), a.tags.join(", "), b.tags.join(", "));
+    field("control_curve".to_owned(), curve(a), curve(b));
+    let states = |product: &PackageProduct, others: &PackageProduct| -> Vec<String> {
+        let alone = |state: &&PackageState| others.states.iter().all(|other| other.key != state.key);
+        product.states.iter().filter(alone).map(|state| state.key.clone()).collect()
+    };
+    (diff.only_first, diff.only_second) = (states(a, b), states(b, a));
+    for one in &a.states {
+        let Some(other) = b.states.iter().find(|other| other.key == one.key) else { continue };
+        let value = |state: &PackageState| state.value.map(|value| value.to_string()).unwrap_or_default();
+        for (name, x, y) in [("label", one.label.clone(), other.label.clone()), ("value", value(one), value(other))] {
+            if x != y {
+                diff.fields.push((format!("states.{}.{name}", one.key), x, y));
+            }
+        }
+        if one.dataset != other.dataset {
+            diff.states.push(diff_states(one, other, first, second)?);
+        }
+    }
+    let order = |product: &PackageProduct| product.states.iter().map(|s| s.key.as_str()).collect::<Vec<_>>().join(", ");
+    if diff.only_first.is_empty() && diff.only_second.is_empty() && order(a) != order(b) {
+        diff.fields.push(("order of states".to_owned(), order(a), order(b)));
+    }
+    Ok(diff)
+}
+
+fn diff_states(
+    a: &PackageState,
+    b: &PackageState,
+    first: &Package,
+    second: &Package,
+) -> Result<StateDiff, CatalogueError> {
+    let dataset = |state: &PackageState, package: &Package| {
+        let blob = package.datasets.get(&state.dataset).map(Vec::as_slice).unwrap_or_default();
+        decode(blob).map_err(|source| CatalogueError::Dataset { hash: state.dataset.clone(), source })
+    };
+    let (x, y) = (dataset(a, first)?, dataset(b, second)?);
+    let (x, y) = (x.transmission(), y.transmission());
+    Ok(StateDiff {
+        key: a.key.clone(),
+        hashes: [a.dataset.clone(), b.dataset.clone()],
+        tau_hemispherical: [x, y].map(|btdf| btdf.map(Btdf::tau_hemispherical)),
+        tau_change: x.zip(y).map(|(x, y)| largest_change(x, y)),
+    })
+}
+
+fn largest_change(a: &Btdf, b: &Btdf) -> f64 {
+    // Off the borders of common cells: rounding must not decide which one is compared.
+    let directions = (0..9).flat_map(|k| (0..12).map(move |j| (10.0 * f64::from(k) + 0.3, 30.0 * f64::from(j) + 0.7)));
+    directions
+        .map(|(theta, phi): (f64, f64)| {
+            let incident = Incident(Dir::from_theta_phi(theta.to_radians(), phi.to_radians()));
+            (a.tau(incident) - b.tau(incident)).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Two packages in one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Merged {
+    /// All products, by key; the same content whichever package came first, but for keys that were given anew.
+    pub package: Package,
+    /// Keys that both packages held with the same content.
+    pub same: Vec<String>,
+    /// Products of the second package that were given a new key, because the first holds another product of theirs: old
+    /// key, new key.
+    pub renamed: Vec<(String, String)>,
+}
+
+/// Joins two packages: products of the same key and content become one, those of the same key and other content are
+/// both kept, the second one's under the first free key of KEY-2, KEY-3, …
+///
+/// # Errors
+/// Keys that are not distinct within a package.
+pub fn merge_packages(first: &Package, second: &Package) -> Result<Merged, CatalogueError> {
+    let (a, b) = (by_key(first)?, by_key(second)?);
+    let mut taken: BTreeSet<String> = a.keys().chain(b.keys()).map(|key| (*key).to_owned()).collect();
+    let mut products: Vec<PackageProduct> = first.products.clone();
+    let (mut same, mut renamed) = (Vec::new(), Vec::new());
+    for (key, product) in b {
+        match a.get(key) {
+            None => products.push(product.clone()),
+            Some(own) if *own == product => same.push(key.to_owned()),
+            Some(_) => {
+                let free = free_key(key, product, &a, &taken);
+                let known = a.contains_key(free.as_str());
+                if !known {
+                    taken.insert(free.clone());
+                    products.push(PackageProduct { key: free.clone(), ..product.clone() });
+                }
+                renamed.push((key.to_owned(), free));
+            }
+        }
+    }
+    products.sort_by(|x, y| x.key.cmp(&y.key));
+    let mut datasets = first.datasets.clone();
+    datasets.extend(second.datasets.iter().map(|(hash, blob)| (hash.clone(), blob.clone())));
+    Ok(Merged { package: Package { products, datasets }, same, renamed })
+}
+
+/// KEY-2, KEY-3, …: the first that is free, or under which the first package holds this very product since an earlier
+/// merge.
+fn free_key(
+    key: &str,
+    product: &PackageProduct,
+    a: &BTreeMap<&str, &PackageProduct>,
+    taken: &BTreeSet<String>,
+) -> String {
+    let mut number = 2_u64;
+    loop {
+        let wanted = format!("{key}-{number}");
+        let as_wanted = PackageProduct { key: wanted.clone(), ..product.clone() };
+        if !taken.contains(&wanted) || a.get(wanted.as_str()).is_some_and(|own| **own == as_wanted) {
+            return wanted;
+        }
+        number += 1;
+    }
+}

@@ -1,0 +1,130 @@
+//! `cfs catalogue diff` and `cfs catalogue merge`: packages beside each other, without a catalogue.
+
+use crate::catalogue::{PackageDiff, diff_packages, merge_packages};
+use crate::cli::{dataset_file, output};
+use crate::formats::package::{self, Package};
+use anyhow::anyhow;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `cfs catalogue diff`.
+#[derive(Debug, clap::Args)]
+pub struct DiffArgs {
+    /// The first package (.cfsp).
+    pub first: PathBuf,
+    /// The second package.
+    pub second: PathBuf,
+    /// A JSON object instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `cfs catalogue merge`.
+#[derive(Debug, clap::Args)]
+pub struct MergeArgs {
+    /// The first package (.cfsp); its keys stay.
+    pub first: PathBuf,
+    /// The second package.
+    pub second: PathBuf,
+    /// The package to write.
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+/// Two packages that differ: told, and the program ends with status 1, unlike for packages that it cannot read.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "the packages differ: {only_first} products only in the first, {only_second} only in the second, {changed} changed"
+)]
+pub struct Differ {
+    only_first: usize,
+    only_second: usize,
+    changed: usize,
+}
+
+fn read(path: &Path) -> anyhow::Result<Package> {
+    let bytes = std::fs::read(path).map_err(|error| anyhow!("{}: {error}; expected a package", path.display()))?;
+    package::read(&bytes).map_err(|error| anyhow!("{}: {error}", path.display()))
+}
+
+/// Prints how two packages differ.
+///
+/// # Errors
+/// A package that cannot be read; [`Differ`] when they differ.
+pub fn diff(args: &DiffArgs) -> anyhow::Result<()> {
+    let diff = diff_packages(&read(&args.first)?, &read(&args.second)?)?;
+    let shown = if args.json { serde_json::to_string_pretty(&as_json(&diff))? + "\n" } else { as_text(&diff) };
+    output::print(&shown)?;
+    if diff.is_same() {
+        return Ok(());
+    }
+    let (only_first, only_second) = (diff.only_first.len(), diff.only_second.len());
+    Err(Differ { only_first, only_second, changed: diff.changed.len() }.into())
+}
+
+fn as_json(diff: &PackageDiff) -> serde_json::Value {
+    let changed = diff.changed.iter().map(|product| {
+        let fields = product.fields.iter().map(|(name, a, b)| json!({"field": name, "first": a, "second": b}));
+        let states = product.states.iter().map(|state| {
+            json!({
+                "key": state.key, "datasets": state.hashes, "tau_hemispherical": state.tau_hemispherical,
+                "tau_change": state.tau_change,
+            })
+        });
+        json!({
+            "key": product.key, "fields": fields.collect::<Vec<_>>(), "states_only_first": product.only_first,
+            "states_only_second": product.only_second, "states": states.collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "same": diff.is_same(), "only_first": diff.only_first, "only_second": diff.only_second,
+        "changed": changed.collect::<Vec<_>>(),
+    })
+}
+
+fn as_text(diff: &PackageDiff) -> String {
+    let mut text = String::new();
+    let mut line = |one: String| text.extend([one.as_str(), "\n"]);
+    if diff.is_same() {
+        line("same".to_owned());
+    }
+    diff.only_first.iter().for_each(|key| line(format!("- {key}")));
+    diff.only_second.iter().for_each(|key| line(format!("+ {key}")));
+    for product in &diff.changed {
+        line(format!("~ {}", product.key));
+        for (name, a, b) in &product.fields {
+            line(format!("    {name}: \"{a}\" → \"{b}\""));
+        }
+        product.only_first.iter().for_each(|key| line(format!("    - state {key}")));
+        product.only_second.iter().for_each(|key| line(format!("    + state {key}")));
+        for state in &product.states {
+            let [a, b] =
+                state.tau_hemispherical.map(|tau| tau.map_or_else(|| "-".to_owned(), |tau| format!("{tau:.4}")));
+            let most = state.tau_change.map_or_else(String::new, |most| format!("; τ differs by {most:.4} at most"));
+            let short = |hash: &str| hash.get(..12).unwrap_or_default().to_owned();
+            line(format!(
+                "    ~ state {}: {} → {}, τ hemi {a} → {b}{most}",
+                state.key,
+                short(&state.hashes[0]),
+                short(&state.hashes[1])
+            ));
+        }
+    }
+    text
+}
+
+/// Writes two packages as one.
+///
+/// # Errors
+/// A package that cannot be read, or written.
+pub fn merge(args: &MergeArgs) -> anyhow::Result<()> {
+    let merged = merge_packages(&read(&args.first)?, &read(&args.second)?)?;
+    dataset_file::write(&args.out, &package::write(&merged.package)?)?;
+    for key in &merged.same {
+        eprintln!("note: {key}: the same in both, kept once");
+    }
+    for (key, new) in &merged.renamed {
+        eprintln!("note: {key}: other content in {}, kept as {new}", args.second.display());
+    }
+    output::print(&format!("{} products\n", merged.package.products.len()))
+}

@@ -1,0 +1,230 @@
+//! Writing BSDF XML as tensor trees (`TensorTree3`, `TensorTree4`), for Radiance and whatever else reads them.
+//!
+//! Trees of the asked rank are written leaf by leaf as they are: numbers of ten digits at most, as short as they
+//! can be read back. Every other function is averaged over a grid and pruned by [`tree_on`]; what that costs is told.
+//! Functions that were derived when the dataset was read are left out, for readers derive them the same way: a file
+//! that is read and written again holds the blocks that it had. The Geometry element is empty.
+
+use super::document::escaped;
+use crate::compute::btdf::{
+    Band, Btdf, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank, TreeShape, tree_on,
+};
+use crate::formats::Written;
+use crate::formats::location::{FormatError, Location};
+use std::fmt::Write as _;
+
+/// How trees are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TreeForm {
+    /// Coordinates.
+    pub rank: TreeRank,
+    /// log₂ of the steps of a coordinate; `None`: as the source resolves, at most 6.
+    pub level: Option<u32>,
+    /// Largest share of the light that pruning may misplace; `None`: trees of the rank stay as they are, all else is
+    /// pruned by [`TreeForm::TOLERANCE`].
+    pub tolerance: Option<f64>,
+}
+
+impl TreeForm {
+    /// Share of the light that pruning misplaces where nothing else is asked.
+    pub const TOLERANCE: f64 = 0.01;
+
+    /// A tree of a rank with everything else by default.
+    pub const fn of_rank(rank: TreeRank) -> Self {
+        Self { rank, level: None, tolerance: None }
+    }
+}
+
+/// The rank of a dataset whose functions are all trees of one rank and nothing else; these are written as they are.
+pub fn rank_of(dataset: &Dataset) -> Option<TreeRank> {
+    let mut ranks = bands(dataset).flat_map(|(_, band)| {
+        band.components().into_iter().filter_map(|component| band.get(component)).map(|btdf| {
+            match (&btdf.regular, &btdf.scattered) {
+                (None, Some(Scattered::Tree(tree))) => Some(tree.rank()),
+                _ => None,
+            }
+        })
+    });
+    let first = ranks.next()??;
+    ranks.all(|rank| rank == Some(first)).then_some(first)
+}
+
+fn bands(dataset: &Dataset) -> impl Iterator<Item = (&'static str, &Band)> {
+    std::iter::once(("Visible", &dataset.visible)).chain(dataset.solar.iter().map(|band| ("Solar", band)))
+}
+
+/// One dataset as a file of tensor trees.
+///
+/// # Errors
+/// A dataset without any visible function; a form that [`tree_on`] refuses.
+pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatError> {
+    if dataset.visible.components().is_empty() {
+        return Err(FormatError::new(Location::file(), "a dataset without visible functions", "at least one to write"));
+    }
+    let mut findings = Vec::new();
+    let mut xml = String::new();
+    head(&mut xml, dataset, form.rank);
+    for (name, band) in bands(dataset) {
+        for component in band.components() {
+            let Some(btdf) = band.get(component) else { continue };
+            let title = component.key().replace('_', " ");
+            if name == "Visible" && dataset.derived.contains(&component) {
+                findings.push(Finding::info(
+                    "derived-left-out",
+                    format!("{title}: derived, left out; whoever reads the file can derive it again."),
+                ));
+                continue;
+            }
+            let tree = tree_of(btdf, component, form, &format!("{title} ({name})"), &mut findings)?;
+            block(&mut xml, &tree, component, name);
+        }
+    }
+    xml.push_str("\t\t</Layer>\n\t</Optical>\n</WindowElement>\n");
+    if !dataset.state.is_empty() {
+        findings.push(Finding::info(
+            "state-not-written",
+            format!("The state key '{}' has no place in the format.", dataset.state),
+        ));
+    }
+    Ok(Written { bytes: xml.into_bytes(), findings })
+}
+
+const fn axes_of(component: Component) -> TreeAxes {
+    match component {
+        Component::TransmissionFront | Component::ReflectionFront => TreeAxes::Front,
+        Component::TransmissionBack | Component::ReflectionBack => TreeAxes::Back,
+    }
+}
+
+/// The function as a tree of the form, and what that changed.
+fn tree_of(
+    btdf: &Btdf,
+    component: Component,
+    form: TreeForm,
+    title: &str,
+    findings: &mut Vec<Finding>,
+) -> Result<TensorTree, FormatError> {
+    let axes = axes_of(component);
+    let own = match (&btdf.regular, &btdf.scattered) {
+        (None, Some(Scattered::Tree(tree))) if tree.rank() == form.rank => Some(tree),
+        _ => None,
+    };
+    if let (Some(tree), None, None) = (own, form.level, form.tolerance) {
+        findings.push(Finding::info("tree-kept", format!("{title}: a tree of {} leaves, as it was.", tree.leaves())));
+        return Ok(tree.with_axes(axes));
+    }
+    let level = form.level.unwrap_or_else(|| TreeShape::level_for(btdf));
+    // A tree that is only to be coarser is not pruned unasked.
+    let tolerance = form.tolerance.unwrap_or(if own.is_some() { 0.0 } else { TreeForm::TOLERANCE });
+    let made = tree_on(btdf, axes, TreeShape { rank: form.rank, level, tolerance })
+        .map_err(|error| FormatError::new(Location::file(), format!("{title}: {error}"), "a smaller tree"))?;
+    findings.push(Finding::info(
+        "tree-made",
+        format!(
+            "{title}: a tree of rank {}, level {level}, {} leaves; pruning misplaces {:.2} % of the light and changes τ by \
+             {:.4} at most.",
+            form.rank.dimensions(),
+            made.tree.leaves(),
+            100.0 * made.misplaced,
+            made.tau_change
+        ),
+    ));
+    if btdf.regular.is_some() {
+        findings.push(Finding::info(
+            "regular-in-cells",
+            format!("{title}: light that goes straight on now fills its own cell of the tree."),
+        ));
+    }
+    if made.turned > 0.02 {
+        findings.push(Finding::warning(
+            "not-rotational",
+            format!(
+                "{title}: rank 3 keeps the mean over all azimuths; single ones differ from it by {:.0} % of their light.",
+                100.0 * made.turned
+            ),
+        ));
+    }
+    Ok(made.tree)
+}
+
+fn head(xml: &mut String, dataset: &Dataset, rank: TreeRank) {
+    xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    xml.push_str(
+        "<WindowElement xmlns=\"http://windows.lbl.gov\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" ",
+    );
+    xml.push_str("xsi:schemaLocation=\"http://windows.lbl.gov/BSDF-v1.4.xsd\">\n");
+    if !dataset.description.is_empty() {
+        let _ = writeln!(xml, "<!-- {} -->", dataset.description.replace("--", "- -").trim_end_matches('-'));
+    }
+    xml.push_str(
+        "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
+    );
+    // Some readers do not stand empty elements.
+    let or_unknown = |text: &str| if text.trim().is_empty() { "Unknown".to_owned() } else { escaped(text) };
+    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", or_unknown(&dataset.name));
+    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", or_unknown(&dataset.manufacturer));
+    if let Some(thickness) = dataset.thickness {
+        let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
+    }
+    xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
+    let _ = writeln!(
+        xml,
+        "\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>TensorTree{}</IncidentDataStructure>\n\
+         \t\t\t</DataDefinition>",
+        rank.dimensions()
+    );
+}
+
+fn block(xml: &mut String, tree: &TensorTree, component: Component, band: &str) {
+    let (title, kind) = match component {
+        Component::TransmissionFront => ("Transmission Front", "BTDF"),
+        Component::TransmissionBack => ("Transmission Back", "BTDF"),
+        Component::ReflectionFront => ("Reflection Front", "BRDF"),
+        Component::ReflectionBack => ("Reflection Back", "BRDF"),
+    };
+    let _ = write!(
+        xml,
+        "\t\t\t<WavelengthData>\n\t\t\t\t<LayerNumber>System</LayerNumber>\n\
+         \t\t\t\t<Wavelength unit=\"Integral\">{band}</Wavelength>\n\t\t\t\t<WavelengthDataBlock>\n\
+         \t\t\t\t\t<WavelengthDataDirection>{title}</WavelengthDataDirection>\n\
+         \t\t\t\t\t<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>\n\
+         \t\t\t\t\t<ScatteringDataType>{kind}</ScatteringDataType>\n\t\t\t\t\t<ScatteringData>\n"
+    );
+    node(xml, tree, 0);
+    xml.push_str("\t\t\t\t\t</ScatteringData>\n\t\t\t\t</WavelengthDataBlock>\n\t\t\t</WavelengthData>\n");
+}
+
+/// A node and all below it; no deeper than [`crate::compute::basis::MAX_LEVEL`].
+fn node(xml: &mut String, tree: &TensorTree, index: usize) {
+    let nodes = tree.nodes();
+    let TreeNode::Branch(first) = nodes[index] else {
+        xml.push_str("{ ");
+        leaf(xml, nodes[index]);
+        xml.push_str("}\n");
+        return;
+    };
+    let (first, children) = (first as usize, tree.rank().children());
+    if nodes[first..first + children].iter().all(|child| matches!(child, TreeNode::Leaf(_))) {
+        // A grid of 2 a coordinate, the last coordinate running fastest.
+        let dimensions = tree.rank().dimensions();
+        xml.push_str("{ ");
+        for place in 0..children {
+            let child: usize = (0..dimensions).map(|d| (place >> (dimensions - 1 - d) & 1) << d).sum();
+            leaf(xml, nodes[first + child]);
+        }
+        xml.push_str("}\n");
+        return;
+    }
+    xml.push_str("{\n");
+    for child in first..first + children {
+        node(xml, tree, child);
+    }
+    xml.push_str("}\n");
+}
+
+/// The number rounded to ten digits, as short as it can be read back.
+fn leaf(xml: &mut String, node: TreeNode) {
+    let TreeNode::Leaf(q) = node else { return };
+    let rounded = format!("{q:.9e}").parse::<f64>().unwrap_or(q);
+    let _ = write!(xml, "{rounded:e} ");
+}
