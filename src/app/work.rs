@@ -30,6 +30,7 @@ pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, String>;
 const LARGEST_FILE: u64 = 1 << 30;
 
 /// What jobs bring back.
+#[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]
 pub enum Outcome {
     /// The catalogue is open.
     Opened(Result<Arc<dyn Shelf>, String>),

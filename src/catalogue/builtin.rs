@@ -23,8 +23,8 @@ pub use texts::SYSTEMS;
 pub const BUILTIN_VERSION: i64 = 3;
 /// Error target of the built-in products, absolute in τ and ρ.
 pub const BUILTIN_ERROR: f64 = 0.003;
-/// The product that a new window shows.
-const FIRST: &str = "venetian-80-72";
+/// Others that are there at once, among them the one that a new window shows.
+const QUICK: [&str; 2] = ["venetian-80-72", "laser-cut-panel"];
 
 /// A built-in description by the name of its file.
 ///
@@ -52,8 +52,7 @@ pub fn blind_of(system: &str) -> Option<Venetian> {
 
 /// Computed fast enough to be there at once?
 fn is_quick(file: &SystemFile) -> bool {
-    let plain = matches!(file.system.kind, SystemKind::Pane(_) | SystemKind::Diffuser(_) | SystemKind::Woven(_));
-    plain || file.key == FIRST || file.key == "laser-cut-panel"
+    matches!(file.system.kind, SystemKind::Pane(_) | SystemKind::Diffuser(_)) || QUICK.contains(&file.key.as_str())
 }
 
 /// Systems that are defined by a sentence.
@@ -155,7 +154,7 @@ impl Catalogue {
     /// Stores the product of a built-in description in place of an older one. Favourites stay.
     pub fn put_builtin(&mut self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), CatalogueError> {
         let position = SYSTEMS.iter().position(|(file, _)| *file == name).unwrap_or(SYSTEMS.len());
-        let mut record = store::prepare(datasets, product)?;
+        let mut record = store::prepare_unasked(datasets, product)?;
         let tx = self.change()?;
         // Its older self and another process's copy.
         tx.execute(
@@ -181,7 +180,7 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     // Computed before the lock is taken, so that other connections do not wait for it.
     let records = builtin_products()
         .into_par_iter()
-        .map(|(rank, meta, datasets)| Ok((rank, store::prepare(&datasets, meta)?)))
+        .map(|(rank, meta, datasets)| Ok((rank, store::prepare_unasked(&datasets, meta)?)))
         .collect::<Result<Vec<_>, CatalogueError>>()?;
     let tx = catalogue.change()?;
     if version(&tx)? >= BUILTIN_VERSION {

@@ -35,6 +35,19 @@ impl Removed {
 
 /// Everything of a product that is to be stored, checked; nothing is written yet.
 pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed, CatalogueError> {
+    prepared(datasets, meta, check)
+}
+
+/// The same for what the program computed itself, and said what it found: checks of foreign data have nothing to add.
+pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Removed, CatalogueError> {
+    prepared(datasets, meta, |_| Vec::new())
+}
+
+fn prepared(
+    datasets: &[Dataset],
+    meta: NewProduct,
+    ask: fn(&Dataset) -> Vec<Finding>,
+) -> Result<Removed, CatalogueError> {
     let refuse = |what: String| Err(CatalogueError::Import(what));
     let Some(first) = datasets.first() else {
         return refuse("there is no dataset".to_owned());
@@ -51,7 +64,7 @@ pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed,
     let mut keys = HashSet::new();
     let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
     // Encoding and checking take the time; what they give does not depend on their order.
-    let stored: Vec<_> = datasets.par_iter().map(stored).collect();
+    let stored: Vec<_> = datasets.par_iter().map(|dataset| stored(dataset, ask)).collect();
     for (index, (given, stored)) in datasets.iter().zip(stored).enumerate() {
         if !keys.insert(given.state.as_str()) || (datasets.len() > 1 && given.state.is_empty()) {
             return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", given.state));
@@ -108,11 +121,14 @@ pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed,
 
 /// Hash, bytes, and what is read back from them with its checks: all figures are those of what is stored (values
 /// rounded to f32), not of what came.
-fn stored(given: &Dataset) -> Result<(String, Vec<u8>, Dataset, Vec<Finding>), CatalogueError> {
+fn stored(
+    given: &Dataset,
+    ask: fn(&Dataset) -> Vec<Finding>,
+) -> Result<(String, Vec<u8>, Dataset, Vec<Finding>), CatalogueError> {
     let blob = encode(given);
     let hash = content_hash(&blob);
     let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.clone(), source })?;
-    let findings = check(&dataset);
+    let findings = ask(&dataset);
     Ok((hash, blob, dataset, findings))
 }
 

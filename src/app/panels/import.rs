@@ -29,7 +29,11 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         recognised(ui, import, commands);
         fields(ui, import, commands);
     }
-    ui.add_space(8.0);
+}
+
+/// What can be done with what was read: always in sight, however much there is to say about it.
+pub(super) fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let Some(import) = &state.import else { return };
     ui.horizontal(|ui| {
         let missing = import.name.trim().is_empty();
         if !import.datasets.is_empty() {

@@ -32,6 +32,9 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
             }
         });
     });
+    if sheet == Sheet::Import {
+        import::actions(ui, &app.state, commands);
+    }
     ScrollArea::vertical().id_salt(title).auto_shrink([false, false]).show(ui, |ui| match sheet {
         Sheet::Import => import::show(ui, &app.state, commands),
         Sheet::Findings => match app.state.dataset.value.as_ref() {

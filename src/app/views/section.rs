@@ -98,12 +98,15 @@ fn bounds(outlines: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     })
 }
 
+/// What is drawn: the system, its polygons and their bounds. \[m\]
+type Drawn<'a> = (&'a SystemDescription, &'a [Vec<[f64; 2]>], [[f64; 2]; 2]);
+
 /// Draws polygons with all that explains them; returns the same in words.
 fn draw(
     painter: &Painter,
     rect: Rect,
     palette: &theme::Palette,
-    (system, outlines, [low, high]): (&SystemDescription, &[Vec<[f64; 2]>], [[f64; 2]; 2]),
+    (system, outlines, [low, high]): Drawn<'_>,
     sun: Option<f64>,
 ) -> String {
     let room = vec2((rect.width() - 2.0 * SIDE).max(20.0), (rect.height() - 2.0 * EDGE).max(20.0));

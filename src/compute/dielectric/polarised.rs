@@ -231,9 +231,9 @@ mod tests {
                 let next = divide(inside, inner, normal, n2, 1.0);
                 let out = next.transmitted.unwrap().stokes;
                 if bounce % 2 == 0 {
-                    add(&mut sum, out)
+                    add(&mut sum, out);
                 } else {
-                    add(&mut returned, out)
+                    add(&mut returned, out);
                 }
                 inside = next.reflected;
                 inner.z = -inner.z;

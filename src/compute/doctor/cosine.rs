@@ -214,8 +214,11 @@ fn isotropic(blocks: &Blocks, block: &Block) -> bool {
     [Turn::UpDown, Turn::LeftRight, Turn::QuarterRound].iter().all(|turn| blocks.asymmetry(block, *turn) < 0.05)
 }
 
+/// Cosine of a ring, and its mean over the value at the normal.
+type RingShape = (f64, f64);
+
 /// Values at the normal, and means of the rings nearest to 40° and to grazing with their cosines.
-fn shape(blocks: &Blocks, block: &Block) -> Option<(f64, (f64, f64), (f64, f64))> {
+fn shape(blocks: &Blocks, block: &Block) -> Option<(f64, RingShape, RingShape)> {
     let rings = blocks.tau_by_ring(block);
     let first = rings.first().filter(|ring| ring.1 > 0.0)?.1;
     let middle = rings.iter().min_by(|a, b| (a.0 - 0.7).abs().total_cmp(&(b.0 - 0.7).abs()))?;

@@ -154,7 +154,8 @@ impl Row {
     }
 
     /// Standard error of τ or ρ, the larger one, as if the quarters were drawn independently. They lie
-    /// evenly among each other, so that the error is some four times smaller as a rule: stated, never undercut.
+    /// evenly among each other, so that the error is some four times smaller as a rule. Of 290 totals of
+    /// a prism one was farther from a run of twenty times the effort than stated (0.0023 where 0.0019 was).
     fn doubt(&self) -> f64 {
         let one = |k: usize| {
             let mean = 0.25 * self.quarters.iter().map(|quarter| quarter[k]).sum::<f64>();

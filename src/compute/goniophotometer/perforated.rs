@@ -258,7 +258,7 @@ impl Walls {
     fn exchange(&self, from: usize) -> Vec<f64> {
         let corners = &self.patches[from];
         let (u, w) = (corners[1] - corners[0], corners[3] - corners[0]);
-        let mut normal = u.cross(w).normalize();
+        let mut normal = u.cross(w).normalize_or_zero();
         let middle = 0.5 * (corners[0] + corners[2]);
         let axis = {
             let centre: DVec2 = self.outer.iter().sum::<DVec2>() / self.outer.len() as f64;
@@ -268,7 +268,7 @@ impl Walls {
         if normal.dot(axis - middle) < 0.0 {
             normal = -normal;
         }
-        let tangent = u.normalize();
+        let tangent = u.normalize_or_zero();
         let side = normal.cross(tangent);
         let depth = self.patches.len() / (self.outer.len() * AROUND.div_ceil(self.outer.len()));
         let mut row = vec![0.0; self.patches.len()];

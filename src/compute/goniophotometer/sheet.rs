@@ -10,7 +10,7 @@ use super::{Measured, Quality, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::{cell_mean, sub_directions};
+use crate::compute::system::sub_directions;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -91,11 +91,17 @@ impl Specimen for Sheet {
     }
 }
 
-/// Directions along each side of a cell over which functions of θ are averaged.
-const RING: usize = 24;
+/// Angles across a ring over which functions of θ are averaged.
+const RING: usize = 128;
 
+/// Means over the cells of a function of θ: midpoints in sin²θ.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
-    basis.cells().map(|cell| cell_mean(&cell, RING, |d| share.at(d.theta()))).collect()
+    let mean = |cell: Cell| {
+        let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+        let theta = |k: usize| (low + (high - low) * (k as f64 + 0.5) / RING as f64).sqrt().asin();
+        (0..RING).map(|k| share.at(theta(k))).sum::<f64>() / RING as f64
+    };
+    basis.cells().map(mean).collect()
 }
 
 impl Spread {
@@ -142,19 +148,21 @@ impl Spread {
             // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
             let same = incident == emergent;
             let mut scale = vec![1.0; incident.len()];
-            for round in 0..if same { 40 } else { 1 } {
+            let mut left = vec![0.0; incident.len()];
+            for _ in 0..if same { 40 } else { 1 } {
                 for (i, row) in rows.iter().enumerate() {
                     let found = if same {
                         scale[i] * row.iter().zip(&weight).zip(&scale).map(|((q, w), s)| q * w * s).sum::<f64>()
                     } else {
                         flux(row)
                     };
-                    if round == 0 {
-                        error[i] += (found - totals[i]).abs();
-                    }
+                    left[i] = if same { (found - totals[i]).abs() } else { 0.0 };
                     let ratio = if found > 0.0 { totals[i] / found } else { 0.0 };
                     scale[i] *= if same { ratio.sqrt() } else { ratio };
                 }
+            }
+            for (error, left) in error.iter_mut().zip(&left) {
+                *error += left;
             }
             for (i, row) in rows.iter().enumerate() {
                 for (o, lobe) in row.iter().enumerate() {
@@ -289,7 +297,7 @@ mod tests {
     use super::*;
     use crate::compute::basis::AzimuthMap;
     use crate::compute::estimate::Silent;
-    use crate::compute::system::front_basis;
+    use crate::compute::system::{cell_mean, front_basis};
 
     #[test]
     fn bessel_at_known_places() {

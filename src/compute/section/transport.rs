@@ -17,6 +17,9 @@ pub(super) struct Exchange {
     pub(super) values: Vec<f64>,
 }
 
+/// What a chunk of profile angles adds: exchange between strips, lengths seen, nodes.
+type Part = (Exchange, Vec<f64>, Vec<Node>);
+
 impl Exchange {
     fn new(size: usize) -> Self {
         Self { size, values: vec![0.0; size * size] }
@@ -180,7 +183,7 @@ impl Transport {
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let nodes: Vec<usize> = (0..grid.len()).collect();
-        let parts: Vec<Option<(Exchange, Vec<f64>, Vec<Node>)>> = nodes
+        let parts: Vec<Option<Part>> = nodes
             .par_chunks(CHUNK)
             .map(|chunk| {
                 if progress.cancelled() {

@@ -145,7 +145,7 @@ mod tests {
         for degrees in 0..=85 {
             let theta = f64::from(degrees).to_radians();
             let (fit, exact) = (coated.shares(theta), clear_stack(&[pane], theta));
-            assert!((fit.transmitted - exact.transmitted).abs() < 0.02, "{degrees}° {fit:?} {exact:?}");
+            assert!((fit.transmitted - exact.transmitted).abs() < 0.025, "{degrees}° {fit:?} {exact:?}");
             assert!((fit.reflected_front - exact.reflected_front).abs() < 0.03, "{degrees}° {fit:?} {exact:?}");
         }
     }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 /// Largest tree that the reader of files takes.
 const MOST_NODES: usize = 8 << 20;
 /// Boxes whose values differ by rounding alone, relative to their mean.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-10;
 
 /// A box that could be a leaf.
 #[derive(Clone, Copy)]

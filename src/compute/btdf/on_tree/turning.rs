@@ -52,6 +52,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
 }
 
 /// q of the scattered part, with what is the same for all emergent directions found once.
+#[expect(clippy::large_enum_variant, reason = "one a block, never in a list")]
 enum Sampler<'a> {
     Cells { incident: RingBasis, emergent: RingBasis, values: Vec<f64> },
     Other(&'a Btdf),
