@@ -99,22 +99,14 @@ fn the_moving_blind_blocks_high_sun_where_its_curve_says() {
 }
 
 #[test]
-fn a_new_file_is_fast_and_an_old_one_faster() {
+fn a_file_is_made_once_and_opened_as_it_is() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("deep/er/catalogue.sqlite");
-    let start = std::time::Instant::now();
-    let first = Catalogue::open(&path).unwrap();
-    let made = start.elapsed();
+    drop(Catalogue::open(&path).unwrap());
     let before = dump(&path);
-    drop(first);
-    let start = std::time::Instant::now();
     let again = Catalogue::open(&path).unwrap();
-    let opened = start.elapsed();
-    println!("first start {made:?}, later {opened:?}, {} bytes", std::fs::metadata(&path).unwrap().len());
     assert_eq!(dump(&path), before);
     assert!(!again.search(&Query::default()).unwrap().is_empty());
-    // Generous: other work may share the machine.
-    assert!(made.as_secs_f64() < 3.0 && opened.as_secs_f64() < 0.5);
 }
 
 #[test]

@@ -143,6 +143,9 @@ const WAYS: &[&str] = &[
     "maybe-sides-swapped",
     "energy-above-one",
 ];
+/// Where little light passes, hundred times as much is an energy above one and no more.
+const PERCENT: &[&str] = &["percent", "energy-above-one"];
+const MISSING: &[&str] = &["missing-block", "no-transmission"];
 const SCALE: &[&str] = &["cosine-factor", "energy-above-one"];
 
 const PLANTS: &[Plant] = &[
@@ -161,9 +164,9 @@ const PLANTS: &[Plant] = &[
     Plant { name: "transpose T back", codes: WAYS, make: |d| by(d, "transpose:transmission_back") },
     Plant { name: "transpose R front", codes: WAYS, make: |d| by(d, "transpose:reflection_front") },
     Plant { name: "transpose all", codes: WAYS, make: |d| by(d, "transpose") },
-    Plant { name: "percent T front", codes: &["percent"], make: |d| by(d, "multiply-by-100:transmission_front") },
-    Plant { name: "percent R back", codes: &["percent"], make: |d| by(d, "multiply-by-100:reflection_back") },
-    Plant { name: "percent all", codes: &["percent"], make: |d| by(d, "multiply-by-100") },
+    Plant { name: "percent T front", codes: PERCENT, make: |d| by(d, "multiply-by-100:transmission_front") },
+    Plant { name: "percent R back", codes: PERCENT, make: |d| by(d, "multiply-by-100:reflection_back") },
+    Plant { name: "percent all", codes: PERCENT, make: |d| by(d, "multiply-by-100") },
     Plant { name: "cosine x T front", codes: SCALE, make: |d| by(d, "multiply-cosine:transmission_front") },
     Plant { name: "cosine x T", codes: SCALE, make: |d| by(d, "multiply-cosine:transmission") },
     Plant { name: "cosine x R front", codes: SCALE, make: |d| by(d, "multiply-cosine:reflection_front") },
@@ -173,9 +176,9 @@ const PLANTS: &[Plant] = &[
     Plant { name: "cosine / R back", codes: SCALE, make: |d| by(d, "remove-cosine:reflection_back") },
     Plant { name: "cosine / all", codes: SCALE, make: |d| by(d, "remove-cosine") },
     Plant { name: "solid angle x all", codes: SCALE, make: |d| by(d, "multiply-solid-angle") },
-    Plant { name: "missing T back", codes: &["missing-block"], make: |d| by(d, "drop-block:transmission_back") },
-    Plant { name: "missing R back", codes: &["missing-block"], make: |d| by(d, "drop-block:reflection_back") },
-    Plant { name: "missing R both", codes: &["missing-block"], make: |d| by(d, "drop-block:reflection") },
+    Plant { name: "missing T back", codes: MISSING, make: |d| by(d, "drop-block:transmission_back") },
+    Plant { name: "missing R back", codes: MISSING, make: |d| by(d, "drop-block:reflection_back") },
+    Plant { name: "missing R both", codes: MISSING, make: |d| by(d, "drop-block:reflection") },
     Plant { name: "zero T back", codes: &["back-zero", "front-zero"], make: |d| zeroed(d, BACK) },
     Plant { name: "zero R back", codes: &["zero-block"], make: |d| zeroed(d, Component::ReflectionBack) },
     Plant { name: "copy T front to T back", codes: &["copied-block"], make: |d| copied(d, FRONT, BACK) },
@@ -235,11 +238,11 @@ fn planted_faults_in_genuine_products_are_found() {
     let genuine: Vec<(String, Dataset)> = genuine().into_iter().filter(|(_, dataset)| cells(dataset)).collect();
     let examined: BTreeMap<&String, Vec<Diagnosis>> = genuine.iter().map(|(name, one)| (name, examine(one))).collect();
     let known: BTreeMap<&String, _> = examined.iter().map(|(name, found)| (*name, warned(found))).collect();
-    let mut totals = (0, 0);
-    println!("| fault | planted | found | as error | without effect (< 2 %) | not found |");
-    println!("| --- | --- | --- | --- | --- | --- |");
+    let mut totals = (0, 0, 0);
+    println!("| fault | planted | found | as error | asked | without effect (< 2 %) | neither |");
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
     for plant in PLANTS {
-        let (mut planted, mut found, mut errors, mut nothing) = (0, 0, 0, 0);
+        let (mut planted, mut found, mut errors, mut asked, mut nothing) = (0, 0, 0, 0, 0);
         let mut missed = Vec::new();
         for (name, dataset) in &genuine {
             let Some(broken) = (plant.make)(dataset) else { continue };
@@ -259,7 +262,11 @@ fn planted_faults_in_genuine_products_are_found() {
                 let count = |list: &[Diagnosis]| list.iter().filter(|one| one.finding.code == *code).count();
                 count(&found_now) > count(&examined[name])
             });
-            if hits.is_empty() && !again {
+            // Where all numbers agree with each other, the way the light goes is shown and asked about.
+            let asks = |one: &Diagnosis| ["orientation", "sides"].contains(&one.finding.code) && one.repair.is_some();
+            if hits.is_empty() && !again && plant.codes == WAYS && found_now.iter().any(asks) {
+                asked += 1;
+            } else if hits.is_empty() && !again {
                 missed.push(format!(
                     "{name} ({change:.2}{}{})",
                     if told.is_empty() { "" } else { ": " },
@@ -272,10 +279,12 @@ fn planted_faults_in_genuine_products_are_found() {
         }
         totals.0 += planted;
         totals.1 += found;
-        println!("| {} | {planted} | {found} | {errors} | {nothing} | {} |", plant.name, missed.join(", "));
+        totals.2 += asked;
+        println!("| {} | {planted} | {found} | {errors} | {asked} | {nothing} | {} |", plant.name, missed.join(", "));
     }
-    println!("{} of {} found", totals.1, totals.0);
-    assert!(totals.1 * 10 >= totals.0 * 8, "{} of {}", totals.1, totals.0);
+    let (planted, found, asked) = totals;
+    println!("of {planted}: {found} found, {asked} asked about");
+    assert!(found * 100 >= planted * 75 && (found + asked) * 100 >= planted * 90, "{totals:?}");
 }
 
 #[test]

@@ -15,6 +15,7 @@ pub mod export;
 pub mod goniophotometer;
 pub mod jobs;
 pub mod moment;
+pub mod outcomes;
 pub mod paint;
 pub mod panels;
 pub mod shelf;

@@ -1,12 +1,11 @@
-//! What runs in jobs, and what its results do to the window.
+//! What runs in jobs, and what jobs bring back.
 
-use super::App;
-use super::control::{CONTROLLED, Year, YearKey};
-use super::engine::{Engine, LidFigures, Question, RoomFigures};
+use super::control::{CONTROLLED, Year};
+use super::engine::{Engine, LidFigures, RoomFigures};
 use super::goniophotometer::Finished;
-use super::jobs::{JobState, Lane};
-use super::shelf::{Addition, Found, Shelf};
-use super::state::{CatalogueState, Daylight, Import, PathUse, Selection, Sheet};
+use super::jobs::JobState;
+use super::shelf::{Found, Shelf};
+use super::state::{Daylight, Import, PathUse, Selection};
 use crate::catalogue::{Gathered, Product, SYSTEMS, SourceFile, gather};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
@@ -19,7 +18,7 @@ use crate::formats::system_toml::is_system_file;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
-use crate::study::sky::{SkyKeyError, outside_from_keys};
+use crate::study::sky::SkyKeyError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -83,7 +82,7 @@ pub struct Shelved {
 }
 
 /// Computes and stores one built-in product; how many are left.
-fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
+pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
     let Some((name, missing)) = shelf.next_builtin()? else { return Ok(0) };
     progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
     // One core stays free for what the user is doing.
@@ -96,7 +95,7 @@ fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
 }
 
 /// The selection's product, state and dataset.
-fn take_from_shelf(
+pub(super) fn take_from_shelf(
     shelf: &dyn Shelf,
     selection: &Selection,
     scene: &SceneFile,
@@ -245,294 +244,4 @@ pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine) ->
         .and_then(|lid| engine.luminaire(lid, path))
         .and_then(|bytes| write_whole(path, &bytes));
     Outcome::Written(PathUse::ExportLid, written)
-}
-
-impl App {
-    /// Starts a job that wakes the window when it ends.
-    pub(super) fn start(&mut self, lane: Lane, work: impl FnOnce(&JobState) -> Outcome + Send + 'static) {
-        let ctx = self.ctx.clone();
-        self.jobs.start(lane, move || ctx.request_repaint(), work);
-    }
-
-    /// Looks the list up anew.
-    pub(super) fn search(&mut self) {
-        if let Some(shelf) = self.state.shelf() {
-            let query = self.state.query.clone();
-            self.start(Lane::Catalogue, move |_| Outcome::Found(shelf.search(&query)));
-        }
-    }
-
-    /// Computes the next built-in product that is not stored yet, beside everything else. Stopped, it goes on when the
-    /// catalogue is opened next.
-    pub(super) fn fill_catalogue(&mut self) {
-        let Some(shelf) = self.state.shelf() else { return };
-        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_one(&*shelf, progress)));
-    }
-
-    /// Changes the catalogue, one change after the other.
-    pub(super) fn store(&mut self, change: impl FnOnce(&dyn Shelf) -> Result<(), String> + Send + 'static) {
-        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Stored(change(shelf))));
-        self.start_pending_change();
-    }
-
-    /// Stores an addition of this session.
-    pub(super) fn store_addition(&mut self, number: usize, addition: Addition) {
-        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Added(number, shelf.add(&addition))));
-        self.start_pending_change();
-    }
-
-    /// Changes must all happen, so they wait for each other instead of replacing each other.
-    fn start_pending_change(&mut self) {
-        if self.jobs.busy(Lane::Store) {
-            return;
-        }
-        let Some(shelf) = self.state.shelf() else { return };
-        if let Some(change) = self.pending_changes.pop_front() {
-            self.start(Lane::Store, move |_| change(&*shelf));
-        }
-    }
-
-    /// Takes in what jobs brought back. Never waits.
-    pub fn poll(&mut self) {
-        for finished in self.jobs.poll() {
-            match finished.outcome {
-                Ok(outcome) => self.take(outcome),
-                Err(panic) => {
-                    let text = format!("{}: {panic}", finished.lane.word());
-                    self.toasts.error(text.clone());
-                    match finished.lane {
-                        Lane::Lid => self.results.lid.error = Some(text),
-                        Lane::Room => self.results.room.error = Some(text),
-                        Lane::Accuracy => self.results.accuracy.error = Some(text),
-                        Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
-                        Lane::Year => self.results.year.error = Some(text),
-                        Lane::Catalogue => self.state.search_error = Some(text),
-                        _ => {}
-                    }
-                }
-            }
-            if finished.lane == Lane::Store {
-                self.start_pending_change();
-            }
-        }
-    }
-
-    fn take(&mut self, outcome: Outcome) {
-        match outcome {
-            Outcome::Opened(Ok(shelf)) => {
-                self.state.catalogue = CatalogueState::Ready(shelf);
-                self.search();
-                self.fill_catalogue();
-                self.asked = None;
-            }
-            Outcome::Builtin(Ok(left)) => {
-                self.search();
-                if left > 0 {
-                    self.fill_catalogue();
-                }
-            }
-            Outcome::Builtin(Err(error)) => {
-                self.toasts.warning(format!("Built-in products: {error}"));
-            }
-            Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error),
-            Outcome::Found(Ok(found)) => {
-                self.state.search_error = None;
-                self.state.found = Arc::new(found);
-                self.select_something();
-            }
-            Outcome::Found(Err(error)) => self.state.search_error = Some(error),
-            Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
-            Outcome::Year(result) => self.results.year.take(result),
-            Outcome::Accuracy(result) => {
-                self.results.accuracy_revision += 1;
-                self.results.accuracy.take(result);
-            }
-            Outcome::Lid(result) => self.results.lid.take(result),
-            Outcome::Room(result) => self.results.room.take(result),
-            Outcome::Chosen(Ok(paths)) => self.apply(super::command::Command::OpenPaths(paths)),
-            // Without a dialog the sheet's path field is the way, and it is open already.
-            Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
-            Outcome::Target(what, Ok(Some(path))) => self.apply(super::command::Command::Write(what, path)),
-            Outcome::Read(import) => {
-                self.state.import = Some(*import);
-                self.state.sheet = Some(Sheet::Import);
-            }
-            Outcome::Mended(Ok(mended)) => {
-                if let Some(import) = &mut self.state.import {
-                    (import.datasets, import.diagnoses, import.repairs) =
-                        (mended.datasets, mended.diagnoses, mended.repairs);
-                }
-            }
-            Outcome::Mended(Err(error)) => {
-                self.toasts.error(error);
-            }
-            Outcome::ReadScene(path, Ok(scene)) => {
-                self.undoer.add_undo(&self.state.document);
-                self.state.document.scene = *scene;
-                self.state.document.daylight_follows = false;
-                self.state.scene_path = Some(path);
-                self.adopt_selection();
-            }
-            Outcome::ReadCurve(Ok(curve)) => {
-                let keys = self.state.control_keys().with_mode(ControlMode::Curve);
-                let keys = ControlKeys { curve, curve_file: None, ..keys };
-                self.apply(super::command::Command::ControlKeys(Box::new(keys)));
-            }
-            Outcome::ReadSystem(Ok((text, base))) => self.open_system(text, base),
-            Outcome::Measured(result) => self.take_measured(result),
-            Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
-                self.toasts.error(error).duration(None);
-            }
-            Outcome::Added(number, result) => self.take_added(number, result),
-            Outcome::Stored(result) => {
-                if let Err(error) = result {
-                    self.toasts.error(error);
-                }
-                self.search();
-            }
-            Outcome::Written(what, Ok(path)) => {
-                self.toasts.success(format!("Written: {}", path.display()));
-                if what == PathUse::SaveScene {
-                    self.state.scene_path = Some(path);
-                }
-            }
-            Outcome::Written(_, Err(error)) => {
-                self.toasts.error(error).duration(None);
-            }
-        }
-    }
-
-    fn take_scene(&mut self, shelved: Result<Shelved, String>, daylight: Result<Daylight, SkyKeyError>) {
-        self.results.revision += 1;
-        match shelved {
-            Ok(Shelved { product, state, dataset }) => {
-                self.state.product = Some(product);
-                self.state.shown_state = state;
-                self.state.dataset.value = Some(dataset);
-                self.state.dataset.stale = false;
-                self.state.dataset.error = None;
-                self.ask_year();
-            }
-            Err(error) => self.state.dataset.error = Some(error),
-        }
-        match daylight {
-            Ok(daylight) => {
-                self.state.scene_error = None;
-                self.state.daylight.take(Ok(daylight));
-            }
-            Err(error) => {
-                self.state.daylight.error = Some(error.to_string());
-                self.state.scene_error = Some(error);
-            }
-        }
-    }
-
-    fn take_added(&mut self, number: usize, result: Result<String, String>) {
-        match result {
-            // Undone while it was being stored.
-            Ok(key) if !self.state.document.additions.contains(&number) => self.store(move |shelf| shelf.remove(&key)),
-            Ok(key) => {
-                self.toasts.success("Added to the catalogue; Ctrl+Z takes it out again");
-                self.state.additions[number].key = Some(key.clone());
-                // The step that added it also shows it.
-                self.state.document.selection = Selection { product: key, state: String::new() };
-                super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
-                self.undoer.add_undo(&self.state.document);
-            }
-            Err(error) => {
-                self.state.document.additions.retain(|&other| other != number);
-                self.toasts.error(format!("Not added: {error}. The catalogue is unchanged.")).duration(None);
-            }
-        }
-        self.search();
-    }
-
-    /// After opening a scene the selection is what its first catalogue aperture holds.
-    fn adopt_selection(&mut self) {
-        if let Some(selection) = super::state::selection_of(&self.state.document.scene) {
-            self.state.document.selection = selection;
-        }
-    }
-
-    /// A first start shows something alive: a light-guiding product if there is one, else the first.
-    fn select_something(&mut self) {
-        let document = &self.state.document;
-        if !document.selection.product.is_empty() || self.state.found.entries.is_empty() {
-            return;
-        }
-        // Something that moves makes every tile alive; else something that guides light.
-        const GUIDES: [&str; 3] = ["laser", "prism", "double"];
-        let entries = &self.state.found.entries;
-        let moving = entries.iter().find(|entry| entry.states.len() > 1);
-        let guiding =
-            || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
-        let chosen = moving.or_else(guiding).unwrap_or(&entries[0]);
-        self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
-        super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
-        self.undoer = super::fresh_undoer(&self.state.document);
-    }
-
-    /// Asks for the year of control anew when something that it hangs on has changed.
-    fn ask_year(&mut self) {
-        let state = &self.state;
-        let Some(product) = state.product.clone() else { return };
-        let key = YearKey::new(state, &product.key);
-        if key == self.asked_year {
-            return;
-        }
-        self.asked_year.clone_from(&key);
-        self.results.year.stale = true;
-        match key.filter(|_| product.states.len() > 1) {
-            Some(key) => self.start(Lane::Year, move |job| Outcome::Year(super::control::year(&product, key, job))),
-            None => {
-                self.jobs.cancel(Lane::Year);
-                self.results.year = super::state::Shown::default();
-            }
-        }
-    }
-
-    /// Runs the ladder on the present scene and shows its sheet.
-    pub(super) fn measure_accuracy(&mut self) {
-        self.state.sheet = Some(Sheet::Accuracy);
-        let Some(shelf) = self.state.shelf() else {
-            self.toasts.info("The catalogue is not open yet");
-            return;
-        };
-        let question = Question { scene: self.state.document.scene.clone(), base: self.state.base(), shelf };
-        let engine = self.services.engine.clone();
-        self.results.accuracy.error = None;
-        self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
-    }
-
-    /// Asks for everything that the document's change since the last call affects.
-    pub fn refresh(&mut self) {
-        if self.state.document.daylight_follows {
-            super::daylight::follow(&mut self.state.document.scene);
-        }
-        let Some(shelf) = self.state.shelf() else { return };
-        let document = &self.state.document;
-        if document.selection.product.is_empty() || self.asked.as_ref() == Some(document) {
-            return;
-        }
-        self.asked = Some(document.clone());
-        let question = Question { scene: document.scene.clone(), base: self.state.base(), shelf: shelf.clone() };
-        let selection = document.selection.clone();
-        self.state.dataset.stale = true;
-        self.state.daylight.stale = true;
-        self.results.lid.stale = true;
-        self.results.room.stale = true;
-        self.results.accuracy.stale = true;
-        let (scene, base) = (question.scene.clone(), question.base.clone());
-        let aperture = self.state.control_aperture();
-        self.start(Lane::Scene, move |_| {
-            let daylight =
-                outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
-            let place = (aperture, base.as_path());
-            Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok(), place), daylight)
-        });
-        let (engine, asked) = (self.services.engine.clone(), question.clone());
-        self.start(Lane::Lid, move |job| Outcome::Lid(engine.lid(&asked, job)));
-        let engine = self.services.engine.clone();
-        self.start(Lane::Room, move |job| Outcome::Room(engine.room(&question, job)));
-    }
 }

@@ -232,7 +232,7 @@ fn curve_ui(
     if let Some(k) = editing.chosen.filter(|_| response.has_focus() && input.editable)
         && let Some([angle, value]) = curve.get(k)
     {
-        let text = format!("point {} of {}: {angle:.0}° → {}", k + 1, curve.len(), number(*value, 3));
+        let text = format!("point {} of {}: {angle:.0}°, rule {}", k + 1, curve.len(), number(*value, 3));
         out.extend(edited.map(Action::EditCurve));
         return Some(text);
     }

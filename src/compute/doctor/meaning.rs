@@ -47,7 +47,7 @@ pub fn meaning(code: &str) -> &'static str {
         "symmetry-declared" => {
             "Suns from different sides at the same angle would give the same light, which is wrong for such a system."
         }
-        "orientation" => "The one thing that numbers cannot show: compare it with the product.",
+        "orientation" | "sides" => "The one thing that numbers cannot show: compare it with the product.",
         "resolution" => "Finer effects than the cells are averaged away.",
         "template-word" | "no-identity" => "Nobody can tell later whose data these are; results are not affected.",
         "front-by-reciprocity" => "As good as the back transmission that it is derived from.",

@@ -4,11 +4,14 @@
 //! be said is what is usual: devices are mounted so that the sun from above passes less than light from below, and
 //! with the brighter face out. What is unusual is asked about.
 
-use super::blocks::{Blocks, Turn};
+use super::blocks::{Block, Blocks, Turn};
 use super::{Diagnosis, Repair, RepairKind};
 use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Incident};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// Functions that differ less from their own image are alike, for measured ones. Weighted share.
+const UNEVEN: f64 = 0.02;
 
 /// Where the light of one incidence goes, as shares of what is transmitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,13 +72,49 @@ fn from(btdf: &Btdf, phi: f64) -> f64 {
     angles.iter().map(|theta| btdf.tau(Incident(Dir::from_theta_phi(theta.to_radians(), phi)))).sum::<f64>() / 4.0
 }
 
+/// Which side is outside, where the sides differ: how much each reflects, for the user to compare.
+fn sides(dataset: &Dataset, blocks: &Blocks) -> Option<Diagnosis> {
+    let n = blocks.weight.len();
+    let turned = |k| blocks.turned(Turn::HalfRound, k);
+    // Sides exchanged, a system is turned by 180° about the vertical.
+    let differ = |front: Option<&Block>, back: Option<&Block>| {
+        let (Some(front), Some(back)) = (front, back) else { return 0.0 };
+        blocks.difference(|i, o| front.q[i * n + o], |i, o| back.q[turned(i) * n + turned(o)])
+    };
+    let transmission = differ(blocks.get(Component::TransmissionFront), blocks.get(Component::TransmissionBack));
+    let reflection = differ(blocks.get(Component::ReflectionFront), blocks.get(Component::ReflectionBack));
+    if transmission.max(reflection) < UNEVEN {
+        return None;
+    }
+    let mut parts = Vec::new();
+    if reflection >= UNEVEN {
+        let rho = |component| dataset.visible.get(component).map_or(0.0, |btdf| 100.0 * btdf.tau_hemispherical());
+        let (front, back) = (rho(Component::ReflectionFront), rho(Component::ReflectionBack));
+        let ways = 100.0 * reflection;
+        parts.push(format!(
+            "the outside reflects {front:.1} % and the inside {back:.1} % of even light (values differ by {ways:.0} %)"
+        ));
+    }
+    if transmission >= UNEVEN {
+        parts.push(format!("the transmissions of the sides differ by {:.0} %", 100.0 * transmission));
+    }
+    let message = format!(
+        "Outside and inside are not alike: {}. Which is which, the numbers alone cannot tell; if it is the other way \
+         round, exchange the sides.",
+        parts.join("; ")
+    );
+    Some(Diagnosis::from(Finding::info("sides", message)).with(Repair::whole(RepairKind::SwapSides)))
+}
+
 pub(super) fn check(dataset: &Dataset, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     let Some(btdf) = dataset.transmission() else { return list };
     let turn = Repair::whole(RepairKind::TurnUpsideDown);
-    let uneven = blocks.is_some_and(|blocks| {
-        Component::ALL.iter().filter_map(|c| blocks.get(*c)).any(|block| blocks.asymmetry(block, Turn::UpDown) > 0.1)
+    let unevenness = blocks.map_or(0.0, |blocks| {
+        let own = Component::ALL.iter().filter_map(|c| blocks.get(*c));
+        own.map(|block| blocks.asymmetry(block, Turn::UpDown)).fold(0.0, f64::max)
     });
+    let uneven = unevenness > UNEVEN;
     if let Some(sentence) = sun_from_above(btdf) {
         list.push(if uneven {
             let ask = "If that is not so, the data are upside down, or outside and inside are exchanged: the numbers alone cannot tell.";
@@ -85,12 +124,13 @@ pub(super) fn check(dataset: &Dataset, blocks: Option<&Blocks>) -> Vec<Diagnosis
             Finding::info("orientation", format!("{sentence} {alike}")).into()
         });
     }
+    list.extend(blocks.and_then(|blocks| sides(dataset, blocks)));
     // Closed forms of this program know their orientation.
     if dataset.format.is_empty() {
         return list;
     }
     let (above, below) = (from(btdf, FRAC_PI_2), from(btdf, -FRAC_PI_2));
-    if uneven && above > 1.25 * below + 0.02 {
+    if above > 1.25 * below + 0.02 {
         let message = format!(
             "Sun from above passes better ({:.0} %) than light from below ({:.0} %), against the purpose of most devices: \
              possibly upside down, or outside and inside swapped, or slats tilted the other way.",
@@ -102,7 +142,7 @@ pub(super) fn check(dataset: &Dataset, blocks: Option<&Blocks>) -> Vec<Diagnosis
     let reflectance = |component| dataset.visible.get(component).map(Btdf::tau_hemispherical);
     if let (Some(front), Some(back)) = (reflectance(Component::ReflectionFront), reflectance(Component::ReflectionBack))
         // A slat's two faces show in proportions that depend on its tilt.
-        && !uneven
+        && unevenness < 0.1
         && back > 0.2
         && front < 0.6 * back
     {

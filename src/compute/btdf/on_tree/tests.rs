@@ -26,7 +26,7 @@ fn a_diffuser_is_one_leaf() {
     let half = Btdf { regular: None, scattered: Some(Scattered::Lambert(AngularTransmittance::Constant(0.5))) };
     let four = tree_on(&half, TreeAxes::Front, shape(TreeRank::Four, 4, 0.0)).unwrap();
     assert_eq!(four.tree.leaves(), 1);
-    assert!((four.tree.tau_hemispherical() - 0.5).abs() < 1e-14);
+    assert!((four.tree.tau_hemispherical() - 0.5).abs() < 1e-10);
     // Rank 3 keeps its root, of whose children four lie in the unused half.
     let three = tree_on(&half, TreeAxes::Front, shape(TreeRank::Three, 4, 0.0)).unwrap();
     assert_eq!(three.tree.leaves(), 8);
