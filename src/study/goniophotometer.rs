@@ -19,10 +19,12 @@ use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+/// Layers of a stack with all stacks in it, at most.
+const MOST_LAYERS: usize = 40;
 /// Stacks within stacks, at most.
 const MOST_NESTED: usize = 4;
 /// Version of the methods: raised whenever computed values change, so that kept states are not mistaken.
-const METHODS: u32 = 1;
+const METHODS: u32 = 2;
 
 /// A system file with the place from which it names others.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,13 +132,27 @@ impl Described {
 
     /// One state, ready to be measured.
     pub fn specimen(&self, state: &str, library: &Library) -> Result<Box<dyn Specimen>, StudyError> {
-        self.nested(state, library, 0)
+        let mut layers = Vec::new();
+        self.layers_into(&mut layers, state, library, 0)?;
+        Ok(match self.file.system.kind {
+            SystemKind::Stack(_) => Box::new(Stack(layers)),
+            _ => layers.pop().expect("what is no stack is one layer"),
+        })
     }
 
-    fn nested(&self, state: &str, library: &Library, depth: usize) -> Result<Box<dyn Specimen>, StudyError> {
+    /// Appends the system as a layer. Of a stack all layers, so that a stack in a stack is solved with it, on the same
+    /// cells.
+    fn layers_into(
+        &self,
+        list: &mut Vec<Box<dyn Specimen>>,
+        state: &str,
+        library: &Library,
+        depth: usize,
+    ) -> Result<(), StudyError> {
         let system = &self.file.system;
         let SystemKind::Stack(layers) = &system.kind else {
-            return specimen(system, state).map_err(|error| StudyError::key("state", error.to_string()));
+            list.push(specimen(system, state).map_err(|error| StudyError::key("state", error.to_string()))?);
+            return Ok(());
         };
         if depth >= MOST_NESTED {
             return Err(StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}")));
@@ -145,30 +161,40 @@ impl Described {
         if !moving && !state.is_empty() {
             return Err(StudyError::key("state", "a stack without a moving layer has no states"));
         }
-        let made: Result<Vec<_>, StudyError> =
-            layers.iter().map(|layer| self.layer(layer, state, library, depth)).collect();
-        let stack: Box<dyn Specimen> = Box::new(Stack(made?));
-        Ok(if system.upright { Box::new(Upright(stack)) } else { stack })
+        let first = list.len();
+        for layer in layers {
+            self.layer_into(list, layer, state, library, depth)?;
+            if list.len() > MOST_LAYERS {
+                return Err(StudyError::key("stack.layers", format!("more than {MOST_LAYERS} layers in all")));
+            }
+        }
+        if system.upright {
+            let turned: Vec<_> = list.drain(first..).map(|one| Box::new(Upright(one)) as Box<dyn Specimen>).collect();
+            list.extend(turned);
+        }
+        Ok(())
     }
 
-    fn layer(
+    fn layer_into(
         &self,
+        list: &mut Vec<Box<dyn Specimen>>,
         layer: &Layer,
         state: &str,
         library: &Library,
         depth: usize,
-    ) -> Result<Box<dyn Specimen>, StudyError> {
+    ) -> Result<(), StudyError> {
         let state = if layer.state == EACH_STATE { state } else { &layer.state };
         let told = (!state.is_empty()).then(|| state.to_owned());
         let keys = match &layer.source {
             LayerSource::File(name) if is_system_file(name) => {
-                return self.other(name)?.nested(state, library, depth + 1);
+                return self.other(name)?.layers_into(list, state, library, depth + 1);
             }
             LayerSource::File(name) => SystemKeys::File { path: name.into(), state: told },
             LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
         };
         let system = library.load(&keys, self.folder())?;
-        Ok(Box::new(DataLayer(system.dataset.visible.clone())))
+        list.push(Box::new(DataLayer(system.dataset.visible.clone())));
+        Ok(())
     }
 
     /// Computes one state. States kept under `keep` are taken from there, and finished ones left there.
@@ -180,7 +206,8 @@ impl Described {
         keep: Option<&Path>,
         progress: &dyn Progress,
     ) -> Result<Computed, StudyError> {
-        let kept = keep.map(|folder| folder.join(self.kept_name(state, request)));
+        let kept = keep.map(|folder| self.kept_name(state, request, library).map(|name| folder.join(name)));
+        let kept = kept.transpose()?;
         if let Some(path) = &kept
             && let Ok(bytes) = std::fs::read(path)
             && let Ok(dataset) = dataset_blob::decode(&bytes)
@@ -209,25 +236,39 @@ impl Described {
         method(&self.file.system, request.error, [request.incident.len(), request.emergent.len()])
     }
 
-    /// Name of a kept state: by everything that decides its values but the files of other layers.
-    fn kept_name(&self, state: &str, request: &Request) -> String {
+    /// Name of a kept state: by everything that decides its values.
+    fn kept_name(&self, state: &str, request: &Request, library: &Library) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
-        for part in [&self.text, state, request.incident.name(), request.emergent.name()] {
+        for part in [state, request.incident.name(), request.emergent.name()] {
             hash.update(part.as_bytes()).update(b"\0");
         }
-        for layer in self.layer_files() {
-            hash.update(&std::fs::read(layer).unwrap_or_default()).update(b"\0");
-        }
+        self.sources_into(&mut hash, library, 0)?;
         hash.update(&request.error.to_le_bytes()).update(&request.seed.to_le_bytes()).update(&METHODS.to_le_bytes());
-        format!("{}.cfsd", &hash.finalize().to_hex()[..32])
+        Ok(format!("{}.cfsd", &hash.finalize().to_hex()[..32]))
     }
 
-    fn layer_files(&self) -> Vec<PathBuf> {
-        let SystemKind::Stack(layers) = &self.file.system.kind else { return Vec::new() };
-        let file = |layer: &Layer| match &layer.source {
-            LayerSource::File(name) => Some(self.folder().join(name)),
-            LayerSource::Catalogue(_) => None,
-        };
-        layers.iter().filter_map(file).collect()
+    /// Hashes the text and what its layers are made of.
+    fn sources_into(&self, hash: &mut blake3::Hasher, library: &Library, depth: usize) -> Result<(), StudyError> {
+        hash.update(self.text.as_bytes()).update(b"\0");
+        let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(()) };
+        // Deeper ones are refused when they are measured.
+        for layer in layers.iter().filter(|_| depth < MOST_NESTED) {
+            match &layer.source {
+                LayerSource::File(name) if is_system_file(name) => {
+                    self.other(name)?.sources_into(hash, library, depth + 1)?;
+                }
+                // What cannot be read is told by its reader.
+                LayerSource::File(name) => {
+                    hash.update(&std::fs::read(self.folder().join(name)).unwrap_or_default());
+                }
+                LayerSource::Catalogue(key) => {
+                    for state in library.product(key)?.states {
+                        hash.update(state.dataset.as_bytes());
+                    }
+                }
+            }
+            hash.update(b"\0");
+        }
+        Ok(())
     }
 }

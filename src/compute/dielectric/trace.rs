@@ -52,6 +52,8 @@ impl Emission {
 
 /// Surfaces after which light is given up.
 const MOST_SURFACES: u32 = 2000;
+/// Light left of a beam that absorption takes, caught between total reflections: all of it is absorbed in the end.
+const FAINT: f64 = 1e-14;
 /// A part of less than this share of the least is not followed; the other one carries it.
 const NEGLIGIBLE: f64 = 1e-3;
 
@@ -128,6 +130,10 @@ impl Work<'_> {
     fn follow(&mut self, mut beam: Beam) {
         let section = self.section;
         let region = &section.regions[beam.region];
+        if beam.light.stokes.i < FAINT {
+            self.out.absorbed += beam.light.stokes.i;
+            return;
+        }
         if beam.surfaces > MOST_SURFACES {
             self.lose(beam.light.stokes.i);
             return;

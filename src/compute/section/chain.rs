@@ -5,7 +5,7 @@ use super::sweep::Met;
 use std::f64::consts::PI;
 
 /// Rays weaker than this share of their start are given up.
-const FAINT: f64 = 1e-7;
+const FAINT: f64 = 1e-6;
 /// Reflections after which a ray is given up: between perfect mirrors that nearly touch it may never leave.
 const MOST: usize = 5000;
 /// A ray has left a strip when it is farther from it. In pitches.
@@ -160,24 +160,32 @@ impl Section {
             // Of sheets that lie in one another the lower is the inner one, as in the sweep.
             let copy = if d[0] >= 0.0 { step } else { -step };
             let p = [point[0], point[1] - f64::from(copy)];
-            for (index, facet) in self.facets.iter().enumerate() {
-                if copy == 0 && (facet.first..facet.first + facet.ends.len()).contains(&own) {
+            for group in &self.groups {
+                let to = [group.centre[0] - p[0], group.centre[1] - p[1]];
+                let (ahead, beside) = (to[0] * d[0] + to[1] * d[1], to[0] * d[1] - to[1] * d[0]);
+                if beside.abs() > group.radius || ahead < -group.radius || ahead - group.radius > best.0 {
                     continue;
                 }
-                let e = [facet.b[0] - facet.a[0], facet.b[1] - facet.a[1]];
-                let across = e[0] * d[1] - e[1] * d[0];
-                let w = [p[0] - facet.a[0], p[1] - facet.a[1]];
-                let share = w[0] * d[1] - w[1] * d[0];
-                // Along the facet, or past its ends.
-                if across == 0.0 || share * across < 0.0 || share.abs() > across.abs() {
-                    continue;
-                }
-                let distance = (w[0] * e[1] - w[1] * e[0]) / across;
-                if distance > OFF && distance < best.0 - OFF {
-                    // Left of the way lies [−e₁, e₀]; a ray that comes from there has d · left < 0.
-                    let from_right = across > 0.0;
-                    if self.strips[facet.first].faces[usize::from(from_right)].is_some() {
-                        best = (distance, Some((index, copy, share / across, from_right)));
+                for index in group.facets.clone() {
+                    let facet = &self.facets[index];
+                    if copy == 0 && (facet.first..facet.first + facet.ends.len()).contains(&own) {
+                        continue;
+                    }
+                    let e = [facet.b[0] - facet.a[0], facet.b[1] - facet.a[1]];
+                    let across = e[0] * d[1] - e[1] * d[0];
+                    let w = [p[0] - facet.a[0], p[1] - facet.a[1]];
+                    let share = w[0] * d[1] - w[1] * d[0];
+                    // Along the facet, or past its ends.
+                    if across == 0.0 || share * across < 0.0 || share.abs() > across.abs() {
+                        continue;
+                    }
+                    let distance = (w[0] * e[1] - w[1] * e[0]) / across;
+                    if distance > OFF && distance < best.0 - OFF {
+                        // Left of the way lies [−e₁, e₀]; a ray that comes from there has d · left < 0.
+                        let from_right = across > 0.0;
+                        if self.strips[facet.first].faces[usize::from(from_right)].is_some() {
+                            best = (distance, Some((index, copy, share / across, from_right)));
+                        }
                     }
                 }
             }

@@ -45,6 +45,33 @@ pub(super) struct Facet {
     pub(super) ends: Vec<f64>,
 }
 
+/// Facets in a row, in a circle: rays that miss the circle miss them all.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Group {
+    /// Which facets.
+    pub(super) facets: std::ops::Range<usize>,
+    /// Middle of the circle.
+    pub(super) centre: Point,
+    /// Its radius.
+    pub(super) radius: f64,
+}
+
+/// Facets in a group.
+const GROUP: usize = 6;
+
+impl Group {
+    fn of(facets: &[Facet], range: std::ops::Range<usize>) -> Self {
+        let points = || facets[range.clone()].iter().flat_map(|facet| [facet.a, facet.b]);
+        let middle = [0, 1].map(|axis: usize| {
+            let at = || points().map(|point| point[axis]);
+            0.5 * (at().fold(f64::INFINITY, f64::min) + at().fold(f64::NEG_INFINITY, f64::max))
+        });
+        let radius = points().map(|p| (p[0] - middle[0]).hypot(p[1] - middle[1])).fold(0.0, f64::max);
+        // Beyond all rounding.
+        Self { facets: range, centre: middle, radius: radius + 1e-6 }
+    }
+}
+
 /// A slat of an endless array of pitch 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Section {
@@ -54,6 +81,8 @@ pub(super) struct Section {
     pub(super) faces: Vec<Face>,
     /// Straight runs of strips.
     pub(super) facets: Vec<Facet>,
+    /// The facets, a few at a time.
+    pub(super) groups: Vec<Group>,
     /// Number of coarse faces.
     pub(super) coarse: usize,
     /// Solid slats, as against sheets.
@@ -169,7 +198,8 @@ impl Section {
         let reach = if graph { 1 } else { (2.0 * (high - low).ceil()).max(1.0) as i32 };
         let list = split_at_crossings(list, reach);
 
-        let mut section = Self { strips: vec![], faces: vec![], facets: vec![], coarse: 0, solid, reach };
+        let mut section =
+            Self { strips: vec![], faces: vec![], facets: vec![], groups: vec![], coarse: 0, solid, reach };
         for part in list {
             let sides = [Some(part.left), part.right];
             let coarse = sides.map(|side| {
@@ -195,6 +225,9 @@ impl Section {
             }
         }
         section.facets = section.straight_runs();
+        let count = section.facets.len();
+        let groups = (0..count).step_by(GROUP).map(|k| Group::of(&section.facets, k..(k + GROUP).min(count)));
+        section.groups = groups.collect();
         section
     }
 

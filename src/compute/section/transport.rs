@@ -7,6 +7,7 @@ use super::sweep::{Bundle, Met, sweep};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::goniophotometer::Side;
 use rayon::prelude::*;
+use std::rc::Rc;
 
 /// A square matrix of faces, row by row.
 #[derive(Debug, Clone)]
@@ -163,7 +164,7 @@ impl Into<'_> {
 /// Rays a bundle where mirrors spread light.
 const ROUGH: usize = 4;
 /// Smallest part of a bundle that is looked at by itself.
-const FINEST: f64 = 1.0 / 256.0;
+const FINEST: f64 = 1.0 / 64.0;
 /// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
 const CHUNK: usize = 12;
 
@@ -281,7 +282,8 @@ impl<'a> Tracer<'a> {
             let met = Met { copy: 0, ..arrival.to };
             let mut trace = Trace::default();
             self.section.follow(Ray { point, direction: arrival.direction, met }, sequence, &mut trace);
-            trace
+            // Shared by the parts on either side of it.
+            Rc::new(trace)
         };
         if self.rough {
             for k in 0..ROUGH {
@@ -298,11 +300,11 @@ impl<'a> Tracer<'a> {
             let done = trace(middle, sequence);
             if (done.way == first.way && done.way == last.way) || to - from < FINEST {
                 let width = (to - from) / (1.0 - 2.0 * edge) * bundle.width;
-                let between =
+                let between: [&Trace; 3] =
                     if done.way == first.way && done.way == last.way { [&first, &done, &last] } else { [&done; 3] };
                 into.add(self.section, arrival, between, width, self.weight);
             } else {
-                open.push((middle, to, done.clone(), last));
+                open.push((middle, to, Rc::clone(&done), last));
                 open.push((from, middle, first, done));
             }
         }
