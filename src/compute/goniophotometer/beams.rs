@@ -119,12 +119,12 @@ pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progre
 
 /// Which cell is the mirror image of which, `turned` giving a direction's azimuth after the exchange of left and right
 /// or of up and down; `None` where the cells do not mirror.
-fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<Vec<usize>> {
+pub(super) fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<Vec<usize>> {
     let image = |cell: Cell| {
         let other = basis.index(Dir::from_theta_phi(cell.theta(), turned(cell.phi)))?;
         let found = basis.cell(other);
         let turn = (found.phi - turned(cell.phi)).rem_euclid(2.0 * PI);
-        let same = cell.is_cap() || turn.min(2.0 * PI - turn) < 1e-9;
+        let same = cell.width > 1.99 * PI || turn.min(2.0 * PI - turn) < 1e-9;
         (same && found.theta_min == cell.theta_min && found.width == cell.width).then_some(other)
     };
     basis.cells().map(image).collect()

@@ -13,6 +13,7 @@
 
 pub mod beams;
 mod cells;
+mod halves;
 pub mod outline;
 pub mod panels;
 pub mod panes;

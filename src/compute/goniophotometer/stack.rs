@@ -5,13 +5,12 @@
 //! common angle of their passages, so the layers are measured on cells that are cut finer than those asked for, and
 //! only the sum is averaged. The error of what is still forgotten is told by the change from the next coarser cut.
 
+use super::beams::mirror_images;
+use super::halves::{Flux, Halves};
 use super::{Measured, Seen, Setting, Side, Specimen};
 use crate::compute::basis::{AzimuthMap, RingBasis, resample_matrix, same_cells};
 use crate::compute::btdf::{Band, CellMatrix, Component, matrix_on};
-use crate::compute::direction::Dir;
 use crate::compute::estimate::{Cancelled, Progress};
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use std::f64::consts::PI;
 
 /// Layers from outside to inside.
@@ -113,110 +112,109 @@ impl Stack {
             error: setting.error / (2.0 * self.0.len() as f64),
             seed: setting.seed,
         };
-        let turn = turned(cells).expect("chosen so that it can be turned");
-        let mut sum: Option<Layered> = None;
+        let mut layers = Vec::with_capacity(self.0.len());
         for (k, layer) in self.0.iter().enumerate() {
             progress.advance("layers", k, self.0.len());
             if progress.cancelled() {
                 return Err(Cancelled);
             }
-            let next = Layered::new(&layer.measure(&share, progress)?, &turn);
+            layers.push(layer.measure(&share, progress)?);
+        }
+        // Left and right alike, as nearly all systems are, or up and down.
+        let mirrors = [mirror_images(cells, |phi| PI - phi), mirror_images(cells, |phi| -phi)];
+        let mirror = mirrors.into_iter().flatten().find(|map| layers.iter().all(|layer| Halves::fits(map, layer)));
+        let halves = mirror.map_or_else(|| Halves::none(cells.len()), |map| Halves::new(&map));
+        let turn = turned(cells).expect("chosen so that it can be turned");
+        let mut sum: Option<Layered> = None;
+        for measured in layers {
+            let next = Layered::new(&measured, &turn, &halves);
             sum = Some(match sum {
                 None => next,
                 Some(outer) => outer.before(&next),
             });
         }
         let sum = sum.expect("a stack has layers");
-        Ok(sum.measured(cells, &turn))
+        Ok(sum.measured(cells, &turn, &halves))
     }
 }
 
 /// The cell that each cell becomes when turned by 180° about the normal; `None` where that is no cell.
 fn turned(basis: &RingBasis) -> Option<Vec<usize>> {
-    let map: Option<Vec<usize>> = basis
-        .cells()
-        .map(|cell| {
-            if cell.width > 1.99 * PI {
-                return basis.index(cell.centre());
-            }
-            let there = basis.index(Dir::from_theta_phi(cell.theta(), cell.phi + PI))?;
-            let off = (basis.cell(there).phi - cell.phi - PI).rem_euclid(2.0 * PI);
-            (off.min(2.0 * PI - off) < 1e-9).then_some(there)
-        })
-        .collect();
-    map.filter(|map| map.iter().enumerate().all(|(k, &there)| map[there] == k))
+    mirror_images(basis, |phi| phi + PI)
 }
 
 /// A layer as flux matrices (share of the light of column i that leaves through cell o, row), light from either side
 /// named by its travelling direction as light from outside is, so that products of matrices chain.
 struct Layered {
-    t: [Mat<f64>; 2],
-    r: [Mat<f64>; 2],
+    t: [Flux; 2],
+    r: [Flux; 2],
     absorbed: [Vec<f64>; 2],
     error: [Vec<f64>; 2],
 }
 
 impl Layered {
-    fn new(measured: &Measured, turn: &[usize]) -> Self {
+    fn new(measured: &Measured, turn: &[usize], halves: &Halves) -> Self {
         let n = turn.len();
         let weight = measured.emergent.projected_solid_angles();
-        let front = |q: &[f64]| Mat::from_fn(n, n, |o, i| q[i * n + o] * weight[o]);
-        let back = |q: &[f64]| Mat::from_fn(n, n, |o, i| q[turn[i] * n + turn[o]] * weight[o]);
-        let named = |list: &[f64]| turn.iter().map(|&k| list[k]).collect();
+        let front = |q: &[f64]| halves.matrix(|o, i| q[i * n + o] * weight[o]);
+        let back = |q: &[f64]| halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]);
+        let own = |list: &[f64]| halves.list(|k| list[k]);
+        let named = |list: &[f64]| halves.list(|k| list[turn[k]]);
         let (f, b) = (&measured.front, &measured.back);
         Self {
             t: [front(&f.transmitted), back(&b.transmitted)],
             r: [front(&f.reflected), back(&b.reflected)],
-            absorbed: [f.absorbed.clone(), named(&b.absorbed)],
-            error: [f.error.clone(), named(&b.error)],
+            absorbed: [own(&f.absorbed), named(&b.absorbed)],
+            error: [own(&f.error), named(&b.error)],
         }
     }
 
     /// This layer outside, another one inside.
     fn before(&self, inner: &Self) -> Self {
-        let n = self.t[0].nrows();
-        let unit = Mat::<f64>::identity(n, n);
         let (t1, r1) = (&self.t, &self.r);
         let (t2, r2) = (&inner.t, &inner.r);
-        // Inward and outward light in the gap for light from outside, then for light from inside.
-        let inward = (&unit - &r1[1] * &r2[0]).partial_piv_lu().solve(&t1[0]);
-        let outward = &r2[0] * &inward;
-        let outward_back = (&unit - &r2[0] * &r1[1]).partial_piv_lu().solve(&t2[1]);
-        let inward_back = &r1[1] * &outward_back;
-        let in_gap = |own: &[f64], inward: &Mat<f64>, outward: &Mat<f64>, outer: &[f64], within: &[f64]| -> Vec<f64> {
-            (0..n)
-                .map(|i| {
-                    let gap: f64 = (0..n).map(|k| outward[(k, i)] * outer[k] + inward[(k, i)] * within[k]).sum();
-                    own[i] + gap
-                })
-                .collect()
+        // Inward and outward light in the gap for light from outside, then for light from inside, of which what goes
+        // outward is what came through and what the inner layer throws back.
+        let series = r1[1].times(&r2[0]).series();
+        let inward = series.of(&t1[0]);
+        let outward = r2[0].times(&inward);
+        let inward_back = series.of(&r1[1].times(&t2[1]));
+        let outward_back = t2[1].plus(&r2[0].times(&inward_back));
+        let in_gap = |own: &[f64], inward: &Flux, outward: &Flux, outer: &[f64], within: &[f64]| -> Vec<f64> {
+            let gap = outward.weighted(outer).into_iter().zip(inward.weighted(within));
+            own.iter().zip(gap).map(|(own, (a, b))| own + a + b).collect()
         };
         let list = |of: fn(&Self) -> &[Vec<f64>; 2]| {
             let (a, b) = (of(self), of(inner));
             [in_gap(&a[0], &inward, &outward, &a[1], &b[0]), in_gap(&b[1], &inward_back, &outward_back, &a[1], &b[0])]
         };
         Self {
-            t: [&t2[0] * &inward, &t1[1] * &outward_back],
-            r: [&r1[0] + &t1[1] * &outward, &r2[1] + &t2[0] * &inward_back],
+            t: [t2[0].times(&inward), t1[1].times(&outward_back)],
+            r: [r1[0].plus(&t1[1].times(&outward)), r2[1].plus(&t2[0].times(&inward_back))],
             absorbed: list(|layer| &layer.absorbed),
             error: list(|layer| &layer.error),
         }
     }
 
-    fn measured(&self, cells: &RingBasis, turn: &[usize]) -> Measured {
+    fn measured(&self, cells: &RingBasis, turn: &[usize], halves: &Halves) -> Measured {
         let n = turn.len();
         let weight = cells.projected_solid_angles();
-        let front = |m: &Mat<f64>| (0..n * n).map(|k| m[(k % n, k / n)].max(0.0) / weight[k % n]).collect();
-        let back = |m: &Mat<f64>| (0..n * n).map(|k| m[(turn[k % n], turn[k / n])].max(0.0) / weight[k % n]).collect();
-        let named = |list: &[f64]| turn.iter().map(|&k| list[k]).collect();
+        let at = |m: &Flux, o: usize, i: usize| halves.entry(m, o, i).max(0.0);
+        let front = |m: &Flux| (0..n * n).map(|k| at(m, k % n, k / n) / weight[k % n]).collect();
+        let back = |m: &Flux| (0..n * n).map(|k| at(m, turn[k % n], turn[k / n]) / weight[k % n]).collect();
+        let own = |list: &[f64]| halves.unfolded(list);
+        let named = |list: &[f64]| {
+            let list = own(list);
+            turn.iter().map(|&k| list[k]).collect()
+        };
         Measured {
             incident: cells.clone(),
             emergent: cells.clone(),
             front: Seen {
                 transmitted: front(&self.t[0]),
                 reflected: front(&self.r[0]),
-                absorbed: self.absorbed[0].clone(),
-                error: self.error[0].clone(),
+                absorbed: own(&self.absorbed[0]),
+                error: own(&self.error[0]),
             },
             back: Seen {
                 transmitted: back(&self.t[1]),

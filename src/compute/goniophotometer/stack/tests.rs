@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::compute::btdf::Btdf;
+use crate::compute::direction::Dir;
 use crate::compute::estimate::Silent;
 use crate::compute::system::{diffuser, front_basis, glazing, slats::FlatSlats};
 
