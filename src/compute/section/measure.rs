@@ -10,12 +10,15 @@ use super::transport::{Lobe, Transport, index};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::goniophotometer::{Measured, Seen, Setting, Side};
+use crate::compute::system::slat_profile::SlatProfile;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
 
 /// Coarse strips a slat to begin with, and at most.
 const PARTS: [usize; 2] = [16, 128];
+/// At least so many where mirrors are curved: strips are chords, and what comes past a chord misses the arc.
+const CURVED: usize = 48;
 
 /// Step of the profile angle. \[rad\]
 fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
@@ -63,7 +66,9 @@ pub(super) fn measure(
     let emergent = ProfileWeights::new(setting.emergent, grid);
     progress.advance(STAGE, 1, 4);
 
-    let mut parts = PARTS[0];
+    let mirrors = [array.upper(), array.lower()].iter().any(|side| side.mirror > 0.0);
+    let curved = mirrors && matches!(array.profile(), SlatProfile::Arc { .. });
+    let mut parts = if curved { CURVED } else { PARTS[0] };
     let (transport, balance, from) = loop {
         let section = Section::new(array, parts);
         let transport = Transport::new(&section, grid, setting.seed, progress)?;
@@ -154,9 +159,13 @@ fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> (Vec<(usize, f64)>, f64) {
     let mut line = vec![0.0; grid.len()];
     let (mut variance, mut width) = (0.0, 0.0);
     for lobe in lobes {
-        let (node, above) = grid.place(lobe.psi);
-        line[node] += lobe.width * (1.0 - above);
-        line[node + 1] += lobe.width * above;
+        let [from, to] = lobe.psi;
+        let points = (2.0 * (to - from).abs() / grid.step()).ceil().max(1.0);
+        for k in 0..points as usize {
+            let (node, above) = grid.place(from + (to - from) * (k as f64 + 0.5) / points);
+            line[node] += lobe.width * (1.0 - above) / points;
+            line[node + 1] += lobe.width * above / points;
+        }
         variance += lobe.width * lobe.variance;
         width += lobe.width;
     }

@@ -34,11 +34,11 @@ impl Exchange {
 /// A parallel beam that leaves.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lobe {
-    /// Profile angle of its name. \[rad\]
-    pub(super) psi: f64,
+    /// Profile angles of its name, from and to: evenly between. \[rad\]
+    pub(super) psi: [f64; 2],
     /// Width of the incident light that it carries, in pitches.
     pub(super) width: f64,
-    /// Variance of its direction cosine along the slats.
+    /// Sum of the squared spreads of the mirrors that it has met. \[rad²\]
     pub(super) variance: f64,
 }
 
@@ -139,21 +139,21 @@ impl Into<'_> {
         }
         match (low.exit, middle.exit, high.exit) {
             (Some(a), Some(b), Some(c)) => {
-                for (exit, part) in [(a, 0.25), (b, 0.5), (c, 0.25)] {
-                    self.leave(arrival, &exit, part * width);
-                }
+                self.leave(arrival, [&a, &b], 0.5 * width);
+                self.leave(arrival, [&b, &c], 0.5 * width);
             }
-            (_, Some(exit), _) => self.leave(arrival, &exit, width),
+            (_, Some(exit), _) => self.leave(arrival, [&exit; 2], width),
             _ => (),
         }
     }
 
-    /// A width of a bundle leaves.
-    fn leave(&mut self, arrival: &Arrival, exit: &Exit, width: f64) {
+    /// A width of a bundle leaves between two rays.
+    fn leave(&mut self, arrival: &Arrival, exits: [&Exit; 2], width: f64) {
         // Names: against the light from outside, along the light from inside.
         let front = arrival.side == Side::Front;
         let sign = if front { -1.0 } else { 1.0 };
-        let psi = (sign * exit.direction[1]).clamp(-1.0, 1.0).asin();
+        let psi = exits.map(|exit| (sign * exit.direction[1]).clamp(-1.0, 1.0).asin());
+        let exit = exits[0];
         let outwards = exit.direction[0] > 0.0;
         let thrown = &mut self.node.thrown[index(arrival.side)];
         let list = if outwards == front { &mut thrown.back } else { &mut thrown.through };
@@ -161,8 +161,8 @@ impl Into<'_> {
     }
 }
 
-/// Rays a bundle where mirrors spread light.
-const ROUGH: usize = 4;
+/// Rays a pitch of parallel light, and of light from a face, where mirrors spread light.
+const ROUGH: [f64; 2] = [400.0, 64.0];
 /// Smallest part of a bundle that is looked at by itself.
 const FINEST: f64 = 1.0 / 64.0;
 /// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
@@ -286,9 +286,11 @@ impl<'a> Tracer<'a> {
             Rc::new(trace)
         };
         if self.rough {
-            for k in 0..ROUGH {
-                let done = trace((k as f64 + 0.5) / ROUGH as f64, sequence);
-                into.add(self.section, arrival, [&done; 3], bundle.width / ROUGH as f64, self.weight);
+            let density = ROUGH[usize::from(arrival.from.is_some())];
+            let rays = (density * bundle.width).ceil().max(1.0);
+            for k in 0..rays as usize {
+                let done = trace((k as f64 + 0.5) / rays, sequence);
+                into.add(self.section, arrival, [&done; 3], bundle.width / rays, self.weight);
             }
             return;
         }
@@ -318,6 +320,16 @@ impl<'a> Tracer<'a> {
         let (a, b) = (of(strip.a), of(strip.b));
         let share = (across - f64::from(met.copy) * cos - a) / (b - a);
         // Bundles are wider than rounding, and so are the strips that they meet.
-        super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0))
+        let point = super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0));
+        let Some(circle) = &self.section.facets[self.section.facet_of[met.strip]].circle else { return point };
+        // The strip is a chord: the same line on the arc, or the arc's nearest point.
+        let near = |x: &f64, y: &f64| x.abs().total_cmp(&y.abs());
+        if let Some(distance) = circle.meets(point, self.direction).into_iter().flatten().min_by(near) {
+            let on = [point[0] + distance * cos, point[1] + distance * sin];
+            if (on[0] - point[0]).hypot(on[1] - point[1]) < (strip.b[0] - strip.a[0]).hypot(strip.b[1] - strip.a[1]) {
+                return on;
+            }
+        }
+        circle.at(circle.share(circle.normal(point)).clamp(0.0, 1.0))
     }
 }
