@@ -3,7 +3,7 @@
 //! Mirrors with horizontal slats keep the direction cosine x along the slats and change the profile angle alone. On a
 //! line of constant ψ the emergent cells divide x into intervals; what an incident cell sends to that line it sends
 //! with its own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ.
-//! Mirrors that spread light shift x as well, by a normal distribution of the variance that the chain has gathered.
+//! Mirrors that spread light are not among them: see `rough`.
 
 use super::profile_weights::{Piece, ProfileGrid, primitive};
 use crate::compute::basis::RingBasis;

@@ -310,6 +310,11 @@ impl Section {
         section
     }
 
+    /// Whether mirrors spread light.
+    pub(super) fn rough(&self) -> bool {
+        self.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0)
+    }
+
     fn runs(&self) -> Vec<Facet> {
         let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
         let bent = |strip: &Strip| strip.normals[0] != strip.normals[1];

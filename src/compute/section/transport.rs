@@ -3,6 +3,7 @@
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
 use super::outline::{Point, Section};
 use super::profile_weights::ProfileGrid;
+use super::reciprocal::{Rough, Second, settle};
 use super::sweep::{Bundle, Met, sweep};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::goniophotometer::Side;
@@ -18,8 +19,14 @@ pub(super) struct Exchange {
     pub(super) values: Vec<f64>,
 }
 
-/// What a chunk of profile angles adds: exchange between strips, lengths seen, nodes.
-type Part = (Exchange, Vec<f64>, Vec<Node>);
+/// What a chunk of profile angles adds.
+struct Part {
+    /// Exchange between strips, without mirrors and by way of them.
+    exchange: [Exchange; 2],
+    /// Lengths seen.
+    length: Vec<f64>,
+    nodes: Vec<Node>,
+}
 
 impl Exchange {
     fn new(size: usize) -> Self {
@@ -28,6 +35,10 @@ impl Exchange {
 
     fn add(&mut self, from: usize, to: usize, amount: f64) {
         self.values[from * self.size + to] += amount;
+    }
+
+    fn add_all(&mut self, other: &Self) {
+        self.values.iter_mut().zip(&other.values).for_each(|(sum, x)| *sum += x);
     }
 }
 
@@ -62,6 +73,8 @@ pub(super) struct Transport {
     pub(super) landed: [Vec<Vec<f64>>; 2],
     /// Mirrored light that leaves, a node, from outside and from inside.
     pub(super) thrown: [Vec<Thrown>; 2],
+    /// What of it has met mirrors that spread light, if any do.
+    pub(super) rough: Option<Rough>,
 }
 
 /// Index of a side in the pairs of this module.
@@ -74,16 +87,24 @@ pub(super) const fn index(side: Side) -> usize {
 
 /// What parallel light of one profile angle from either side does.
 pub(super) struct Node {
-    /// Width that comes to every face.
+    /// Width that comes to every face, without mirrors.
     pub(super) landed: [Vec<f64>; 2],
+    /// Width that comes to every face by way of mirrors.
+    pub(super) second: [Vec<f64>; 2],
     /// What mirrors throw out.
     pub(super) thrown: [Thrown; 2],
 }
 
-/// Parallel light of one profile angle. \[rad\]
+/// Parallel light of one profile angle: what comes to every face and what mirrors throw out. \[rad\]
 pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
-    let mut none = (Exchange::new(section.faces.len()), vec![0.0; section.faces.len()]);
-    Tracer::new(section, psi, 0.0).node(&mut none.0, &mut none.1, Sequence::new(seed, u64::MAX))
+    let size = section.faces.len();
+    let mut none =
+        Part { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
+    let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, u64::MAX));
+    for (landed, second) in node.landed.iter_mut().zip(&node.second) {
+        landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
+    }
+    node
 }
 
 /// A bundle that comes to a face.
@@ -97,16 +118,17 @@ struct Arrival {
 
 /// Where light is counted.
 struct Into<'a> {
-    exchange: &'a mut Exchange,
+    /// Without mirrors, by way of them.
+    exchange: &'a mut [Exchange; 2],
     node: &'a mut Node,
 }
 
 impl Into<'_> {
-    /// A width of a bundle comes to a face.
+    /// A width of a bundle comes to a face by way of mirrors.
     fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
         match arrival.from {
-            Some(from) => self.exchange.add(from.face, face, weight * width),
-            None => self.node.landed[index(arrival.side)][face] += width,
+            Some(from) => self.exchange[1].add(from.face, face, weight * width),
+            None => self.node.second[index(arrival.side)][face] += width,
         }
     }
 
@@ -184,48 +206,50 @@ impl Transport {
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let nodes: Vec<usize> = (0..grid.len()).collect();
+        let size = section.faces.len();
         let parts: Vec<Option<Part>> = nodes
             .par_chunks(CHUNK)
             .map(|chunk| {
                 if progress.cancelled() {
                     return None;
                 }
-                let mut exchange = Exchange::new(section.faces.len());
-                let mut length = vec![0.0; section.faces.len()];
-                let done = chunk
-                    .iter()
-                    .map(|&node| {
-                        let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
-                        tracer.node(&mut exchange, &mut length, Sequence::new(seed, node as u64))
-                    })
-                    .collect();
-                Some((exchange, length, done))
+                let exchange = [Exchange::new(size), Exchange::new(size)];
+                let mut part = Part { exchange, length: vec![0.0; size], nodes: vec![] };
+                for &node in chunk {
+                    let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
+                    let done = tracer.node(&mut part, Sequence::new(seed, node as u64));
+                    part.nodes.push(done);
+                }
+                Some(part)
             })
             .collect();
-        let size = section.faces.len();
         let mut all = Self {
             exchange: Exchange::new(size),
             length: vec![0.0; size],
             landed: [vec![], vec![]],
             thrown: [vec![], vec![]],
+            rough: None,
         };
+        let mut second = Second { exchange: Exchange::new(size), landed: [vec![], vec![]] };
         for part in parts {
-            let (exchange, length, nodes) = part.ok_or(Cancelled)?;
-            all.exchange.values.iter_mut().zip(&exchange.values).for_each(|(sum, x)| *sum += x);
-            all.length.iter_mut().zip(&length).for_each(|(sum, x)| *sum += x);
-            for node in nodes {
-                let [front, back] = node.landed;
-                all.landed[0].push(front);
-                all.landed[1].push(back);
-                let [front, back] = node.thrown;
-                all.thrown[0].push(front);
-                all.thrown[1].push(back);
+            let part = part.ok_or(Cancelled)?;
+            all.exchange.add_all(&part.exchange[0]);
+            second.exchange.add_all(&part.exchange[1]);
+            all.length.iter_mut().zip(&part.length).for_each(|(sum, x)| *sum += x);
+            for node in part.nodes {
+                for (side, (landed, more)) in node.landed.into_iter().zip(node.second).enumerate() {
+                    all.landed[side].push(landed);
+                    second.landed[side].push(more);
+                }
+                for (side, thrown) in node.thrown.into_iter().enumerate() {
+                    all.thrown[side].push(thrown);
+                }
             }
         }
         let matt = |face: usize| section.faces[face].surface.diffuse > 0.0;
         for i in 0..size {
             for j in 0..i {
-                let (there, back) = (all.exchange.values[i * size + j], all.exchange.values[j * size + i]);
+                let (there, back) = (second.exchange.values[i * size + j], second.exchange.values[j * size + i]);
                 // Chains of mirrors are followed from either end: their mean is what both ends agree on. They are not
                 // followed from faces that send nothing.
                 let mean = match (matt(i), matt(j)) {
@@ -233,8 +257,17 @@ impl Transport {
                     (false, true) => back,
                     _ => 0.5 * (there + back),
                 };
-                all.exchange.values[i * size + j] = mean;
-                all.exchange.values[j * size + i] = mean;
+                second.exchange.values[i * size + j] = mean;
+                second.exchange.values[j * size + i] = mean;
+            }
+        }
+        if section.rough() {
+            all.rough = Some(settle(section, grid, &all, &mut second));
+        }
+        all.exchange.add_all(&second.exchange);
+        for (rows, more) in all.landed.iter_mut().zip(&second.landed) {
+            for (row, more) in rows.iter_mut().zip(more) {
+                row.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
             }
         }
         Ok(all)
@@ -243,26 +276,28 @@ impl Transport {
 
 impl<'a> Tracer<'a> {
     fn new(section: &'a Section, psi: f64, weight: f64) -> Self {
-        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
-        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough }
+        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough() }
     }
 
-    fn node(&self, exchange: &mut Exchange, length: &mut [f64], mut sequence: Sequence) -> Node {
-        let size = self.section.faces.len();
+    fn node(&self, part: &mut Part, mut sequence: Sequence) -> Node {
+        let none = || vec![0.0; self.section.faces.len()];
         let mut node =
-            Node { landed: [vec![0.0; size], vec![0.0; size]], thrown: [Thrown::default(), Thrown::default()] };
+            Node { landed: [none(), none()], second: [none(), none()], thrown: [Thrown::default(), Thrown::default()] };
         sweep(self.section, self.direction, |bundle| {
             let backwards = self.direction.map(|x| -x);
             for (from, to, direction, side) in
                 [(bundle.from, bundle.to, self.direction, Side::Back), (bundle.to, bundle.from, backwards, Side::Front)]
             {
                 if let Some(from) = from {
-                    length[from.face] += self.weight * bundle.width;
+                    part.length[from.face] += self.weight * bundle.width;
                 }
                 let Some(to) = to else { continue };
+                match from {
+                    Some(from) => part.exchange[0].add(from.face, to.face, self.weight * bundle.width),
+                    None => node.landed[index(side)][to.face] += bundle.width,
+                }
                 let arrival = Arrival { from, to, direction, side };
-                let mut into = Into { exchange, node: &mut node };
-                into.land(&arrival, to.face, bundle.width, self.weight);
+                let mut into = Into { exchange: &mut part.exchange, node: &mut node };
                 let faces = &self.section.faces;
                 let sends = from.is_none_or(|from| faces[from.face].surface.diffuse > 0.0);
                 if sends && faces[to.face].surface.mirror > 0.0 {
