@@ -206,8 +206,7 @@ fn add_mirrored(
                     let mut sum = 0.0;
                     for &(node, from, to) in &sources[i] {
                         let lobes = &nodes[node];
-                        let length = super::profile_weights::primitive(to) - super::profile_weights::primitive(from);
-                        let amount = length * grid.hat(node);
+                        let amount = (to - from) * grid.hat(node);
                         sum += amount * lobes.iter().map(|(_, width)| width).sum::<f64>();
                         for &(node, width) in lobes {
                             lines.divide(node, from, to, |cell, share| put[cell] += amount * width * share);

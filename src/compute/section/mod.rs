@@ -21,6 +21,7 @@
 //! has become diffuse stays so. Rays draw the steps; `reciprocal` takes their scatter out of sums and symmetry.
 
 mod along;
+mod arc;
 mod balance;
 mod chain;
 mod deposit;

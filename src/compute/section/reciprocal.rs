@@ -10,7 +10,8 @@
 use super::along::Along;
 use super::outline::Section;
 use super::profile_weights::ProfileGrid;
-use super::transport::{Exchange, Thrown, Transport};
+use super::transport::{Exchange, Thrown, Transport, index};
+use crate::compute::goniophotometer::Side;
 
 /// What comes to faces by way of mirrors, as rays have found it.
 #[derive(Debug, Clone)]
@@ -42,8 +43,22 @@ pub(super) struct Rough {
     pub(super) doubt: [Vec<f64>; 2],
 }
 
+impl Rough {
+    /// Flows of a level, by the nodes that name the light: incident, emergent.
+    pub(super) fn flows(&self, level: usize, side: Side, through: bool) -> Vec<f64> {
+        let level = &self.levels[level];
+        let n = self.doubt[0].len();
+        match (through, side) {
+            (true, Side::Front) => level.through.clone(),
+            (true, Side::Back) => (0..n * n).map(|at| level.through[at % n * n + at / n]).collect(),
+            // Names of what is thrown back are opposite.
+            (false, _) => level.back[index(side)].chunks(n).flat_map(|line| line.iter().rev().copied()).collect(),
+        }
+    }
+}
+
 /// Rounds of scaling; they halve what is left.
-const ROUNDS: usize = 60;
+const ROUNDS: usize = 40;
 
 /// Symmetric sums of flux and of flux times variance.
 struct Sums {

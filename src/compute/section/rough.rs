@@ -60,67 +60,78 @@ fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Foot
     cells.par_iter().map(one).collect()
 }
 
+/// A cell at one node: what of the light in every bin of x, once spread, goes into it.
+struct Target {
+    cell: usize,
+    bins: Vec<f64>,
+}
+
+/// The cells at every node behind a kernel.
+fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) -> Vec<Vec<Target>> {
+    let mut footings: Vec<Vec<(usize, &Footing)>> = vec![vec![]; nodes];
+    for (cell, list) in cells.iter().enumerate() {
+        list.iter().for_each(|f| footings[f.node].push((cell, f)));
+    }
+    let one = |&(cell, f): &(usize, &Footing)| {
+        let mut bins = vec![0.0; BINS];
+        for (k, part) in f.parts.iter().enumerate() {
+            let row = &kernel[(f.first + k) * BINS..(f.first + k + 1) * BINS];
+            bins.iter_mut().zip(row).for_each(|(sum, x)| *sum += part * x / solid[cell]);
+        }
+        Target { cell, bins }
+    };
+    footings.par_iter().map(|list| list.iter().map(one).collect()).collect()
+}
+
 /// Adds what rough mirrors throw out.
 pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough, measured: &mut Measured) {
     let incident = footings(setting.incident, grid, &rough.along);
-    let emergent = footings(setting.emergent, grid, &rough.along);
+    let other = (setting.incident != setting.emergent).then(|| footings(setting.emergent, grid, &rough.along));
+    let emergent = other.as_ref().unwrap_or(&incident);
     let solid = [setting.incident, setting.emergent].map(RingBasis::projected_solid_angles);
-    let n = grid.len();
     for side in Side::BOTH {
-        let own = super::transport::index(side);
-        let seen = measured.seen_mut(side);
-        for (i, error) in seen.error.iter_mut().enumerate() {
+        for (i, error) in measured.seen_mut(side).error.iter_mut().enumerate() {
             // Nodes are drawn independently.
-            let square = |f: &Footing| (f.parts.iter().sum::<f64>() * rough.doubt[own][f.node]).powi(2);
+            let doubt = &rough.doubt[super::transport::index(side)];
+            let square = |f: &Footing| (f.parts.iter().sum::<f64>() * doubt[f.node]).powi(2);
             *error += incident[i].iter().map(square).sum::<f64>().sqrt() / solid[0][i];
         }
-        for (through, values) in [(true, &mut seen.transmitted), (false, &mut seen.reflected)] {
-            values.par_chunks_mut(solid[1].len()).enumerate().for_each(|(i, row)| {
-                let flow = |level: usize, node: usize, other: usize| {
-                    let level = &rough.levels[level];
-                    match (through, own) {
-                        (true, 0) => level.through[node * n + other],
-                        (true, _) => level.through[other * n + node],
-                        // Names of what is thrown back are opposite.
-                        (false, _) => level.back[own][node * n + n - 1 - other],
-                    }
-                };
-                let sent = sent(&incident[i], n, rough, flow);
-                for (o, q) in row.iter_mut().enumerate() {
-                    let at = |f: &Footing| -> f64 {
-                        let line = &sent[f.node * BINS + f.first..];
-                        f.parts.iter().zip(line).map(|(part, x)| part * x).sum()
-                    };
-                    *q += emergent[o].iter().map(at).sum::<f64>() / (solid[0][i] * solid[1][o]);
-                }
+    }
+    for (level, (_, kernel)) in rough.along.levels.iter().enumerate() {
+        let targets = targets(emergent, grid.len(), kernel, &solid[1]);
+        for (side, through) in [(Side::Front, true), (Side::Front, false), (Side::Back, true), (Side::Back, false)] {
+            let flows = rough.flows(level, side, through);
+            if flows.iter().all(|flow| *flow == 0.0) {
+                continue;
+            }
+            let seen = measured.seen_mut(side);
+            let values = if through { &mut seen.transmitted } else { &mut seen.reflected };
+            values.par_chunks_mut(solid[1].len()).zip(&incident).zip(&solid[0]).for_each(|((row, cell), solid)| {
+                send(cell, &flows, &targets, 1.0 / solid, row);
             });
         }
     }
 }
 
-/// What a cell sends to every node and bin, per ∫ hat √(1 − x²) dx dψ.
-fn sent(cell: &[Footing], n: usize, rough: &Rough, flow: impl Fn(usize, usize, usize) -> f64) -> Vec<f64> {
-    let mut sent = vec![0.0; n * BINS];
+/// Adds what a cell sends by these flows from node to node.
+fn send(cell: &[Footing], flows: &[f64], targets: &[Vec<Target>], scale: f64, row: &mut [f64]) {
     let first = cell.iter().map(|f| f.first).min().unwrap_or(0);
-    let last = cell.iter().map(|f| f.first + f.parts.len()).max().unwrap_or(0);
-    let width = last - first;
-    let mut before = vec![0.0; n * width];
-    for (level, (_, kernel)) in rough.along.levels.iter().enumerate() {
-        before.fill(0.0);
-        for f in cell {
-            for (other, line) in before.chunks_mut(width.max(1)).enumerate() {
-                let flow = flow(level, f.node, other);
-                if flow > 0.0 {
-                    line[f.first - first..].iter_mut().zip(&f.parts).for_each(|(sum, part)| *sum += flow * part);
-                }
-            }
+    let last = cell.iter().map(|f| f.first + f.parts.len()).max().unwrap_or(first);
+    let (n, width) = (targets.len(), last - first);
+    let mut sent = vec![0.0; n * width];
+    for f in cell {
+        let start = f.first - first;
+        let range = start..start + f.parts.len();
+        for (other, flow) in flows[f.node * n..(f.node + 1) * n].iter().enumerate().filter(|(_, flow)| **flow > 0.0) {
+            let line = &mut sent[other * width..(other + 1) * width][range.clone()];
+            line.iter_mut().zip(&f.parts).for_each(|(sum, part)| *sum += scale * flow * part);
         }
-        for (line, out) in before.chunks(width.max(1)).zip(sent.chunks_mut(BINS)) {
-            for (k, amount) in line.iter().enumerate().filter(|(_, amount)| **amount > 0.0) {
-                let row = &kernel[(first + k) * BINS..(first + k + 1) * BINS];
-                out.iter_mut().zip(row).for_each(|(sum, x)| *sum += amount * x);
+    }
+    for (line, targets) in sent.chunks(width.max(1)).zip(targets) {
+        if line.iter().any(|x| *x > 0.0) {
+            for target in targets {
+                row[target.cell] += line.iter().zip(&target.bins[first..last]).map(|(a, b)| a * b).sum::<f64>();
             }
         }
     }
-    sent
 }

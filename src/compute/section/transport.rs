@@ -100,7 +100,7 @@ pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
     let size = section.faces.len();
     let mut none =
         Part { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
-    let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, u64::MAX));
+    let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, 0));
     for (landed, second) in node.landed.iter_mut().zip(&node.second) {
         landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
     }
@@ -321,7 +321,11 @@ impl<'a> Tracer<'a> {
             Rc::new(trace)
         };
         if self.rough {
-            let density = ROUGH[usize::from(arrival.from.is_some())];
+            // As many from grazing parallel light, of which a pitch takes little, as from any other.
+            let density = match arrival.from {
+                Some(_) => ROUGH[1],
+                None => ROUGH[0] / self.direction[0].max(0.1),
+            };
             let rays = (density * bundle.width).ceil().max(1.0);
             for k in 0..rays as usize {
                 let done = trace((k as f64 + 0.5) / rays, sequence);
