@@ -60,27 +60,30 @@ fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Foot
     cells.par_iter().map(one).collect()
 }
 
-/// A cell at one node: what of the light in every bin of x, once spread, goes into it.
-struct Target {
-    cell: usize,
-    bins: Vec<f64>,
+/// The cells that take light at one node.
+struct Targets {
+    cells: Vec<usize>,
+    /// What of the light in every bin of x, once spread, goes into every one of them: `[bin][cell]`.
+    parts: Vec<f64>,
 }
 
 /// The cells at every node behind a kernel.
-fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) -> Vec<Vec<Target>> {
+fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) -> Vec<Targets> {
     let mut footings: Vec<Vec<(usize, &Footing)>> = vec![vec![]; nodes];
     for (cell, list) in cells.iter().enumerate() {
         list.iter().for_each(|f| footings[f.node].push((cell, f)));
     }
-    let one = |&(cell, f): &(usize, &Footing)| {
-        let mut bins = vec![0.0; BINS];
-        for (k, part) in f.parts.iter().enumerate() {
-            let row = &kernel[(f.first + k) * BINS..(f.first + k + 1) * BINS];
-            bins.iter_mut().zip(row).for_each(|(sum, x)| *sum += part * x / solid[cell]);
+    let one = |list: &Vec<(usize, &Footing)>| {
+        let mut parts = vec![0.0; BINS * list.len()];
+        for (at, (cell, f)) in list.iter().enumerate() {
+            for (bin, line) in parts.chunks_mut(list.len()).enumerate() {
+                let row = &kernel[bin * BINS + f.first..];
+                line[at] = f.parts.iter().zip(row).map(|(part, x)| part * x).sum::<f64>() / solid[*cell];
+            }
         }
-        Target { cell, bins }
+        Targets { cells: list.iter().map(|(cell, _)| *cell).collect(), parts }
     };
-    footings.par_iter().map(|list| list.iter().map(one).collect()).collect()
+    footings.par_iter().map(one).collect()
 }
 
 /// Adds what rough mirrors throw out.
@@ -114,7 +117,7 @@ pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough,
 }
 
 /// Adds what a cell sends by these flows from node to node.
-fn send(cell: &[Footing], flows: &[f64], targets: &[Vec<Target>], scale: f64, row: &mut [f64]) {
+fn send(cell: &[Footing], flows: &[f64], targets: &[Targets], scale: f64, row: &mut [f64]) {
     let first = cell.iter().map(|f| f.first).min().unwrap_or(0);
     let last = cell.iter().map(|f| f.first + f.parts.len()).max().unwrap_or(first);
     let (n, width) = (targets.len(), last - first);
@@ -127,11 +130,15 @@ fn send(cell: &[Footing], flows: &[f64], targets: &[Vec<Target>], scale: f64, ro
             line.iter_mut().zip(&f.parts).for_each(|(sum, part)| *sum += scale * flow * part);
         }
     }
+    let mut taken = vec![];
     for (line, targets) in sent.chunks(width.max(1)).zip(targets) {
-        if line.iter().any(|x| *x > 0.0) {
-            for target in targets {
-                row[target.cell] += line.iter().zip(&target.bins[first..last]).map(|(a, b)| a * b).sum::<f64>();
-            }
+        let count = targets.cells.len();
+        taken.clear();
+        taken.resize(count, 0.0);
+        for (bin, amount) in line.iter().enumerate().filter(|(_, amount)| **amount > 0.0) {
+            let parts = &targets.parts[(first + bin) * count..(first + bin + 1) * count];
+            taken.iter_mut().zip(parts).for_each(|(sum, part)| *sum += amount * part);
         }
+        targets.cells.iter().zip(&taken).for_each(|(cell, x)| row[*cell] += x);
     }
 }
