@@ -43,25 +43,8 @@ pub(super) struct Sequence {
     start: u64,
 }
 
-/// Square roots of primes: a pair of them for every reflection makes the rays' numbers equidistributed.
-const ROOTS: [f64; 16] = [
-    1.414_213_562_373_095_1,
-    1.732_050_807_568_877_2,
-    2.236_067_977_499_79,
-    2.645_751_311_064_590_7,
-    3.316_624_790_355_4,
-    3.605_551_275_463_989,
-    4.123_105_625_617_661,
-    4.358_898_943_540_674,
-    4.795_831_523_312_719,
-    5.385_164_807_134_505,
-    5.567_764_362_830_022,
-    6.082_762_530_298_219,
-    6.403_124_237_432_849,
-    6.557_438_524_302_000_5,
-    6.855_654_600_401_044,
-    7.280_109_889_280_518,
-];
+/// Primes: a pair of their square roots for every reflection makes the rays' numbers equidistributed.
+const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
 impl Sequence {
     /// From number `stream` on of a seed: what nodes draw goes on where their neighbours' ends, so that sums over nodes
@@ -81,8 +64,8 @@ impl Sequence {
         self.depth += 1;
         [first, first + 1].map(|k| {
             let shift = mix(self.start ^ (k as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9));
-            match ROOTS.get(k) {
-                Some(root) => (unit(shift) + self.ray as f64 * root).fract(),
+            match PRIMES.get(k) {
+                Some(prime) => (unit(shift) + self.ray as f64 * f64::from(*prime).sqrt()).fract(),
                 // After that many reflections any number will do.
                 None => unit(mix(shift ^ self.ray)),
             }

@@ -120,7 +120,7 @@ impl Scales {
 fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &Scales) -> Scales {
     let n = hat.len();
     let mut out = Scales { nodes: [vec![0.0; n], vec![0.0; n]], faces: vec![0.0; kept.len()] };
-    for i in 0..n {
+    for (i, hat) in hat.iter().enumerate() {
         let line = &sums.through[i * n..(i + 1) * n];
         for (j, [flux, _]) in line.iter().enumerate() {
             out.nodes[0][i] += flux * scales.nodes[1][j];
@@ -130,7 +130,7 @@ fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &Scales
             let line = &sums.back[side][i * n..(i + 1) * n];
             out.nodes[side][i] += line.iter().zip(&scales.nodes[side]).map(|([flux, _], d)| flux * d).sum::<f64>();
             for (face, width) in second.landed[side][i].iter().enumerate() {
-                let flux = 0.5 * hat[i] * width;
+                let flux = 0.5 * hat * width;
                 out.nodes[side][i] += flux * kept[face] * scales.faces[face];
                 out.faces[face] += flux * scales.nodes[side][i];
             }

@@ -142,3 +142,50 @@ fn send(cell: &[Footing], flows: &[f64], targets: &[Targets], scale: f64, row: &
         targets.cells.iter().zip(&taken).for_each(|(cell, x)| row[*cell] += x);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::direction::{Dir, Facade};
+    use crate::compute::estimate::Silent;
+    use crate::compute::goniophotometer::Specimen;
+    use crate::compute::section::{SlatArray, Surface};
+    use crate::compute::system::slat_profile::SlatProfile;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// A closed rough sheet throws back what one step on the spheres of its lobe makes: the mean sine of the profile angle
+    /// falls by the mean cosine of the step, that of the direction cosine along the slats by e^(−3σ²/2).
+    #[test]
+    fn a_rough_sheet_scatters_by_steps_on_spheres() {
+        let (basis, fine) = (RingBasis::klems_full(AzimuthMap::KLEMS_FRONT), RingBasis::even(4_f64.to_radians()));
+        let mean = |basis: &RingBasis, f: &dyn Fn(Dir<Facade>) -> f64| -> Vec<f64> {
+            basis.cells().map(|cell| crate::compute::system::cell_mean(&cell, 16, f)).collect()
+        };
+        let sine = |d: Dir<Facade>| crate::compute::control::profile_angle(d).unwrap().sin();
+        let [along, seen_along] = [&basis, &fine].map(|basis| mean(basis, &|d| d.vector().x));
+        let [up, seen_up] = [&basis, &fine].map(|basis| mean(basis, &sine));
+        for degrees in [12.0_f64, 45.0] {
+            let sigma = degrees.to_radians();
+            let rough = Surface { diffuse: 0.0, mirror: 0.8, spread: sigma };
+            let flat = SlatProfile::Flat { width: 0.08 };
+            let slats = SlatArray::new(flat, 0.0, 0.072, FRAC_PI_2, [rough, Surface::matt(0.0)]).unwrap();
+            let setting = Setting { incident: &basis, emergent: &fine, error: 0.01, seed: 1 };
+            let m = slats.measure(&setting, &Silent).unwrap();
+            // E cosθ for the length θ of a normal step in a plane.
+            let step = 1e-3;
+            let cosine: f64 = (0..10_000)
+                .map(|k| (k as f64 + 0.5) * step)
+                .map(|t| t * (-0.5 * t * t).exp() * (sigma * t).cos() * step)
+                .sum();
+            let weight = fine.projected_solid_angles();
+            for (i, row) in m.front.reflected.chunks(fine.len()).enumerate() {
+                let of = |f: &[f64]| row.iter().zip(&weight).zip(f).map(|((q, w), f)| q * w * f).sum::<f64>() / 0.8;
+                let exact = [1.0, along[i] * (-1.5 * sigma * sigma).exp(), up[i] * cosine];
+                let got = [of(&vec![1.0; fine.len()]), of(&seen_along), of(&seen_up)];
+                let off = got.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!((got[0] - 1.0).abs() < 1e-3 && off < 0.03, "{degrees} {i}: {got:?} {exact:?}");
+            }
+        }
+    }
+}
