@@ -49,7 +49,8 @@ pub struct Surface {
     pub diffuse: f64,
     /// Reflectance as a mirror; both together at most 1.
     pub mirror: f64,
-    /// Standard deviation of the mirrored direction about the ideal one, along either axis. \[rad\]
+    /// Standard deviation σ of the mirrored direction about the ideal one, along either axis for light that comes near
+    /// the normal; the lobe for any light is described at the head of this module. \[rad\]
     pub spread: f64,
 }
 
