@@ -1,6 +1,6 @@
 //! Light that mirrors throw on: a ray from reflection to reflection until it leaves the slats or has died.
 
-use super::outline::{Point, Section, between, left_of};
+use super::outline::{Facet, Point, Section, left_of};
 use super::sweep::Met;
 use std::f64::consts::PI;
 
@@ -36,28 +36,53 @@ pub(super) struct Exit {
 /// Equidistributed numbers with a start of their own for every bundle of rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sequence {
-    at: [f64; 2],
+    /// Rays drawn so far.
+    ray: u64,
+    /// Reflections of this ray so far.
+    depth: usize,
+    start: u64,
 }
 
+/// Primes: a pair of their square roots for every reflection makes the rays' numbers equidistributed.
+const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
+
 impl Sequence {
-    /// Number `stream` of a seed.
+    /// From number `stream` on of a seed: what nodes draw goes on where their neighbours' ends, so that sums over nodes
+    /// are drawn evenly, too.
     pub(super) fn new(seed: u64, stream: u64) -> Self {
-        // SplitMix64 of both, for a start that is unlike its neighbours'.
-        let mix = |salt: u64| {
-            let mut z = seed ^ stream.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ salt;
-            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        Self { at: [mix(0x5851_F42D), mix(0x1405_7B7E)] }
+        Self { ray: stream * 1000, depth: 0, start: mix(seed) }
     }
 
-    /// A number of the standard normal distribution (Box and Muller on the R₂ sequence).
-    fn normal(&mut self) -> f64 {
-        self.at[0] = (self.at[0] + 0.754_877_666_246_692_7).fract();
-        self.at[1] = (self.at[1] + 0.569_840_290_998_053_2).fract();
-        (-2.0 * (1.0 - self.at[0]).ln()).sqrt() * (2.0 * PI * self.at[1]).cos()
+    /// The next ray begins.
+    pub(super) fn next_ray(&mut self) {
+        (self.ray, self.depth) = (self.ray + 1, 0);
     }
+
+    /// Two numbers of 0 … 1 for the next reflection.
+    fn pair(&mut self) -> [f64; 2] {
+        let first = 2 * self.depth;
+        self.depth += 1;
+        [first, first + 1].map(|k| {
+            let shift = mix(self.start ^ (k as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9));
+            match PRIMES.get(k) {
+                Some(prime) => (unit(shift) + self.ray as f64 * f64::from(*prime).sqrt()).fract(),
+                // After that many reflections any number will do.
+                None => unit(mix(shift ^ self.ray)),
+            }
+        })
+    }
+}
+
+/// SplitMix64: for starts that are unlike their neighbours'.
+const fn mix(seed: u64) -> u64 {
+    let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+fn unit(bits: u64) -> f64 {
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// A ray comes to a face.
@@ -90,6 +115,7 @@ const TELLING: f64 = 1e-3;
 impl Section {
     /// Follows the mirrored part of a ray of weight 1.
     pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
+        sequence.next_ray();
         trace.landed.clear();
         (trace.exit, trace.way) = (None, 0);
         let (mut variance, mut weight) = (0.0, 1.0);
@@ -121,32 +147,27 @@ impl Section {
         }
     }
 
-    /// Direction after the mirror that a ray has come to. A spread σ turns the mirror by σ/2 (standard deviation),
-    /// which turns the ray by σ; what would go into the surface is mirrored out of it.
+    /// Direction after the mirror that a ray has come to. A spread σ moves the ideal direction's sine u to the face's
+    /// normal by a step on the unit sphere whose axis u is the height along (see the head of this module's parent).
     fn mirrored(&self, ray: &Ray, spread: f64, sequence: &mut Sequence) -> Point {
         let strip = &self.strips[ray.met.strip];
         let d = ray.direction;
-        let flat = left_of(strip.a, strip.b);
-        // Looking against the ray.
-        let side = if d[0] * flat[0] + d[1] * flat[1] > 0.0 { -1.0 } else { 1.0 };
-        let flat = flat.map(|x| side * x);
-        let (e, w) = (
-            [strip.b[0] - strip.a[0], strip.b[1] - strip.a[1]],
-            [ray.point[0] - strip.a[0], ray.point[1] - strip.a[1]],
-        );
-        let share = ((e[0] * w[0] + e[1] * w[1]) / (e[0] * e[0] + e[1] * e[1])).clamp(0.0, 1.0);
-        let mut n = between(strip.normals[0], strip.normals[1], share).map(|x| side * x);
-        let size = n[0].hypot(n[1]).max(f64::MIN_POSITIVE);
-        n = n.map(|x| x / size);
+        let circle = &self.facets[self.facet_of[ray.met.strip]].circle;
+        let left = circle.as_ref().map_or_else(|| left_of(strip.a, strip.b), |circle| circle.normal(ray.point));
+        // Towards the ray.
+        let side = if strip.faces[0] == Some(ray.met.face) { 1.0 } else { -1.0 };
+        let n = left.map(|x| side * x);
+        let across = d[0] * n[0] + d[1] * n[1];
+        // A chord's ray may pass the arc: it goes on along it.
+        let mut out = if across < 0.0 { [d[0] - 2.0 * across * n[0], d[1] - 2.0 * across * n[1]] } else { d };
         if spread > 0.0 {
-            let (sin, cos) = (0.5 * spread * sequence.normal()).sin_cos();
-            n = [n[0] * cos - n[1] * sin, n[0] * sin + n[1] * cos];
-        }
-        let turn = 2.0 * (d[0] * n[0] + d[1] * n[1]);
-        let mut out = [d[0] - turn * n[0], d[1] - turn * n[1]];
-        let off = out[0] * flat[0] + out[1] * flat[1];
-        if off <= 0.0 {
-            out = [out[0] - 2.0 * off * flat[0], out[1] - 2.0 * off * flat[1]];
+            let along = [-n[1], n[0]];
+            let u = (out[0] * along[0] + out[1] * along[1]).clamp(-1.0, 1.0);
+            let [r, s] = sequence.pair();
+            let (sin, cos) = (spread * (-2.0 * (1.0 - r).ln()).sqrt()).sin_cos();
+            let u = (u * cos + (1.0 - u * u).sqrt() * sin * (2.0 * PI * s).cos()).clamp(-1.0, 1.0);
+            let off = (1.0 - u * u).sqrt();
+            out = [u * along[0] + off * n[0], u * along[1] + off * n[1]];
         }
         let size = out[0].hypot(out[1]).max(f64::MIN_POSITIVE);
         out.map(|x| x / size)
@@ -168,25 +189,13 @@ impl Section {
                 }
                 for index in group.facets.clone() {
                     let facet = &self.facets[index];
-                    if copy == 0 && (facet.first..facet.first + facet.ends.len()).contains(&own) {
-                        continue;
-                    }
-                    let e = [facet.b[0] - facet.a[0], facet.b[1] - facet.a[1]];
-                    let across = e[0] * d[1] - e[1] * d[0];
-                    let w = [p[0] - facet.a[0], p[1] - facet.a[1]];
-                    let share = w[0] * d[1] - w[1] * d[0];
-                    // Along the facet, or past its ends.
-                    if across == 0.0 || share * across < 0.0 || share.abs() > across.abs() {
-                        continue;
-                    }
-                    let distance = (w[0] * e[1] - w[1] * e[0]) / across;
-                    if distance > OFF && distance < best.0 - OFF {
-                        // Left of the way lies [−e₁, e₀]; a ray that comes from there has d · left < 0.
-                        let from_right = across > 0.0;
-                        if self.strips[facet.first].faces[usize::from(from_right)].is_some() {
-                            best = (distance, Some((index, copy, share / across, from_right)));
+                    let itself = copy == 0 && (facet.first..facet.first + facet.ends.len()).contains(&own);
+                    facet.hits(p, d, itself, |distance, share, right| {
+                        let seen = distance > OFF && distance < best.0 - OFF;
+                        if seen && self.strips[facet.first].faces[usize::from(right)].is_some() {
+                            best = (distance, Some((index, copy, share, right)));
                         }
-                    }
+                    });
                 }
             }
         }
@@ -221,5 +230,35 @@ impl Section {
             }
             start = end;
         }
+    }
+}
+
+impl Facet {
+    /// Calls `hit(distance, share of the way, from the right)` wherever a ray meets it. `itself`: the ray comes from it.
+    fn hits(&self, p: Point, d: Point, itself: bool, mut hit: impl FnMut(f64, f64, bool)) {
+        if let Some(circle) = &self.circle {
+            for distance in circle.meets(p, d).into_iter().flatten() {
+                // Where the ray comes from is one of the two.
+                if distance <= 0.0 || (itself && distance < 1e-9) {
+                    continue;
+                }
+                let n = circle.normal([p[0] + distance * d[0], p[1] + distance * d[1]]);
+                let share = circle.share(n);
+                if (0.0..=1.0).contains(&share) {
+                    hit(distance, share, d[0] * n[0] + d[1] * n[1] > 0.0);
+                }
+            }
+            return;
+        }
+        let e = [self.b[0] - self.a[0], self.b[1] - self.a[1]];
+        let across = e[0] * d[1] - e[1] * d[0];
+        let w = [p[0] - self.a[0], p[1] - self.a[1]];
+        let share = w[0] * d[1] - w[1] * d[0];
+        // From it, along it, or past its ends.
+        if itself || across == 0.0 || share * across < 0.0 || share.abs() > across.abs() {
+            return;
+        }
+        // Left of the way lies [−e₁, e₀]; a ray that comes from there has d · left < 0.
+        hit((w[0] * e[1] - w[1] * e[0]) / across, share / across, across > 0.0);
     }
 }

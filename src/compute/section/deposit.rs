@@ -3,12 +3,12 @@
 //! Mirrors with horizontal slats keep the direction cosine x along the slats and change the profile angle alone. On a
 //! line of constant ψ the emergent cells divide x into intervals; what an incident cell sends to that line it sends
 //! with its own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ.
-//! Mirrors that spread light shift x as well, by a normal distribution of the variance that the chain has gathered.
+//! Mirrors that spread light are not among them: see `rough`.
 
 use super::profile_weights::{Piece, ProfileGrid, primitive};
 use crate::compute::basis::RingBasis;
 
-/// The intervals of x that the cells of a basis have at every node, rising.
+/// The intervals that the cells of a basis have at every node, rising, in ∫ √(1 − x²) dx.
 #[derive(Debug, Clone)]
 pub(super) struct Intervals {
     /// `[node]` (from, to, cell).
@@ -33,7 +33,7 @@ impl Intervals {
                     }
                     if let Some([from, to]) = piece.across(psi.max(1e-9)) {
                         let (from, to) = (piece.right * from, piece.right * to);
-                        line.push((from.min(to), from.max(to), index));
+                        line.push((primitive(from.min(to)), primitive(from.max(to)), index));
                     }
                 }
             }
@@ -59,13 +59,13 @@ impl Intervals {
     /// cells cover the hemisphere.
     pub(super) fn divide(&self, node: usize, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
         let line = &self.lines[node];
-        let length = primitive(to) - primitive(from);
+        let length = to - from;
         if length <= 0.0 {
             return;
         }
         let start = line.partition_point(|&(_, end, _)| end <= from);
         for &(low, high, cell) in line[start..].iter().take_while(|&&(low, ..)| low < to) {
-            let share = (primitive(high.min(to)) - primitive(low.max(from))) / length;
+            let share = (high.min(to) - low.max(from)) / length;
             if share > 0.0 {
                 put(cell, share);
             }

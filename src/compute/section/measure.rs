@@ -1,21 +1,25 @@
 //! From a section's transport to cells.
 
-use super::SlatArray;
 use super::balance::Balance;
 use super::deposit::Intervals;
 use super::direct::Direct;
 use super::outline::Section;
 use super::profile_weights::{ProfileGrid, ProfileWeights};
+use super::rough::add_rough;
 use super::transport::{Lobe, Transport, index};
+use super::{SlatArray, Surface};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::goniophotometer::{Measured, Seen, Setting, Side};
+use crate::compute::system::slat_profile::SlatProfile;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
 
 /// Coarse strips a slat to begin with, and at most.
 const PARTS: [usize; 2] = [16, 128];
+/// At least so many where mirrors are curved: strips are chords, and what comes past a chord misses the arc.
+const CURVED: usize = 32;
 
 /// Step of the profile angle. \[rad\]
 fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
@@ -26,8 +30,9 @@ fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
         .chain(setting.incident.rings())
         .map(|ring| ring.theta_max - ring.theta_min)
         .fold(f64::INFINITY, f64::min);
-    let mirrors = array.upper().mirror > 0.0 || array.lower().mirror > 0.0;
-    let wanted: f64 = if mirrors { 0.25 } else { 0.5 };
+    // Lobes wider than this are smooth enough.
+    let sharp = |side: Surface| side.mirror > 0.0 && side.spread < 1_f64.to_radians();
+    let wanted: f64 = if sharp(array.upper()) || sharp(array.lower()) { 0.25 } else { 0.5 };
     let wanted = wanted * (setting.error / 0.01).sqrt().clamp(0.25, 1.0);
     wanted.to_radians().min(0.5 * finest).max(0.1_f64.to_radians())
 }
@@ -63,7 +68,9 @@ pub(super) fn measure(
     let emergent = ProfileWeights::new(setting.emergent, grid);
     progress.advance(STAGE, 1, 4);
 
-    let mut parts = PARTS[0];
+    let mirrors = [array.upper(), array.lower()].iter().any(|side| side.mirror > 0.0);
+    let curved = mirrors && matches!(array.profile(), SlatProfile::Arc { .. });
+    let mut parts = if curved { CURVED } else { PARTS[0] };
     let (transport, balance, from) = loop {
         let section = Section::new(array, parts);
         let transport = Transport::new(&section, grid, setting.seed, progress)?;
@@ -103,6 +110,9 @@ pub(super) fn measure(
     add_direct(array, setting, &mut measured);
     if transport.thrown.iter().flatten().any(|thrown| !(thrown.through.is_empty() && thrown.back.is_empty())) {
         add_mirrored(setting, grid, &incident, &transport, &mut measured);
+    }
+    if let Some(rough) = &transport.rough {
+        add_rough(setting, grid, rough, &mut measured);
     }
     for side in Side::BOTH {
         let (t, r) =
@@ -146,25 +156,22 @@ fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured)
     }
 }
 
-/// Shifts of equal probability of the standard normal distribution: medians of its eighths.
-const EIGHTHS: [f64; 8] = [-1.534, -0.887, -0.489, -0.157, 0.157, 0.489, 0.887, 1.534];
-
-/// Lobes of one node on the nodes of the grid: (node, width), with the mean variance.
-fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> (Vec<(usize, f64)>, f64) {
+/// Lobes of ideal mirrors of one node on the nodes of the grid: (node, width).
+fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> Vec<(usize, f64)> {
     let mut line = vec![0.0; grid.len()];
-    let (mut variance, mut width) = (0.0, 0.0);
-    for lobe in lobes {
-        let (node, above) = grid.place(lobe.psi);
-        line[node] += lobe.width * (1.0 - above);
-        line[node + 1] += lobe.width * above;
-        variance += lobe.width * lobe.variance;
-        width += lobe.width;
+    for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
+        let [from, to] = lobe.psi;
+        let points = (2.0 * (to - from).abs() / grid.step()).ceil().max(1.0);
+        for k in 0..points as usize {
+            let (node, above) = grid.place(from + (to - from) * (k as f64 + 0.5) / points);
+            line[node] += lobe.width * (1.0 - above) / points;
+            line[node + 1] += lobe.width * above / points;
+        }
     }
-    let list = line.into_iter().enumerate().filter(|&(_, width)| width > 0.0).collect();
-    (list, if width > 0.0 { variance / width } else { 0.0 })
+    line.into_iter().enumerate().filter(|&(_, width)| width > 0.0).collect()
 }
 
-/// Adds what mirrors throw: flux from the weights of the cells, its division among emergent cells from their nodes.
+/// Adds what ideal mirrors throw: flux from the weights of the cells, its division among emergent cells from their nodes.
 fn add_mirrored(
     setting: &Setting<'_>,
     grid: ProfileGrid,
@@ -178,7 +185,7 @@ fn add_mirrored(
     let m = weight.len();
     for side in Side::BOTH {
         for through in [true, false] {
-            let nodes: Vec<(Vec<(usize, f64)>, f64)> = transport.thrown[index(side)]
+            let nodes: Vec<Vec<(usize, f64)>> = transport.thrown[index(side)]
                 .iter()
                 .map(|thrown| on_nodes(if through { &thrown.through } else { &thrown.back }, grid))
                 .collect();
@@ -191,18 +198,19 @@ fn add_mirrored(
                     let total: f64 = weights
                         .iter()
                         .enumerate()
-                        .map(|(k, w)| w * nodes[first + k].0.iter().map(|(_, width)| width).sum::<f64>())
+                        .map(|(k, w)| w * nodes[first + k].iter().map(|(_, width)| width).sum::<f64>())
                         .sum::<f64>()
                         / solid;
                     let mut put = vec![0.0; m];
                     // What the nodes of the cell send out in all, wherever it goes.
                     let mut sum = 0.0;
                     for &(node, from, to) in &sources[i] {
-                        let (lobes, variance) = &nodes[node];
-                        let length = super::profile_weights::primitive(to) - super::profile_weights::primitive(from);
-                        let amount = length * grid.hat(node);
+                        let lobes = &nodes[node];
+                        let amount = (to - from) * grid.hat(node);
                         sum += amount * lobes.iter().map(|(_, width)| width).sum::<f64>();
-                        spread(&lines, lobes, *variance, (from, to), amount, &mut put);
+                        for &(node, width) in lobes {
+                            lines.divide(node, from, to, |cell, share| put[cell] += amount * width * share);
+                        }
                     }
                     if sum > 0.0 {
                         for (o, flux) in put.iter().enumerate() {
@@ -211,29 +219,6 @@ fn add_mirrored(
                     }
                 },
             );
-        }
-    }
-}
-
-/// Divides what an incident cell's interval of x at one node sends out among emergent cells.
-fn spread(
-    lines: &Intervals,
-    lobes: &[(usize, f64)],
-    variance: f64,
-    (from, to): (f64, f64),
-    amount: f64,
-    put: &mut [f64],
-) {
-    let sigma = variance.sqrt();
-    let shifts: &[f64] = if sigma > 0.0 { &EIGHTHS } else { &[0.0] };
-    for shift in shifts {
-        let by = shift * sigma;
-        // What would go beyond the ends of the slats' direction stays at them.
-        let from = (from + by).clamp(-1.0, 1.0 - 1e-6);
-        let to = (to + by).clamp(from + 1e-6, 1.0);
-        for &(node, width) in lobes {
-            let flux = amount * width / shifts.len() as f64;
-            lines.divide(node, from, to, |cell, share| put[cell] += flux * share);
         }
     }
 }

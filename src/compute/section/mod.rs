@@ -9,12 +9,19 @@
 //! | straight through | closed form max(0, 1 − extent/(s cosψ)), integrated over cells with its kinks known | 1e-8 |
 //! | first light on the slats, exchange between them | all lines of every ψ in bundles that meet the same strips (`sweep`) | ψ in steps, linear between |
 //! | matt faces | radiosity on strips, extrapolated from two divisions (`balance`) | stated |
-//! | mirrors | every bundle goes on as one ray (`chain`); its flux is exact up to the second mirror | seen in the energy balance |
+//! | ideal mirrors | every bundle goes on as rays at its ends and middle (`chain`) | seen in the energy balance |
+//! | mirrors that spread light | rays drawn by equidistributed numbers, made reciprocal (`reciprocal`) | stated |
 //!
-//! A mirror's spread σ turns the mirror in the section by a normal distribution of σ/2 at every reflection, and the
-//! direction cosine along the slats by one of σ when the light leaves. Energy is kept; reciprocity holds to the
-//! second order in σ (light never turns into the surface: there it is folded back).
+//! A mirror's spread σ is a lobe that is a product of two, about the ideal mirror's direction: one in the section, one in
+//! the direction cosine x along the slats. In the section the sine u of the angle to the face's normal is the height of
+//! a point on the unit sphere; a step there in any direction, its components normal with σ, turns u into u′ with a
+//! density that is symmetric for du, since heights of uniform points are uniform (Archimedes). Along the slats a step on
+//! the sphere of four dimensions does the same for the measure √(1 − x²) dx of x (`along`). Projected solid angle is
+//! du √(1 − x²) dx, so that the lobe is reciprocal and keeps all energy at any σ, grazing light included, and light that
+//! has become diffuse stays so. Rays draw the steps; `reciprocal` takes their scatter out of sums and symmetry.
 
+mod along;
+mod arc;
 mod balance;
 mod chain;
 mod deposit;
@@ -23,6 +30,8 @@ mod measure;
 mod outline;
 mod profile_shares;
 mod profile_weights;
+mod reciprocal;
+mod rough;
 mod sweep;
 mod transport;
 
@@ -40,7 +49,8 @@ pub struct Surface {
     pub diffuse: f64,
     /// Reflectance as a mirror; both together at most 1.
     pub mirror: f64,
-    /// Standard deviation of the mirrored direction about the ideal one, along either axis. \[rad\]
+    /// Standard deviation σ of the mirrored direction about the ideal one, along either axis for light that comes near
+    /// the normal; the lobe for any light is described at the head of this module. \[rad\]
     pub spread: f64,
 }
 

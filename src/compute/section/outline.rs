@@ -4,6 +4,7 @@
 //! sheet, the outside of a solid slat. Every strip of the coarse division is halved; the coarse one serves the
 //! estimate of the error.
 
+use super::arc::Circle;
 use super::{SlatArray, Surface};
 use crate::compute::system::slat_profile::SlatProfile;
 
@@ -32,7 +33,7 @@ pub(super) struct Face {
     pub(super) coarse: usize,
 }
 
-/// Strips that make one straight line with the same finish, for rays.
+/// Strips that make one straight line, or one arc, with the same finish, for rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Facet {
     /// Start.
@@ -43,6 +44,8 @@ pub(super) struct Facet {
     pub(super) first: usize,
     /// Shares of the way at which the strips end, rising to 1.
     pub(super) ends: Vec<f64>,
+    /// What it is really part of, where it is an arc.
+    pub(super) circle: Option<Circle>,
 }
 
 /// Facets in a row, in a circle: rays that miss the circle miss them all.
@@ -61,14 +64,20 @@ const GROUP: usize = 6;
 
 impl Group {
     fn of(facets: &[Facet], range: std::ops::Range<usize>) -> Self {
-        let points = || facets[range.clone()].iter().flat_map(|facet| [facet.a, facet.b]);
+        const ALONG: usize = 64;
+        let on_arc = |circle: &Circle| (0..=ALONG).map(|k| circle.at(k as f64 / ALONG as f64)).collect();
+        let of = |facet: &Facet| facet.circle.as_ref().map_or_else(|| vec![facet.a, facet.b], on_arc);
+        let points: Vec<Point> = facets[range.clone()].iter().flat_map(of).collect();
+        // By how much an arc leaves its chords.
+        let bulge = |circle: &Circle| circle.radius.abs() * (1.0 - (0.5 * circle.turn / ALONG as f64).cos());
+        let bulge = facets[range.clone()].iter().filter_map(|f| f.circle.as_ref()).map(bulge).fold(0.0, f64::max);
         let middle = [0, 1].map(|axis: usize| {
-            let at = || points().map(|point| point[axis]);
+            let at = || points.iter().map(|point| point[axis]);
             0.5 * (at().fold(f64::INFINITY, f64::min) + at().fold(f64::NEG_INFINITY, f64::max))
         });
-        let radius = points().map(|p| (p[0] - middle[0]).hypot(p[1] - middle[1])).fold(0.0, f64::max);
+        let radius = points.iter().map(|p| (p[0] - middle[0]).hypot(p[1] - middle[1])).fold(0.0, f64::max);
         // Beyond all rounding.
-        Self { facets: range, centre: middle, radius: radius + 1e-6 }
+        Self { facets: range, centre: middle, radius: radius + bulge + 1e-6 }
     }
 }
 
@@ -79,8 +88,10 @@ pub(super) struct Section {
     pub(super) strips: Vec<Strip>,
     /// All faces.
     pub(super) faces: Vec<Face>,
-    /// Straight runs of strips.
+    /// Straight runs and arcs of strips.
     pub(super) facets: Vec<Facet>,
+    /// The facet of every strip.
+    pub(super) facet_of: Vec<usize>,
     /// The facets, a few at a time.
     pub(super) groups: Vec<Group>,
     /// Number of coarse faces.
@@ -198,8 +209,16 @@ impl Section {
         let reach = if graph { 1 } else { (2.0 * (high - low).ceil()).max(1.0) as i32 };
         let list = split_at_crossings(list, reach);
 
-        let mut section =
-            Self { strips: vec![], faces: vec![], facets: vec![], groups: vec![], coarse: 0, solid, reach };
+        let mut section = Self {
+            strips: vec![],
+            faces: vec![],
+            facets: vec![],
+            facet_of: vec![],
+            groups: vec![],
+            coarse: 0,
+            solid,
+            reach,
+        };
         for part in list {
             let sides = [Some(part.left), part.right];
             let coarse = sides.map(|side| {
@@ -224,23 +243,33 @@ impl Section {
                 section.strips.push(Strip { a, b, normals, faces });
             }
         }
-        section.facets = section.straight_runs();
+        section.facets = section.runs();
+        let strips_of = |(index, facet): (usize, &Facet)| std::iter::repeat_n(index, facet.ends.len());
+        section.facet_of = section.facets.iter().enumerate().flat_map(strips_of).collect();
         let count = section.facets.len();
         let groups = (0..count).step_by(GROUP).map(|k| Group::of(&section.facets, k..(k + GROUP).min(count)));
         section.groups = groups.collect();
         section
     }
 
-    fn straight_runs(&self) -> Vec<Facet> {
+    /// Whether mirrors spread light.
+    pub(super) fn rough(&self) -> bool {
+        self.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0)
+    }
+
+    fn runs(&self) -> Vec<Facet> {
         let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
+        let bent = |strip: &Strip| strip.normals[0] != strip.normals[1];
         let mut runs: Vec<std::ops::Range<usize>> = vec![];
         for (k, strip) in self.strips.iter().enumerate() {
             let goes_on = k > 0 && {
                 let before = &self.strips[k - 1];
                 let (m, n) = (left_of(before.a, before.b), left_of(strip.a, strip.b));
                 let joined = (before.b[0] - strip.a[0]).hypot(before.b[1] - strip.a[1]) < 1e-12;
-                // Within a facet of an arc the described normals turn; rays take them from the strip.
-                joined && (m[0] - n[0]).hypot(m[1] - n[1]) < 1e-9 && finish(before) == finish(strip)
+                let straight = (m[0] - n[0]).hypot(m[1] - n[1]) < 1e-9 && !(bent(before) || bent(strip));
+                let [p, q] = [before.normals[1], strip.normals[0]];
+                let round = bent(before) && bent(strip) && (p[0] - q[0]).hypot(p[1] - q[1]) < 1e-9;
+                joined && (straight || round) && finish(before) == finish(strip)
             };
             match runs.last_mut() {
                 Some(run) if goes_on => run.end = k + 1,
@@ -248,10 +277,15 @@ impl Section {
             }
         }
         let facet = |run: std::ops::Range<usize>| {
-            let (a, b) = (self.strips[run.start].a, self.strips[run.end - 1].b);
+            let (first, last) = (&self.strips[run.start], &self.strips[run.end - 1]);
+            let (a, b) = (first.a, last.b);
+            let circle = Circle::of(a, b, [first.normals[0], last.normals[1]]);
             let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            let end = |strip: &Strip| (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
-            Facet { a, b, first: run.start, ends: self.strips[run].iter().map(end).collect() }
+            let end = |strip: &Strip| {
+                let along = || (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
+                circle.map_or_else(along, |circle| circle.share(strip.normals[1]))
+            };
+            Facet { a, b, first: run.start, ends: self.strips[run].iter().map(end).collect(), circle }
         };
         runs.into_iter().map(facet).collect()
     }

@@ -3,6 +3,7 @@
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
 use super::outline::{Point, Section};
 use super::profile_weights::ProfileGrid;
+use super::reciprocal::{Rough, Second, settle};
 use super::sweep::{Bundle, Met, sweep};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::goniophotometer::Side;
@@ -18,8 +19,14 @@ pub(super) struct Exchange {
     pub(super) values: Vec<f64>,
 }
 
-/// What a chunk of profile angles adds: exchange between strips, lengths seen, nodes.
-type Part = (Exchange, Vec<f64>, Vec<Node>);
+/// What a chunk of profile angles adds.
+struct Part {
+    /// Exchange between strips, without mirrors and by way of them.
+    exchange: [Exchange; 2],
+    /// Lengths seen.
+    length: Vec<f64>,
+    nodes: Vec<Node>,
+}
 
 impl Exchange {
     fn new(size: usize) -> Self {
@@ -29,16 +36,20 @@ impl Exchange {
     fn add(&mut self, from: usize, to: usize, amount: f64) {
         self.values[from * self.size + to] += amount;
     }
+
+    fn add_all(&mut self, other: &Self) {
+        self.values.iter_mut().zip(&other.values).for_each(|(sum, x)| *sum += x);
+    }
 }
 
 /// A parallel beam that leaves.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lobe {
-    /// Profile angle of its name. \[rad\]
-    pub(super) psi: f64,
+    /// Profile angles of its name, from and to: evenly between. \[rad\]
+    pub(super) psi: [f64; 2],
     /// Width of the incident light that it carries, in pitches.
     pub(super) width: f64,
-    /// Variance of its direction cosine along the slats.
+    /// Sum of the squared spreads of the mirrors that it has met. \[rad²\]
     pub(super) variance: f64,
 }
 
@@ -62,6 +73,8 @@ pub(super) struct Transport {
     pub(super) landed: [Vec<Vec<f64>>; 2],
     /// Mirrored light that leaves, a node, from outside and from inside.
     pub(super) thrown: [Vec<Thrown>; 2],
+    /// What of it has met mirrors that spread light, if any do.
+    pub(super) rough: Option<Rough>,
 }
 
 /// Index of a side in the pairs of this module.
@@ -74,16 +87,24 @@ pub(super) const fn index(side: Side) -> usize {
 
 /// What parallel light of one profile angle from either side does.
 pub(super) struct Node {
-    /// Width that comes to every face.
+    /// Width that comes to every face, without mirrors.
     pub(super) landed: [Vec<f64>; 2],
+    /// Width that comes to every face by way of mirrors.
+    pub(super) second: [Vec<f64>; 2],
     /// What mirrors throw out.
     pub(super) thrown: [Thrown; 2],
 }
 
-/// Parallel light of one profile angle. \[rad\]
+/// Parallel light of one profile angle: what comes to every face and what mirrors throw out. \[rad\]
 pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
-    let mut none = (Exchange::new(section.faces.len()), vec![0.0; section.faces.len()]);
-    Tracer::new(section, psi, 0.0).node(&mut none.0, &mut none.1, Sequence::new(seed, u64::MAX))
+    let size = section.faces.len();
+    let mut none =
+        Part { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
+    let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, 0));
+    for (landed, second) in node.landed.iter_mut().zip(&node.second) {
+        landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
+    }
+    node
 }
 
 /// A bundle that comes to a face.
@@ -97,16 +118,17 @@ struct Arrival {
 
 /// Where light is counted.
 struct Into<'a> {
-    exchange: &'a mut Exchange,
+    /// Without mirrors, by way of them.
+    exchange: &'a mut [Exchange; 2],
     node: &'a mut Node,
 }
 
 impl Into<'_> {
-    /// A width of a bundle comes to a face.
+    /// A width of a bundle comes to a face by way of mirrors.
     fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
         match arrival.from {
-            Some(from) => self.exchange.add(from.face, face, weight * width),
-            None => self.node.landed[index(arrival.side)][face] += width,
+            Some(from) => self.exchange[1].add(from.face, face, weight * width),
+            None => self.node.second[index(arrival.side)][face] += width,
         }
     }
 
@@ -139,21 +161,21 @@ impl Into<'_> {
         }
         match (low.exit, middle.exit, high.exit) {
             (Some(a), Some(b), Some(c)) => {
-                for (exit, part) in [(a, 0.25), (b, 0.5), (c, 0.25)] {
-                    self.leave(arrival, &exit, part * width);
-                }
+                self.leave(arrival, [&a, &b], 0.5 * width);
+                self.leave(arrival, [&b, &c], 0.5 * width);
             }
-            (_, Some(exit), _) => self.leave(arrival, &exit, width),
+            (_, Some(exit), _) => self.leave(arrival, [&exit; 2], width),
             _ => (),
         }
     }
 
-    /// A width of a bundle leaves.
-    fn leave(&mut self, arrival: &Arrival, exit: &Exit, width: f64) {
+    /// A width of a bundle leaves between two rays.
+    fn leave(&mut self, arrival: &Arrival, exits: [&Exit; 2], width: f64) {
         // Names: against the light from outside, along the light from inside.
         let front = arrival.side == Side::Front;
         let sign = if front { -1.0 } else { 1.0 };
-        let psi = (sign * exit.direction[1]).clamp(-1.0, 1.0).asin();
+        let psi = exits.map(|exit| (sign * exit.direction[1]).clamp(-1.0, 1.0).asin());
+        let exit = exits[0];
         let outwards = exit.direction[0] > 0.0;
         let thrown = &mut self.node.thrown[index(arrival.side)];
         let list = if outwards == front { &mut thrown.back } else { &mut thrown.through };
@@ -161,8 +183,8 @@ impl Into<'_> {
     }
 }
 
-/// Rays a bundle where mirrors spread light.
-const ROUGH: usize = 4;
+/// Rays a pitch of parallel light, and of light from a face, where mirrors spread light.
+const ROUGH: [f64; 2] = [400.0, 64.0];
 /// Smallest part of a bundle that is looked at by itself.
 const FINEST: f64 = 1.0 / 64.0;
 /// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
@@ -184,48 +206,50 @@ impl Transport {
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let nodes: Vec<usize> = (0..grid.len()).collect();
+        let size = section.faces.len();
         let parts: Vec<Option<Part>> = nodes
             .par_chunks(CHUNK)
             .map(|chunk| {
                 if progress.cancelled() {
                     return None;
                 }
-                let mut exchange = Exchange::new(section.faces.len());
-                let mut length = vec![0.0; section.faces.len()];
-                let done = chunk
-                    .iter()
-                    .map(|&node| {
-                        let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
-                        tracer.node(&mut exchange, &mut length, Sequence::new(seed, node as u64))
-                    })
-                    .collect();
-                Some((exchange, length, done))
+                let exchange = [Exchange::new(size), Exchange::new(size)];
+                let mut part = Part { exchange, length: vec![0.0; size], nodes: vec![] };
+                for &node in chunk {
+                    let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
+                    let done = tracer.node(&mut part, Sequence::new(seed, node as u64));
+                    part.nodes.push(done);
+                }
+                Some(part)
             })
             .collect();
-        let size = section.faces.len();
         let mut all = Self {
             exchange: Exchange::new(size),
             length: vec![0.0; size],
             landed: [vec![], vec![]],
             thrown: [vec![], vec![]],
+            rough: None,
         };
+        let mut second = Second { exchange: Exchange::new(size), landed: [vec![], vec![]] };
         for part in parts {
-            let (exchange, length, nodes) = part.ok_or(Cancelled)?;
-            all.exchange.values.iter_mut().zip(&exchange.values).for_each(|(sum, x)| *sum += x);
-            all.length.iter_mut().zip(&length).for_each(|(sum, x)| *sum += x);
-            for node in nodes {
-                let [front, back] = node.landed;
-                all.landed[0].push(front);
-                all.landed[1].push(back);
-                let [front, back] = node.thrown;
-                all.thrown[0].push(front);
-                all.thrown[1].push(back);
+            let part = part.ok_or(Cancelled)?;
+            all.exchange.add_all(&part.exchange[0]);
+            second.exchange.add_all(&part.exchange[1]);
+            all.length.iter_mut().zip(&part.length).for_each(|(sum, x)| *sum += x);
+            for node in part.nodes {
+                for (side, (landed, more)) in node.landed.into_iter().zip(node.second).enumerate() {
+                    all.landed[side].push(landed);
+                    second.landed[side].push(more);
+                }
+                for (side, thrown) in node.thrown.into_iter().enumerate() {
+                    all.thrown[side].push(thrown);
+                }
             }
         }
         let matt = |face: usize| section.faces[face].surface.diffuse > 0.0;
         for i in 0..size {
             for j in 0..i {
-                let (there, back) = (all.exchange.values[i * size + j], all.exchange.values[j * size + i]);
+                let (there, back) = (second.exchange.values[i * size + j], second.exchange.values[j * size + i]);
                 // Chains of mirrors are followed from either end: their mean is what both ends agree on. They are not
                 // followed from faces that send nothing.
                 let mean = match (matt(i), matt(j)) {
@@ -233,8 +257,17 @@ impl Transport {
                     (false, true) => back,
                     _ => 0.5 * (there + back),
                 };
-                all.exchange.values[i * size + j] = mean;
-                all.exchange.values[j * size + i] = mean;
+                second.exchange.values[i * size + j] = mean;
+                second.exchange.values[j * size + i] = mean;
+            }
+        }
+        if section.rough() {
+            all.rough = Some(settle(section, grid, &all, &mut second));
+        }
+        all.exchange.add_all(&second.exchange);
+        for (rows, more) in all.landed.iter_mut().zip(&second.landed) {
+            for (row, more) in rows.iter_mut().zip(more) {
+                row.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
             }
         }
         Ok(all)
@@ -243,26 +276,28 @@ impl Transport {
 
 impl<'a> Tracer<'a> {
     fn new(section: &'a Section, psi: f64, weight: f64) -> Self {
-        let rough = section.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
-        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough }
+        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough() }
     }
 
-    fn node(&self, exchange: &mut Exchange, length: &mut [f64], mut sequence: Sequence) -> Node {
-        let size = self.section.faces.len();
+    fn node(&self, part: &mut Part, mut sequence: Sequence) -> Node {
+        let none = || vec![0.0; self.section.faces.len()];
         let mut node =
-            Node { landed: [vec![0.0; size], vec![0.0; size]], thrown: [Thrown::default(), Thrown::default()] };
+            Node { landed: [none(), none()], second: [none(), none()], thrown: [Thrown::default(), Thrown::default()] };
         sweep(self.section, self.direction, |bundle| {
             let backwards = self.direction.map(|x| -x);
             for (from, to, direction, side) in
                 [(bundle.from, bundle.to, self.direction, Side::Back), (bundle.to, bundle.from, backwards, Side::Front)]
             {
                 if let Some(from) = from {
-                    length[from.face] += self.weight * bundle.width;
+                    part.length[from.face] += self.weight * bundle.width;
                 }
                 let Some(to) = to else { continue };
+                match from {
+                    Some(from) => part.exchange[0].add(from.face, to.face, self.weight * bundle.width),
+                    None => node.landed[index(side)][to.face] += bundle.width,
+                }
                 let arrival = Arrival { from, to, direction, side };
-                let mut into = Into { exchange, node: &mut node };
-                into.land(&arrival, to.face, bundle.width, self.weight);
+                let mut into = Into { exchange: &mut part.exchange, node: &mut node };
                 let faces = &self.section.faces;
                 let sends = from.is_none_or(|from| faces[from.face].surface.diffuse > 0.0);
                 if sends && faces[to.face].surface.mirror > 0.0 {
@@ -286,9 +321,15 @@ impl<'a> Tracer<'a> {
             Rc::new(trace)
         };
         if self.rough {
-            for k in 0..ROUGH {
-                let done = trace((k as f64 + 0.5) / ROUGH as f64, sequence);
-                into.add(self.section, arrival, [&done; 3], bundle.width / ROUGH as f64, self.weight);
+            // As many from grazing parallel light, of which a pitch takes little, as from any other.
+            let density = match arrival.from {
+                Some(_) => ROUGH[1],
+                None => ROUGH[0] / self.direction[0].max(0.1),
+            };
+            let rays = (density * bundle.width).ceil().max(1.0);
+            for k in 0..rays as usize {
+                let done = trace((k as f64 + 0.5) / rays, sequence);
+                into.add(self.section, arrival, [&done; 3], bundle.width / rays, self.weight);
             }
             return;
         }
@@ -318,6 +359,16 @@ impl<'a> Tracer<'a> {
         let (a, b) = (of(strip.a), of(strip.b));
         let share = (across - f64::from(met.copy) * cos - a) / (b - a);
         // Bundles are wider than rounding, and so are the strips that they meet.
-        super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0))
+        let point = super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0));
+        let Some(circle) = &self.section.facets[self.section.facet_of[met.strip]].circle else { return point };
+        // The strip is a chord: the same line on the arc, or the arc's nearest point.
+        let near = |x: &f64, y: &f64| x.abs().total_cmp(&y.abs());
+        if let Some(distance) = circle.meets(point, self.direction).into_iter().flatten().min_by(near) {
+            let on = [point[0] + distance * cos, point[1] + distance * sin];
+            if (on[0] - point[0]).hypot(on[1] - point[1]) < (strip.b[0] - strip.a[0]).hypot(strip.b[1] - strip.a[1]) {
+                return on;
+            }
+        }
+        circle.at(circle.share(circle.normal(point)).clamp(0.0, 1.0))
     }
 }
