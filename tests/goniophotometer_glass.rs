@@ -76,7 +76,7 @@ fn cases_of_the_reference_kit() {
 #[test]
 fn beams_turn_as_their_slopes_say() {
     let section = prisms().section().unwrap();
-    let effort = Effort { share: 1e-2, seed: 3 };
+    let effort = Effort { share: 1e-2, seed: 3, surfaces: u32::MAX };
     let name = |x: f64, y: f64| Dir::from_unit(DVec3::new(x, y, (1.0 - x * x - y * y).sqrt()));
     let (mut here, mut beside) = (Shares::default(), Shares::default());
     let mut compared = 0;
@@ -109,7 +109,7 @@ fn sheet(index: f64, absorption: f64) -> Section {
 
 fn totals(system: &impl Beams, name: Dir<Facade>, side: Side) -> [f64; 3] {
     let mut shares = Shares::default();
-    system.beams(name, side, Effort { share: 1e-7, seed: 5 }, &mut shares);
+    system.beams(name, side, Effort { share: 1e-7, seed: 5, surfaces: u32::MAX }, &mut shares);
     let sum = |transmitted: bool| shares.beams.iter().filter(|b| b.transmitted == transmitted).map(|b| b.share).sum();
     [sum(true), sum(false), shares.absorbed]
 }
@@ -154,7 +154,7 @@ fn bars_that_touch_are_a_laser_cut_panel() {
     let mut shares = Shares::default();
     for (theta, phi) in [(0.3, 0.5 * PI), (0.8, 1.5 * PI), (1.1, 0.5 * PI)] {
         let name = Dir::from_theta_phi(theta, phi);
-        section.beams(name, Side::Front, Effort { share: 1e-7, seed: 5 }, &mut shares);
+        section.beams(name, Side::Front, Effort { share: 1e-7, seed: 5, surfaces: u32::MAX }, &mut shares);
         let y = name.vector().y;
         let sum = |transmitted: bool, sign: f64| -> f64 {
             let fits = |b: &&Beam| b.transmitted == transmitted && (b.y - sign * y).abs() < 1e-9;
@@ -179,7 +179,7 @@ fn bars_that_touch_are_a_laser_cut_panel() {
 
 #[test]
 fn a_prism_bends_by_snells_law_and_returns_by_total_reflection() {
-    let effort = Effort { share: 1e-6, seed: 9 };
+    let effort = Effort { share: 1e-6, seed: 9, surfaces: u32::MAX };
     let mut shares = Shares::default();
     // 30° above, vertical flank below: light on the flat face at normal incidence leaves the slope at asin(n sin 30°).
     let n: f64 = 1.49;
@@ -213,7 +213,7 @@ fn deviation_is_least_where_light_crosses_symmetrically() {
     let mut deviation = |incidence: f64| {
         let travel = incidence - half;
         let name = Dir::from_theta_phi(travel.abs(), if travel > 0.0 { 1.5 * PI } else { 0.5 * PI });
-        section.beams(name, Side::Front, Effort { share: 1e-6, seed: 2 }, &mut shares);
+        section.beams(name, Side::Front, Effort { share: 1e-6, seed: 2, surfaces: u32::MAX }, &mut shares);
         let turned = shares.beams.iter().filter(|b| b.transmitted && (b.y - name.vector().y).abs() > 1e-6);
         let beam = turned.max_by(|a, b| a.share.total_cmp(&b.share)).unwrap();
         (beam.y.asin() - name.vector().y.asin()).abs()
@@ -246,7 +246,12 @@ fn profiles_between_panes_keep_energy() {
     assert_eq!(section.outline().len(), 3);
     let mut shares = Shares::default();
     for (theta, phi) in [(0.2, 1.0), (0.9, 4.0)] {
-        section.beams(Dir::from_theta_phi(theta, phi), Side::Front, Effort { share: 2e-3, seed: 5 }, &mut shares);
+        section.beams(
+            Dir::from_theta_phi(theta, phi),
+            Side::Front,
+            Effort { share: 2e-3, seed: 5, surfaces: u32::MAX },
+            &mut shares,
+        );
         let sum: f64 = shares.beams.iter().map(|b| b.share).sum();
         assert!((sum + shares.absorbed - 1.0).abs() < 1e-9 && shares.absorbed > 0.02, "{theta} {phi} {sum}");
         assert!(shares.lost < 1e-3, "{}", shares.lost);

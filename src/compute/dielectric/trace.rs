@@ -14,6 +14,15 @@ pub struct Effort {
     pub share: f64,
     /// Seed of that choice.
     pub seed: u64,
+    /// Surfaces, counted over all beams together, after which one of the beams that are left, chosen at random in
+    /// proportion to its flux, stands for all and is divided no more. With it the work for one direction is bounded,
+    /// without bias.
+    pub surfaces: u32,
+}
+
+impl Effort {
+    /// Surfaces that are enough for nearly all light in usual sections.
+    pub const SURFACES: u32 = 2000;
 }
 
 /// A beam that leaves the section.
@@ -39,6 +48,8 @@ pub struct Emission {
     /// Share that was given up: light still caught between total reflections after very many surfaces, which the
     /// least absorption would take; slips of rounding at corners. An error of all shares.
     pub lost: f64,
+    /// Surfaces that were looked for, of all beams together: what the trace took.
+    pub surfaces: u32,
     /// Room for the beams still to be followed; empty between traces.
     waiting: Vec<Beam>,
 }
@@ -46,7 +57,7 @@ pub struct Emission {
 impl Emission {
     fn clear(&mut self) {
         self.leaving.clear();
-        (self.absorbed, self.lost) = (0.0, 0.0);
+        (self.absorbed, self.lost, self.surfaces) = (0.0, 0.0, 0);
     }
 }
 
@@ -54,7 +65,7 @@ impl Emission {
 const MOST_SURFACES: u32 = 2000;
 /// Light left of a beam that absorption takes, caught between total reflections: all of it is absorbed in the end.
 const FAINT: f64 = 1e-14;
-/// A part of less than this share of the least is not followed; the other one carries it.
+/// A part of less than this share of the least is followed only now and then, with more flux.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// The SplitMix64 sequence.
@@ -81,6 +92,7 @@ impl Section {
         let beam = self.incident(direction);
         work.meet_pane(beam, usize::from(direction.z > 0.0), true);
         while let Some(beam) = work.stack.pop() {
+            let beam = if work.out.surfaces > effort.surfaces { work.one_of_all(beam) } else { beam };
             work.follow(beam);
         }
         let stack = std::mem::take(&mut work.stack);
@@ -126,6 +138,19 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
+    /// One of all beams that are left, with the flux of all of them; from here on nothing is divided.
+    fn one_of_all(&mut self, last: Beam) -> Beam {
+        self.effort.share = f64::INFINITY;
+        let (mut chosen, mut flux) = (last, last.light.stokes.i);
+        while let Some(beam) = self.stack.pop() {
+            flux += beam.light.stokes.i;
+            if self.random.next() * flux < beam.light.stokes.i {
+                chosen = beam;
+            }
+        }
+        whole(chosen, flux)
+    }
+
     /// Passes a beam on to all surfaces that it meets.
     fn follow(&mut self, mut beam: Beam) {
         let section = self.section;
@@ -146,6 +171,7 @@ impl Work<'_> {
             let c = if width > 0.0 { c0 + width * self.random.next() } else { c0 };
             let place = [c, beam.front.at(c)];
             beam.front.ends = [place, place];
+            self.out.surfaces += 1;
             let hit = nearest(region, &axes, &beam.front, c);
             self.surface(&beam, &axes, region, hit.as_ref(), [c, c], beam.light.stokes.i);
             return;
@@ -154,6 +180,7 @@ impl Work<'_> {
         let mut left = beam.light.stokes.i;
         let mut small = Handful::default();
         while c1 - c > 1e-10 * width {
+            self.out.surfaces += 1;
             let probe = c + (1e-9_f64).min(0.5 * (c1 - c));
             let hit = nearest(region, &axes, &beam.front, probe);
             let mut end = extent(region, &axes, &beam.front, probe, hit.as_ref());
@@ -254,12 +281,22 @@ impl Work<'_> {
             let first = self.random.next() * total < fa;
             self.stack.push(whole(if first { a } else { b }));
         } else if fa < least {
-            self.stack.push(whole(b));
+            self.with_trifle(b, a, total, least);
         } else if fb < least {
-            self.stack.push(whole(a));
+            self.with_trifle(a, b, total, least);
         } else {
             self.stack.push(a);
             self.stack.push(b);
+        }
+    }
+
+    /// A beam and a trifle of it, which is followed seldom, with more flux then: both keep theirs on average.
+    fn with_trifle(&mut self, beam: Beam, trifle: Beam, total: f64, least: f64) {
+        if self.random.next() * least < trifle.light.stokes.i {
+            self.stack.push(whole(trifle, least));
+            self.stack.push(whole(beam, total - least));
+        } else {
+            self.stack.push(whole(beam, total));
         }
     }
 
@@ -340,6 +377,9 @@ impl Work<'_> {
 
 /// A beam that carries this flux, so as to stand for others.
 fn whole(mut beam: Beam, flux: f64) -> Beam {
+    if beam.light.stokes.i <= 0.0 {
+        return beam;
+    }
     beam.light.stokes = beam.light.stokes.scaled(flux / beam.light.stokes.i);
     beam
 }
