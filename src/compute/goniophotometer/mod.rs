@@ -13,6 +13,7 @@
 
 pub mod beams;
 mod cells;
+mod net;
 pub mod outline;
 pub mod panels;
 pub mod panes;
