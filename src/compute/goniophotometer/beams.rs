@@ -65,7 +65,7 @@ const SURE: f64 = 3.0;
 /// The share of the allowed error that is aimed at. Directions stop where the estimate happens to be small, and the
 /// largest error among hundreds of cells is to be within.
 const AIM: f64 = 0.5;
-/// Surfaces for one incident cell at an error of 0.01, above which it gets no more directions.
+/// Surfaces for one incident cell at an error of 0.01 and above, after which it gets no more directions.
 const MOST_SURFACES: f64 = 3e5;
 /// Directions from which it is found how many surfaces a ray meets.
 const PILOTS: u32 = 32;
@@ -237,7 +237,7 @@ impl<'a, B: Beams> Bench<'a, B> {
     /// Directions are doubled until the shares of the cell stand, or its light has met too many surfaces.
     fn row(&self, side: Side, index: usize) -> Row {
         let fewest = (2 * self.system.fewest_parts()).next_power_of_two().ilog2();
-        let most = MOST_SURFACES * (0.01 / self.setting.error).powf(1.5);
+        let most = MOST_SURFACES * (0.01 / self.setting.error).max(1.0).powf(1.5);
         let mut row = Row::new(self.weights.len());
         let mut doublings = (2 * fewest).min(MOST_DOUBLINGS);
         let share = self.share(side, index);
