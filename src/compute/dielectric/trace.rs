@@ -14,6 +14,24 @@ pub struct Effort {
     pub share: f64,
     /// Seed of that choice.
     pub seed: u64,
+    /// Surfaces, counted over all beams together, up to which `share` holds. From there on it grows with their number,
+    /// and after [`PATIENCE`] times as many, one of the beams that are left, chosen at random in proportion to its
+    /// flux, stands for all. With it the work for one direction is bounded, without bias.
+    pub surfaces: u32,
+}
+
+impl Effort {
+    /// Surfaces that are enough for usual sections.
+    pub const SURFACES: u32 = 1000;
+
+    /// The least share that is divided after so many surfaces.
+    fn share_after(&self, surfaces: u32) -> f64 {
+        if surfaces > self.surfaces {
+            self.share * f64::from(surfaces) / f64::from(self.surfaces.max(1))
+        } else {
+            self.share
+        }
+    }
 }
 
 /// A beam that leaves the section.
@@ -39,6 +57,8 @@ pub struct Emission {
     /// Share that was given up: light still caught between total reflections after very many surfaces, which the
     /// least absorption would take; slips of rounding at corners. An error of all shares.
     pub lost: f64,
+    /// Surfaces that were looked for, of all beams together: what the trace took.
+    pub surfaces: u32,
     /// Room for the beams still to be followed; empty between traces.
     waiting: Vec<Beam>,
 }
@@ -46,15 +66,17 @@ pub struct Emission {
 impl Emission {
     fn clear(&mut self) {
         self.leaving.clear();
-        (self.absorbed, self.lost) = (0.0, 0.0);
+        (self.absorbed, self.lost, self.surfaces) = (0.0, 0.0, 0);
     }
 }
 
+/// How much longer than usual the beams of one direction are followed, each on its own.
+const PATIENCE: u32 = 10;
 /// Surfaces after which light is given up.
 const MOST_SURFACES: u32 = 2000;
 /// Light left of a beam that absorption takes, caught between total reflections: all of it is absorbed in the end.
 const FAINT: f64 = 1e-14;
-/// A part of less than this share of the least is not followed; the other one carries it.
+/// A part of less than this share of the least is followed only now and then, with more flux.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// The SplitMix64 sequence.
@@ -77,10 +99,13 @@ impl Section {
     pub fn trace(&self, direction: DVec3, effort: Effort, out: &mut Emission) {
         out.clear();
         let stack = std::mem::take(&mut out.waiting);
-        let mut work = Work { section: self, effort, random: Random(effort.seed), stack, out };
+        let mut work = Work { section: self, share: effort.share, random: Random(effort.seed), stack, out };
+        let most = effort.surfaces.saturating_mul(PATIENCE);
         let beam = self.incident(direction);
         work.meet_pane(beam, usize::from(direction.z > 0.0), true);
         while let Some(beam) = work.stack.pop() {
+            work.share = effort.share_after(work.out.surfaces);
+            let beam = if work.out.surfaces > most { work.one_of_all(beam) } else { beam };
             work.follow(beam);
         }
         let stack = std::mem::take(&mut work.stack);
@@ -119,13 +144,27 @@ impl Handful {
 
 struct Work<'a> {
     section: &'a Section,
-    effort: Effort,
+    /// The least share that is divided at present.
+    share: f64,
     random: Random,
     stack: Vec<Beam>,
     out: &'a mut Emission,
 }
 
 impl Work<'_> {
+    /// One of all beams that are left, with the flux of all of them, no more to be divided.
+    fn one_of_all(&mut self, last: Beam) -> Beam {
+        self.share = f64::INFINITY;
+        let (mut chosen, mut flux) = (last, last.light.stokes.i);
+        while let Some(beam) = self.stack.pop() {
+            flux += beam.light.stokes.i;
+            if self.random.next() * flux < beam.light.stokes.i {
+                chosen = beam;
+            }
+        }
+        whole(chosen, flux)
+    }
+
     /// Passes a beam on to all surfaces that it meets.
     fn follow(&mut self, mut beam: Beam) {
         let section = self.section;
@@ -141,11 +180,12 @@ impl Work<'_> {
         let axes = Axes::new(beam.k);
         let [[c0, _], [c1, _]] = beam.front.ends;
         let width = beam.front.width();
-        if beam.light.stokes.i < self.effort.share || width < 1e-9 {
+        if beam.light.stokes.i < self.share || width < 1e-9 {
             // A single ray, anywhere in the beam.
             let c = if width > 0.0 { c0 + width * self.random.next() } else { c0 };
             let place = [c, beam.front.at(c)];
             beam.front.ends = [place, place];
+            self.out.surfaces += 1;
             let hit = nearest(region, &axes, &beam.front, c);
             self.surface(&beam, &axes, region, hit.as_ref(), [c, c], beam.light.stokes.i);
             return;
@@ -154,6 +194,7 @@ impl Work<'_> {
         let mut left = beam.light.stokes.i;
         let mut small = Handful::default();
         while c1 - c > 1e-10 * width {
+            self.out.surfaces += 1;
             let probe = c + (1e-9_f64).min(0.5 * (c1 - c));
             let hit = nearest(region, &axes, &beam.front, probe);
             let mut end = extent(region, &axes, &beam.front, probe, hit.as_ref());
@@ -162,11 +203,11 @@ impl Work<'_> {
             }
             let flux = if end == c1 { left } else { beam.light.stokes.i * ((end - c) / width) };
             left -= flux;
-            if flux >= self.effort.share {
+            if flux >= self.share {
                 self.surface(&beam, &axes, region, hit.as_ref(), [c, end], flux);
             } else if flux > 0.0 {
                 small.add(hit, [c, end], flux, &mut self.random);
-                if small.flux >= self.effort.share {
+                if small.flux >= self.share {
                     self.one_of(&beam, &axes, region, &mut small);
                 }
             }
@@ -223,43 +264,37 @@ impl Work<'_> {
             surfaces: beam.surfaces + 1,
         };
         let slopes = beam.change.map(|change| -change.dot(hit.normal));
-        let reflected = child(
-            beam.k + 2.0 * before * normal,
-            beam.region,
-            divided.reflected,
-            [0, 1].map(|i| beam.change[i] + 2.0 * slopes[i] * hit.normal),
-        );
-        match divided.transmitted {
-            None => self.stack.push(reflected),
-            Some(through) => {
-                let ratio = before / behind;
-                let transmitted = child(
-                    beam.k + (before - behind) * normal,
-                    hit.beyond,
-                    through,
-                    [0, 1].map(|i| beam.change[i] + slopes[i] * (1.0 - ratio) * hit.normal),
-                );
-                self.divide(reflected, transmitted);
-            }
+        let flux = [divided.reflected.stokes.i, divided.transmitted.map_or(0.0, |through| through.stokes.i)];
+        let [back, on] = if flux[1] > 0.0 { self.followed(flux) } else { flux };
+        if back > 0.0 {
+            let change = [0, 1].map(|i| beam.change[i] + 2.0 * slopes[i] * hit.normal);
+            let reflected = child(beam.k + 2.0 * before * normal, beam.region, divided.reflected, change);
+            self.stack.push(whole(reflected, back));
+        }
+        if let Some(through) = divided.transmitted
+            && on > 0.0
+        {
+            let ratio = before / behind;
+            let change = [0, 1].map(|i| beam.change[i] + slopes[i] * (1.0 - ratio) * hit.normal);
+            let transmitted = child(beam.k + (before - behind) * normal, hit.beyond, through, change);
+            self.stack.push(whole(transmitted, on));
         }
     }
 
-    /// Follows two parts of a beam, or one for both where they are small.
-    fn divide(&mut self, a: Beam, b: Beam) {
-        let (fa, fb) = (a.light.stokes.i, b.light.stokes.i);
-        let total = fa + fb;
-        let least = NEGLIGIBLE * self.effort.share;
-        let whole = |beam: Beam| whole(beam, total);
-        if total < self.effort.share {
-            let first = self.random.next() * total < fa;
-            self.stack.push(whole(if first { a } else { b }));
-        } else if fa < least {
-            self.stack.push(whole(b));
-        } else if fb < least {
-            self.stack.push(whole(a));
+    /// Flux with which two parts of a beam are followed; one of them for both where they are small. On average both keep
+    /// theirs.
+    fn followed(&mut self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let total = a + b;
+        let least = NEGLIGIBLE * self.share;
+        if total < self.share {
+            if self.random.next() * total < a { [total, 0.0] } else { [0.0, total] }
+        } else if a < least {
+            // A trifle: followed seldom, with more flux then.
+            if self.random.next() * least < a { [least, total - least] } else { [0.0, total] }
+        } else if b < least {
+            if self.random.next() * least < b { [total - least, least] } else { [total, 0.0] }
         } else {
-            self.stack.push(a);
-            self.stack.push(b);
+            [a, b]
         }
     }
 
@@ -292,7 +327,7 @@ impl Work<'_> {
         if inwards {
             self.leave(&back);
             self.stack.push(through);
-        } else if before < self.effort.share {
+        } else if before < self.share {
             // Weak light does one of both, or weaker and weaker parts would go on between two panes.
             let total = through.light.stokes.i + back.light.stokes.i;
             if self.random.next() * total < through.light.stokes.i {
@@ -340,6 +375,9 @@ impl Work<'_> {
 
 /// A beam that carries this flux, so as to stand for others.
 fn whole(mut beam: Beam, flux: f64) -> Beam {
+    if beam.light.stokes.i <= 0.0 {
+        return beam;
+    }
     beam.light.stokes = beam.light.stokes.scaled(flux / beam.light.stokes.i);
     beam
 }

@@ -1,10 +1,13 @@
 //! Systems that turn one direction into a few sharp beams: means over the incident cells, flux into emergent cells.
 //!
-//! An incident cell is cut into n × n parts of equal projected solid angle. The beams of each part's middle are found
-//! once; where the rest of the part goes follows from how the beams turn with the incident direction, so that flux is
+//! An incident cell is cut into parts of equal projected solid angle. The beams of one direction of each part are
+//! found; where the rest of the part goes follows from how the beams turn with the incident direction, so that flux is
 //! laid into the emergent cells at the fineness of those and not of the parts. The flux of every part is kept exactly.
+//! The directions are a scrambled net ([`super::net`]): every power of two of them has one direction in every part.
+//! Their number is doubled, what was found before being kept, until the totals stand.
 
 use super::cells::CellFinder;
+use super::net;
 use super::{Measured, Seen, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::dielectric::Effort;
@@ -12,6 +15,7 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A sharp beam that a direction becomes. All systems here are endless along x, which keeps the x of the name.
@@ -36,6 +40,8 @@ pub struct Shares {
     pub absorbed: f64,
     /// Share that was given up, as an error.
     pub lost: f64,
+    /// Surfaces that light was followed to; 0 for closed forms.
+    pub surfaces: u32,
 }
 
 /// A system made of sharp beams, endless along x and the same from left and right.
@@ -44,16 +50,29 @@ pub trait Beams: Sync {
     /// systems that follow very many beams.
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
 
-    /// Fewest parts along either side of an incident cell.
+    /// Half of the fewest parts along either side of an incident cell; a power of two.
     fn fewest_parts(&self) -> usize {
         8
     }
 }
 
-/// Most parts along either side of an incident cell.
-const MOST_PARTS: usize = 64;
-/// Incident cells that reach beyond this polar angle begin with twice as many parts along either side. \[rad\]
-const STEEPEST: f64 = 1.45;
+/// Most directions of an incident cell, as a power of two.
+const MOST_DOUBLINGS: u32 = 20;
+/// Groups of directions from which the error is estimated; a power of two.
+const GROUPS: usize = 8;
+/// Standard errors that an error is stated as: nearly all true errors are smaller.
+const SURE: f64 = 3.0;
+/// The share of the allowed error that is aimed at. Directions stop where the estimate happens to be small, and the
+/// largest error among hundreds of cells is to be within.
+const AIM: f64 = 0.5;
+/// Surfaces for one incident cell at an error of 0.01 and above, after which it gets no more directions.
+const MOST_SURFACES: f64 = 3e5;
+/// Directions from which it is found how many surfaces a ray meets.
+const PILOTS: u32 = 32;
+/// Light is divided down to a share of the incident flux that goes with the root of the allowed error and the square of
+/// the number of surfaces that a ray meets on average: where they are many, following more directions teaches more than
+/// dividing the light of each. The factor was found by trial.
+const DIVIDED: f64 = 5.5e-3;
 /// Places along either side of a square of the size of an emergent cell that a strong beam is laid to.
 const PLACES: f64 = 96.0;
 /// Most places along either side of a part.
@@ -132,13 +151,16 @@ pub(super) fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> O
 
 /// What one incident cell becomes.
 struct Row {
+    /// Flux into the emergent cells, summed over directions of unit flux; 1/sr when it is finished.
     transmitted: Vec<f64>,
     reflected: Vec<f64>,
     absorbed: f64,
     lost: f64,
     error: f64,
-    /// τ and ρ of the four quarters of the parts, each of which lies all over the cell.
-    quarters: [[f64; 2]; 4],
+    /// τ and ρ of all directions, as found one after the other.
+    totals: Vec<[f64; 2]>,
+    /// Surfaces that light was followed to.
+    surfaces: f64,
 }
 
 impl Row {
@@ -149,20 +171,35 @@ impl Row {
             absorbed: 0.0,
             lost: 0.0,
             error: 0.0,
-            quarters: [[0.0; 2]; 4],
+            totals: vec![],
+            surfaces: 0.0,
         }
     }
 
-    /// Standard error of τ or ρ, the larger one, as if the quarters were drawn independently. They lie
-    /// evenly among each other, so that the error is some four times smaller as a rule. Of 290 totals of
-    /// a prism one was farther from a run of twenty times the effort than stated (0.0023 where 0.0019 was).
+    /// Error of τ or ρ, the larger one: [`SURE`] standard errors, as if the groups of directions, each of them a net of
+    /// its own all over the cell, were drawn independently. Together they lie more evenly still.
     fn doubt(&self) -> f64 {
+        let groups = GROUPS as f64;
+        let size = (self.totals.len() / GROUPS).max(1);
         let one = |k: usize| {
-            let mean = 0.25 * self.quarters.iter().map(|quarter| quarter[k]).sum::<f64>();
-            (self.quarters.iter().map(|quarter| (quarter[k] - mean).powi(2)).sum::<f64>() / 12.0).sqrt()
+            let mean = |part: &[[f64; 2]]| part.iter().map(|total| total[k]).sum::<f64>() / part.len() as f64;
+            let all = mean(&self.totals);
+            let apart: f64 = self.totals.chunks_exact(size).map(|group| (mean(group) - all).powi(2)).sum();
+            (apart / (groups * (groups - 1.0))).sqrt()
         };
-        // Every quarter holds its part of the flux alone.
-        4.0 * one(0).max(one(1))
+        SURE * one(0).max(one(1))
+    }
+
+    /// From sums over directions to means.
+    fn finish(&mut self, weights: &[f64]) {
+        let each = 1.0 / self.totals.len() as f64;
+        for values in [&mut self.transmitted, &mut self.reflected] {
+            for (q, weight) in values.iter_mut().zip(weights) {
+                *q *= each / weight;
+            }
+        }
+        self.absorbed *= each;
+        self.error = self.doubt() + self.lost * each;
     }
 
     fn store(self, seen: &mut Seen, index: usize) {
@@ -197,81 +234,88 @@ impl<'a, B: Beams> Bench<'a, B> {
         Self { system, setting, finder: CellFinder::new(setting.emergent), weights, fineness, same, below }
     }
 
-    /// Parts are doubled until the shares of the cell stand.
+    /// Directions are doubled until the shares of the cell stand, or its light has met too many surfaces.
     fn row(&self, side: Side, index: usize) -> Row {
-        let cell = self.setting.incident.cell(index);
-        let mut parts = self.system.fewest_parts();
-        if cell.theta_max > STEEPEST {
-            // Everything falls off towards the horizon.
-            parts *= 2;
+        let fewest = (2 * self.system.fewest_parts()).next_power_of_two().ilog2();
+        let most = MOST_SURFACES * (0.01 / self.setting.error).max(1.0).powf(1.5);
+        let mut row = Row::new(self.weights.len());
+        let mut doublings = (2 * fewest).min(MOST_DOUBLINGS);
+        let share = self.share(side, index);
+        self.add_net(&mut row, side, index, share, 0..1 << doublings);
+        while row.doubt() > AIM * self.setting.error && doublings < MOST_DOUBLINGS && row.surfaces < most {
+            self.add_net(&mut row, side, index, share, 1 << doublings..2 << doublings);
+            doublings += 1;
         }
-        loop {
-            let mut row = self.with_parts(side, index, parts.min(MOST_PARTS));
-            let doubt = row.doubt();
-            row.error = doubt + row.lost;
-            if doubt <= self.setting.error || parts >= MOST_PARTS {
-                for (q, weight) in row.transmitted.iter_mut().zip(&self.weights) {
-                    *q /= weight;
-                }
-                for (q, weight) in row.reflected.iter_mut().zip(&self.weights) {
-                    *q /= weight;
-                }
-                return row;
-            }
-            parts *= 2;
-        }
+        row.finish(&self.weights);
+        row
     }
 
-    /// Flux into the emergent cells from n × n parts of a cell.
-    fn with_parts(&self, side: Side, index: usize, n: usize) -> Row {
+    /// Seed of a direction of a cell, whatever thread works on it; number 0 is for the directions themselves.
+    fn seed(&self, side: Side, index: usize, number: u64) -> u64 {
+        net::mixed(self.setting.seed, &[u64::from(side == Side::Back), index as u64, number])
+    }
+
+    /// The share of the incident flux down to which the light of a cell is divided.
+    fn share(&self, side: Side, index: usize) -> f64 {
         let cell = self.setting.incident.cell(index);
-        let mut row = Row::new(self.weights.len());
+        let base = self.seed(side, index, 0);
         let mut shares = Shares::default();
-        let flux = 1.0 / (n * n) as f64;
-        let size = (cell.projected_solid_angle() * flux).sqrt();
+        let mut surfaces = 0.0;
+        for number in 0..PILOTS {
+            let [row, column] = net::point(number, base);
+            let effort =
+                Effort { share: f64::INFINITY, seed: net::mixed(base, &[u64::from(number)]), surfaces: u32::MAX };
+            self.system.beams(point(&cell, row, column), side, effort, &mut shares);
+            surfaces += f64::from(shares.surfaces) / f64::from(PILOTS);
+        }
+        (DIVIDED * self.setting.error.sqrt() * surfaces * surfaces).clamp(1e-6, 1.0)
+    }
+
+    /// Adds directions of a cell: as many numbers of the sequence as a power of two, from a multiple of it on.
+    fn add_net(&self, row: &mut Row, side: Side, index: usize, share: f64, numbers: Range<u32>) {
+        let doublings = numbers.len().ilog2();
+        let cell = self.setting.incident.cell(index);
+        let mut shares = Shares::default();
+        let parts = [1 << doublings.div_ceil(2), 1 << (doublings / 2)];
+        let size = (cell.projected_solid_angle() / f64::from(1_u32 << doublings)).sqrt();
         let points = ((PLACES * size / self.fineness).ceil() as usize).clamp(1, MOST_PLACES);
         let places = points * points;
         // A step that visits all places in an order that spreads over the part.
         let golden = (0.618 * places as f64) as usize;
         let step = (golden.max(1)..).find(|&step| coprime(step, places)).unwrap_or(1);
-        let places_of = Places::new(&cell, n * points);
-        let spread = ((0.618 * n as f64) as usize..).find(|&k| coprime(k, n)).unwrap_or(1);
-        for part in 0..n * n {
-            let corner = [part / n, part % n];
-            let at = |row: f64, column: f64| {
-                point(&cell, (corner[0] as f64 + row) / n as f64, (corner[1] as f64 + column) / n as f64)
-            };
-            // Not the middle: all parts of a row at different θ, all parts of a column at different φ, so that what
-            // depends on one of the two is seen at n² of its values.
-            let turn = |k: usize| ((k * spread % n) as f64 + 0.5) / n as f64;
-            let name = at(turn(part % n), turn(part / n));
+        let places_of = Places::new(&cell, parts.map(|n| n * points));
+        let base = self.seed(side, index, 0);
+        for number in numbers {
+            let at = net::point(number, base);
+            let corner = [0, 1].map(|k| (at[k] * parts[k] as f64) as usize);
+            let name = point(&cell, at[0], at[1]);
             let (x, y) = (name.vector().x, name.vector().y);
-            let seed = seed(self.setting.seed, side, index, n, part);
-            // Fluxes below this are drawn at random, without bias; over the parts of a cell that averages out.
-            let share = (0.4 * self.setting.error).clamp(1e-6, 1e-2);
-            self.system.beams(name, side, Effort { share, seed }, &mut shares);
-            let quarter = &mut row.quarters[2 * (corner[0] % 2) + corner[1] % 2];
+            let seed = self.seed(side, index, u64::from(number) + 1);
+            self.system.beams(name, side, Effort { share, seed, surfaces: Effort::SURFACES }, &mut shares);
+            let mut total = [0.0; 2];
             for beam in &shares.beams {
-                quarter[usize::from(!beam.transmitted)] += beam.share * flux;
+                total[usize::from(!beam.transmitted)] += beam.share;
             }
-            row.absorbed += shares.absorbed * flux;
-            row.lost += shares.lost * flux;
+            row.totals.push(total);
+            row.surfaces += f64::from(shares.surfaces);
+            row.absorbed += shares.absorbed;
+            row.lost += shares.lost;
             for (number, beam) in shares.beams.iter().enumerate() {
                 let to = if beam.transmitted { &mut row.transmitted } else { &mut row.reflected };
                 if self.same && beam.y == y {
                     // Light that keeps its name keeps its cell.
-                    to[index] += beam.share * flux;
+                    to[index] += beam.share;
                     continue;
                 }
                 if let Some(below) = &self.below
                     && beam.y == -y
                     && beam.change == [0.0, -1.0]
                 {
-                    to[below[index]] += beam.share * flux;
+                    to[below[index]] += beam.share;
                     continue;
                 }
                 let count = ((places as f64 * (beam.share / STRONG).min(1.0)).ceil() as usize).max(1);
-                let each = beam.share * flux / count as f64;
+                let each = beam.share / count as f64;
                 let first = (seed as usize % places) + number;
                 for k in 0..count {
                     let place = (first + k * step) % places;
@@ -283,7 +327,6 @@ impl<'a, B: Beams> Bench<'a, B> {
                 }
             }
         }
-        row
     }
 
     /// Where light goes that comes from a little beside the middle of its part.
@@ -297,7 +340,7 @@ impl<'a, B: Beams> Bench<'a, B> {
     }
 }
 
-/// The middles of m × m parts of a cell.
+/// The middles of parts of a cell, so many rows and columns.
 struct Places {
     /// sinθ of the rows.
     radii: Vec<f64>,
@@ -306,16 +349,16 @@ struct Places {
 }
 
 impl Places {
-    fn new(cell: &Cell, m: usize) -> Self {
-        let middle = |k: usize| (k as f64 + 0.5) / m as f64;
+    fn new(cell: &Cell, [rows, columns]: [usize; 2]) -> Self {
+        let middle = |k: usize, m: usize| (k as f64 + 0.5) / m as f64;
         let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
         let turn = |k: usize| {
-            let (sin, cos) = (cell.phi + cell.width * (middle(k) - 0.5)).sin_cos();
+            let (sin, cos) = (cell.phi + cell.width * (middle(k, columns) - 0.5)).sin_cos();
             [cos, sin]
         };
         Self {
-            radii: (0..m).map(|k| (low + (high - low) * middle(k)).sqrt()).collect(),
-            turns: (0..m).map(turn).collect(),
+            radii: (0..rows).map(|k| (low + (high - low) * middle(k, rows)).sqrt()).collect(),
+            turns: (0..columns).map(turn).collect(),
         }
     }
 
@@ -339,14 +382,4 @@ fn coprime(a: usize, b: usize) -> bool {
         (a, b) = (b, a % b);
     }
     a == 1
-}
-
-/// A seed for every part, whatever thread works on it.
-fn seed(base: u64, side: Side, cell: usize, parts: usize, part: usize) -> u64 {
-    let side = u64::from(side == Side::Back);
-    let mut mixed = base;
-    for word in [side, cell as u64, parts as u64, part as u64] {
-        mixed = (mixed ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29);
-    }
-    mixed
 }

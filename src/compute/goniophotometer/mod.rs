@@ -14,6 +14,7 @@
 pub mod beams;
 mod cells;
 mod halves;
+mod net;
 pub mod outline;
 pub mod panels;
 pub mod panes;

@@ -18,7 +18,7 @@ impl Beams for Section {
         out.beams.clear();
         EMISSION.with_borrow_mut(|emission| {
             self.trace(sign * name.vector(), effort, emission);
-            (out.absorbed, out.lost) = (emission.absorbed, emission.lost);
+            (out.absorbed, out.lost, out.surfaces) = (emission.absorbed, emission.lost, emission.surfaces);
             out.beams.extend(emission.leaving.iter().map(|beam| Beam {
                 share: beam.share,
                 transmitted: beam.z * sign > 0.0,
