@@ -4,7 +4,7 @@
 use cfs::compute::basis::{AzimuthMap, Cell, RingBasis};
 use cfs::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, Severity, tau_max};
 use cfs::compute::direction::Dir;
-use cfs::compute::doctor::{BlockScope, Diagnosis, Repair, RepairKind, examine, recorded, repaired};
+use cfs::compute::doctor::{BlockScope, Diagnosis, Repair, RepairKind, examine, recorded, repaired, repaired_all};
 use cfs::formats::bsdf_xml;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -415,4 +415,17 @@ fn what_no_data_can_tell_is_asked() {
         let ask = found.iter().find(|one| one.finding.code == "orientation").unwrap();
         assert!(ask.finding.message.contains("If that is not so") && ask.repair.is_some(), "{ask:?}");
     }
+}
+
+#[test]
+fn every_function_that_a_finding_names_gets_its_repair() {
+    let sound = blind();
+    let percent = [FRONT, BACK].into_iter().fold(sound.clone(), |dataset, component| {
+        rewritten(&dataset, component, |i, o, m| 100.0 * m.value(i, o))
+    });
+    let found = examine(&percent);
+    let repairs: Vec<Repair> =
+        found.iter().filter(|one| one.finding.code == "percent").filter_map(|one| one.repair).collect();
+    assert_eq!(repairs.len(), 2, "{found:?}");
+    assert!(largest_difference(&repaired_all(&percent, &repairs).unwrap(), &sound) < 1e-12);
 }

@@ -187,10 +187,14 @@ fn to_text(dataset: &Dataset) -> String {
     if found.is_empty() {
         let _ = writeln!(text, "  none");
     }
-    for Diagnosis { finding, meaning, repair } in found {
-        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
-        if finding.severity != Severity::Info && !meaning.is_empty() {
-            let _ = writeln!(text, "{:34}{meaning}", "");
+    let mut last = None;
+    for Diagnosis { finding, meaning, repair } in &found {
+        // A finding that asks for several repairs is said once.
+        if last.replace(finding) != Some(finding) {
+            let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+            if finding.severity != Severity::Info && !meaning.is_empty() {
+                let _ = writeln!(text, "{:34}{meaning}", "");
+            }
         }
         if let Some(repair) = repair {
             let _ = writeln!(text, "{:34}offers: --repair {repair}", "");

@@ -39,14 +39,20 @@ pub use repaired::{RepairError, repaired, repaired_all};
 use crate::compute::btdf::{Band, Dataset, Finding};
 use blocks::Blocks;
 
-/// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's.
+/// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's. A finding
+/// that asks for several repairs comes once with each of them, one after the other.
 pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     let mut list: Vec<Diagnosis> = dataset.findings.iter().cloned().map(Diagnosis::from).collect();
     list.extend(examined(dataset));
-    // A reader's finding that the doctor makes too is said once, with its repair.
+    // A reader's finding that the doctor makes too is said once, with its repair. One finding about several functions
+    // comes once for every repair that it asks for; each of them is kept.
     let mut kept: Vec<Diagnosis> = Vec::new();
     for one in list {
-        match kept.iter_mut().find(|other| other.finding == one.finding) {
+        let same = |other: &&mut Diagnosis| {
+            other.finding == one.finding
+                && (one.repair.is_none() || other.repair.is_none() || other.repair == one.repair)
+        };
+        match kept.iter_mut().find(same) {
             Some(other) => other.repair = other.repair.or(one.repair),
             None => kept.push(one),
         }
