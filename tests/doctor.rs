@@ -420,9 +420,9 @@ fn what_no_data_can_tell_is_asked() {
 #[test]
 fn every_function_that_a_finding_names_gets_its_repair() {
     let sound = blind();
-    let percent = [FRONT, BACK].into_iter().fold(sound.clone(), |dataset, component| {
-        rewritten(&dataset, component, |i, o, m| 100.0 * m.value(i, o))
-    });
+    let percent = [FRONT, BACK]
+        .into_iter()
+        .fold(sound.clone(), |dataset, component| rewritten(&dataset, component, |i, o, m| 100.0 * m.value(i, o)));
     let found = examine(&percent);
     let repairs: Vec<Repair> =
         found.iter().filter(|one| one.finding.code == "percent").filter_map(|one| one.repair).collect();

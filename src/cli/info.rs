@@ -76,11 +76,12 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     Value::Object(object)
 }
 
-/// What was found, what it means, and the repair that `cfs repair` would make (null: none is offered).
+/// What was found, what it means, and the repair that `cfs repair` would make (null: none is offered);
+/// `sure`: it is beyond doubt, so that `auto` makes it.
 pub(super) fn finding_json(one: &Diagnosis) -> Value {
     json!({
         "severity": one.finding.severity.word(), "code": one.finding.code, "message": one.finding.message,
-        "meaning": one.meaning, "repair": one.repair.map(|repair| repair.to_string()),
+        "meaning": one.meaning, "repair": one.repair.map(|repair| repair.to_string()), "sure": one.sure,
     })
 }
 
@@ -188,7 +189,7 @@ fn to_text(dataset: &Dataset) -> String {
         let _ = writeln!(text, "  none");
     }
     let mut last = None;
-    for Diagnosis { finding, meaning, repair } in &found {
+    for Diagnosis { finding, meaning, repair, sure } in &found {
         // A finding that asks for several repairs is said once.
         if last.replace(finding) != Some(finding) {
             let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
@@ -197,7 +198,8 @@ fn to_text(dataset: &Dataset) -> String {
             }
         }
         if let Some(repair) = repair {
-            let _ = writeln!(text, "{:34}offers: --repair {repair}", "");
+            let auto = if *sure { " (beyond doubt: auto)" } else { "" };
+            let _ = writeln!(text, "{:34}offers: --repair {repair}{auto}", "");
         }
     }
     text

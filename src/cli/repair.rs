@@ -13,7 +13,7 @@ pub struct RepairArgs {
     /// Dataset file to mend; it stays as it is.
     pub file: PathBuf,
     /// What to do, in this order, as `cfs info` offers it: e.g. transpose, turn-upside-down:transmission_back,
-    /// divide-by-100:solar.all. All that `cfs info` offers for errors with `auto`.
+    /// divide-by-100:solar.all. `auto`: all that `cfs info` marks as beyond doubt; what is a question must be named.
     #[arg(long, value_delimiter = ',', required_unless_present = "undo")]
     pub repair: Vec<String>,
     /// Undo the repairs that the file records, the last first.
@@ -37,7 +37,9 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     for dataset in &mut datasets {
         let repairs = if args.undo { undoing(dataset)? } else { asked(dataset, &args.repair)? };
         if repairs.is_empty() {
-            bail!("{name}: nothing to repair; expected repairs by name, or a file with findings that offer one");
+            bail!(
+                "{name}: nothing to repair; expected repairs by name, or a file with findings whose repair is beyond doubt"
+            );
         }
         let mut mended = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
         // What the description recorded before is kept, and undone repairs cancel out.
@@ -61,7 +63,7 @@ fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
     let mut list = Vec::new();
     for word in words {
         if word == "auto" {
-            let offered = examine(dataset).into_iter().filter(|one| one.finding.severity.word() == "error");
+            let offered = examine(dataset).into_iter().filter(|one| one.sure);
             for repair in offered.filter_map(|one| one.repair) {
                 if !list.contains(&repair) {
                     list.push(repair);

@@ -53,7 +53,8 @@ pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
                 && (one.repair.is_none() || other.repair.is_none() || other.repair == one.repair)
         };
         match kept.iter_mut().find(same) {
-            Some(other) => other.repair = other.repair.or(one.repair),
+            Some(other) if other.repair.is_none() => (other.repair, other.sure) = (one.repair, one.sure),
+            Some(_) => {}
             None => kept.push(one),
         }
     }
@@ -86,7 +87,7 @@ fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
 fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     let at = At { dataset, band, name, scope };
     let mut list = energy::check(&at);
-    list.extend(copies::check(&at));
+    list.extend(copies::check(&at, blocks));
     let scaled = list.iter().any(|one| one.finding.code == "percent");
     let Some(blocks) = blocks else { return list };
     list.extend(patches::check(&at, blocks));
