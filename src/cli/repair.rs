@@ -36,16 +36,25 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let mut datasets = dataset_file::read(&args.file)?;
     for dataset in &mut datasets {
         let repairs = if args.undo { undoing(dataset)? } else { asked(dataset, &args.repair)? };
+        let questions = if args.undo { String::new() } else { questions(dataset, &repairs) };
         if repairs.is_empty() {
-            bail!(
-                "{name}: nothing to repair; expected repairs by name, or a file with findings whose repair is beyond doubt"
-            );
+            let rest = if args.undo {
+                bail!("{name}: no repair is recorded in it; expected a file that `cfs repair` wrote");
+            } else if questions.is_empty() {
+                "no finding offers a repair".to_owned()
+            } else {
+                format!("questions to be answered by name: {questions}; `cfs info` says why they are asked")
+            };
+            bail!("{name}: nothing is beyond doubt; {rest}");
         }
         let mut mended = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
         // What the description recorded before is kept, and undone repairs cancel out.
         mended.description = record(&dataset.description, &repairs);
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
         eprintln!("repaired: {}", words.join(", "));
+        if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
+            eprintln!("asked, not done: {questions}");
+        }
         if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
             eprintln!("{sentence}");
         }
@@ -74,6 +83,18 @@ fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
         }
     }
     Ok(list)
+}
+
+/// Repairs that are offered and only somebody who knows the product can decide on, those that are made left out.
+fn questions(dataset: &Dataset, made: &[Repair]) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for repair in examine(dataset).into_iter().filter(|one| !one.sure).filter_map(|one| one.repair) {
+        let word = repair.to_string();
+        if !made.contains(&repair) && !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    words.join(", ")
 }
 
 fn undoing(dataset: &Dataset) -> anyhow::Result<Vec<Repair>> {

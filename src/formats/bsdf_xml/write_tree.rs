@@ -5,7 +5,7 @@
 //! Functions that were derived when the dataset was read are left out, for readers derive them the same way: a file
 //! that is read and written again holds the blocks that it had. The Geometry element is empty.
 
-use super::document::escaped;
+use super::material;
 use crate::compute::btdf::{
     Band, Btdf, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank, TreeShape, tree_on,
 };
@@ -159,14 +159,9 @@ fn head(xml: &mut String, dataset: &Dataset, rank: TreeRank) {
     xml.push_str(
         "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
     );
-    // Some readers do not stand empty elements.
-    let or_unknown = |text: &str| if text.trim().is_empty() { "Unknown".to_owned() } else { escaped(text) };
-    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", or_unknown(&dataset.name));
-    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", or_unknown(&dataset.manufacturer));
-    if let Some(thickness) = dataset.thickness {
-        let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
-    }
-    xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
+    // Other programs than WINDOW read trees: nothing is invented for them.
+    material::write(xml, dataset, false);
+    xml.push_str("\t\t\t<Geometry></Geometry>\n");
     let _ = writeln!(
         xml,
         "\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>TensorTree{}</IncidentDataStructure>\n\

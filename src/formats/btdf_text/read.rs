@@ -13,8 +13,10 @@ use crate::compute::direction::{Dir, Facade, Incident};
 use crate::formats::location::{FormatError, Location};
 use std::sync::Arc;
 
-/// No indicatrix is believed to send out more than this share of the light; between 1 and here a finding tells.
-const IMPOSSIBLE: f64 = 1.5;
+/// No indicatrix is believed to send out more than this share of the light, not even in percent.
+const IMPOSSIBLE: f64 = 150.0;
+/// Above this the numbers are in another unit: which, the data doctor says.
+const OTHER_UNIT: f64 = 1.5;
 /// Above this the data are not fit for use.
 const PLAUSIBLE: f64 = 1.05;
 /// Up to here it is rounding.
@@ -24,7 +26,7 @@ const ROUNDING: f64 = 1.001;
 ///
 /// # Errors
 /// Anything that leaves the meaning of the numbers open, with line, what is there and what would be right: no header,
-/// unknown keys or words, counts that do not fit, values that are negative or no finite numbers, incidences that are
+/// unknown keys or words, counts that do not fit, values that are below zero by more than noise or no finite numbers, incidences that are
 /// given twice or lie off the lattice that the header names, more light than came.
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     let Split { header, body, body_line } = split(text(bytes)?)?;
@@ -109,22 +111,23 @@ fn records(header: &Header, body: &str, line: usize) -> Result<Measured, FormatE
     };
     let measured = match (header.layout, rings) {
         (Layout::Rings, Some(FileRings { basis, columns })) => {
-            let (list, mut rows) = ring_records(body, line, basis.len(), incident)?;
+            let ((list, mut rows), noise) = ring_records(body, line, basis.len(), incident)?;
             if let Some(columns) = columns {
                 let sorted = rows.chunks_exact(basis.len()).flat_map(|row| columns.iter().map(|&k| row[k]));
                 rows = sorted.collect();
             }
-            Measured { list, rows, basis, findings: Vec::new() }
+            Measured { list, rows, basis, findings: noise.into_iter().collect() }
         }
         (_, rings) => {
-            let list = point_records(body, line, incident, emergent)?;
+            let (list, noise) = point_records(body, line, incident, emergent)?;
             let distinct: Vec<Incidence> = list.iter().map(|(incidence, _)| *incidence).collect();
             incidence::distinct(&distinct)?;
             if list.is_empty() {
                 return Err(no_records(line));
             }
             let made = resample(&list, rings, emergent)?;
-            Measured { list: distinct, rows: made.rows, basis: made.basis, findings: made.findings }
+            let findings = made.findings.into_iter().chain(noise).collect();
+            Measured { list: distinct, rows: made.rows, basis: made.basis, findings }
         }
     };
     if measured.list.is_empty() { Err(no_records(line)) } else { Ok(measured) }
@@ -152,14 +155,14 @@ fn plausible(
             return Err(FormatError::new(
                 Location::line(incidence.line),
                 format!("{sum} times the light that comes from θ {}° φ {}° leaves", incidence.theta, incidence.phi),
-                "at most 1: values q = L/E in 1/sr, without the cosine of the emergent angle",
+                "at most 1 (or 100 in percent): values q = L/E in 1/sr, without the cosine of the emergent angle",
             ));
         }
         largest = largest.max(tau);
         above += usize::from(tau > ROUNDING);
     }
     let (rows_of, what) = (list.len(), words(header.component));
-    if largest > ROUNDING {
+    if largest > ROUNDING && largest <= OTHER_UNIT {
         let message =
             format!("{what}: up to {largest:.4} of the light leaves, more than 1 at {above} of {rows_of} incidences");
         findings.push(if largest > PLAUSIBLE {
@@ -168,7 +171,7 @@ fn plausible(
             Finding::warning("energy-above-one", format!("{message} (measuring error)."))
         });
     } else if largest == 0.0 && header.component == Component::TransmissionFront {
-        findings.push(Finding::warning("opaque", "The transmission from outside is zero everywhere (opaque)."));
+        findings.push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
     }
     if header.component != Component::TransmissionFront {
         findings.push(Finding::info(
