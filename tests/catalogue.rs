@@ -137,8 +137,15 @@ fn a_failing_import_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.sqlite");
     let mut catalogue = Catalogue::open(&path).unwrap();
-    let kept = catalogue.import(&[sample("Kept", "", 0.4)], named("")).unwrap();
-    let package = catalogue.export_package(&["venetian-80-72".into(), kept.key]).unwrap();
+    catalogue.import(&[sample("Kept", "", 0.4)], named("")).unwrap();
+    let mut other = Catalogue::in_memory().unwrap();
+    let curve = vec![cfs::catalogue::CurvePoint { profile_angle: 0.0, value: 1.0 }];
+    let curved = NewProduct { control_curve: curve, ..NewProduct::default() };
+    let keys = [
+        other.import(&[sample("Plain", "", 0.3)], named("")).unwrap().key,
+        other.import(&[sample("Led", "", 0.2)], curved).unwrap().key,
+    ];
+    let package = other.export_package(&keys).unwrap();
     // Each trigger breaks the import at another table, after others were written.
     for table in ["state", "dataset", "finding", "tag", "control_point"] {
         let other = rusqlite::Connection::open(&path).unwrap();
@@ -277,13 +284,12 @@ fn packages_carry_products_over_unchanged() {
     assert_eq!(bytes, from.export_package(&keys).unwrap());
     let mut to = Catalogue::in_memory().unwrap();
     let imported = to.import_package(&bytes).unwrap();
-    assert_eq!(imported[0].key, "venetian-80-72-2");
+    // What is there already, stays as it is.
+    assert_eq!(imported[0].key, "venetian-80-72");
     assert_eq!(imported[0].same_content_as, ["venetian-80-72"]);
     assert_eq!(imported[1].key, key);
     let (a, b) = (from.product(&key).unwrap(), to.product(&key).unwrap());
     assert_eq!(a, b);
-    let (a, b) = (from.product("venetian-80-72").unwrap(), to.product("venetian-80-72-2").unwrap());
-    assert_eq!((a.states, a.control_curve, a.provenance), (b.states, b.control_curve, b.provenance));
     // A dataset that was changed on the way is refused, whichever byte.
     let mut content = package::read(&bytes).unwrap();
     let blob = content.datasets.values_mut().next().unwrap();
@@ -477,4 +483,32 @@ proptest! {
             prop_assert!(found.is_ok(), "{:?}: {:?}", text, found);
         }
     }
+}
+
+#[test]
+fn a_package_of_what_is_there_changes_nothing_and_built_in_ones_find_their_place() {
+    let mut from = Catalogue::in_memory().unwrap();
+    let quick = from.export_package(&["laser-cut-panel".to_owned()]).unwrap();
+    let mut to = Catalogue::in_memory().unwrap();
+    let before = to.search(&Query::default()).unwrap().len();
+    let imported = to.import_package(&quick).unwrap();
+    assert_eq!(
+        (imported[0].key.as_str(), imported[0].same_content_as.as_slice()),
+        ("laser-cut-panel", &["laser-cut-panel".to_owned()][..])
+    );
+    assert_eq!(to.search(&Query::default()).unwrap().len(), before);
+    // Another file has computed a built-in product that this one is still to get.
+    let name = *from.missing_builtin().unwrap().iter().find(|name| name.starts_with("screen-grey-5")).unwrap();
+    let (product, datasets) = cfs::study::builtin::compute(name, &cfs::compute::estimate::Silent).unwrap();
+    let key = product.key.clone().unwrap();
+    from.put_builtin(name, product.clone(), &datasets).unwrap();
+    let package = from.export_package(std::slice::from_ref(&key)).unwrap();
+    let imported = to.import_package(&package).unwrap();
+    assert_eq!(imported[0].key, key);
+    assert!(to.product(&key).unwrap().builtin && !to.missing_builtin().unwrap().contains(&name));
+    // The user's own product does not take the place of one to come.
+    let mut other = Catalogue::in_memory().unwrap();
+    let own = NewProduct { system: String::new(), ..product };
+    let added = other.import(&datasets, own).unwrap();
+    assert_eq!(added.key, format!("{key}-2"));
 }

@@ -48,12 +48,16 @@ fn a_stack_in_a_stack_is_the_stack_of_all_layers() {
     put(folder.path(), "nested", &stack(&["pane", "double"]));
     put(folder.path(), "flat", &stack(&["pane", "pane", "opal"]));
     put(folder.path(), "itself", &stack(&["pane", "itself"]));
+    put(folder.path(), "panes", &stack(&["pane", "pane"]));
+    put(folder.path(), "two", &PANE.replace("absorption", "panes = 2\nabsorption"));
     let library = Library::default();
     let measured = |name: &str| {
         let described = Described::read(&folder.path().join(format!("{name}.system.toml"))).unwrap();
         described.measure("", &request(), &library, None, &Silent)
     };
     assert_eq!(measured("nested").unwrap().dataset.visible, measured("flat").unwrap().dataset.visible);
+    // Light keeps its polarisation between panes: two of them are not two matrices.
+    assert_eq!(measured("panes").unwrap().dataset.visible, measured("two").unwrap().dataset.visible);
     let endless = measured("itself").unwrap_err().to_string();
     assert!(endless.contains("stacks within stacks"), "{endless}");
 }
@@ -100,6 +104,29 @@ fn a_run_tells_its_quality_and_its_package_holds_what_it_was_made_of() {
     let product = catalogue.product(&imported[0].key).unwrap();
     assert_eq!(product.system, BLIND);
     assert!(product.provenance.method.contains("cfs"), "{}", product.provenance.method);
+    // The package is read wherever a dataset is.
+    let info = cfs(folder, &["info", "blind.cfsp", "--json"]);
+    assert_eq!(info.status.code(), Some(0), "{}", String::from_utf8_lossy(&info.stderr));
+    let judged = cfs(folder, &["catalogue", "validate", "blind.cfsp"]);
+    assert_eq!(judged.status.code(), Some(0), "{}", String::from_utf8_lossy(&judged.stderr));
+}
+
+#[test]
+fn text_files_hold_the_cells_that_were_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    put(folder, "pane", PANE);
+    let to = ["--incidence", "tregenza-145", "--emergent", "10", "--out", "pane.btdf.txt"];
+    let run = cfs(folder, &[&["goniophotometer", "pane.system.toml"][..], &to].concat());
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    for name in ["pane.btdf.txt", "pane_reflection-front.btdf.txt"] {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(text.contains("tregenza-145"), "{name}");
+        let read = cfs::formats::read_dataset(name, text.as_bytes()).unwrap().remove(0);
+        let component = read.visible.components()[0];
+        let tau = read.visible.get(component).unwrap().tau_hemispherical();
+        assert!(tau > 0.1 && tau < 0.9, "{name} {tau}");
+    }
 }
 
 #[test]

@@ -333,6 +333,13 @@ impl App {
             return;
         }
         self.state.sheet = None;
+        // A package is whole: it needs no questions, and goes where it came from.
+        let (packages, paths): (Vec<_>, Vec<_>) =
+            paths.into_iter().partition(|path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("cfsp")));
+        packages.into_iter().for_each(|path| self.import_package(path));
+        if paths.is_empty() {
+            return;
+        }
         let read = self.services.read;
         self.start(Lane::Import, move |_| work::read_files(&paths, read));
     }

@@ -2,7 +2,7 @@
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, NewProduct, Product};
+use crate::catalogue::{self, Catalogue, Imported, NewProduct, Product};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::formats::ies::IesEdition;
@@ -129,6 +129,10 @@ impl Shelf for CatalogueShelf {
     fn add(&self, addition: &Addition) -> Result<String, String> {
         let datasets: Vec<Dataset> = addition.datasets.iter().map(|dataset| stored_by_default(dataset)).collect();
         self.lock().import(&datasets, addition.product.clone()).map(|imported| imported.key).map_err(told)
+    }
+
+    fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, String> {
+        self.lock().import_package(bytes).map_err(told)
     }
 
     fn remove(&self, product: &str) -> Result<(), String> {

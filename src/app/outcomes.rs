@@ -6,9 +6,11 @@ use super::engine::Question;
 use super::jobs::{JobState, Lane};
 use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Selection, Sheet};
-use super::work::{Outcome, Shelved, fill_one, take_from_shelf};
+use super::work::{Outcome, Shelved, fill_one, read_bytes, take_from_shelf};
+use crate::catalogue::Imported;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 impl App {
@@ -42,6 +44,15 @@ impl App {
     /// Stores an addition of this session.
     pub(super) fn store_addition(&mut self, number: usize, addition: Addition) {
         self.pending_changes.push_back(Box::new(move |shelf| Outcome::Added(number, shelf.add(&addition))));
+        self.start_pending_change();
+    }
+
+    /// Stores the products of a package.
+    pub(super) fn import_package(&mut self, path: PathBuf) {
+        self.pending_changes.push_back(Box::new(move |shelf| {
+            let told = |error: String| format!("{}: {error}", path.display());
+            Outcome::Imported(read_bytes(&path).and_then(|bytes| shelf.import_package(&bytes).map_err(told)))
+        }));
         self.start_pending_change();
     }
 
@@ -148,6 +159,7 @@ impl App {
                 self.toasts.error(error).duration(None);
             }
             Outcome::Added(number, result) => self.take_added(number, result),
+            Outcome::Imported(result) => self.take_imported(result),
             Outcome::Stored(result) => {
                 if let Err(error) = result {
                     self.toasts.error(error);
@@ -206,6 +218,27 @@ impl App {
             Err(error) => {
                 self.state.document.additions.retain(|&other| other != number);
                 self.toasts.error(format!("Not added: {error}. The catalogue is unchanged.")).duration(None);
+            }
+        }
+        self.search();
+    }
+
+    fn take_imported(&mut self, result: Result<Vec<Imported>, String>) {
+        match result {
+            Ok(list) => {
+                let there = |one: &&Imported| one.same_content_as == [one.key.as_str()];
+                let known = list.iter().filter(there).count();
+                self.toasts.success(match (list.len(), known) {
+                    (all, 0) => format!("Imported: {all} products"),
+                    (all, known) if known == all => "Imported: all of it was there already".to_owned(),
+                    (all, known) => format!("Imported: {} products; {known} were there already", all - known),
+                });
+                if let Some(first) = list.first() {
+                    self.apply(super::command::Command::Select(first.key.clone()));
+                }
+            }
+            Err(error) => {
+                self.toasts.error(error).duration(None);
             }
         }
         self.search();

@@ -1,6 +1,6 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
-use crate::catalogue::{NewProduct, Product};
+use crate::catalogue::{Imported, NewProduct, Product};
 use crate::compute::btdf::Dataset;
 use crate::study::StudyError;
 use crate::study::control::ControlQuestion;
@@ -72,6 +72,8 @@ pub trait Shelf: Send + Sync {
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
     /// Stores a product; its key.
     fn add(&self, addition: &Addition) -> Result<String, String>;
+    /// Stores all products of a package.
+    fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, String>;
     /// Takes a product out.
     fn remove(&self, product: &str) -> Result<(), String>;
     /// A built-in description whose product is not stored yet, and how many there are.

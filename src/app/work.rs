@@ -6,7 +6,7 @@ use super::goniophotometer::Finished;
 use super::jobs::JobState;
 use super::shelf::{Found, Shelf};
 use super::state::{Daylight, Import, PathUse, Selection};
-use crate::catalogue::{Gathered, Product, SYSTEMS, SourceFile, gather};
+use crate::catalogue::{Gathered, Imported, Product, SYSTEMS, SourceFile, gather};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
@@ -63,6 +63,8 @@ pub enum Outcome {
     ReadCurve(Result<Vec<[f64; 2]>, String>),
     /// An addition is in the catalogue.
     Added(usize, Result<String, String>),
+    /// A package is in the catalogue.
+    Imported(Result<Vec<Imported>, String>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), String>),
     /// A built-in product is in the catalogue; how many are left.
@@ -202,7 +204,7 @@ pub(super) fn mend(originals: &[Arc<Dataset>], repairs: Vec<Repair>) -> Outcome 
     }))
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
     let told = |error: std::io::Error| format!("{}: cannot be read ({error}); check path and rights", path.display());
     let size = std::fs::metadata(path).map_err(told)?.len();
     if size > LARGEST_FILE {

@@ -20,7 +20,7 @@ pub use texts::SYSTEMS;
 
 /// Raised whenever the built-in products change otherwise than by their descriptions; a file with a lower number gets
 /// all of them anew.
-pub const BUILTIN_VERSION: i64 = 3;
+pub const BUILTIN_VERSION: i64 = 4;
 /// Error target of the built-in products, absolute in τ and ρ.
 pub const BUILTIN_ERROR: f64 = 0.003;
 /// Others that are there at once, among them the one that a new window shows.
@@ -197,6 +197,24 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     tx.execute("INSERT OR REPLACE INTO meta VALUES ('builtin_version', ?)", [BUILTIN_VERSION.to_string()])?;
     tx.commit()?;
     Ok(())
+}
+
+/// Rank of the built-in product that a computed product is, by its description's text, where the file is still to get
+/// it.
+pub(super) fn rank_of(db: &rusqlite::Connection, product: &super::Product) -> Result<Option<i64>, CatalogueError> {
+    let position = SYSTEMS.iter().position(|(_, text)| *text == product.system);
+    let Some((position, (file, _))) = position.and_then(|at| Some((at, builtin_system(SYSTEMS[at].0)?))) else {
+        return Ok(None);
+    };
+    let same = product.key == file.key && product.provenance.method == builtin_method(&file);
+    let wanted = same && version(db)? > 0 && store::free_key(db, &product.key)? == product.key;
+    Ok(wanted.then(|| rank(position)))
+}
+
+/// The key, or another one where it belongs to a built-in product that this file is still to get.
+pub(super) fn unreserved(db: &rusqlite::Connection, key: &str) -> Result<String, CatalogueError> {
+    let reserved = || SYSTEMS.iter().any(|(name, _)| builtin_system(name).is_some_and(|(file, _)| file.key == key));
+    Ok(if version(db)? > 0 && reserved() { format!("{key}-2") } else { key.to_owned() })
 }
 
 /// Version of the built-in products in the file; 0 without any.

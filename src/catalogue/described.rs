@@ -98,7 +98,10 @@ fn method_words(system: &SystemDescription) -> &'static str {
         SystemKind::Diffuser(_) => "separable diffuse light and a balanced Gaussian lobe in direction cosines",
         SystemKind::Woven(_) => "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)",
         SystemKind::Perforated(_) => "radiosity in the hole, straight share by clipped polygons",
-        SystemKind::Stack(_) => "adding method on matrices of refined cells (Klems, ASHRAE Transactions 100, 1994)",
+        SystemKind::Stack(_) => {
+            "adding method on matrices of refined cells (Klems, ASHRAE Transactions 100, 1994), panes side by side with \
+             their polarisation in closed form"
+        }
     }
 }
 
@@ -121,7 +124,7 @@ fn state_name(dataset: &Dataset) -> StateName {
 /// sends it to the ceiling; none for other words. Values are held within the states' range.
 pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
     let range = blind.angles.iter().fold([FRAC_PI_2, -FRAC_PI_2], |[low, high], &a| [low.min(a), high.max(a)]);
-    let Some(section) = Section::new(blind.profile.clone(), blind.spacing) else { return Vec::new() };
+    let Some(section) = Section::of(blind) else { return Vec::new() };
     let tilt = |psi: f64| match rule {
         "cut-off" => {
             let most_open = [range[0].max(0.0), range[1]];

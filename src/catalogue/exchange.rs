@@ -1,9 +1,11 @@
 //! Packages out of the catalogue and into it.
 
-use super::store::{Removed, add, read_record};
+use super::builtin::rank_of;
+use super::store::{Removed, add, insert, read_record};
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName, store};
 use crate::formats::dataset_blob::decode;
 use crate::formats::package::{self, Package, PackageCurvePoint, PackageProduct, PackageProvenance, PackageState};
+use rusqlite::Connection;
 
 impl Catalogue {
     /// The bytes of a package with these products.
@@ -18,7 +20,8 @@ impl Catalogue {
         Ok(package::write(&package)?)
     }
 
-    /// Adds all products of a package, or none. What their datasets contain is checked anew.
+    /// Adds all products of a package, or none. What their datasets contain is checked anew. A product that is there
+    /// already, with the same key and the same datasets, stays as it is.
     pub fn import_package(&mut self, bytes: &[u8]) -> Result<Vec<Imported>, CatalogueError> {
         let package = package::read(bytes)?;
         let mut records = Vec::new();
@@ -39,10 +42,34 @@ impl Catalogue {
             records.push(store::prepare(&datasets, unpacked(product))?);
         }
         let tx = self.change()?;
-        let imported = records.into_iter().map(|record| add(&tx, record)).collect::<Result<_, _>>()?;
+        let mut imported = Vec::new();
+        for mut record in records {
+            let key = record.product.key.clone();
+            if is_there(&tx, &record.product)? {
+                imported.push(Imported { same_content_as: vec![key.clone()], key });
+            } else if let Some(rank) = rank_of(&tx, &record.product)? {
+                // A built-in product that another file computed already.
+                record.product.builtin = true;
+                insert(&tx, &record, rank)?;
+                imported.push(Imported { key, same_content_as: Vec::new() });
+            } else {
+                imported.push(add(&tx, record)?);
+            }
+        }
         tx.commit()?;
         Ok(imported)
     }
+}
+
+/// Does the file hold this product: its key, its states and their datasets?
+fn is_there(db: &Connection, product: &Product) -> Result<bool, CatalogueError> {
+    let mut ask = db.prepare_cached(
+        "SELECT s.key, s.dataset FROM state s JOIN product p ON s.product = p.id WHERE p.key = ? ORDER BY s.position",
+    )?;
+    let held: Vec<(String, String)> =
+        ask.query_map([&product.key], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?;
+    let own = product.states.iter().map(|state| (&state.key, &state.dataset));
+    Ok(!held.is_empty() && held.iter().map(|(key, dataset)| (key, dataset)).eq(own))
 }
 
 fn packed(product: Product) -> PackageProduct {

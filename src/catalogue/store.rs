@@ -247,7 +247,7 @@ pub(super) fn add(tx: &Transaction, mut record: Removed) -> Result<Imported, Cat
             }
         }
     }
-    record.product.key = free_key(tx, &record.product.key)?;
+    record.product.key = free_key(tx, &super::builtin::unreserved(tx, &record.product.key)?)?;
     insert(tx, &record, USER_RANK)?;
     Ok(Imported { key: record.product.key, same_content_as })
 }

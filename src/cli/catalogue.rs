@@ -372,7 +372,9 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     let mut text = String::new();
     for product in imported {
         writeln!(text, "{}", product.key)?;
-        if !product.same_content_as.is_empty() {
+        if product.same_content_as == [product.key.as_str()] {
+            eprintln!("note: {} is there already, the same; left as it is", product.key);
+        } else if !product.same_content_as.is_empty() {
             eprintln!("note: the same data are already in {}", product.same_content_as.join(", "));
         }
         for finding in catalogue.product(&product.key)?.findings {

@@ -3,12 +3,13 @@
 use super::{dataset_file, output, progress::TerminalProgress};
 use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Component, Dataset};
+use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
 use crate::study::Library;
 use crate::study::goniophotometer::{Computed, Described, Request};
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -73,6 +74,9 @@ impl GoniophotometerArgs {
     }
 }
 
+/// Most values of all functions and states of a run, which are held until all are written: 4 GB.
+const MOST_VALUES: f64 = 5e8;
+
 /// Where results go: a format of single states, or the package.
 enum Target<'a> {
     None,
@@ -107,6 +111,14 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
             bail!("{name}: no state '{state}'; expected one of {}", keys.join(", "));
         }
     };
+    let values = 4.0 * (states.len() * request.incident.len() * request.emergent.len()) as f64;
+    if values > MOST_VALUES {
+        let gigabytes = 8e-9 * values;
+        bail!(
+            "{name}: {} states on these cells need {gigabytes:.0} GB; coarser --emergent cells, or single states by --state",
+            states.len()
+        );
+    }
     let keep = args.out.as_deref().map(|path| {
         let mut folder = path.as_os_str().to_owned();
         folder.push(".part");
@@ -124,33 +136,42 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
         computed.push(one.map_err(|error| anyhow!("{name}: {error}"))?);
     }
     drop(progress);
-    write_results(&target, &described, &request, &computed)?;
-    if let Some(folder) = &keep {
-        // What is left of a folder of kept states costs nothing but room.
-        drop(std::fs::remove_dir_all(folder));
+    for one in &computed {
+        if let Some(quality) = one.quality.filter(|quality| quality.error > request.error) {
+            let of =
+                if one.dataset.state.is_empty() { String::new() } else { format!("state {}: ", one.dataset.state) };
+            let Request { error, .. } = request;
+            eprintln!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
+        }
     }
-    if args.json {
+    let told = if args.json {
         let value = json!({
             "system": described.file.system.name,
             "kind": described.file.system.kind.word(),
             "method": described.method(&request),
             "states": computed.iter().map(to_json).collect::<Vec<_>>(),
         });
-        return output::print(&(serde_json::to_string_pretty(&value)? + "\n"));
+        serde_json::to_string_pretty(&value)? + "\n"
+    } else {
+        to_text(&described, &request, &computed)?
+    };
+    write_results(&target, &described, &request, computed.into_iter().map(|one| one.dataset).collect())?;
+    if let Some(folder) = &keep {
+        // What is left of a folder of kept states costs nothing but room.
+        drop(std::fs::remove_dir_all(folder));
     }
-    output::print(&to_text(&described, &request, &computed)?)
+    output::print(&told)
 }
 
 fn write_results(
     target: &Target<'_>,
     described: &Described,
     request: &Request,
-    computed: &[Computed],
+    datasets: Vec<Dataset>,
 ) -> anyhow::Result<()> {
     match target {
         Target::None => Ok(()),
         Target::Package(path) => {
-            let datasets: Vec<Dataset> = computed.iter().map(|one| one.dataset.clone()).collect();
             let shown = path.display();
             let mut catalogue = Catalogue::empty_in_memory().map_err(|error| anyhow!("{shown}: {error}"))?;
             let imported = catalogue.import(&datasets, described.product(request, &datasets));
@@ -159,14 +180,31 @@ fn write_results(
             dataset_file::write(path, &bytes)
         }
         Target::States(path, format) => {
-            for one in computed {
-                let path = match computed.len() {
-                    1 => (*path).to_owned(),
-                    _ => path_with(path, &one.dataset.state),
-                };
-                write_state(&path, *format, &one.dataset)?;
+            let count = datasets.len();
+            let mut told = BTreeSet::new();
+            for mut dataset in datasets {
+                let path = if count == 1 { (*path).to_owned() } else { path_with(path, &dataset.state) };
+                if *format == Format::BtdfText {
+                    on_cells(&mut dataset, request);
+                }
+                for finding in write_state(&path, *format, &dataset)? {
+                    if told.insert(finding.message.clone()) {
+                        eprintln!("note: {}: {}", path.display(), finding.message);
+                    }
+                }
             }
             Ok(())
+        }
+    }
+}
+
+/// Text files hold the cells that were asked for, also of what is known at every angle.
+fn on_cells(dataset: &mut Dataset, request: &Request) {
+    for component in dataset.visible.components() {
+        let Some(btdf) = dataset.visible.get(component) else { continue };
+        if btdf.regular.is_some() || !matches!(btdf.scattered, Some(Scattered::Cells(_))) {
+            let cells = Btdf::from_cells(matrix_on(btdf, &request.incident, &request.emergent));
+            dataset.visible.set(component, cells);
         }
     }
 }
@@ -178,13 +216,17 @@ fn path_with(path: &Path, word: &str) -> PathBuf {
     path.with_file_name(format!("{stem}_{word}{}", &name[stem.len()..]))
 }
 
-fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<()> {
+/// Writes one state; what is to be told of it.
+fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<Vec<Finding>> {
     let told = |error| anyhow!("{}: {error}", path.display());
     match format {
         Format::BsdfXml => {
-            dataset_file::write(path, &write_dataset(format, std::slice::from_ref(dataset)).map_err(told)?.bytes)
+            let written = write_dataset(format, std::slice::from_ref(dataset)).map_err(told)?;
+            dataset_file::write(path, &written.bytes)?;
+            Ok(written.findings)
         }
         Format::BtdfText => {
+            let mut findings = Vec::new();
             for component in Component::ALL {
                 let path = match component {
                     Component::TransmissionFront => path.to_owned(),
@@ -192,8 +234,9 @@ fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result
                 };
                 let written = btdf_text::write_component(dataset, component).map_err(told)?;
                 dataset_file::write(&path, &written.bytes)?;
+                findings.extend(written.findings);
             }
-            Ok(())
+            Ok(findings)
         }
     }
 }

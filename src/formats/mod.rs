@@ -107,12 +107,30 @@ pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatErro
             |e: dataset_blob::BlobError| FormatError::new(Location::file(), e.to_string(), "a whole .cfsd file");
         return Ok(vec![read.map_err(error)?]);
     }
+    if bytes.starts_with(package::MAGIC) {
+        return packed(bytes);
+    }
     match Format::sniff(name, bytes) {
         Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
         Some(Format::BtdfText) => Ok(vec![btdf_text::read(bytes)?]),
         None if bytes.is_empty() => Err(FormatError::new(Location::file(), "an empty file", Format::list())),
         None => Err(FormatError::new(Location::file(), "an unknown format", Format::list())),
     }
+}
+
+/// The states of a package's only product.
+fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
+    let error = |what: String, expected: &str| FormatError::new(Location::file(), what, expected);
+    let package = package::read(bytes).map_err(|e| error(e.to_string(), "a whole package (.cfsp)"))?;
+    let [product] = package.products.as_slice() else {
+        let what = format!("a package of {} products", package.products.len());
+        return Err(error(what, "a package of one product here; the catalogue imports all"));
+    };
+    let dataset = |state: &package::PackageState| {
+        let blob = package.datasets.get(&state.dataset).map(Vec::as_slice).unwrap_or_default();
+        dataset_blob::decode(blob).map_err(|e| error(format!("state {}: {e}", state.key), "a whole package (.cfsp)"))
+    };
+    product.states.iter().map(dataset).collect()
 }
 
 /// What a dataset file tells the catalogue beyond its datasets; empty for formats that tell nothing.

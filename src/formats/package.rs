@@ -161,6 +161,9 @@ pub fn write(package: &Package) -> Result<Vec<u8>, PackageError> {
     Ok(zip.finish()?.into_inner())
 }
 
+/// First bytes of every package, as of every zip archive.
+pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
+
 /// Reads a package and checks every dataset against its hash. Entries nothing refers to are not read.
 pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
     let mut zip = ZipArchive::new(Cursor::new(bytes))?;

@@ -9,10 +9,12 @@ use crate::catalogue::{NewProduct, builtin_system, described_dataset, method, pr
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
+use crate::compute::goniophotometer::panes::Panes;
 use crate::compute::goniophotometer::specimen::specimen;
 use crate::compute::goniophotometer::stack::{DataLayer, Stack};
 use crate::compute::goniophotometer::upright::Upright;
 use crate::compute::goniophotometer::{Quality, Setting, Specimen};
+use crate::compute::system::coated::Layer as Pane;
 use crate::compute::system::description::{Layer, LayerSource, SystemKind};
 use crate::formats::dataset_blob;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
@@ -70,6 +72,31 @@ pub struct Computed {
     pub seconds: f64,
 }
 
+/// A layer of a stack. Panes next to each other stay panes: light keeps its polarisation between them, which matrices
+/// do not know.
+enum Part {
+    Panes(Vec<Pane>),
+    Other(Box<dyn Specimen>),
+}
+
+impl Part {
+    fn into_specimen(self) -> Box<dyn Specimen> {
+        match self {
+            Self::Panes(layers) => Box::new(Panes { layers }),
+            Self::Other(specimen) => specimen,
+        }
+    }
+
+    /// By a quarter turn about the normal, which panes do not notice.
+    fn turn(&mut self) {
+        if let Self::Other(_) = self
+            && let Self::Other(specimen) = std::mem::replace(self, Self::Panes(Vec::new()))
+        {
+            *self = Self::Other(Box::new(Upright(specimen)));
+        }
+    }
+}
+
 impl Described {
     /// Reads a system file. The error names the file.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
@@ -116,10 +143,17 @@ impl Described {
 
     /// Keys of its states. For a stack with a moving layer, those of the layer.
     pub fn states(&self, library: &Library) -> Result<Vec<String>, StudyError> {
+        self.states_within(library, 0)
+    }
+
+    fn states_within(&self, library: &Library, depth: usize) -> Result<Vec<String>, StudyError> {
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.system.states()) };
         let Some(layer) = layers.iter().find(|layer| layer.state == EACH_STATE) else { return Ok(vec![String::new()]) };
         match &layer.source {
-            LayerSource::File(name) if is_system_file(name) => self.other(name)?.states(library),
+            LayerSource::File(name) if is_system_file(name) => {
+                not_too_deep(depth)?;
+                self.other(name)?.states_within(library, depth + 1)
+            }
             LayerSource::File(name) => {
                 let systems = library.load_file(&self.folder().join(name))?;
                 Ok(systems.iter().map(|system| system.state.clone()).collect())
@@ -134,9 +168,10 @@ impl Described {
     pub fn specimen(&self, state: &str, library: &Library) -> Result<Box<dyn Specimen>, StudyError> {
         let mut layers = Vec::new();
         self.layers_into(&mut layers, state, library, 0)?;
-        Ok(match self.file.system.kind {
-            SystemKind::Stack(_) => Box::new(Stack(layers)),
-            _ => layers.pop().expect("what is no stack is one layer"),
+        let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(Part::into_specimen).collect();
+        Ok(match ready.len() {
+            1 => ready.pop().expect("counted"),
+            _ => Box::new(Stack(ready)),
         })
     }
 
@@ -144,19 +179,22 @@ impl Described {
     /// cells.
     fn layers_into(
         &self,
-        list: &mut Vec<Box<dyn Specimen>>,
+        list: &mut Vec<Part>,
         state: &str,
         library: &Library,
         depth: usize,
     ) -> Result<(), StudyError> {
         let system = &self.file.system;
         let SystemKind::Stack(layers) = &system.kind else {
-            list.push(specimen(system, state).map_err(|error| StudyError::key("state", error.to_string()))?);
+            let made = specimen(system, state).map_err(|error| StudyError::key("state", error.to_string()))?;
+            match (&system.kind, list.last_mut()) {
+                (SystemKind::Pane(pane), Some(Part::Panes(before))) => before.extend(pane.layers()),
+                (SystemKind::Pane(pane), _) => list.push(Part::Panes(pane.layers())),
+                _ => list.push(Part::Other(made)),
+            }
             return Ok(());
         };
-        if depth >= MOST_NESTED {
-            return Err(StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}")));
-        }
+        not_too_deep(depth)?;
         let moving = layers.iter().any(|layer| layer.state == EACH_STATE);
         if !moving && !state.is_empty() {
             return Err(StudyError::key("state", "a stack without a moving layer has no states"));
@@ -169,15 +207,14 @@ impl Described {
             }
         }
         if system.upright {
-            let turned: Vec<_> = list.drain(first..).map(|one| Box::new(Upright(one)) as Box<dyn Specimen>).collect();
-            list.extend(turned);
+            list[first..].iter_mut().for_each(Part::turn);
         }
         Ok(())
     }
 
     fn layer_into(
         &self,
-        list: &mut Vec<Box<dyn Specimen>>,
+        list: &mut Vec<Part>,
         layer: &Layer,
         state: &str,
         library: &Library,
@@ -193,7 +230,7 @@ impl Described {
             LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
         };
         let system = library.load(&keys, self.folder())?;
-        list.push(Box::new(DataLayer(system.dataset.visible.clone())));
+        list.push(Part::Other(Box::new(DataLayer(system.dataset.visible.clone()))));
         Ok(())
     }
 
@@ -271,4 +308,9 @@ impl Described {
         }
         Ok(())
     }
+}
+
+fn not_too_deep(depth: usize) -> Result<(), StudyError> {
+    let told = || StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}"));
+    (depth < MOST_NESTED).then_some(()).ok_or_else(told)
 }

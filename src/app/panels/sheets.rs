@@ -87,7 +87,7 @@ fn keys(ui: &mut Ui) {
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
         PathUse::Open => (
-            "Dataset (.xml, .btdf.txt), system (.system.toml), scene (.toml) or control curve (.csv); or drop the file on the window.",
+            "Dataset (.xml, .btdf.txt), package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop the file on the window.",
             "Open",
         ),
         PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),

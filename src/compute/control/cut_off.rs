@@ -9,8 +9,10 @@
 //! * arc, radius R, half opening η:       extent = R (1 − cos(η + |α|)) for |α| ≤ η, by the point where the beam touches
 //!   the arc, else w sin|α|
 //!
-//! Polylines are searched instead, with a bound on how fast extents change. Thickness is left out: it only shades more.
+//! Polylines and the outlines of thick slats are searched instead, with a bound on how fast extents change.
 
+use crate::compute::section::SlatArray;
+use crate::compute::system::description::Venetian;
 use crate::compute::system::slat_profile::SlatProfile;
 use std::f64::consts::PI;
 
@@ -21,6 +23,8 @@ pub struct Section {
     pub profile: SlatProfile,
     /// Vertical pitch. \[m\]
     pub spacing: f64,
+    /// Greatest distance between two of its points: no beam is wider across it. \[m\]
+    reach: f64,
 }
 
 /// Tilts to avoid: between two limits and those turned by any number of half turns. \[rad\]
@@ -49,7 +53,21 @@ impl Section {
                     && points.iter().any(|point| point != &points[0])
             }
         };
-        (sane && length(spacing)).then_some(Self { profile, spacing })
+        let reach = if sane { diameter(&profile) } else { 0.0 };
+        (sane && length(spacing)).then_some(Self { profile, spacing, reach })
+    }
+
+    /// The slats of a described blind, their thickness included: all corners of a solid slat's outline, which stop light
+    /// as the slat does. `None` as for [`new`](Self::new).
+    pub fn of(blind: &Venetian) -> Option<Self> {
+        let thick = (blind.thickness > 0.0)
+            .then(|| {
+                let sides = [blind.upper, blind.lower];
+                SlatArray::new(blind.profile.clone(), blind.thickness, blind.spacing, 0.0, sides).ok()
+            })
+            .flatten();
+        let solid = thick.and_then(|array| array.outline().into_iter().next()).map(SlatProfile::Polyline);
+        Self::new(solid.unwrap_or_else(|| blind.profile.clone()), blind.spacing)
     }
 
     /// Share of light of a profile angle that passes straight between slats of a tilt. \[rad\]
@@ -148,7 +166,7 @@ impl Section {
     /// Is the extent long enough over a rectangle of tilts and profile angles? Both it and the pitch across the beam
     /// change no faster than the longest of their parts, so that one value speaks for its neighbourhood.
     fn blocks_by_search(&self, tilts: [f64; 2], span: [f64; 2]) -> bool {
-        let reach = diameter(&self.profile);
+        let reach = self.reach;
         let surplus = |tilt: f64, psi: f64| self.profile.extent(tilt + psi) - self.spacing * psi.cos();
         let mut open = vec![(tilts, span)];
         while let Some(([t0, t1], [p0, p1])) = open.pop() {

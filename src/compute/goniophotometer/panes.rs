@@ -19,7 +19,7 @@ pub struct Panes {
 }
 
 /// Orders of the quadrature over θ: for the values, and for the estimate of their error.
-const ORDERS: [usize; 2] = [20, 12];
+const ORDERS: [usize; 2] = [64, 40];
 /// Steps of the tables over θ: half a degree.
 const STEPS: usize = 180;
 

@@ -85,6 +85,13 @@ pub struct PaneStack {
     pub panes: usize,
 }
 
+impl PaneStack {
+    /// The panes one by one.
+    pub fn layers(&self) -> Vec<super::coated::Layer> {
+        vec![self.pane; self.panes]
+    }
+}
+
 /// A sheet that scatters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Diffuser {

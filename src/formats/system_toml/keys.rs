@@ -66,7 +66,7 @@ pub(super) struct Venetian {
     pub thickness: f64,
     #[serde(default)]
     pub rise: f64,
-    pub profile: Option<Vec<[f64; 2]>>,
+    pub profile: Option<Vec<Pair>>,
     pub angles: Angles,
     pub upper: Face,
     pub lower: Face,
@@ -114,7 +114,7 @@ pub(super) struct LaserCut {
 #[serde(deny_unknown_fields)]
 pub(super) struct Prismatic {
     pub index: f64,
-    pub angles: [f64; 2],
+    pub angles: Pair,
     pub pitch: f64,
     pub base: f64,
     #[serde(default)]
@@ -130,7 +130,7 @@ pub(super) struct RedirectingGlass {
     #[serde(default)]
     pub absorption: f64,
     pub spacing: f64,
-    pub bodies: Vec<Vec<[f64; 2]>>,
+    pub bodies: Vec<Vec<Pair>>,
     pub outer: Option<Sheet>,
     pub inner: Option<Sheet>,
 }
@@ -156,6 +156,20 @@ pub(super) struct Pane {
     pub reflectance_normal_back: Option<f64>,
     #[serde(default = "one")]
     pub panes: usize,
+}
+
+/// Two numbers, no more: an array would leave further ones unread.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(try_from = "Vec<f64>")]
+pub(super) struct Pair(pub [f64; 2]);
+
+impl TryFrom<Vec<f64>> for Pair {
+    type Error = String;
+
+    fn try_from(list: Vec<f64>) -> Result<Self, String> {
+        let count = list.len();
+        list.try_into().map(Self).map_err(|_| format!("{count} numbers, expected two"))
+    }
 }
 
 fn one() -> usize {
@@ -207,7 +221,7 @@ pub(super) struct Perforated {
     pub hole: HoleShape,
     pub width: f64,
     pub height: Option<f64>,
-    pub pitch: [f64; 2],
+    pub pitch: Pair,
     #[serde(default)]
     pub staggered: bool,
     pub thickness: f64,

@@ -18,7 +18,7 @@ use crate::compute::system::diffuser::{Opal, Spreading};
 use crate::compute::system::glazing::Pane;
 use crate::compute::system::laser_cut::LaserCutPanel;
 use crate::compute::system::slat_profile::SlatProfile;
-use keys::{Angles, DiffuserModel, HoleShape, Keys, Kind};
+use keys::{Angles, DiffuserModel, HoleShape, Keys, Kind, Pair};
 
 /// Most bytes of a system file.
 const MOST_BYTES: usize = 1 << 20;
@@ -182,25 +182,26 @@ fn face(key: &str, face: keys::Face) -> Result<Surface, FormatError> {
     Ok(Surface { diffuse, mirror, spread })
 }
 
-fn outline(key: &str, points: &[[f64; 2]], fewest: usize) -> Result<(), FormatError> {
+fn outline(key: &str, points: &[Pair], fewest: usize) -> Result<Vec<[f64; 2]>, FormatError> {
+    let points: Vec<[f64; 2]> = points.iter().map(|point| point.0).collect();
     if points.len() < fewest || points.len() > MOST_POINTS {
         return wrong(key, format!("{} points", points.len()), format!("{fewest} to {MOST_POINTS}"));
     }
     match points.iter().find(|point| !point.iter().all(|c| c.abs() <= 1000.0)) {
         Some(point) => wrong(key, format!("the point {point:?}"), "metres"),
-        None => Ok(()),
+        None => Ok(points),
     }
 }
 
 fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {
     let profile = match &blind.profile {
         Some(points) => {
-            outline("venetian.profile", points, 2)?;
+            let points = outline("venetian.profile", points, 2)?;
             if blind.rise != 0.0 || blind.width != 0.0 {
                 let stated = if blind.rise == 0.0 { "width" } else { "rise" };
                 return wrong("venetian", format!("profile and {stated}"), "either the profile, or width and rise");
             }
-            SlatProfile::Polyline(points.clone())
+            SlatProfile::Polyline(points)
         }
         None => {
             let width = length("venetian.width", blind.width)?;
@@ -242,8 +243,8 @@ fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {
 }
 
 fn prismatic(sheet: &keys::Prismatic) -> Result<Prisms, FormatError> {
-    let [upper, lower] = sheet.angles;
-    for angle in sheet.angles {
+    let [upper, lower] = sheet.angles.0;
+    for angle in [upper, lower] {
         within("prismatic.angles", angle, (0.1, 90.0))?;
     }
     if upper > 89.9 && lower > 89.9 {
@@ -278,15 +279,13 @@ fn redirecting(glass: &keys::RedirectingGlass) -> Result<RedirectingGlass, Forma
     if glass.bodies.is_empty() {
         return wrong("redirecting-glass.bodies", "no outline", "at least one closed outline");
     }
-    for body in &glass.bodies {
-        outline("redirecting-glass.bodies", body, 3)?;
-    }
+    let bodies = glass.bodies.iter().map(|body| outline("redirecting-glass.bodies", body, 3));
     let sheet = |key, sheet: Option<keys::Sheet>| sheet.map(|sheet| material(key, sheet)).transpose();
     Ok(RedirectingGlass {
         index: index("redirecting-glass.index", glass.index)?,
         absorption: absorption("redirecting-glass.absorption", glass.absorption)?,
         spacing: length("redirecting-glass.spacing", glass.spacing)?,
-        bodies: glass.bodies.clone(),
+        bodies: bodies.collect::<Result<_, _>>()?,
         panes: [sheet("redirecting-glass.outer", glass.outer)?, sheet("redirecting-glass.inner", glass.inner)?],
     })
 }
@@ -294,6 +293,9 @@ fn redirecting(glass: &keys::RedirectingGlass) -> Result<RedirectingGlass, Forma
 fn pane(pane: &keys::Pane) -> Result<PaneStack, FormatError> {
     let n = index("pane.index", pane.index)?;
     let thickness = extent("pane.thickness", pane.thickness)?;
+    if pane.reflectance_normal_back.is_some() && pane.reflectance_normal.is_none() {
+        return wrong("pane.reflectance_normal_back", "no reflectance_normal beside it", "both, or neither");
+    }
     let glazing = match (pane.absorption, pane.transmittance_normal, pane.reflectance_normal) {
         (Some(_), Some(_), _) => {
             return wrong("pane", "absorption and transmittance_normal", "one of the two");
@@ -391,7 +393,7 @@ fn diffuser(sheet: &keys::Diffuser) -> Result<Diffuser, FormatError> {
 
 fn perforated(sheet: &keys::Perforated) -> Result<Perforated, FormatError> {
     let width = length("perforated.width", sheet.width)?;
-    let [right, up] = sheet.pitch;
+    let [right, up] = sheet.pitch.0;
     length("perforated.pitch", right)?;
     length("perforated.pitch", up)?;
     // A staggered pattern has a second hole in the middle of every cell.
@@ -408,6 +410,15 @@ fn perforated(sheet: &keys::Perforated) -> Result<Perforated, FormatError> {
         HoleShape::Rectangle => (Hole::Rectangle { width, height }, width * height),
         HoleShape::Rhombus => (Hole::Rhombus { width, height }, 0.5 * width * height),
     };
+    let meet = |[dx, dy]: [f64; 2]| match sheet.hole {
+        HoleShape::Round => dx.hypot(dy) < width,
+        HoleShape::Rectangle => dx < width && dy < height,
+        HoleShape::Rhombus => dx / width + dy / height < 1.0,
+    };
+    let diagonal = sheet.staggered.then_some([0.5 * right, 0.5 * up]);
+    if [[right, 0.0], [0.0, up]].into_iter().chain(diagonal).any(meet) {
+        return wrong("perforated.width", format!("{width} m: holes that run into each other"), "holes apart");
+    }
     if open >= area {
         return wrong("perforated.pitch", format!("an open share of {:.3}", open / area), "holes that leave a sheet");
     }

@@ -53,8 +53,7 @@ impl Device {
 /// The slats of a product. The one place that knows where products keep them: those that the program computes are
 /// described in it.
 fn section_of(product: &Product) -> Option<Section> {
-    let blind = blind_of(&product.system)?;
-    Section::new(blind.profile, blind.spacing)
+    Section::of(&blind_of(&product.system)?)
 }
 
 /// The section that a scene describes.

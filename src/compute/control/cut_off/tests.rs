@@ -1,7 +1,9 @@
 //! Cut-off against the classic closed form, the extent's own definition, and rays that meet slats or do not.
 
 use super::*;
+use crate::compute::section::Surface;
 use crate::compute::system::slats::cut_off_tilt;
+use std::f64::consts::FRAC_PI_2;
 
 fn flat(width: f64, spacing: f64) -> Section {
     Section::new(SlatProfile::Flat { width }, spacing).unwrap()
@@ -178,4 +180,32 @@ fn sections_that_are_none_are_refused() {
     ] {
         assert_eq!(Section::new(profile, spacing), None);
     }
+}
+
+#[test]
+fn thick_slats_shade_by_their_thickness_too() {
+    let face = Surface::matt(0.5);
+    let (width, spacing, thickness) = (0.2, 0.18, 0.028);
+    let blind = Venetian {
+        profile: SlatProfile::Flat { width },
+        spacing,
+        thickness,
+        angles: vec![0.0],
+        upper: face,
+        lower: face,
+    };
+    let section = Section::of(&blind).unwrap();
+    for k in 1..17 {
+        let psi = f64::to_radians(5.0 * f64::from(k));
+        let tilt = section.cut_off([-FRAC_PI_2, FRAC_PI_2], 0.0, [psi, psi]).unwrap();
+        // The shadow of a rectangle: w sinα + t cosα = s cosψ at the limit.
+        let extent = |tilt: f64| width * (tilt + psi).sin().abs() + thickness * (tilt + psi).cos().abs();
+        let needed = spacing * psi.cos();
+        assert!(extent(tilt) >= needed - 1e-9, "{psi}: {tilt}");
+        assert!(tilt == 0.0 || (extent(tilt) - needed).abs() < 1e-6, "{psi}: {tilt}");
+        assert!(tilt.abs() <= flat(width, spacing).cut_off([-FRAC_PI_2, FRAC_PI_2], 0.0, [psi, psi]).unwrap().abs());
+    }
+    // Light of 38° is kept out by horizontal slats of this thickness, not by sheets.
+    let psi = f64::to_radians(38.0);
+    assert!(section.blocks(0.0, 0.0, [psi, psi]) && !flat(width, spacing).blocks(0.0, 0.0, [psi, psi]));
 }
