@@ -216,6 +216,9 @@ fn a_copied_transmission_is_told_from_the_genuine_one_by_the_light_left_over() {
     sound.solar = None;
     for (from, to) in [(FRONT, BACK), (BACK, FRONT)] {
         let copied = copied(&sound, from, to).unwrap();
+        // A copy that was rounded on its way is one all the same.
+        let rounded = rewritten(&copied, to, |i, o, m| format!("{:.3e}", m.value(i, o)).parse().unwrap());
+        assert_eq!(with_code(&examine(&rounded), "copied-block").len(), 1, "{to:?} rounded");
         let found = examine(&copied);
         let told = with_code(&found, "copied-block");
         assert_eq!(told.len(), 1, "{to:?}: {found:?}");
@@ -298,7 +301,9 @@ fn text_in_percent_is_read_told_and_mended() {
     let mended = repaired(&percent, told[0].repair.unwrap()).unwrap();
     let (a, b) = (mended.transmission().unwrap(), sound.transmission().unwrap());
     assert!((a.tau_hemispherical() / b.tau_hemispherical() - 1.0).abs() < 1e-9);
-    // In no unit.
+    // In no unit, and with a factor that need not be percent.
+    let error = btdf_text::read(&text(4.0, None)).unwrap_err().to_string();
+    assert!(error.contains("times the light") && error.contains("π"), "{error}");
     let error = btdf_text::read(&text(1e4, None)).unwrap_err().to_string();
     assert!(error.contains("times the light") && error.contains("percent"), "{error}");
 }

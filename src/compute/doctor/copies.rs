@@ -26,6 +26,21 @@ pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     }
 }
 
+/// Rounding to four digits changes a value by no more than this share of it.
+const ROUNDED: f64 = 6e-4;
+
+/// Is one function a copy of the other, be it rounded?
+fn repeats(a: &Btdf, b: &Btdf) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDED * a.abs().max(b.abs());
+    match (&a.scattered, &b.scattered) {
+        (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) => {
+            let (a, b) = (a.values(), b.values());
+            a.len() == b.len() && a.iter().zip(b.iter()).all(near)
+        }
+        _ => same_values(a, b),
+    }
+}
+
 /// A solar band that repeats the visible one.
 pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
     let Some(solar) = &dataset.solar else { return Vec::new() };
@@ -33,7 +48,7 @@ pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
         dataset.visible.components().into_iter().filter(|component| solar.get(*component).is_some()).collect();
     let same = |component: &Component| {
         let (Some(a), Some(b)) = (dataset.visible.get(*component), solar.get(*component)) else { return false };
-        same_values(a, b) && tau_max(a) > 0.0
+        repeats(a, b) && tau_max(a) > 0.0
     };
     if shared.iter().any(same)
         && shared.iter().all(|c| same(c) || dataset.visible.get(*c).is_some_and(|b| tau_max(b) == 0.0))
@@ -64,7 +79,7 @@ fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Di
     let own = |component: &&Component| !dataset.derived.contains(component);
     let copied = shared.iter().filter(own).filter(|component| {
         let (Some(a), Some(b)) = (dataset.visible.get(**component), solar.get(**component)) else { return false };
-        same_values(a, b) && tau_max(a) > 0.0
+        repeats(a, b) && tau_max(a) > 0.0
     });
     let copied: Vec<Component> = copied.copied().collect();
     if copied.is_empty() || !shared.iter().any(differs) {
@@ -84,7 +99,7 @@ const NEUTRAL: f64 = 0.02;
 /// Are the transmissions of both sides the same numbers?
 pub(super) fn transmissions_alike(band: &Band) -> bool {
     match (&band.transmission_front, &band.transmission_back) {
-        (Some(front), Some(back)) => same_values(front, back),
+        (Some(front), Some(back)) => repeats(front, back),
         _ => false,
     }
 }
@@ -100,7 +115,7 @@ pub(super) fn check(at: &At, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
 
 fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
     let (front, back) = (at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?);
-    if tau_max(front) == 0.0 || !same_values(front, back) {
+    if tau_max(front) == 0.0 || !repeats(front, back) {
         return None;
     }
     let error = reciprocity_error(front, back).filter(|error| *error > 0.01)?;
@@ -136,12 +151,12 @@ fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
 /// do not.
 fn copied_reflection(at: &At) -> Option<Diagnosis> {
     let (front, back) = (at.band.reflection_front.as_ref()?, at.band.reflection_back.as_ref()?);
-    if tau_max(front) == 0.0 || !same_values(front, back) {
+    if tau_max(front) == 0.0 || !repeats(front, back) {
         return None;
     }
     let transmissions = at.band.transmission_front.as_ref().zip(at.band.transmission_back.as_ref());
     let derived = at.dataset.derived.contains(&Component::TransmissionFront);
-    let apart = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !same_values(f, b));
+    let apart = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !repeats(f, b));
     let message = format!("Reflection Back ({}) repeats the front number by number", at.name);
     let one = if apart {
         Diagnosis::suspicion(
@@ -161,7 +176,7 @@ fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
     for reflection in [Component::ReflectionFront, Component::ReflectionBack] {
         for transmission in [Component::TransmissionFront, Component::TransmissionBack] {
             let (Some(r), Some(t)) = (at.band.get(reflection), at.band.get(transmission)) else { continue };
-            if tau_max(t) > 0.0 && same_values(r, t) {
+            if tau_max(t) > 0.0 && repeats(r, t) {
                 let message = format!(
                     "{} ({}) repeats {} number by number: a mislabelled or copied block.",
                     words(reflection),

@@ -93,8 +93,9 @@ fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Op
     list.extend(patches::check(&at, blocks));
     list.extend(symmetry::check(&at, blocks));
     let cosine = cosine::check(&at, blocks);
-    // One explanation is enough: a cosine too many upsets every comparison that follows, as percent do.
-    let explained = !cosine.is_empty() || scaled || list.iter().any(|one| one.finding.code == "copied-block");
+    // One explanation is enough: a cosine too many upsets every comparison that follows, as percent and copies do.
+    let copied = |one: &Diagnosis| ["copied-block", "block-mislabelled"].contains(&one.finding.code);
+    let explained = !cosine.is_empty() || scaled || list.iter().any(copied);
     list.extend(cosine);
     if !explained {
         list.extend(sides::check(&at, blocks));

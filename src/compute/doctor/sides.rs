@@ -298,6 +298,15 @@ fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
             ));
         }
     }
+    // As good as both reflections, or the only one, turned: which of them it is, no light left over can say.
+    let through = [turn(tf), turn(tb), rf.clone(), rb.clone()];
+    readings.push((
+        "the transmissions are upside down",
+        upside,
+        RepairKind::TurnUpsideDown,
+        BlockScope::Transmission,
+        through,
+    ));
     if rf.is_some() && tf.is_some() {
         let one = [tf.clone(), tb.clone(), turn(rf), rb.clone()];
         let scope = BlockScope::One(Component::ReflectionFront);
@@ -321,7 +330,8 @@ fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
     // Only light out of nothing is beyond doubt, and only one reading of it.
     let sure = least < 0.55 * before && won && close.len() == 1;
     let confidence = if sure { Confidence::Certain } else { Confidence::Likely };
-    let others: Vec<&str> = close.iter().skip(1).map(|one| one.0).collect();
+    let others: Vec<String> =
+        close.iter().skip(1).map(|one| format!("{} ({})", one.0, at.repair(one.2, one.3))).collect();
     let others = if others.is_empty() { String::new() } else { format!(" As well possible: {}.", others.join("; ")) };
     let message = format!(
         "Transmission and reflection ({}) contradict each other: both favour the same incident directions, \

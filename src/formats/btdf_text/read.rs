@@ -15,8 +15,10 @@ use std::sync::Arc;
 
 /// No indicatrix is believed to send out more than this share of the light, not even in percent.
 const IMPOSSIBLE: f64 = 150.0;
-/// Above this the numbers are in another unit: which, the data doctor says.
+/// Above this the numbers are in another unit.
 const OTHER_UNIT: f64 = 1.5;
+/// Up to here a forgotten π or a cosine explains as much as percent do; beyond, the data doctor says that it is percent.
+const OTHER_FACTOR: f64 = 4.0;
 /// Above this the data are not fit for use.
 const PLAUSIBLE: f64 = 1.05;
 /// Up to here it is rounding.
@@ -146,20 +148,20 @@ fn plausible(
     findings: &mut Vec<Finding>,
 ) -> Result<(), FormatError> {
     let weights = basis.projected_solid_angles();
-    let (mut largest, mut above) = (0.0_f64, 0);
-    for (incidence, row) in list.iter().zip(rows.chunks_exact(weights.len())) {
-        let tau: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
-        // Values are finite and not negative: a sum may overflow to infinity, but is never NaN.
-        if tau > IMPOSSIBLE {
-            let sum = if tau < 1e4 { format!("{tau:.4}") } else { format!("{tau:.3e}") };
-            return Err(FormatError::new(
-                Location::line(incidence.line),
-                format!("{sum} times the light that comes from θ {}° φ {}° leaves", incidence.theta, incidence.phi),
-                "at most 1 (or 100 in percent): values q = L/E in 1/sr, without the cosine of the emergent angle",
-            ));
-        }
-        largest = largest.max(tau);
-        above += usize::from(tau > ROUNDING);
+    // Values are finite and not negative: a sum may overflow to infinity, but is never NaN.
+    let sum = |row: &[f64]| -> f64 { row.iter().zip(&weights).map(|(q, w)| q * w).sum() };
+    let sums: Vec<f64> = rows.chunks_exact(weights.len()).map(sum).collect();
+    let largest = sums.iter().copied().fold(0.0, f64::max);
+    let above = sums.iter().filter(|tau| **tau > ROUNDING).count();
+    let percent = largest > OTHER_FACTOR && largest <= IMPOSSIBLE;
+    let wrong = list.iter().zip(&sums).find(|(_, tau)| **tau > OTHER_UNIT && !percent);
+    if let Some((incidence, &tau)) = wrong {
+        let sum = if tau < 1e4 { format!("{tau:.4}") } else { format!("{tau:.3e}") };
+        return Err(FormatError::new(
+            Location::line(incidence.line),
+            format!("{sum} times the light that comes from θ {}° φ {}° leaves", incidence.theta, incidence.phi),
+            "at most 1 (100 in percent): values q = L/E in 1/sr, without π or the cosine of the emergent angle",
+        ));
     }
     let (rows_of, what) = (list.len(), words(header.component));
     if largest > ROUNDING && largest <= OTHER_UNIT {
