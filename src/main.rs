@@ -15,7 +15,7 @@ fn main() -> ExitCode {
             // One line whatever the causes say, so that scripts can show it.
             eprintln!("cfs: {}", format!("{error:#}").replace('\n', " "));
             // 1: read and judged, but not fit for use, or different; 2: anything that could not be done.
-            let judged = error.is::<cfs::cli::catalogue::NotFit>() || error.is::<cfs::cli::packages::Differ>();
+            let judged = error.is::<cfs::cli::validate::NotFit>() || error.is::<cfs::cli::packages::Differ>();
             ExitCode::from(if judged { 1 } else { 2 })
         }
     }

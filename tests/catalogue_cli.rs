@@ -1,6 +1,7 @@
 //! `cfs catalogue` as a script would use it, through the library's own entry.
 
-use cfs::cli::catalogue::{Action, CatalogueArgs, ExportArgs, ImportArgs, ListArgs, ShowArgs, ValidateArgs, run};
+use cfs::cli::catalogue::{Action, CatalogueArgs, ExportArgs, ImportArgs, ListArgs, ShowArgs, run};
+use cfs::cli::validate::ValidateArgs;
 use std::path::{Path, PathBuf};
 
 fn import(files: &[PathBuf]) -> CatalogueArgs {

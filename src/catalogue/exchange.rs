@@ -1,13 +1,23 @@
-//! Packages out of the catalogue and into it.
+//! Products into the catalogue, and packages of them in and out.
 
-use super::builtin::rank_of;
-use super::store::{Removed, add, insert, read_record};
-use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName, store};
+use super::builtin::{rank_of, unreserved};
+use super::store::{Removed, USER_RANK, free_key, insert, prepare, read_record};
+use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
+use crate::compute::btdf::Dataset;
 use crate::formats::dataset_blob::decode;
 use crate::formats::package::{self, Package, PackageCurvePoint, PackageProduct, PackageProvenance, PackageState};
-use rusqlite::Connection;
+use rusqlite::{Connection, Transaction};
 
 impl Catalogue {
+    /// Adds a product whose states are the given datasets, in order. Fails without a trace.
+    pub fn import(&mut self, datasets: &[Dataset], meta: NewProduct) -> Result<Imported, CatalogueError> {
+        let record = prepare(datasets, meta)?;
+        let tx = self.change()?;
+        let imported = add(&tx, record)?;
+        tx.commit()?;
+        Ok(imported)
+    }
+
     /// The bytes of a package with these products.
     pub fn export_package(&self, keys: &[String]) -> Result<Vec<u8>, CatalogueError> {
         let snapshot = self.db.unchecked_transaction()?;
@@ -39,7 +49,7 @@ impl Catalogue {
                 }
                 datasets.push(dataset);
             }
-            records.push(store::prepare(&datasets, unpacked(product))?);
+            records.push(prepare(&datasets, unpacked(product))?);
         }
         let tx = self.change()?;
         let mut imported = Vec::new();
@@ -59,6 +69,25 @@ impl Catalogue {
         tx.commit()?;
         Ok(imported)
     }
+}
+
+/// Stores a prepared product of the user's under a free key and tells which others share its content.
+fn add(tx: &Transaction, mut record: Removed) -> Result<Imported, CatalogueError> {
+    let mut same_content_as = Vec::new();
+    for (hash, _) in &record.datasets {
+        let mut statement = tx.prepare_cached(
+            "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id WHERE s.dataset = ? ORDER BY p.key",
+        )?;
+        for key in statement.query_map([hash], |row| row.get::<_, String>(0))? {
+            let key = key?;
+            if !same_content_as.contains(&key) {
+                same_content_as.push(key);
+            }
+        }
+    }
+    record.product.key = free_key(tx, &unreserved(tx, &record.product.key)?)?;
+    insert(tx, &record, USER_RANK)?;
+    Ok(Imported { key: record.product.key, same_content_as })
 }
 
 /// Does the file hold this product: its key, its states and their datasets?

@@ -3,8 +3,8 @@
 use super::product::slug;
 use super::search::list;
 use super::{
-    Catalogue, CatalogueError, CurvePoint, Imported, NewProduct, Origin, Product, ProductFinding, Provenance, State,
-    check, profile_transmittances,
+    Catalogue, CatalogueError, CurvePoint, NewProduct, Origin, Product, ProductFinding, Provenance, State, check,
+    profile_transmittances,
 };
 use crate::compute::btdf::{Dataset, Finding, Severity};
 use crate::formats::dataset_blob::{content_hash, decode, encode};
@@ -233,25 +233,6 @@ pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> 
     Ok(())
 }
 
-/// Stores a prepared product of the user's under a free key and tells which others share its content.
-pub(super) fn add(tx: &Transaction, mut record: Removed) -> Result<Imported, CatalogueError> {
-    let mut same_content_as = Vec::new();
-    for (hash, _) in &record.datasets {
-        let mut statement = tx.prepare_cached(
-            "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id WHERE s.dataset = ? ORDER BY p.key",
-        )?;
-        for key in statement.query_map([hash], |row| row.get::<_, String>(0))? {
-            let key = key?;
-            if !same_content_as.contains(&key) {
-                same_content_as.push(key);
-            }
-        }
-    }
-    record.product.key = free_key(tx, &super::builtin::unreserved(tx, &record.product.key)?)?;
-    insert(tx, &record, USER_RANK)?;
-    Ok(Imported { key: record.product.key, same_content_as })
-}
-
 fn severity(word: &str) -> Severity {
     match word {
         "info" => Severity::Info,
@@ -405,15 +386,6 @@ impl Catalogue {
         }
         recent.push_back((hash.to_owned(), Arc::clone(&dataset)));
         Ok(dataset)
-    }
-
-    /// Adds a product whose states are the given datasets, in order. Fails without a trace.
-    pub fn import(&mut self, datasets: &[Dataset], meta: NewProduct) -> Result<Imported, CatalogueError> {
-        let record = prepare(datasets, meta)?;
-        let tx = self.change()?;
-        let imported = add(&tx, record)?;
-        tx.commit()?;
-        Ok(imported)
     }
 
     /// Takes a product of the user's out; [`Self::restore`] puts it back.

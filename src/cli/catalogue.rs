@@ -3,16 +3,17 @@
 use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, gather};
 use crate::cli::builtin::{build, complete, not_computed, provide};
 use crate::cli::dataset_file;
+use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
-use crate::compute::btdf::{Dataset, Severity};
-use crate::compute::doctor::{examine, meaning};
+use crate::cli::validate::{ValidateArgs, validate};
+use crate::compute::btdf::Dataset;
+use crate::compute::doctor::meaning;
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
 use anyhow::{Context, anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `cfs catalogue`.
@@ -122,16 +123,6 @@ pub struct BuildArgs {
     pub out: Option<PathBuf>,
 }
 
-/// Arguments of `cfs catalogue validate`.
-#[derive(Debug, clap::Args)]
-pub struct ValidateArgs {
-    /// Dataset files or keys of products; all products by default.
-    pub items: Vec<String>,
-    /// A JSON array instead of text.
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// Does what the arguments say with the catalogue of a file, or with the user's own.
 ///
 /// # Errors
@@ -160,14 +151,6 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Validate(args) => validate(&open()?, args),
         Action::Diff(args) => packages::diff(args),
         Action::Merge(args) => packages::merge(args),
-    }
-}
-
-/// Prints; a reader that has seen enough (`| head`) is no error.
-fn print(text: &str) -> anyhow::Result<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        other => Ok(other?),
     }
 }
 
@@ -215,7 +198,7 @@ fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     print(&text)
 }
 
-fn finding_json(finding: &ProductFinding) -> Value {
+pub(super) fn finding_json(finding: &ProductFinding) -> Value {
     json!({
         "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,
         "meaning": meaning(&finding.code),
@@ -382,82 +365,4 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
         }
     }
     print(&text)
-}
-
-/// What was found about one item: the product's state, the finding, and the repair offered.
-struct Judged {
-    finding: ProductFinding,
-    repair: Option<String>,
-}
-
-fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Result<()> {
-    let all = catalogue.search(&Query::default())?;
-    let items =
-        if args.items.is_empty() { all.iter().map(|row| row.key.clone()).collect() } else { args.items.clone() };
-    let mut results = Vec::new();
-    for item in items {
-        let judged: Vec<Judged> = if all.iter().any(|row| row.key == item) {
-            catalogue.validate(&item)?.into_iter().map(|finding| Judged { finding, repair: None }).collect()
-        } else if Path::new(&item).exists() {
-            of_file(Path::new(&item))?
-        } else {
-            bail!("{item}: neither a product of the catalogue nor a file");
-        };
-        results.push((item, judged));
-    }
-    let valid = |judged: &[Judged]| judged.iter().all(|one| one.finding.severity != Severity::Error);
-    let bad = results.iter().filter(|(_, judged)| !valid(judged)).count();
-    if args.json {
-        let list = results.iter().map(|(item, judged)| {
-            let findings = judged.iter().map(|one| {
-                let mut value = finding_json(&one.finding);
-                value["repair"] = one.repair.clone().into();
-                value
-            });
-            json!({"item": item, "valid": valid(judged), "findings": findings.collect::<Vec<_>>()})
-        });
-        print(&(serde_json::to_string_pretty(&list.collect::<Vec<_>>())? + "\n"))?;
-    } else {
-        let mut text = String::new();
-        for (item, judged) in &results {
-            let worst = judged.iter().map(|one| one.finding.severity).max();
-            writeln!(text, "{item}: {}", worst.filter(|worst| *worst > Severity::Info).map_or("ok", Severity::word))?;
-            for Judged { finding, repair } in judged {
-                writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
-                if let Some(repair) = repair {
-                    writeln!(text, "    offers: --repair {repair}")?;
-                }
-            }
-        }
-        print(&text)?;
-    }
-    if bad > 0 {
-        return Err(NotFit { bad, of: results.len() }.into());
-    }
-    Ok(())
-}
-
-/// Data that are not fit for use; the program ends with status 1, unlike for input that it cannot read.
-#[derive(Debug, thiserror::Error)]
-#[error("{bad} of {of} not fit for use")]
-pub struct NotFit {
-    bad: usize,
-    of: usize,
-}
-
-/// What reader and doctor say about a file.
-fn of_file(path: &Path) -> anyhow::Result<Vec<Judged>> {
-    let mut list = Vec::new();
-    for dataset in dataset_file::read(path)? {
-        list.extend(examine(&dataset).into_iter().map(|one| Judged {
-            finding: ProductFinding {
-                state: dataset.state.clone(),
-                severity: one.finding.severity,
-                code: one.finding.code.to_owned(),
-                message: one.finding.message,
-            },
-            repair: one.repair.map(|repair| repair.to_string()),
-        }));
-    }
-    Ok(list)
 }

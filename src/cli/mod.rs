@@ -18,6 +18,7 @@ mod progress;
 pub mod repair;
 pub mod room;
 pub mod sky;
+pub mod validate;
 
 pub use args::{Arguments, Command};
 

@@ -235,6 +235,9 @@ fn preference(blocks: &Blocks, t: &Block, r: &Block) -> (f64, f64, f64) {
     (correlation, (tt / std::f64::consts::PI).sqrt(), (rr / std::f64::consts::PI).sqrt())
 }
 
+/// Transmissions of both sides that differ by less agree, as far as measurements do.
+const AGREED: f64 = 0.1;
+
 /// Transmission and reflection that favour the same directions.
 fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
     let odd = [(0, 2), (1, 3)].map(|(t, r)| {
@@ -327,8 +330,14 @@ fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
     let close: Vec<&Reading> =
         rated.iter().filter(|(score, _)| *score < 1.05 * least + 0.005).map(|(_, one)| one).collect();
     let best = close.first()?;
+    // A transmission that does not agree with that of the other side may be what is wrong instead.
+    let n = blocks.weight.len();
+    let agreed = match (tf, tb) {
+        (Some(f), Some(b)) => blocks.difference(|i, o| f.q[i * n + o], |i, o| b.q[o * n + i]) < AGREED,
+        _ => true,
+    };
     // Only light out of nothing is beyond doubt, and only one reading of it.
-    let sure = least < 0.55 * before && won && close.len() == 1;
+    let sure = least < 0.55 * before && won && agreed && close.len() == 1;
     let confidence = if sure { Confidence::Certain } else { Confidence::Likely };
     let others: Vec<String> =
         close.iter().skip(1).map(|one| format!("{} ({})", one.0, at.repair(one.2, one.3))).collect();

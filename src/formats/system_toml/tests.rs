@@ -1,6 +1,7 @@
 //! What system files say, and what is wrong with wrong ones.
 
 use super::*;
+use crate::compute::system::coated::{self, CoatedPane};
 
 const BLIND: &str = "name = \"Blind\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.080\nspacing = 0.072\n\
                      angles = [30.0, -30.0]\nupper = { reflectance = 0.8, specular = 0.1, roughness = 2.0 }\n\

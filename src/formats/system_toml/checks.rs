@@ -1,0 +1,38 @@
+//! Ranges that values of system files may have; every wrong value is told by its key and by what would be right.
+
+use crate::formats::location::{FormatError, Location};
+
+pub(super) fn wrong<T>(key: &str, found: impl Into<String>, expected: impl Into<String>) -> Result<T, FormatError> {
+    Err(FormatError::new(Location::file().in_element(key), found, expected))
+}
+
+/// The value if it lies in a range; the error names both.
+pub(super) fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, FormatError> {
+    if (low..=high).contains(&value) { Ok(value) } else { wrong(key, format!("{value}"), format!("{low} to {high}")) }
+}
+
+/// A length above 0, at most a kilometre.
+pub(super) fn length(key: &str, value: f64) -> Result<f64, FormatError> {
+    if value > 0.0 && value <= 1000.0 {
+        Ok(value)
+    } else {
+        wrong(key, format!("{value}"), "metres, above 0, at most 1000")
+    }
+}
+
+/// A length of 0 or more.
+pub(super) fn extent(key: &str, value: f64) -> Result<f64, FormatError> {
+    if value == 0.0 { Ok(0.0) } else { length(key, value) }
+}
+
+pub(super) fn share(key: &str, value: f64) -> Result<f64, FormatError> {
+    within(key, value, (0.0, 1.0))
+}
+
+pub(super) fn index(key: &str, value: f64) -> Result<f64, FormatError> {
+    within(key, value, (1.0, 4.0))
+}
+
+pub(super) fn absorption(key: &str, value: f64) -> Result<f64, FormatError> {
+    within(key, value, (0.0, 1e6))
+}
