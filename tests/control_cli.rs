@@ -185,6 +185,11 @@ fn wrong_keys_are_told_with_what_would_be_right() {
         ("mode = \"curve\"\ncurve_file = \"none.csv\"", vec!["control.curve_file", "none.csv"]),
         ("mode = \"fixed\"\nstate = \"41\"", vec!["control.state", "41", "45"]),
         ("mode = \"user\"\nschedule = [{ from = \"8\", to = \"9:00\", state = \"0\" }]", vec!["schedule", "HH:MM"]),
+        (
+            "mode = \"user\"\nschedule = [{ from = \"22:00\", to = \"06:00\", state = \"0\" },\
+             { from = \"05:30\", to = \"09:00\", state = \"45\" }]",
+            vec!["control.schedule", "22:00 to 06:00", "05:30 to 09:00", "overlap"],
+        ),
         ("mode = \"cut-off\"\ndwell = -1.0", vec!["control.dwell", "-1"]),
         ("mode = \"cut-off\"\nnight_state = \"shut\"", vec!["control.night_state", "shut"]),
     ] {

@@ -115,6 +115,11 @@ fn a_derived_function_is_left_out_and_derived_again() {
     let again = read(&written.bytes).unwrap();
     same_trees(&read_once, &again);
     assert_eq!(again.visible, read_once.visible);
+    // Who asks for a tree wants all of it, for programs that derive nothing.
+    let form = TreeForm { derived: true, ..TreeForm::of_rank(TreeRank::Four) };
+    let whole = read(&write_tree(&read_once, form).unwrap().bytes).unwrap();
+    assert!(whole.derived.is_empty());
+    assert_eq!(whole.visible.components(), [Component::TransmissionFront, Component::TransmissionBack]);
 }
 
 /// Real tensor trees, where there are any.
@@ -149,7 +154,7 @@ fn real_trees_read_back_as_they_were() {
         println!("{}: {leaves} leaves", path.display());
         // And pruned by a thousandth: smaller, and as said.
         let rank = rank_of(&before).unwrap();
-        let form = TreeForm { rank, level: None, tolerance: Some(1e-3) };
+        let form = TreeForm { tolerance: Some(1e-3), ..TreeForm::of_rank(rank) };
         let pruned = read(&write_tree(&before, form).unwrap().bytes).unwrap();
         for component in before.visible.components().into_iter().filter(|one| !before.derived.contains(one)) {
             let (a, b) = (before.visible.get(component).unwrap(), pruned.visible.get(component).unwrap());
@@ -179,7 +184,8 @@ fn matrices_and_closed_forms_become_trees_with_a_stated_error() {
     let source = Dataset { name: "Lobe".into(), visible, ..Dataset::default() };
     assert_eq!(rank_of(&source), None);
     for rank in [TreeRank::Three, TreeRank::Four] {
-        let written = write_tree(&source, TreeForm { rank, level: Some(4), tolerance: Some(0.02) }).unwrap();
+        let written =
+            write_tree(&source, TreeForm { level: Some(4), tolerance: Some(0.02), ..TreeForm::of_rank(rank) }).unwrap();
         let codes: Vec<&str> = written.findings.iter().map(|finding| finding.code).collect();
         assert_eq!(codes.iter().filter(|code| **code == "tree-made").count(), 2, "{codes:?}");
         assert!(codes.contains(&"regular-in-cells"));
@@ -194,6 +200,6 @@ fn matrices_and_closed_forms_become_trees_with_a_stated_error() {
         let from = Incident(Dir::from_theta_phi(0.7, 0.4));
         assert!((mirror.tau(from) - 0.5).abs() < 0.02, "{}", mirror.tau(from));
     }
-    let wrong = write_tree(&source, TreeForm { rank: TreeRank::Four, level: Some(9), tolerance: None }).unwrap_err();
+    let wrong = write_tree(&source, TreeForm { level: Some(9), ..TreeForm::of_rank(TreeRank::Four) }).unwrap_err();
     assert!(wrong.to_string().contains("level 9; expected 1 … 6"), "{wrong}");
 }

@@ -55,7 +55,7 @@ fn in_form(dataset: &Dataset, choice: TreeChoice, args: &ConvertArgs) -> Result<
         TreeChoice::Three => TreeRank::Three,
         TreeChoice::Klems => return bsdf_xml::write_matrices(dataset),
     };
-    bsdf_xml::write_tree(dataset, TreeForm { rank, level: args.level, tolerance: args.tolerance })
+    bsdf_xml::write_tree(dataset, TreeForm { rank, level: args.level, tolerance: args.tolerance, derived: true })
 }
 
 fn component(word: &str) -> Result<Component, String> {

@@ -1,7 +1,9 @@
 //! `cfs info`: what a dataset (or a luminaire file) is, and what is to be said about it.
 
 use crate::cli::{dataset_file, luminaire_info};
-use crate::compute::btdf::{Btdf, Component, Dataset, Scattered, Severity, TreeRank, reciprocity_error};
+use crate::compute::btdf::{
+    Btdf, Component, Dataset, Scattered, Severity, Thermal, ThermalKey, TreeRank, reciprocity_error,
+};
 use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine};
 use serde_json::{Map, Value, json};
@@ -57,6 +59,9 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("description".into(), dataset.description.clone().into());
     object.insert("state".into(), dataset.state.clone().into());
     object.insert("thickness_m".into(), dataset.thickness.into());
+    if !dataset.thermal.is_empty() {
+        object.insert("thermal".into(), thermal_json(&dataset.thermal));
+    }
     object.insert("incident_basis".into(), dataset.incident_basis.clone().into());
     object.insert("emergent_basis".into(), dataset.emergent_basis.clone().into());
     object.insert("resolution".into(), transmission.map(resolution).into());
@@ -76,11 +81,22 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     Value::Object(object)
 }
 
-/// What was found, what it means, and the repair that `cfs repair` would make (null: none is offered).
+/// Thermal data as far as the source tells them, keys with their units.
+fn thermal_json(thermal: &Thermal) -> Value {
+    let mut object: Map<String, Value> =
+        thermal.known().map(|(key, value)| (key.json().to_owned(), value.into())).collect();
+    if !thermal.device.is_empty() {
+        object.insert("device".into(), thermal.device.clone().into());
+    }
+    Value::Object(object)
+}
+
+/// What was found, what it means, and the repair that `cfs repair` would make (null: none is offered);
+/// `sure`: it is beyond doubt, so that `auto` makes it.
 pub(super) fn finding_json(one: &Diagnosis) -> Value {
     json!({
         "severity": one.finding.severity.word(), "code": one.finding.code, "message": one.finding.message,
-        "meaning": one.meaning, "repair": one.repair.map(|repair| repair.to_string()),
+        "meaning": one.meaning, "repair": one.repair.map(|repair| repair.to_string()), "sure": one.sure,
     })
 }
 
@@ -150,6 +166,14 @@ fn resolution(btdf: &Btdf) -> String {
     }
 }
 
+const fn unit(key: ThermalKey) -> &'static str {
+    match key {
+        ThermalKey::Conductivity => " W/mK",
+        ThermalKey::Width | ThermalKey::Height => " m",
+        _ => "",
+    }
+}
+
 fn to_text(dataset: &Dataset) -> String {
     let mut text = String::new();
     let mut line = |label: &str, value: &str| {
@@ -166,6 +190,9 @@ fn to_text(dataset: &Dataset) -> String {
     line("Emergent basis", &dataset.emergent_basis);
     line("Resolution", &dataset.transmission().map(resolution).unwrap_or_default());
     line("Thickness", &dataset.thickness.map(|t| format!("{:.3} mm", 1000.0 * t)).unwrap_or_default());
+    line("Device", &dataset.thermal.device);
+    let thermal = dataset.thermal.known().map(|(key, value)| format!("{} {value}{}", key.word(), unit(key)));
+    line("Also told", &thermal.collect::<Vec<_>>().join(", "));
     let components = dataset.visible.components().into_iter().map(|component| {
         let derived = if dataset.derived.contains(&component) { " (derived)" } else { "" };
         format!("{}{derived}", component.key().replace('_', " "))
@@ -187,13 +214,18 @@ fn to_text(dataset: &Dataset) -> String {
     if found.is_empty() {
         let _ = writeln!(text, "  none");
     }
-    for Diagnosis { finding, meaning, repair } in found {
-        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
-        if finding.severity != Severity::Info && !meaning.is_empty() {
-            let _ = writeln!(text, "{:34}{meaning}", "");
+    let mut last = None;
+    for Diagnosis { finding, meaning, repair, sure } in &found {
+        // A finding that asks for several repairs is said once.
+        if last.replace(finding) != Some(finding) {
+            let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+            if finding.severity != Severity::Info && !meaning.is_empty() {
+                let _ = writeln!(text, "{:34}{meaning}", "");
+            }
         }
         if let Some(repair) = repair {
-            let _ = writeln!(text, "{:34}offers: --repair {repair}", "");
+            let auto = if *sure { " (beyond doubt: auto)" } else { "" };
+            let _ = writeln!(text, "{:34}offers: --repair {repair}{auto}", "");
         }
     }
     text

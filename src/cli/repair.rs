@@ -13,7 +13,7 @@ pub struct RepairArgs {
     /// Dataset file to mend; it stays as it is.
     pub file: PathBuf,
     /// What to do, in this order, as `cfs info` offers it: e.g. transpose, turn-upside-down:transmission_back,
-    /// divide-by-100:solar.all. All that `cfs info` offers for errors with `auto`.
+    /// divide-by-100:solar.all. `auto`: all that `cfs info` marks as beyond doubt; what is a question must be named.
     #[arg(long, value_delimiter = ',', required_unless_present = "undo")]
     pub repair: Vec<String>,
     /// Undo the repairs that the file records, the last first.
@@ -36,14 +36,25 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let mut datasets = dataset_file::read(&args.file)?;
     for dataset in &mut datasets {
         let repairs = if args.undo { undoing(dataset)? } else { asked(dataset, &args.repair)? };
+        let questions = if args.undo { String::new() } else { questions(dataset, &repairs) };
         if repairs.is_empty() {
-            bail!("{name}: nothing to repair; expected repairs by name, or a file with findings that offer one");
+            let rest = if args.undo {
+                bail!("{name}: no repair is recorded in it; expected a file that `cfs repair` wrote");
+            } else if questions.is_empty() {
+                "no finding offers a repair".to_owned()
+            } else {
+                format!("questions to be answered by name: {questions}; `cfs info` says why they are asked")
+            };
+            bail!("{name}: nothing is beyond doubt; {rest}");
         }
         let mut mended = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
         // What the description recorded before is kept, and undone repairs cancel out.
         mended.description = record(&dataset.description, &repairs);
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
         eprintln!("repaired: {}", words.join(", "));
+        if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
+            eprintln!("asked, not done: {questions}");
+        }
         if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
             eprintln!("{sentence}");
         }
@@ -61,7 +72,7 @@ fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
     let mut list = Vec::new();
     for word in words {
         if word == "auto" {
-            let offered = examine(dataset).into_iter().filter(|one| one.finding.severity.word() == "error");
+            let offered = examine(dataset).into_iter().filter(|one| one.sure);
             for repair in offered.filter_map(|one| one.repair) {
                 if !list.contains(&repair) {
                     list.push(repair);
@@ -72,6 +83,18 @@ fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
         }
     }
     Ok(list)
+}
+
+/// Repairs that are offered and only somebody who knows the product can decide on, those that are made left out.
+fn questions(dataset: &Dataset, made: &[Repair]) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for repair in examine(dataset).into_iter().filter(|one| !one.sure).filter_map(|one| one.repair) {
+        let word = repair.to_string();
+        if !made.contains(&repair) && !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    words.join(", ")
 }
 
 fn undoing(dataset: &Dataset) -> anyhow::Result<Vec<Repair>> {

@@ -13,8 +13,10 @@ pub use write::encode;
 
 /// First bytes of every blob.
 pub(crate) const MAGIC: &[u8; 4] = b"CFSD";
-/// Version of the layout that is written.
-pub(crate) const VERSION: u8 = 1;
+/// First version of the layout: light alone.
+pub(crate) const FIRST: u8 = 1;
+/// Newest version: thermal data follow the findings. Written where there are any.
+pub(crate) const VERSION: u8 = 2;
 
 /// Why bytes are no dataset.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -23,7 +25,7 @@ pub enum BlobError {
     #[error("not a binary dataset: it does not begin with CFSD")]
     Magic,
     /// Written by a newer program.
-    #[error("binary dataset of version {0}; this program reads version {VERSION}")]
+    #[error("binary dataset of version {0}; this program reads versions {FIRST} to {VERSION}")]
     Version(u8),
     /// The bytes end early.
     #[error("binary dataset cut off at byte {0}")]

@@ -5,6 +5,7 @@ use super::error::StudyError;
 use super::scene_file::SystemKeys;
 use super::system::{System, SystemLibrary, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
+use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use std::collections::HashMap;
@@ -14,6 +15,9 @@ use std::time::SystemTime;
 
 /// Largest dataset file that is read. Makers' largest are tens of megabytes.
 const LARGEST_FILE: u64 = 512 << 20;
+
+/// No measuring error makes this of the light that comes.
+const OTHER_UNIT: f64 = 1.5;
 
 /// Files, closed forms and a catalogue that is opened when first asked.
 #[derive(Default)]
@@ -86,8 +90,16 @@ impl Library {
         }
         let bytes = std::fs::read(path).map_err(|e| error(format!("cannot be read: {e}")))?;
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let systems: Vec<Arc<System>> = read_dataset(&name, &bytes)
-            .map_err(|e| error(e.to_string()))?
+        let datasets = read_dataset(&name, &bytes).map_err(|e| error(e.to_string()))?;
+        // Readers pass on percent so that they can be mended; a room would be a hundred times too bright.
+        let passed = |one: &Dataset| one.transmission().map_or(0.0, Btdf::tau_hemispherical);
+        if let Some(sum) = datasets.iter().map(passed).find(|sum| *sum > OTHER_UNIT) {
+            return Err(error(format!(
+                "its transmission lets {sum:.4} times the diffuse light through that comes; expected at most 1: numbers in \
+                 percent are mended by `cfs repair`"
+            )));
+        }
+        let systems: Vec<Arc<System>> = datasets
             .into_iter()
             .map(|dataset| {
                 let label = if dataset.name.is_empty() { name.clone() } else { dataset.name.clone() };

@@ -2,8 +2,8 @@
 
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{
-    AngularTransmittance, Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered, TensorTree, TreeAxes,
-    TreeNode, TreeRank,
+    AngularTransmittance, Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered, TensorTree, Thermal,
+    ThermalKey, TreeAxes, TreeNode, TreeRank,
 };
 use cfs::compute::direction::Incident;
 use proptest::prelude::*;
@@ -14,6 +14,16 @@ fn angular() -> impl Strategy<Value = AngularTransmittance> {
         (0.0..1.0_f64).prop_map(AngularTransmittance::Constant),
         prop::collection::vec(0.0..1.0_f64, 2..40).prop_map(AngularTransmittance::Table),
     ]
+}
+
+/// Nothing, a word alone, or every second number.
+fn thermal(device: &str, share: Option<f64>) -> Thermal {
+    let mut thermal = Thermal::default();
+    thermal.device = device.to_owned();
+    for key in ThermalKey::ALL.into_iter().step_by(2).filter(|_| share.is_some()) {
+        thermal.set(key, share.unwrap_or_default().abs().min(1.0));
+    }
+    thermal
 }
 
 fn basis() -> impl Strategy<Value = RingBasis> {
@@ -107,6 +117,7 @@ pub fn dataset() -> impl Strategy<Value = Dataset> {
                 emergent_basis: t[6].clone(),
                 thickness,
                 structure: thickness.map(|thickness| 0.01 + thickness.abs()),
+                thermal: thermal(&t[3], thickness),
                 visible,
                 solar: solar.then_some(infrared),
                 derived: if turned { vec![Component::TransmissionBack] } else { vec![] },

@@ -72,7 +72,7 @@ fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnM
         ui.label("The checks have nothing to say.");
     }
     for severity in [Severity::Error, Severity::Warning, Severity::Info] {
-        for Diagnosis { finding, meaning, repair } in list.iter().filter(|one| one.finding.severity == severity) {
+        for Diagnosis { finding, meaning, repair, sure } in list.iter().filter(|one| one.finding.severity == severity) {
             let colour = match severity {
                 Severity::Error => palette.error,
                 Severity::Warning => palette.warning,
@@ -87,7 +87,12 @@ fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnM
             if let Some(repair) = repair.filter(|repair| !made.contains(repair)) {
                 // The same repair may be offered by several findings.
                 let button = ui.push_id((finding.code, repair), |ui| ui.button(repair.label())).inner;
-                if button.on_hover_text("Try it: nothing is stored, and it can be undone").clicked() {
+                let tip = if *sure {
+                    "Beyond doubt. Nothing is stored yet, and it can be undone"
+                } else {
+                    "A question: only if it is so for the product. Try it: nothing is stored, and it can be undone"
+                };
+                if button.on_hover_text(tip).clicked() {
                     ask(repair);
                 }
             }

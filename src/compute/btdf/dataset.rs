@@ -1,6 +1,6 @@
 //! Everything known photometrically about one state of one system.
 
-use super::{Btdf, Finding};
+use super::{Btdf, Finding, Thermal};
 
 /// Which of the four functions of a band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -87,6 +87,8 @@ pub struct Dataset {
     pub thickness: Option<f64>,
     /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
     pub structure: Option<f64>,
+    /// Thermal data and extents as far as the source tells them.
+    pub thermal: Thermal,
     /// The format it was read from, e.g. `bsdf-xml klems`; empty for closed forms.
     pub format: String,
     /// Names of the bases as the file gives them.

@@ -18,6 +18,7 @@ mod rows;
 mod tensor_emission;
 mod tensor_reversal;
 mod tensor_tree;
+mod thermal;
 mod zones;
 
 pub use angular::AngularTransmittance;
@@ -29,6 +30,7 @@ pub use indicatrices::Indicatrices;
 pub use on_cells::{matrix_on, matrix_roughly_on};
 pub use on_tree::{OnTree, OnTreeError, TreeShape, tree_on};
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
+pub use thermal::{Thermal, ThermalKey};
 pub use zones::zone_shares;
 
 use crate::compute::basis::RingBasis;

@@ -1,7 +1,8 @@
 //! Blocks that are there twice, empty, or not at all.
 
-use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind};
-use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
+use super::blocks::Blocks;
+use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind, sides};
+use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
 
 /// The name of a function as files write it.
 pub(super) const fn words(component: Component) -> &'static str {
@@ -25,6 +26,21 @@ pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     }
 }
 
+/// Rounding to four digits changes a value by no more than this share of it.
+const ROUNDED: f64 = 6e-4;
+
+/// Is one function a copy of the other, be it rounded?
+fn repeats(a: &Btdf, b: &Btdf) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDED * a.abs().max(b.abs());
+    match (&a.scattered, &b.scattered) {
+        (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) => {
+            let (a, b) = (a.values(), b.values());
+            a.len() == b.len() && a.iter().zip(b.iter()).all(near)
+        }
+        _ => same_values(a, b),
+    }
+}
+
 /// A solar band that repeats the visible one.
 pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
     let Some(solar) = &dataset.solar else { return Vec::new() };
@@ -32,7 +48,7 @@ pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
         dataset.visible.components().into_iter().filter(|component| solar.get(*component).is_some()).collect();
     let same = |component: &Component| {
         let (Some(a), Some(b)) = (dataset.visible.get(*component), solar.get(*component)) else { return false };
-        same_values(a, b) && tau_max(a) > 0.0
+        repeats(a, b) && tau_max(a) > 0.0
     };
     if shared.iter().any(same)
         && shared.iter().all(|c| same(c) || dataset.visible.get(*c).is_some_and(|b| tau_max(b) == 0.0))
@@ -45,11 +61,51 @@ pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
             .into(),
         ];
     }
-    Vec::new()
+    alone_copied(dataset, solar, &shared)
 }
 
-pub(super) fn check(at: &At) -> Vec<Diagnosis> {
-    let mut list: Vec<Diagnosis> = copied_transmission(at).into_iter().collect();
+/// Single functions that are the same in both bands while others are not. Two that are measured apart never agree in
+/// every digit; a function that does not depend on the band (mirrors without colour, nothing but holes) does so only
+/// where its counterpart of the other side or its transmission nearly does.
+fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Diagnosis> {
+    let total = |component: &Component| {
+        let (a, b) = (dataset.visible.get(*component), solar.get(*component));
+        (a.map_or(0.0, Btdf::tau_hemispherical), b.map_or(0.0, Btdf::tau_hemispherical))
+    };
+    let differs = |component: &Component| {
+        let (a, b) = total(component);
+        (a - b).abs() > NEUTRAL * a.max(b)
+    };
+    let own = |component: &&Component| !dataset.derived.contains(component);
+    let copied = shared.iter().filter(own).filter(|component| {
+        let (Some(a), Some(b)) = (dataset.visible.get(**component), solar.get(**component)) else { return false };
+        repeats(a, b) && tau_max(a) > 0.0
+    });
+    let copied: Vec<Component> = copied.copied().collect();
+    if copied.is_empty() || !shared.iter().any(differs) {
+        return Vec::new();
+    }
+    let names = copied.iter().map(|component| words(*component)).collect::<Vec<_>>().join(", ");
+    let message = format!(
+        "{names} (solar) repeats the visible block number by number while other functions of the bands differ: \
+         possibly copied from one band to the other."
+    );
+    vec![Finding::warning("band-copied", message).into()]
+}
+
+/// Bands whose functions differ by less, as shares of the larger, are those of a neutral material.
+const NEUTRAL: f64 = 0.02;
+
+/// Are the transmissions of both sides the same numbers?
+pub(super) fn transmissions_alike(band: &Band) -> bool {
+    match (&band.transmission_front, &band.transmission_back) {
+        (Some(front), Some(back)) => repeats(front, back),
+        _ => false,
+    }
+}
+
+pub(super) fn check(at: &At, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
+    let mut list: Vec<Diagnosis> = copied_transmission(at, blocks).into_iter().collect();
     list.extend(copied_reflection(at));
     list.extend(reflection_of_transmission(at));
     list.extend(empty(at));
@@ -57,25 +113,37 @@ pub(super) fn check(at: &At) -> Vec<Diagnosis> {
     list
 }
 
-fn copied_transmission(at: &At) -> Option<Diagnosis> {
+fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
     let (front, back) = (at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?);
-    if tau_max(front) == 0.0 || !same_values(front, back) {
+    if tau_max(front) == 0.0 || !repeats(front, back) {
         return None;
     }
     let error = reciprocity_error(front, back).filter(|error| *error > 0.01)?;
     let confidence = if error > 0.5 { Confidence::Certain } else { Confidence::Likely };
+    let copy = blocks.and_then(sides::false_copy);
+    let which = match copy {
+        Some(component) => format!("The light left over for reflection speaks against {}.", words(component)),
+        None => {
+            "Which of both is the copy, the numbers do not tell; derive by reciprocity the one that is not its own."
+                .to_owned()
+        }
+    };
     let message = format!(
         "Transmission Back ({}) repeats the front number by number although light does not go both ways alike \
-         (reciprocity error {:.0} %): {} a copied block.",
+         (reciprocity error {:.0} %): {} a copied block. {which}",
         at.name,
         100.0 * error,
         confidence.word()
     );
-    let derive = at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(Component::TransmissionBack));
-    Some(if error > 0.05 {
-        Diagnosis::suspicion(confidence, "copied-block", message).with(derive)
+    let one = if error > 0.05 {
+        Diagnosis::suspicion(confidence, "copied-block", message)
     } else {
-        Diagnosis::from(Finding::info("copied-block", message)).with(derive)
+        Finding::info("copied-block", message).into()
+    };
+    // The genuine block would be lost if it were the other way round: never without being asked.
+    Some(match copy {
+        Some(component) => one.asking(at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(component))),
+        None => one,
     })
 }
 
@@ -83,12 +151,12 @@ fn copied_transmission(at: &At) -> Option<Diagnosis> {
 /// do not.
 fn copied_reflection(at: &At) -> Option<Diagnosis> {
     let (front, back) = (at.band.reflection_front.as_ref()?, at.band.reflection_back.as_ref()?);
-    if tau_max(front) == 0.0 || !same_values(front, back) {
+    if tau_max(front) == 0.0 || !repeats(front, back) {
         return None;
     }
     let transmissions = at.band.transmission_front.as_ref().zip(at.band.transmission_back.as_ref());
     let derived = at.dataset.derived.contains(&Component::TransmissionFront);
-    let apart = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !same_values(f, b));
+    let apart = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !repeats(f, b));
     let message = format!("Reflection Back ({}) repeats the front number by number", at.name);
     let one = if apart {
         Diagnosis::suspicion(
@@ -108,7 +176,7 @@ fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
     for reflection in [Component::ReflectionFront, Component::ReflectionBack] {
         for transmission in [Component::TransmissionFront, Component::TransmissionBack] {
             let (Some(r), Some(t)) = (at.band.get(reflection), at.band.get(transmission)) else { continue };
-            if tau_max(t) > 0.0 && same_values(r, t) {
+            if tau_max(t) > 0.0 && repeats(r, t) {
                 let message = format!(
                     "{} ({}) repeats {} number by number: a mislabelled or copied block.",
                     words(reflection),

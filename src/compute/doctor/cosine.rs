@@ -11,6 +11,9 @@ use super::copies::words;
 use super::{At, BlockScope, Confidence, Diagnosis, RepairKind};
 use crate::compute::btdf::Component;
 
+/// Transmissions that are copies of each other are explained by a factor only when hardly any error is left.
+const EXPLAINED: f64 = 0.03;
+
 /// A factor that is suspected in the values; undone by a repair.
 #[derive(Clone, Copy, PartialEq)]
 enum Suspect {
@@ -47,6 +50,15 @@ impl Suspect {
         }
     }
 
+    /// The factor of the other angle that reciprocity cannot tell from it: undoing either leaves a symmetric function.
+    const fn twin(self) -> Option<&'static str> {
+        match self {
+            Self::CosineTooMuch => Some("divided by the cosine of the incident angle"),
+            Self::CosineTooLittle => Some("multiplied by the cosine of the incident angle"),
+            Self::SolidAngle => None,
+        }
+    }
+
     /// Smallest reciprocity error that is worth explaining, and the share of it that may be left when it is explained.
     /// Makers' fabrics lack light at grazing incidence, which looks like a cosine divided out of transmission.
     const fn limits(self, transmission: bool) -> (f64, f64) {
@@ -68,7 +80,7 @@ struct Found {
 
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     let mut found: Vec<Found> = Vec::new();
-    found.extend(pair(blocks));
+    found.extend(pair(blocks, super::copies::transmissions_alike(at.band)));
     for component in Component::ALL {
         if found.iter().any(|one| one.component == component) {
             continue;
@@ -114,6 +126,8 @@ fn told(at: &At, blocks: &Blocks, found: &[Found]) -> Vec<Diagnosis> {
     for suspect in Suspect::ALL {
         let these: Vec<&Found> = found.iter().filter(|one| one.suspect == suspect).collect();
         let Some(confidence) = these.iter().map(|one| one.confidence).max() else { continue };
+        // Incident and emergent cosines look alike to every witness: whoever made the data must say which it was.
+        let confidence = if suspect.twin().is_some() { confidence.min(Confidence::Likely) } else { confidence };
         let names = these.iter().map(|one| words(one.component)).collect::<Vec<_>>().join(", ");
         let lit = |c: &Component| blocks.get(*c).is_some_and(|block| blocks.hemispherical(block) > 0.0);
         let lit: Vec<Component> = Component::ALL.into_iter().filter(lit).collect();
@@ -138,12 +152,17 @@ fn told(at: &At, blocks: &Blocks, found: &[Found]) -> Vec<Diagnosis> {
     list
 }
 
-fn evidence(before: f64, after: f64) -> String {
-    format!("undoing that brings the reciprocity error from {:.0} % to {:.0} %", 100.0 * before, 100.0 * after)
+fn evidence(suspect: Suspect, before: f64, after: f64) -> String {
+    let (before, after) = (100.0 * before, 100.0 * after);
+    let twin = suspect.twin().map_or_else(String::new, |twin| {
+        format!("; as well possible: {twin}, which reciprocity cannot tell apart and the repair would make worse")
+    });
+    format!("undoing that brings the reciprocity error from {before:.0} % to {after:.0} %{twin}")
 }
 
-/// Both transmissions against each other, with the factor undone in both or in one.
-fn pair(blocks: &Blocks) -> Vec<Found> {
+/// Both transmissions against each other, with the factor undone in both or in one. `copied`: they are the same
+/// numbers, which is an explanation of its own.
+fn pair(blocks: &Blocks, copied: bool) -> Vec<Found> {
     let (tf, tb) = (Component::TransmissionFront, Component::TransmissionBack);
     let (Some(front), Some(back)) = (blocks.get(tf), blocks.get(tb)) else { return Vec::new() };
     let n = blocks.weight.len();
@@ -172,13 +191,13 @@ fn pair(blocks: &Blocks) -> Vec<Found> {
                     component,
                     suspect,
                     confidence,
-                    evidence: evidence(before, after),
+                    evidence: evidence(suspect, before, after),
                 });
                 best = Some((after, found.collect()));
             }
         }
     }
-    best.map(|(_, found)| found).unwrap_or_default()
+    best.filter(|(after, _)| !copied || *after < EXPLAINED).map(|(_, found)| found).unwrap_or_default()
 }
 
 /// Sums of values that were multiplied by solid angles of a few hundredths are a few hundredths.
@@ -206,7 +225,7 @@ fn own(blocks: &Blocks, component: Component, block: &Block, transmission: bool)
     let (after, suspect) = best?;
     let sure = after < 0.4 * before && before > 0.2 && !transmission;
     let confidence = if sure { Confidence::Certain } else { Confidence::Likely };
-    Some(Found { component, suspect, confidence, evidence: evidence(before, after) })
+    Some(Found { component, suspect, confidence, evidence: evidence(suspect, before, after) })
 }
 
 /// Does the function not care about the azimuth?

@@ -43,11 +43,13 @@ pub struct Diagnosis {
     pub meaning: &'static str,
     /// What would mend it, where that is safe to offer.
     pub repair: Option<Repair>,
+    /// Is the repair beyond doubt? Only such repairs may be made without being asked for one by one.
+    pub sure: bool,
 }
 
 impl From<Finding> for Diagnosis {
     fn from(finding: Finding) -> Self {
-        Self { meaning: meaning(finding.code), finding, repair: None }
+        Self { meaning: meaning(finding.code), finding, repair: None, sure: false }
     }
 }
 
@@ -57,20 +59,30 @@ impl Diagnosis {
         Finding { severity: confidence.severity(), code, message }.into()
     }
 
-    /// The same with a repair.
+    /// The same with a repair; beyond doubt where the finding is.
     pub(super) fn with(mut self, repair: Repair) -> Self {
         self.repair = Some(repair);
+        self.sure = self.finding.severity == Severity::Error;
+        self
+    }
+
+    /// The same with a repair that only somebody who knows the product can decide on, however sure the finding is.
+    pub(super) fn asking(mut self, repair: Repair) -> Self {
+        self.repair = Some(repair);
+        self.sure = false;
         self
     }
 }
 
 /// Findings of both bands; what both show in the same way is said once and mended in both.
-pub(super) fn merged(mut visible: Vec<Diagnosis>, solar: Vec<Diagnosis>) -> Vec<Diagnosis> {
+pub(super) fn merged(mut visible: Vec<Diagnosis>, mut solar: Vec<Diagnosis>) -> Vec<Diagnosis> {
+    doubted(&mut visible, &mut solar);
     for other in solar {
         let kind = |one: &Diagnosis| one.repair.map(|repair| (repair.kind, repair.blocks));
         let twin = visible.iter_mut().find(|one| {
             one.finding.code == other.finding.code
                 && one.finding.severity == other.finding.severity
+                && one.sure == other.sure
                 && one.repair.is_some()
                 && kind(one) == kind(&other)
         });
@@ -85,4 +97,31 @@ pub(super) fn merged(mut visible: Vec<Diagnosis>, solar: Vec<Diagnosis>) -> Vec<
         }
     }
     visible
+}
+
+/// What says that a function lies the wrong way round.
+const WAYS: [&str; 4] = ["upside-down-block", "mirrored-block", "transposed-block", "sides-swapped"];
+
+/// Both bands of a file come from one device set up in one way. Where each asks for a repair that the other does not,
+/// at most one of them is right, and mending both would set them against each other: both become questions.
+fn doubted(visible: &mut [Diagnosis], solar: &mut [Diagnosis]) {
+    let way = |one: &Diagnosis| {
+        one.repair.filter(|_| WAYS.contains(&one.finding.code)).map(|repair| (repair.kind, repair.blocks))
+    };
+    let (ours, theirs): (Vec<_>, Vec<_>) =
+        (visible.iter().filter_map(way).collect(), solar.iter().filter_map(way).collect());
+    let apart = ours.iter().any(|one| !theirs.contains(one)) && theirs.iter().any(|one| !ours.contains(one));
+    if !apart {
+        return;
+    }
+    for one in visible.iter_mut().chain(solar).filter(|one| way(one).is_some()) {
+        if one.sure {
+            one.finding.severity = Confidence::Likely.severity();
+            one.finding.message = one.finding.message.replace(Confidence::Certain.word(), Confidence::Likely.word());
+            one.sure = false;
+        }
+        one.finding.message.push_str(
+            " The other band asks for another repair, so that at most one of both is right: compare with the product.",
+        );
+    }
 }

@@ -15,11 +15,17 @@ const ROUNDING: f64 = 1.001;
 const PLAUSIBLE: f64 = 1.05;
 /// Beyond this the numbers are in another unit.
 const OTHER_UNIT: f64 = 1.5;
+/// Up to here a forgotten π or a cosine explains as much.
+const OTHER_FACTOR: f64 = 4.0;
+/// Beyond this nothing but percent does: ten times as much as there can be.
+const SURELY_PERCENT: f64 = 10.0;
+/// No percent exceed this.
+const MOST_PERCENT: f64 = 150.0;
 
 pub(super) fn check(at: &At) -> Vec<Diagnosis> {
     let mut list = not_numbers(at);
     let percent = percent(at);
-    if percent.is_empty() {
+    if !percent.iter().any(|one| one.sure) {
         list.extend(sums(at));
     }
     list.extend(percent);
@@ -59,6 +65,21 @@ fn not_numbers(at: &At) -> Vec<Diagnosis> {
     list
 }
 
+/// Values divided by the cosine exceed 1 at grazing angles alone; percent do so from everywhere.
+fn everywhere(sum: f64, mean: f64) -> bool {
+    mean > 2.2 || sum < 2.5 * mean
+}
+
+/// Is there a function that can be nothing but percent? Files have one unit.
+fn surely_percent(dataset: &Dataset) -> bool {
+    let bands = std::iter::once(&dataset.visible).chain(&dataset.solar);
+    let mut functions = bands.flat_map(|band| band.components().into_iter().filter_map(|c| band.get(c)));
+    functions.any(|btdf| {
+        let sum = tau_max(btdf);
+        sum > SURELY_PERCENT && sum <= MOST_PERCENT && everywhere(sum, btdf.tau_hemispherical())
+    })
+}
+
 /// Sums about 100 times too large, by what is possible and by what the other side says.
 fn percent(at: &At) -> Vec<Diagnosis> {
     let components = at.band.components();
@@ -74,42 +95,65 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         let other = partner(component).filter(own).map_or(0.0, hemispherical);
         (other > 0.0).then(|| hemispherical(component) / other)
     };
-    let is_percent = |component: Component| {
+    let strong = surely_percent(at.dataset);
+    let suspicion = |component: Component| {
         let (sum, ratio) = (largest(component), ratio(component));
         // Light goes both ways alike, so that the two transmissions under uniform light are equal.
-        let by_partner = ratio.is_some_and(|ratio| (50.0..200.0).contains(&ratio));
-        // Values divided by the cosine exceed 1 at grazing angles alone.
-        let mean = hemispherical(component);
-        let everywhere = mean > 2.2 || sum < 2.5 * mean;
-        let by_itself =
-            sum > OTHER_UNIT && sum <= 150.0 && everywhere && ratio.is_none_or(|r| !(2.0..50.0).contains(&r));
-        by_partner || by_itself
+        if let Some(ratio) = ratio.filter(|ratio| (50.0..200.0).contains(ratio)) {
+            // Which of both is right only shows where one of them cannot be.
+            let sure = sum > OTHER_UNIT && (80.0..125.0).contains(&ratio);
+            return Some(if sure { Confidence::Certain } else { Confidence::Likely });
+        }
+        let by_itself = sum > OTHER_UNIT
+            && sum <= MOST_PERCENT
+            && everywhere(sum, hemispherical(component))
+            && ratio.is_none_or(|r| !(2.0..50.0).contains(&r));
+        match by_itself {
+            true if strong => Some(Confidence::Certain),
+            true if sum > OTHER_FACTOR => Some(Confidence::Likely),
+            _ => None,
+        }
     };
-    let percent: Vec<Component> = components.iter().copied().filter(own).filter(|c| is_percent(*c)).collect();
-    if percent.is_empty() {
-        return Vec::new();
-    }
-    let rest: Vec<Component> = components.into_iter().filter(own).filter(|c| !percent.contains(c)).collect();
+    let rated: Vec<(Component, Option<Confidence>)> =
+        components.into_iter().filter(own).map(|component| (component, suspicion(component))).collect();
     let names = |list: &[Component]| list.iter().map(|c| words(*c)).collect::<Vec<_>>().join(", ");
-    let most = percent.iter().map(|c| largest(*c)).fold(0.0, f64::max);
-    let mut message = format!(
-        "{} ({}): directional-hemispherical sums up to {most:.2} where at most 1 is possible: percent instead of fractions.",
-        names(&percent),
-        at.name
-    );
-    if !rest.is_empty() {
-        message.push_str(&format!(" {} may be in fractions already and would stay.", names(&rest)));
-    }
-    let scope = |components: &[Component]| -> Vec<BlockScope> {
-        if rest.is_empty() { vec![BlockScope::All] } else { components.iter().map(|c| BlockScope::One(*c)).collect() }
-    };
-    scope(&percent)
-        .into_iter()
-        .map(|blocks| {
-            Diagnosis::suspicion(Confidence::Certain, "percent", message.clone())
+    let mut list = Vec::new();
+    for confidence in [Confidence::Certain, Confidence::Likely] {
+        let percent: Vec<Component> =
+            rated.iter().filter(|(_, one)| *one == Some(confidence)).map(|(component, _)| *component).collect();
+        if percent.is_empty() {
+            continue;
+        }
+        // What is zero is so in any unit.
+        let rest: Vec<Component> = rated.iter().map(|(component, _)| *component).collect();
+        let rest: Vec<Component> = rest.into_iter().filter(|c| !percent.contains(c) && largest(*c) > 0.0).collect();
+        let most = percent.iter().map(|c| largest(*c)).fold(0.0, f64::max);
+        let mut message = format!(
+            "{} ({}): directional-hemispherical sums up to {most:.2} where at most 1 is possible: {} percent instead of \
+             fractions.",
+            names(&percent),
+            at.name,
+            confidence.word()
+        );
+        if most <= 1.0 {
+            message = format!(
+                "{} ({}): hundred times as much as the other transmission: {} percent instead of fractions.",
+                names(&percent),
+                at.name,
+                confidence.word()
+            );
+        }
+        if !rest.is_empty() {
+            message.push_str(&format!(" {} may be in fractions already and would stay.", names(&rest)));
+        }
+        let scopes: Vec<BlockScope> =
+            if rest.is_empty() { vec![BlockScope::All] } else { percent.iter().map(|c| BlockScope::One(*c)).collect() };
+        list.extend(scopes.into_iter().map(|blocks| {
+            Diagnosis::suspicion(confidence, "percent", message.clone())
                 .with(at.repair(RepairKind::DivideBy100, blocks))
-        })
-        .collect()
+        }));
+    }
+    list
 }
 
 /// A band whose transmission is about 100 times that of the other.

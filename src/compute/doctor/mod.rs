@@ -39,15 +39,22 @@ pub use repaired::{RepairError, repaired, repaired_all};
 use crate::compute::btdf::{Band, Dataset, Finding};
 use blocks::Blocks;
 
-/// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's.
+/// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's. A finding
+/// that asks for several repairs comes once with each of them, one after the other.
 pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     let mut list: Vec<Diagnosis> = dataset.findings.iter().cloned().map(Diagnosis::from).collect();
     list.extend(examined(dataset));
-    // A reader's finding that the doctor makes too is said once, with its repair.
+    // A reader's finding that the doctor makes too is said once, with its repair. One finding about several functions
+    // comes once for every repair that it asks for; each of them is kept.
     let mut kept: Vec<Diagnosis> = Vec::new();
     for one in list {
-        match kept.iter_mut().find(|other| other.finding == one.finding) {
-            Some(other) => other.repair = other.repair.or(one.repair),
+        let same = |other: &&mut Diagnosis| {
+            other.finding == one.finding
+                && (one.repair.is_none() || other.repair.is_none() || other.repair == one.repair)
+        };
+        match kept.iter_mut().find(same) {
+            Some(other) if other.repair.is_none() => (other.repair, other.sure) = (one.repair, one.sure),
+            Some(_) => {}
             None => kept.push(one),
         }
     }
@@ -80,14 +87,15 @@ fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
 fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     let at = At { dataset, band, name, scope };
     let mut list = energy::check(&at);
-    list.extend(copies::check(&at));
+    list.extend(copies::check(&at, blocks));
     let scaled = list.iter().any(|one| one.finding.code == "percent");
     let Some(blocks) = blocks else { return list };
     list.extend(patches::check(&at, blocks));
     list.extend(symmetry::check(&at, blocks));
     let cosine = cosine::check(&at, blocks);
-    // One explanation is enough: a cosine too many upsets every comparison that follows, as percent do.
-    let explained = !cosine.is_empty() || scaled || list.iter().any(|one| one.finding.code == "copied-block");
+    // One explanation is enough: a cosine too many upsets every comparison that follows, as percent and copies do.
+    let copied = |one: &Diagnosis| ["copied-block", "block-mislabelled"].contains(&one.finding.code);
+    let explained = !cosine.is_empty() || scaled || list.iter().any(copied);
     list.extend(cosine);
     if !explained {
         list.extend(sides::check(&at, blocks));

@@ -13,6 +13,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 /// Functions that differ less from their own image are alike, for measured ones. Weighted share.
 const UNEVEN: f64 = 0.02;
 
+/// How far beside the sun in front is asked. \[rad\]
+const ASIDE: f64 = 1e-3;
+
 /// Where the light of one incidence goes, as shares of what is transmitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ways {
@@ -45,11 +48,25 @@ impl Ways {
         }
         (sum > 0.0).then(|| Self { tau: sum, up: up / sum, right: right / sum })
     }
+
+    /// Of a sun 45° above in front: the mean of two suns a little to the right and to the left of it. Straight ahead is
+    /// a border between cells of many functions, where the value would be that of one side alone.
+    fn from_above(btdf: &Btdf) -> Option<Self> {
+        let beside = |aside: f64| Self::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2 + aside)));
+        match (beside(ASIDE), beside(-ASIDE)) {
+            (Some(a), Some(b)) => {
+                let sum = a.tau + b.tau;
+                let mean = |x: f64, y: f64| (x * a.tau + y * b.tau) / sum;
+                Some(Self { tau: 0.5 * sum, up: mean(a.up, b.up), right: mean(a.right, b.right) })
+            }
+            (one, other) => one.or(other).map(|ways| Self { tau: 0.5 * ways.tau, ..ways }),
+        }
+    }
 }
 
 /// The sentence about a sun 45° above in front; `None` when nothing of it passes.
 pub fn sun_from_above(btdf: &Btdf) -> Option<String> {
-    let ways = Ways::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2)))?;
+    let ways = Ways::from_above(btdf)?;
     let (up, down) = (100.0 * ways.up, 100.0 * (1.0 - ways.up));
     let mut text = if up > 55.0 {
         format!("{up:.0} % of the transmitted light goes up")
@@ -167,6 +184,8 @@ mod tests {
         assert!(sun_from_above(&opal).is_some_and(|text| text.contains("up and down alike")));
         let clear = Btdf { regular: Some(AngularTransmittance::Constant(0.8)), scattered: None };
         assert!(sun_from_above(&clear).is_some_and(|text| text.contains("100 % of the transmitted light goes down")));
+        // A sun straight ahead shines on neither side, whichever side of a border it is counted to.
+        assert!(sun_from_above(&clear).is_some_and(|text| !text.contains("seen from the room")));
         // A sun on the right seen from outside shines to the left seen from outside, which is right from the room.
         let right = Ways::of(&clear, Incident(Dir::from_theta_phi(0.5, 0.0))).unwrap();
         assert_eq!((right.right, right.up), (1.0, 0.5));

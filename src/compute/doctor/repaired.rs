@@ -62,6 +62,10 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
     if !done {
         return Err(RepairError::Nothing(repair));
     }
+    if repair == Repair::whole(RepairKind::SwapSides) {
+        // The whole product is turned round, its coatings with it.
+        out.thermal = out.thermal.swapped();
+    }
     out.description = record(&out.description, &[repair]);
     Ok(out)
 }

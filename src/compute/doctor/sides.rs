@@ -71,7 +71,7 @@ fn turned(blocks: &Blocks, block: &Block, turn: Turn) -> Block {
     Block { q, tau: (0..n).map(|i| block.tau[at(i)]).collect() }
 }
 
-fn transposed(blocks: &Blocks, block: &Block) -> Block {
+pub(super) fn transposed(blocks: &Blocks, block: &Block) -> Block {
     let n = blocks.weight.len();
     let q: Vec<f64> = (0..n).flat_map(|i| (0..n).map(move |o| (i, o))).map(|(i, o)| block.q[o * n + i]).collect();
     let tau = q.chunks_exact(n).map(|row| row.iter().zip(&blocks.weight).map(|(q, w)| q * w).sum()).collect();
@@ -170,15 +170,14 @@ fn pair(at: &At, blocks: &Blocks, four: &Four) -> Option<(Diagnosis, Four)> {
     } else {
         (Component::TransmissionBack, as_back)
     };
-    let other = if known {
-        String::new()
+    let (name, other) = if known {
+        (words(component), "")
     } else {
-        " Whether this or the other transmission is the wrong one, the data do not tell; look at the picture."
-            .to_owned()
+        ("One transmission", " Which of the two is the wrong one, the data do not tell; look at the pictures.")
     };
     let message = format!(
         "{} ({}) is {} {}: put right, it agrees with the other transmission within {:.1} %, as it is they differ by {:.0} %.{other}",
-        words(component),
+        name,
         at.name,
         confidence.word(),
         fault.words(),
@@ -186,7 +185,8 @@ fn pair(at: &At, blocks: &Blocks, four: &Four) -> Option<(Diagnosis, Four)> {
         100.0 * before
     );
     let repair = at.repair(fault.repair(), BlockScope::One(component));
-    Some((Diagnosis::suspicion(confidence, fault.code(), message).with(repair), four))
+    let diagnosis = Diagnosis::suspicion(confidence, fault.code(), message);
+    Some((if known { diagnosis.with(repair) } else { diagnosis.asking(repair) }, four))
 }
 
 /// How unevenly the light left over lies between above and below, and how much light is won: rms over the cells of both
@@ -206,6 +206,21 @@ fn disagreement(blocks: &Blocks, four: &Four) -> f64 {
     (sum / std::f64::consts::PI).sqrt()
 }
 
+/// Of two transmissions that are the same numbers the one that the light left over speaks against; `None` where it does
+/// not say.
+pub(super) fn false_copy(blocks: &Blocks) -> Option<Component> {
+    let [Some(front), Some(back), rf, rb] = &blocks.given else { return None };
+    if rf.is_none() && rb.is_none() {
+        return None;
+    }
+    let score = |front: Block, back: Block| disagreement(blocks, &[Some(front), Some(back), rf.clone(), rb.clone()]);
+    let front_false = score(transposed(blocks, back), back.clone());
+    let back_false = score(front.clone(), transposed(blocks, front));
+    let known = (front_false - back_false).abs() > 0.02 + 0.05 * front_false.max(back_false);
+    let component = if front_false < back_false { Component::TransmissionFront } else { Component::TransmissionBack };
+    known.then_some(component)
+}
+
 /// Correlation of what transmission and reflection of one side prefer (above or below), and how strongly each does.
 fn preference(blocks: &Blocks, t: &Block, r: &Block) -> (f64, f64, f64) {
     let (mut tt, mut rr, mut tr) = (0.0, 0.0, 0.0);
@@ -219,6 +234,9 @@ fn preference(blocks: &Blocks, t: &Block, r: &Block) -> (f64, f64, f64) {
     let correlation = if tt > 0.0 && rr > 0.0 { tr / (tt * rr).sqrt() } else { 0.0 };
     (correlation, (tt / std::f64::consts::PI).sqrt(), (rr / std::f64::consts::PI).sqrt())
 }
+
+/// Transmissions of both sides that differ by less agree, as far as measurements do.
+const AGREED: f64 = 0.1;
 
 /// Transmission and reflection that favour the same directions.
 fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
@@ -283,6 +301,15 @@ fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
             ));
         }
     }
+    // As good as both reflections, or the only one, turned: which of them it is, no light left over can say.
+    let through = [turn(tf), turn(tb), rf.clone(), rb.clone()];
+    readings.push((
+        "the transmissions are upside down",
+        upside,
+        RepairKind::TurnUpsideDown,
+        BlockScope::Transmission,
+        through,
+    ));
     if rf.is_some() && tf.is_some() {
         let one = [tf.clone(), tb.clone(), turn(rf), rb.clone()];
         let scope = BlockScope::One(Component::ReflectionFront);
@@ -303,9 +330,17 @@ fn contradiction(at: &At, blocks: &Blocks, four: &Four) -> Option<Diagnosis> {
     let close: Vec<&Reading> =
         rated.iter().filter(|(score, _)| *score < 1.05 * least + 0.005).map(|(_, one)| one).collect();
     let best = close.first()?;
-    // Only light out of nothing is beyond doubt.
-    let confidence = if least < 0.55 * before && won { Confidence::Certain } else { Confidence::Likely };
-    let others: Vec<&str> = close.iter().skip(1).map(|one| one.0).collect();
+    // A transmission that does not agree with that of the other side may be what is wrong instead.
+    let n = blocks.weight.len();
+    let agreed = match (tf, tb) {
+        (Some(f), Some(b)) => blocks.difference(|i, o| f.q[i * n + o], |i, o| b.q[o * n + i]) < AGREED,
+        _ => true,
+    };
+    // Only light out of nothing is beyond doubt, and only one reading of it.
+    let sure = least < 0.55 * before && won && agreed && close.len() == 1;
+    let confidence = if sure { Confidence::Certain } else { Confidence::Likely };
+    let others: Vec<String> =
+        close.iter().skip(1).map(|one| format!("{} ({})", one.0, at.repair(one.2, one.3))).collect();
     let others = if others.is_empty() { String::new() } else { format!(" As well possible: {}.", others.join("; ")) };
     let message = format!(
         "Transmission and reflection ({}) contradict each other: both favour the same incident directions, \

@@ -5,12 +5,13 @@
 //! "Front" is the outside. Azimuths and squares are taken over as [`crate::compute::basis::AzimuthMap::KLEMS_FRONT`]
 //! and `KLEMS_BACK` say, so that nothing is reordered.
 //!
-//! Not read: geometry (MGF), thermal properties, other bands and CIE X/Z or u′/v′ colour data (a finding tells),
+//! Not read: geometry (MGF), other bands and CIE X/Z or u′/v′ colour data (a finding tells),
 //! more than one layer of a file, document type declarations. Nothing is repaired silently: see the findings.
 
 mod assess;
 mod basis;
 mod document;
+mod material;
 mod numbers;
 mod write;
 mod write_tree;
@@ -88,7 +89,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     let bases = Bases::read(&source, definition, &mut findings)?;
 
     let mut dataset = Dataset { findings, ..Dataset::default() };
-    describe(&mut dataset, root, layer);
+    material::describe(&mut dataset, root, layer);
     let mut reader = Reader { source: &source, bases: &bases, structure, dataset: &mut dataset, found_visible: false };
     for data in children(layer, "WavelengthData") {
         reader.wavelength(data)?;
@@ -136,50 +137,6 @@ fn structure(source: &Source, layer: Node<'_, '_>, definition: Option<Node<'_, '
             source.place(node.or(definition).unwrap_or(layer)),
             format!("IncidentDataStructure '{}'", excerpt(&word)),
             "Columns, Rows, TensorTree3 or TensorTree4",
-        )),
-    }
-}
-
-/// Name, maker, thickness and the file's own words about itself.
-fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_, '_>) {
-    let comments = root.document().root().descendants().filter(|node| node.is_comment()).filter_map(|node| node.text());
-    dataset.description =
-        comments.map(str::trim).filter(|text| !text.is_empty()).take(4).collect::<Vec<_>>().join("\n");
-    let Some(material) = child(layer, "Material") else { return };
-    for (element, place) in [("Name", &mut dataset.name), ("Manufacturer", &mut dataset.manufacturer)] {
-        let word = child_text(material, element);
-        if word.eq_ignore_ascii_case(element) {
-            dataset.findings.push(Finding::warning(
-                "template-word",
-                format!("The {element} of the file is the template's own word '{word}': tell the product's."),
-            ));
-        } else if word != "Unknown" {
-            // What the writer puts where nothing is known.
-            *place = word;
-        }
-    }
-    if child_text(material, "Comments").starts_with(write::INVENTED_THICKNESS) {
-        return;
-    }
-    let Some(thickness) = child(material, "Thickness") else { return };
-    let value = text(thickness);
-    if value.is_empty() {
-        return;
-    }
-    let unit = thickness.attribute("unit").unwrap_or("").trim().to_ascii_lowercase();
-    let metres = match unit.as_str() {
-        "meter" | "metre" | "m" => Some(1.0),
-        "centimeter" | "centimetre" | "cm" => Some(0.01),
-        "millimeter" | "millimetre" | "mm" => Some(0.001),
-        "inch" => Some(0.0254),
-        "foot" => Some(0.3048),
-        _ => None,
-    };
-    match (value.parse::<f64>(), metres) {
-        (Ok(value), Some(metres)) if value.is_finite() && value >= 0.0 => dataset.thickness = Some(value * metres),
-        _ => dataset.findings.push(Finding::info(
-            "thickness-unreadable",
-            format!("Thickness '{}' in '{}' is not understood and left out.", excerpt(&value), excerpt(&unit)),
         )),
     }
 }

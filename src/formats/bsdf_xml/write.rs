@@ -7,24 +7,15 @@
 //!
 //! Elements, their order and their words are those of LBNL's schema (BSDF-v1.7.5.xsd), so that WINDOW imports the file:
 //! both bands where there are two, each with its spectra; reflection under the data type "BTDF", the only one that the
-//! schema has; thermal properties that a dataset of light does not know as the defaults of Radiance's template for
-//! WINDOW, which the file's own comment and a finding name as such.
+//! schema has; thermal data as the source told them, else as defaults that are named as such ([`super::material`]).
 
+use super::document::escaped;
+use super::material;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
-
-/// Thickness where none is known. \[m\]
-const THICKNESS: f64 = 0.003;
-/// How the list of defaults begins.
-const INVENTED: &str = "Defaults, not measured: ";
-/// How it begins where the thickness is one of them: readers leave such a thickness out.
-pub(super) const INVENTED_THICKNESS: &str = "Defaults, not measured: thickness, ";
-/// Thermal properties of the file that no dataset of light knows.
-const DEFAULTS: &str =
-    "device type Other, conductivity 1 W/mK, emissivities 0.9, infrared transmittance 0.1, effective openness 0.05";
 
 /// One dataset as a file. Blocks that were derived when it was read are written like the others.
 ///
@@ -36,17 +27,17 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     }
     let basis = common_basis(dataset);
     let mut xml = String::new();
-    head(&mut xml, dataset, &basis);
+    let defaults = head(&mut xml, dataset, &basis);
     band(&mut xml, &dataset.visible, "Visible", &basis);
     if let Some(solar) = &dataset.solar {
         band(&mut xml, solar, "Solar", &basis);
     }
     xml.push_str("\t\t</Layer>\n\t</Optical>\n</WindowElement>\n");
-    Ok(Written { bytes: xml.into_bytes(), findings: changes(dataset, &basis) })
+    Ok(Written { bytes: xml.into_bytes(), findings: changes(dataset, &basis, defaults) })
 }
 
-fn changes(dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
-    let mut findings = Vec::new();
+/// What the file does not hold as the dataset did, and the `findings` of its head.
+fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> Vec<Finding> {
     let mut tell = |code, text: String| findings.push(Finding::info(code, text));
     for component in dataset.visible.components() {
         let Some(btdf) = dataset.visible.get(component) else { continue };
@@ -72,11 +63,6 @@ fn changes(dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
         if dataset.derived.contains(&component) {
             tell("derived-written", format!("{name}: derived, written like a block of the source."));
         }
-    }
-    tell("window-defaults", format!("Not known and written as defaults for WINDOW: {DEFAULTS}."));
-    if dataset.thickness.is_none() {
-        let text = format!("The thickness is not known; {THICKNESS} m is written, since WINDOW asks for it.");
-        tell("window-thickness", text);
     }
     if dataset.solar.is_none() {
         tell(
@@ -107,7 +93,8 @@ fn common_basis(dataset: &Dataset) -> RingBasis {
     own.unwrap_or_else(|| RingBasis::klems_full(AzimuthMap::KLEMS_FRONT))
 }
 
-fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
+/// Everything before the bands; tells which defaults it took.
+fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
     xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml.push_str(
         "<WindowElement xmlns=\"http://windows.lbl.gov\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" ",
@@ -119,18 +106,10 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
     xml.push_str(
         "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
     );
-    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", escape(or_unknown(&dataset.name)));
-    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", escape(or_unknown(&dataset.manufacturer)));
-    let thickness = dataset.thickness.unwrap_or(THICKNESS);
-    let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
-    xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t\t<ThermalConductivity>1</ThermalConductivity>\n");
-    xml.push_str("\t\t\t\t<EmissivityFront>0.9</EmissivityFront>\n\t\t\t\t<EmissivityBack>0.9</EmissivityBack>\n");
-    xml.push_str("\t\t\t\t<TIR>0.1</TIR>\n\t\t\t\t<EffectiveOpennessFraction>0.05</EffectiveOpennessFraction>\n");
-    let first = if dataset.thickness.is_none() { INVENTED_THICKNESS } else { INVENTED };
-    let _ = writeln!(xml, "\t\t\t\t<Comments>{first}{DEFAULTS}.</Comments>");
-    xml.push_str("\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
+    let findings = material::write(xml, dataset, true);
+    xml.push_str("\t\t\t<Geometry></Geometry>\n");
     xml.push_str("\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>Columns</IncidentDataStructure>\n");
-    let _ = writeln!(xml, "\t\t\t\t<AngleBasis>\n\t\t\t\t\t<AngleBasisName>{}</AngleBasisName>", escape(basis.name()));
+    let _ = writeln!(xml, "\t\t\t\t<AngleBasis>\n\t\t\t\t\t<AngleBasisName>{}</AngleBasisName>", escaped(basis.name()));
     for ring in basis.rings() {
         let (low, high) = (degrees(ring.theta_min), degrees(ring.theta_max));
         let middle = if ring.theta_min == 0.0 { 0.0 } else { 0.5 * (low + high) };
@@ -143,21 +122,12 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) {
         );
     }
     xml.push_str("\t\t\t\t</AngleBasis>\n\t\t\t</DataDefinition>\n");
+    findings
 }
 
 /// Degrees without the noise of the way through radians.
 fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
-}
-
-/// Some readers do not stand empty elements.
-fn or_unknown(text: &str) -> &str {
-    if text.trim().is_empty() { "Unknown" } else { text }
-}
-
-fn escape(text: &str) -> String {
-    let clean: String = text.chars().filter(|c| !c.is_control()).collect();
-    clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
@@ -179,7 +149,7 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
         };
         let basis_of_side = basis.clone().with_azimuth(map);
         let matrix = matrix_on(btdf, &basis_of_side, &basis_of_side);
-        let basis_name = escape(basis.name());
+        let basis_name = escaped(basis.name());
         let _ = write!(
             xml,
             "\t\t\t<WavelengthData>\n\t\t\t\t<LayerNumber>System</LayerNumber>\n\

@@ -2,10 +2,11 @@
 //!
 //! Trees of the asked rank are written leaf by leaf as they are: numbers of ten digits at most, as short as they
 //! can be read back. Every other function is averaged over a grid and pruned by [`tree_on`]; what that costs is told.
-//! Functions that were derived when the dataset was read are left out, for readers derive them the same way: a file
-//! that is read and written again holds the blocks that it had. The Geometry element is empty.
+//! Functions that were derived when the dataset was read are left out unless they are asked for, since our reader derives
+//! them the same way: a file that is read and written again holds the blocks that it had. Radiance does not derive them
+//! for rank 3. The Geometry element is empty.
 
-use super::document::escaped;
+use super::material;
 use crate::compute::btdf::{
     Band, Btdf, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank, TreeShape, tree_on,
 };
@@ -23,6 +24,8 @@ pub struct TreeForm {
     /// Largest share of the light that pruning may misplace; `None`: trees of the rank stay as they are, all else is
     /// pruned by [`TreeForm::TOLERANCE`].
     pub tolerance: Option<f64>,
+    /// Are functions written that were derived when the dataset was read?
+    pub derived: bool,
 }
 
 impl TreeForm {
@@ -31,7 +34,7 @@ impl TreeForm {
 
     /// A tree of a rank with everything else by default.
     pub const fn of_rank(rank: TreeRank) -> Self {
-        Self { rank, level: None, tolerance: None }
+        Self { rank, level: None, tolerance: None, derived: false }
     }
 }
 
@@ -69,11 +72,15 @@ pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatEr
             let Some(btdf) = band.get(component) else { continue };
             let title = component.key().replace('_', " ");
             if name == "Visible" && dataset.derived.contains(&component) {
-                findings.push(Finding::info(
-                    "derived-left-out",
-                    format!("{title}: derived, left out; whoever reads the file can derive it again."),
-                ));
-                continue;
+                let (code, what) = if form.derived {
+                    ("derived-written", "derived, written like a block of the source")
+                } else {
+                    ("derived-left-out", "derived, left out; whoever reads the file can derive it again")
+                };
+                findings.push(Finding::info(code, format!("{title}: {what}.")));
+                if !form.derived {
+                    continue;
+                }
             }
             let tree = tree_of(btdf, component, form, &format!("{title} ({name})"), &mut findings)?;
             block(&mut xml, &tree, component, name);
@@ -159,14 +166,9 @@ fn head(xml: &mut String, dataset: &Dataset, rank: TreeRank) {
     xml.push_str(
         "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
     );
-    // Some readers do not stand empty elements.
-    let or_unknown = |text: &str| if text.trim().is_empty() { "Unknown".to_owned() } else { escaped(text) };
-    let _ = writeln!(xml, "\t\t\t<Material>\n\t\t\t\t<Name>{}</Name>", or_unknown(&dataset.name));
-    let _ = writeln!(xml, "\t\t\t\t<Manufacturer>{}</Manufacturer>", or_unknown(&dataset.manufacturer));
-    if let Some(thickness) = dataset.thickness {
-        let _ = writeln!(xml, "\t\t\t\t<Thickness unit=\"Meter\">{thickness}</Thickness>");
-    }
-    xml.push_str("\t\t\t\t<DeviceType>Other</DeviceType>\n\t\t\t</Material>\n\t\t\t<Geometry></Geometry>\n");
+    // Other programs than WINDOW read trees: nothing is invented for them.
+    material::write(xml, dataset, false);
+    xml.push_str("\t\t\t<Geometry></Geometry>\n");
     let _ = writeln!(
         xml,
         "\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>TensorTree{}</IncidentDataStructure>\n\

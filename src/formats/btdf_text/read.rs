@@ -13,8 +13,12 @@ use crate::compute::direction::{Dir, Facade, Incident};
 use crate::formats::location::{FormatError, Location};
 use std::sync::Arc;
 
-/// No indicatrix is believed to send out more than this share of the light; between 1 and here a finding tells.
-const IMPOSSIBLE: f64 = 1.5;
+/// No indicatrix is believed to send out more than this share of the light, not even in percent.
+const IMPOSSIBLE: f64 = 150.0;
+/// Above this the numbers are in another unit.
+const OTHER_UNIT: f64 = 1.5;
+/// Up to here a forgotten π or a cosine explains as much as percent do; beyond, the data doctor says that it is percent.
+const OTHER_FACTOR: f64 = 4.0;
 /// Above this the data are not fit for use.
 const PLAUSIBLE: f64 = 1.05;
 /// Up to here it is rounding.
@@ -24,7 +28,7 @@ const ROUNDING: f64 = 1.001;
 ///
 /// # Errors
 /// Anything that leaves the meaning of the numbers open, with line, what is there and what would be right: no header,
-/// unknown keys or words, counts that do not fit, values that are negative or no finite numbers, incidences that are
+/// unknown keys or words, counts that do not fit, values that are below zero by more than noise or no finite numbers, incidences that are
 /// given twice or lie off the lattice that the header names, more light than came.
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     let Split { header, body, body_line } = split(text(bytes)?)?;
@@ -109,22 +113,23 @@ fn records(header: &Header, body: &str, line: usize) -> Result<Measured, FormatE
     };
     let measured = match (header.layout, rings) {
         (Layout::Rings, Some(FileRings { basis, columns })) => {
-            let (list, mut rows) = ring_records(body, line, basis.len(), incident)?;
+            let ((list, mut rows), noise) = ring_records(body, line, basis.len(), incident)?;
             if let Some(columns) = columns {
                 let sorted = rows.chunks_exact(basis.len()).flat_map(|row| columns.iter().map(|&k| row[k]));
                 rows = sorted.collect();
             }
-            Measured { list, rows, basis, findings: Vec::new() }
+            Measured { list, rows, basis, findings: noise.into_iter().collect() }
         }
         (_, rings) => {
-            let list = point_records(body, line, incident, emergent)?;
+            let (list, noise) = point_records(body, line, incident, emergent)?;
             let distinct: Vec<Incidence> = list.iter().map(|(incidence, _)| *incidence).collect();
             incidence::distinct(&distinct)?;
             if list.is_empty() {
                 return Err(no_records(line));
             }
             let made = resample(&list, rings, emergent)?;
-            Measured { list: distinct, rows: made.rows, basis: made.basis, findings: made.findings }
+            let findings = made.findings.into_iter().chain(noise).collect();
+            Measured { list: distinct, rows: made.rows, basis: made.basis, findings }
         }
     };
     if measured.list.is_empty() { Err(no_records(line)) } else { Ok(measured) }
@@ -143,23 +148,23 @@ fn plausible(
     findings: &mut Vec<Finding>,
 ) -> Result<(), FormatError> {
     let weights = basis.projected_solid_angles();
-    let (mut largest, mut above) = (0.0_f64, 0);
-    for (incidence, row) in list.iter().zip(rows.chunks_exact(weights.len())) {
-        let tau: f64 = row.iter().zip(&weights).map(|(q, w)| q * w).sum();
-        // Values are finite and not negative: a sum may overflow to infinity, but is never NaN.
-        if tau > IMPOSSIBLE {
-            let sum = if tau < 1e4 { format!("{tau:.4}") } else { format!("{tau:.3e}") };
-            return Err(FormatError::new(
-                Location::line(incidence.line),
-                format!("{sum} times the light that comes from θ {}° φ {}° leaves", incidence.theta, incidence.phi),
-                "at most 1: values q = L/E in 1/sr, without the cosine of the emergent angle",
-            ));
-        }
-        largest = largest.max(tau);
-        above += usize::from(tau > ROUNDING);
+    // Values are finite and not negative: a sum may overflow to infinity, but is never NaN.
+    let sum = |row: &[f64]| -> f64 { row.iter().zip(&weights).map(|(q, w)| q * w).sum() };
+    let sums: Vec<f64> = rows.chunks_exact(weights.len()).map(sum).collect();
+    let largest = sums.iter().copied().fold(0.0, f64::max);
+    let above = sums.iter().filter(|tau| **tau > ROUNDING).count();
+    let percent = largest > OTHER_FACTOR && largest <= IMPOSSIBLE;
+    let wrong = list.iter().zip(&sums).find(|(_, tau)| **tau > OTHER_UNIT && !percent);
+    if let Some((incidence, &tau)) = wrong {
+        let sum = if tau < 1e4 { format!("{tau:.4}") } else { format!("{tau:.3e}") };
+        return Err(FormatError::new(
+            Location::line(incidence.line),
+            format!("{sum} times the light that comes from θ {}° φ {}° leaves", incidence.theta, incidence.phi),
+            "at most 1 (100 in percent): values q = L/E in 1/sr, without π or the cosine of the emergent angle",
+        ));
     }
     let (rows_of, what) = (list.len(), words(header.component));
-    if largest > ROUNDING {
+    if largest > ROUNDING && largest <= OTHER_UNIT {
         let message =
             format!("{what}: up to {largest:.4} of the light leaves, more than 1 at {above} of {rows_of} incidences");
         findings.push(if largest > PLAUSIBLE {
@@ -168,7 +173,7 @@ fn plausible(
             Finding::warning("energy-above-one", format!("{message} (measuring error)."))
         });
     } else if largest == 0.0 && header.component == Component::TransmissionFront {
-        findings.push(Finding::warning("opaque", "The transmission from outside is zero everywhere (opaque)."));
+        findings.push(Finding::warning("opaque", "The visible transmission from outside is zero everywhere (opaque)."));
     }
     if header.component != Component::TransmissionFront {
         findings.push(Finding::info(

@@ -2,6 +2,7 @@
 
 use super::frame::Naming;
 use super::{MOST_INCIDENCES, MOST_VALUES};
+use crate::compute::btdf::Finding;
 use crate::compute::direction::{Dir, Facade};
 use crate::formats::location::{FormatError, Location, excerpt};
 
@@ -28,6 +29,51 @@ pub(super) struct Point {
     pub name: Dir<Facade>,
     /// \[1/sr\]
     pub q: f64,
+}
+
+/// Measuring noise around zero: values no further below it than this share of the largest are set to 0.
+const NOISE: f64 = 1e-3;
+
+/// What lies below zero, and what it is to be compared with.
+#[derive(Debug, Default)]
+struct Below {
+    count: usize,
+    least: f64,
+    place: Option<Location>,
+}
+
+impl Below {
+    /// A negative value is counted and comes back as 0.
+    #[cold]
+    fn take(&mut self, line: &Line, field: &str, value: f64) -> f64 {
+        self.count += 1;
+        if value < self.least {
+            (self.least, self.place) = (value, Some(line.at(field)));
+        }
+        0.0
+    }
+
+    /// Noise is told; more than noise is an error at the worst place. `largest`: the largest value of the file.
+    fn judged(self, largest: f64) -> Result<Option<Finding>, FormatError> {
+        let Some(place) = self.place else { return Ok(None) };
+        if -self.least > NOISE * largest {
+            return Err(FormatError::new(
+                place,
+                format!("the negative value {:e}, beyond the noise of a measurement", self.least),
+                format!(
+                    "values of 0 or more in 1/sr (down to -{NOISE} of the largest, {largest:e}, they are set to 0)"
+                ),
+            ));
+        }
+        let share = if largest > 0.0 { -self.least / largest } else { 0.0 };
+        let text = format!(
+            "{} negative values, down to {:.2e} 1/sr or {:.3} % of the largest, were set to 0 as measuring noise.",
+            self.count,
+            self.least,
+            100.0 * share
+        );
+        Ok(Some(Finding::info("negative-values", text)))
+    }
 }
 
 /// One line of numbers, read from left to right.
@@ -79,10 +125,19 @@ impl<'a> Line<'a> {
         Ok((theta, phi, name))
     }
 
+    /// A value: 0 or more, or a little less by noise.
+    fn value(&self, field: &str, below: &mut Below) -> Result<f64, FormatError> {
+        // NaN and infinity fail both comparisons.
+        match field.parse::<f64>() {
+            Ok(value) if (0.0..=LARGEST_Q).contains(&value) => Ok(value),
+            Ok(value) if (-LARGEST_Q..0.0).contains(&value) => Ok(below.take(self, field, value)),
+            _ => Err(self.bad_value(field)),
+        }
+    }
+
     #[cold]
     fn bad_value(&self, field: &str) -> FormatError {
         let found = match field.parse::<f64>() {
-            Ok(value) if value < 0.0 => format!("the negative value {}", excerpt(field)),
             Ok(value) if value.is_finite() => format!("the value {}, which no cell can have", excerpt(field)),
             Ok(_) => format!("'{}', not a finite number", excerpt(field)),
             Err(_) if field.contains(',') => format!("'{}' (decimal or separating comma?)", excerpt(field)),
@@ -92,25 +147,27 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Rings: incidences, and their values one incidence after the other in the file's order of cells.
+/// Incidences, and their values one incidence after the other.
+pub(super) type Rings = (Vec<Incidence>, Vec<f64>);
+/// Incidences, each with its points.
+pub(super) type Points = Vec<(Incidence, Vec<Point>)>;
+
+/// Rings: incidences, their values one incidence after the other in the file's order of cells, and the noise below 0.
 pub(super) fn ring_records(
     body: &str,
     first_line: usize,
     cells: usize,
     naming: Naming,
-) -> Result<(Vec<Incidence>, Vec<f64>), FormatError> {
+) -> Result<(Rings, Option<Finding>), FormatError> {
     let mut list = Vec::new();
+    let mut below = Below::default();
     // Two bytes a value at least: memory follows the file's length, not what it claims.
     let mut values = Vec::with_capacity((body.len() / 2).min(145 * cells).min(MOST_VALUES));
     for mut line in lines(body, first_line) {
         let (theta, phi, name) = line.direction(naming, "incident")?;
         let before = values.len();
-        for field in line.fields.by_ref() {
-            // Negative values, NaN and infinity fail the comparison as well.
-            match field.parse::<f64>() {
-                Ok(value) if (0.0..=LARGEST_Q).contains(&value) => values.push(value),
-                _ => return Err(line.bad_value(field)),
-            }
+        while let Some(field) = line.fields.next() {
+            values.push(line.value(field, &mut below)?);
         }
         let found = values.len() - before;
         if found != cells {
@@ -126,7 +183,8 @@ pub(super) fn ring_records(
             return Err(too_many(line.number));
         }
     }
-    Ok((list, values))
+    let noise = below.judged(values.iter().copied().fold(0.0, f64::max))?;
+    Ok(((list, values), noise))
 }
 
 fn too_many(line: usize) -> FormatError {
@@ -137,25 +195,23 @@ fn too_many(line: usize) -> FormatError {
     )
 }
 
-/// Points: incidences, each with its points.
+/// Points: incidences, each with its points, and the noise below 0.
 pub(super) fn point_records(
     body: &str,
     first_line: usize,
     incident: Naming,
     emergent: Naming,
-) -> Result<Vec<(Incidence, Vec<Point>)>, FormatError> {
-    let mut list: Vec<(Incidence, Vec<Point>)> = Vec::new();
-    let mut count = 0;
+) -> Result<(Points, Option<Finding>), FormatError> {
+    let mut list: Points = Vec::new();
+    let (mut count, mut largest, mut below) = (0, 0.0_f64, Below::default());
     for mut line in lines(body, first_line) {
         let (theta, phi, name) = line.direction(incident, "incident")?;
         let (_, _, out) = line.direction(emergent, "emergent")?;
         let Some(field) = line.fields.next() else {
             return Err(FormatError::new(Location::line(line.number), "four numbers", "five: θ_e φ_e θ_a φ_a q"));
         };
-        let q = match field.parse::<f64>() {
-            Ok(value) if (0.0..=LARGEST_Q).contains(&value) => value,
-            _ => return Err(line.bad_value(field)),
-        };
+        let q = line.value(field, &mut below)?;
+        largest = largest.max(q);
         if let Some(field) = line.fields.next() {
             return Err(FormatError::new(
                 line.at(field),
@@ -173,5 +229,5 @@ pub(super) fn point_records(
             return Err(too_many(line.number));
         }
     }
-    Ok(list)
+    Ok((list, below.judged(largest)?))
 }

@@ -60,6 +60,9 @@ pub fn write_component(dataset: &Dataset, component: Component) -> Result<Writte
     if dataset.solar.is_some() {
         findings.push(Finding::info("solar-not-written", "The solar band has no place in the format."));
     }
+    if !dataset.thermal.is_empty() {
+        findings.push(Finding::info("thermal-not-written", "Thermal data and extents have no place in the format."));
+    }
     let mut text = String::new();
     head(&mut text, dataset, component, &table);
     table.records(&mut text, Naming::incident(component));

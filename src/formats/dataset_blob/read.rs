@@ -1,10 +1,10 @@
 //! Reading the compact binary form: every count is checked against what is there before memory is asked for.
 
-use super::{BlobError, MAGIC, VERSION, join_planes};
+use super::{BlobError, FIRST, MAGIC, VERSION, join_planes};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::compute::btdf::{
     AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered, TensorTree,
-    TreeAxes, TreeNode, TreeRank,
+    Thermal, ThermalKey, TreeAxes, TreeNode, TreeRank,
 };
 use crate::compute::direction::{Dir, Incident};
 use crate::compute::wavelet::CompactRows;
@@ -28,7 +28,7 @@ pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     }
     let mut input = Reader { bytes, at: MAGIC.len() };
     let version = input.byte()?;
-    if version != VERSION {
+    if !(FIRST..=VERSION).contains(&version) {
         return Err(BlobError::Version(version));
     }
     let mut dataset = Dataset {
@@ -50,6 +50,9 @@ pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     }
     dataset.derived = input.components()?;
     dataset.findings = input.findings()?;
+    if version > FIRST {
+        dataset.thermal = input.thermal()?;
+    }
     if bytes.len() - input.at == size_of::<f64>() {
         let period = input.number()?;
         if period <= 0.0 {
@@ -119,6 +122,19 @@ impl<'a> Reader<'a> {
             Ok(text) => Ok(text.to_owned()),
             Err(_) => self.invalid("text that is not UTF-8"),
         }
+    }
+
+    fn thermal(&mut self) -> Result<Thermal, BlobError> {
+        let mut thermal = Thermal::default();
+        thermal.device = self.text()?;
+        for _ in 0..self.count(1 + size_of::<f64>())? {
+            let (place, value) = (self.byte()?, self.number()?);
+            let key = ThermalKey::ALL.get(usize::from(place)).copied();
+            if !key.is_some_and(|key| thermal.set(key, value)) {
+                return self.invalid(format!("thermal value {value} of kind {place}"));
+            }
+        }
+        Ok(thermal)
     }
 
     fn components(&mut self) -> Result<Vec<Component>, BlobError> {

@@ -1,10 +1,10 @@
 //! Writing the compact binary form.
 
-use super::{MAGIC, VERSION, split_planes};
+use super::{FIRST, MAGIC, VERSION, split_planes};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{
     AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, Severity, TensorTree,
-    TreeAxes, TreeNode, TreeRank,
+    Thermal, TreeAxes, TreeNode, TreeRank,
 };
 use crate::compute::wavelet::CompactRows;
 use crate::formats::compact_rows;
@@ -12,7 +12,9 @@ use crate::formats::compact_rows;
 /// Bytes of a dataset. The same dataset always gives the same bytes.
 pub fn encode(dataset: &Dataset) -> Vec<u8> {
     let mut out = Writer(MAGIC.to_vec());
-    out.byte(VERSION);
+    // Only where thermal data are known: other datasets keep the bytes, and with them the name, that they always had.
+    let version = if dataset.thermal.is_empty() { FIRST } else { VERSION };
+    out.byte(version);
     for text in [
         &dataset.name,
         &dataset.manufacturer,
@@ -35,7 +37,10 @@ pub fn encode(dataset: &Dataset) -> Vec<u8> {
     }
     out.byte(mask(dataset.derived.iter().copied()));
     out.findings(&dataset.findings);
-    // Only where it is known: other datasets keep the bytes, and with them the name, that they always had.
+    if version > FIRST {
+        out.thermal(&dataset.thermal);
+    }
+    // Only where it is known, for the same reason.
     if let Some(structure) = dataset.structure {
         out.number(structure);
     }
@@ -68,6 +73,16 @@ impl Writer {
     fn text(&mut self, text: &str) {
         self.count(text.len());
         self.0.extend(text.as_bytes());
+    }
+
+    /// The kind of device, how many numbers are known, and each with its place in [`ThermalKey::ALL`].
+    fn thermal(&mut self, thermal: &Thermal) {
+        self.text(&thermal.device);
+        self.count(thermal.known().count());
+        for (key, value) in thermal.known() {
+            self.byte(key as u8);
+            self.number(value);
+        }
     }
 
     fn band(&mut self, band: &Band) {

@@ -31,14 +31,19 @@ pub(super) fn prismatic(sheet: &keys::Prismatic) -> Result<Prisms, FormatError> 
     if upper > 89.9 && lower > 89.9 {
         return wrong("prismatic.angles", "two flanks normal to the sheet", "at most one of 90°");
     }
+    let (pitch, base) = (length("prismatic.pitch", sheet.pitch)?, length("prismatic.base", sheet.base)?);
+    // Beyond that, the prisms are lost in the rounding of the section.
+    if base > 1000.0 * pitch {
+        return wrong("prismatic.base", format!("{base}"), format!("at most 1000 pitches, {} m", 1000.0 * pitch));
+    }
     Ok(Prisms {
         material: Material {
             index: index("prismatic.index", sheet.index)?,
             absorption: absorption("prismatic.absorption", sheet.absorption)?,
         },
         angles: [upper.to_radians(), lower.to_radians()],
-        pitch: length("prismatic.pitch", sheet.pitch)?,
-        base: length("prismatic.base", sheet.base)?,
+        pitch,
+        base,
         flipped: sheet.flipped,
     })
 }

@@ -169,7 +169,9 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
         }
         ControlMode::Fixed => Rule::Fixed(named()?),
         ControlMode::User => {
-            let periods = keys.schedule.iter().map(|keys| period(keys, device)).collect::<Result<_, _>>()?;
+            let periods: Vec<Period> =
+                keys.schedule.iter().map(|keys| period(keys, device)).collect::<Result<_, _>>()?;
+            distinct(&periods, &keys.schedule)?;
             Rule::User(named()?, periods)
         }
     })
@@ -228,4 +230,27 @@ fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
         })
     };
     Ok(Period { from: read(&keys.from)?, to: read(&keys.to)?, state: device.state(&keys.state, "control.schedule")? })
+}
+
+/// At every time one period at most may hold: which of two were meant, only their order would tell.
+fn distinct(periods: &[Period], keys: &[PeriodKeys]) -> Result<(), StudyError> {
+    let spans = |period: &Period| {
+        if period.from <= period.to {
+            [(period.from, period.to), (0.0, 0.0)]
+        } else {
+            [(period.from, 24.0), (0.0, period.to)]
+        }
+    };
+    let overlap = |one: &Period, other: &Period| {
+        let shared = |a: &(f64, f64)| spans(other).iter().any(|b| a.0.max(b.0) < a.1.min(b.1));
+        spans(one).iter().any(shared)
+    };
+    for (place, period) in periods.iter().enumerate() {
+        if let Some(earlier) = periods[..place].iter().position(|other| overlap(other, period)) {
+            let [a, b] = [&keys[earlier], &keys[place]].map(|keys| format!("{} to {}", keys.from, keys.to));
+            let message = format!("the periods {a} and {b} overlap; expected one state at every time of the day");
+            return Err(StudyError::key("control.schedule", message));
+        }
+    }
+    Ok(())
 }
