@@ -129,12 +129,9 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
         drop(std::fs::create_dir_all(folder));
     }
     let progress = TerminalProgress::new();
-    let mut computed = Vec::new();
-    for state in &states {
-        let kept = keep.as_deref().filter(|_| states.len() > 1);
-        let one = described.measure(state, &request, library, kept, &progress);
-        computed.push(one.map_err(|error| anyhow!("{name}: {error}"))?);
-    }
+    let kept = keep.as_deref().filter(|_| states.len() > 1);
+    let computed = described.measure_all(&states, &request, library, kept, &progress);
+    let computed = computed.map_err(|error| anyhow!("{name}: {error}"))?;
     drop(progress);
     for one in &computed {
         if let Some(quality) = one.quality.filter(|quality| quality.error > request.error) {

@@ -8,7 +8,6 @@ use crate::catalogue::{BUILTIN_ERROR, NewProduct};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Progress, Silent};
 use crate::compute::system::front_basis;
-use rayon::prelude::*;
 
 /// The product of a built-in description with its datasets.
 ///
@@ -22,21 +21,9 @@ pub fn compute(name: &str, progress: &dyn Progress) -> Result<(NewProduct, Vec<D
     let cells = front_basis();
     let request = Request { incident: cells.clone(), emergent: cells, error: BUILTIN_ERROR, seed: 1 };
     let states = described.states(&library)?;
-    let withdrawn = Withdrawn(progress);
-    let datasets: Vec<Dataset> = states
-        .par_iter()
-        .map(|state| Ok(described.measure(state, &request, &library, None, &withdrawn)?.dataset))
-        .collect::<Result<_, StudyError>>()?;
+    let computed = described.measure_all(&states, &request, &library, None, progress)?;
+    let datasets: Vec<Dataset> = computed.into_iter().map(|one| one.dataset).collect();
     Ok((described.product(&request, &datasets), datasets))
-}
-
-/// Hands on whether the result is still wanted; steps within a state would only make a bar jump.
-struct Withdrawn<'a>(&'a dyn Progress);
-
-impl Progress for Withdrawn<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
 }
 
 /// All that are missing in a catalogue's file, with progress by product. Returns how many were stored.

@@ -18,6 +18,7 @@ use crate::compute::system::coated::Layer as Pane;
 use crate::compute::system::description::{Layer, LayerSource, SystemKind};
 use crate::formats::dataset_blob;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -26,7 +27,7 @@ const MOST_LAYERS: usize = 40;
 /// Stacks within stacks, at most.
 const MOST_NESTED: usize = 4;
 /// Version of the methods: raised whenever computed values change, so that kept states are not mistaken.
-const METHODS: u32 = 2;
+const METHODS: u32 = 3;
 
 /// A system file with the place from which it names others.
 #[derive(Debug, Clone, PartialEq)]
@@ -263,6 +264,30 @@ impl Described {
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
     }
 
+    /// Computes several states, as many at a time as there are threads. Progress is told by finished states; that of a
+    /// single one by its own steps.
+    pub fn measure_all(
+        &self,
+        states: &[String],
+        request: &Request,
+        library: &Library,
+        keep: Option<&Path>,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Computed>, StudyError> {
+        if let [state] = states {
+            return Ok(vec![self.measure(state, request, library, keep, progress)?]);
+        }
+        let withdrawn = Withdrawn(progress);
+        let mut done = Vec::with_capacity(states.len());
+        for some in states.chunks(rayon::current_num_threads()) {
+            progress.advance("states", done.len(), states.len());
+            let computed: Result<Vec<Computed>, StudyError> =
+                some.par_iter().map(|state| self.measure(state, request, library, keep, &withdrawn)).collect();
+            done.extend(computed?);
+        }
+        Ok(done)
+    }
+
     /// What the catalogue is told about its datasets.
     pub fn product(&self, request: &Request, datasets: &[Dataset]) -> NewProduct {
         product_of(&self.file, &self.text, self.method(request), datasets)
@@ -307,6 +332,15 @@ impl Described {
             hash.update(b"\0");
         }
         Ok(())
+    }
+}
+
+/// Hands on whether the result is still wanted; steps within a state would only make a bar jump.
+struct Withdrawn<'a>(&'a dyn Progress);
+
+impl Progress for Withdrawn<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
     }
 }
 

@@ -86,7 +86,7 @@ pub struct SharpBeams<B>(pub B);
 
 impl<B: Beams> Specimen for SharpBeams<B> {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        measure(&self.0, setting, progress)
+        Ok(measure(&self.0, setting, progress)?.made_reciprocal())
     }
 }
 

@@ -19,6 +19,7 @@ pub mod outline;
 pub mod panels;
 pub mod panes;
 mod perforated;
+mod reciprocal;
 pub mod sections;
 pub mod sheet;
 pub mod specimen;

@@ -90,8 +90,11 @@ impl Specimen for Panes {
             };
             for (o, out) in emergent.iter().enumerate() {
                 let (from, to) = (cell.theta_min.max(out.theta_min), cell.theta_max.min(out.theta_max));
+                if to - from <= 1e-12 {
+                    continue;
+                }
                 let width = overlap(&cell, out);
-                if to - from > 1e-12 && width > 1e-12 {
+                if width > 1e-12 {
                     let ([mean, _], _) = known.integral(from, to);
                     add(&mut measured, o, width, &mean, out.projected_solid_angle());
                 }

@@ -34,7 +34,7 @@ impl Circle {
     /// Left normal at a point of the circle.
     pub(super) fn normal(&self, point: Point) -> Point {
         let w = [point[0] - self.centre[0], point[1] - self.centre[1]];
-        let size = w[0].hypot(w[1]).max(f64::MIN_POSITIVE).copysign(self.radius);
+        let size = (w[0] * w[0] + w[1] * w[1]).sqrt().max(f64::MIN_POSITIVE).copysign(self.radius);
         w.map(|x| x / size)
     }
 

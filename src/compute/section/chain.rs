@@ -1,6 +1,6 @@
 //! Light that mirrors throw on: a ray from reflection to reflection until it leaves the slats or has died.
 
-use super::outline::{Facet, Point, Section, left_of};
+use super::outline::{Facet, Point, Section};
 use super::sweep::Met;
 use std::f64::consts::PI;
 
@@ -152,8 +152,8 @@ impl Section {
     fn mirrored(&self, ray: &Ray, spread: f64, sequence: &mut Sequence) -> Point {
         let strip = &self.strips[ray.met.strip];
         let d = ray.direction;
-        let circle = &self.facets[self.facet_of[ray.met.strip]].circle;
-        let left = circle.as_ref().map_or_else(|| left_of(strip.a, strip.b), |circle| circle.normal(ray.point));
+        let facet = &self.facets[self.facet_of[ray.met.strip]];
+        let left = facet.circle.as_ref().map_or(facet.left, |circle| circle.normal(ray.point));
         // Towards the ray.
         let side = if strip.faces[0] == Some(ray.met.face) { 1.0 } else { -1.0 };
         let n = left.map(|x| side * x);
@@ -169,7 +169,7 @@ impl Section {
             let off = (1.0 - u * u).sqrt();
             out = [u * along[0] + off * n[0], u * along[1] + off * n[1]];
         }
-        let size = out[0].hypot(out[1]).max(f64::MIN_POSITIVE);
+        let size = (out[0] * out[0] + out[1] * out[1]).sqrt().max(f64::MIN_POSITIVE);
         out.map(|x| x / size)
     }
 

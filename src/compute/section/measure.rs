@@ -65,7 +65,8 @@ pub(super) fn measure(
     let grid = ProfileGrid::new(step(array, setting));
     let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
     let incident = ProfileWeights::new(setting.incident, grid);
-    let emergent = ProfileWeights::new(setting.emergent, grid);
+    let same = setting.emergent == setting.incident;
+    let emergent = if same { incident.clone() } else { ProfileWeights::new(setting.emergent, grid) };
     progress.advance(STAGE, 1, 4);
 
     let mirrors = [array.upper(), array.lower()].iter().any(|side| side.mirror > 0.0);

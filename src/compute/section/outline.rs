@@ -40,6 +40,8 @@ pub(super) struct Facet {
     pub(super) a: Point,
     /// End.
     pub(super) b: Point,
+    /// Unit normal to the left of the way from start to end.
+    pub(super) left: Point,
     /// First strip.
     pub(super) first: usize,
     /// Shares of the way at which the strips end, rising to 1.
@@ -285,7 +287,14 @@ impl Section {
                 let along = || (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
                 circle.map_or_else(along, |circle| circle.share(strip.normals[1]))
             };
-            Facet { a, b, first: run.start, ends: self.strips[run].iter().map(end).collect(), circle }
+            Facet {
+                a,
+                b,
+                left: left_of(a, b),
+                first: run.start,
+                ends: self.strips[run].iter().map(end).collect(),
+                circle,
+            }
         };
         runs.into_iter().map(facet).collect()
     }
