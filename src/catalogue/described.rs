@@ -90,7 +90,8 @@ fn method_words(system: &SystemDescription) -> &'static str {
             "Edmonds' shares (Solar Energy Materials and Solar Cells 29, 1993), Fresnel faces"
         }
         SystemKind::Prismatic(_) | SystemKind::RedirectingGlass(_) => {
-            "section of endless clear bodies, beams followed with their polarisation, no dispersion, no interference"
+            "section of endless clear bodies, beams followed with their polarisation, both sides averaged by reciprocity, \
+             no dispersion, no interference"
         }
         SystemKind::Pane(_) => {
             "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
