@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn products_and_series_are_those_of_the_whole_matrix() {
         let (a, b) = (mirrored(1.3), mirrored(2.1));
-        let [wa, wb] = [Mat::from_fn(5, 5, |r, c| a(r, c)), Mat::from_fn(5, 5, |r, c| b(r, c))];
+        let [wa, wb] = [Mat::from_fn(5, 5, &a), Mat::from_fn(5, 5, &b)];
         let product = &wa * &wb;
         let series = (Mat::<f64>::identity(5, 5) - &product).partial_piv_lu().solve(&wa);
         for halves in [Halves::new(&IMAGE), Halves::none(5)] {

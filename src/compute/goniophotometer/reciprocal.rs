@@ -141,11 +141,11 @@ mod tests {
         let (mut truth, mut found) = (Measured::dark(&setting), Measured::dark(&setting));
         let shape = |i: usize, o: usize| 0.1 + 0.05 * ((i + o) as f64).sin() + if i == o { 3.0 } else { 0.0 };
         for i in 0..n {
-            for o in 0..n {
+            for (o, &turned) in turn.iter().enumerate() {
                 truth.front.transmitted[i * n + o] = shape(i, o);
                 truth.back.transmitted[o * n + i] = shape(i, o);
-                truth.front.reflected[i * n + o] = 0.3 * shape(i, turn[o]);
-                truth.back.reflected[i * n + o] = 0.2 * shape(i, turn[o]);
+                truth.front.reflected[i * n + o] = 0.3 * shape(i, turned);
+                truth.back.reflected[i * n + o] = 0.2 * shape(i, turned);
             }
         }
         for side in Side::BOTH {
