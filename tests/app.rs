@@ -157,6 +157,21 @@ fn keys_maximise_tiles_and_move_the_clock() {
 }
 
 #[test]
+fn arrow_keys_belong_to_an_open_list() {
+    let (mut harness, _) = window();
+    let list = harness.query_all_by_role(egui::accesskit::Role::ComboBox).next().expect("the scene has lists");
+    list.click();
+    harness.run_steps(3);
+    assert!(egui::Popup::is_any_open(&harness.ctx));
+    let before = title(&harness);
+    harness.key_press(Key::ArrowDown);
+    harness.key_press(Key::ArrowUp);
+    harness.key_press(Key::ArrowUp);
+    settle(&mut harness);
+    assert_eq!(title(&harness), before);
+}
+
+#[test]
 fn a_later_hour_gives_another_sky_and_another_room_job() {
     let (mut harness, engine) = window();
     let before = engine.started.load(Ordering::SeqCst);

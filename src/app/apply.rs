@@ -96,10 +96,16 @@ impl App {
             }
             Command::Cancel(lane) => {
                 let stopped = self.jobs.cancel(lane);
-                if stopped && lane == Lane::Goniophotometer {
-                    self.toasts.info("Stopped; finished states are kept, and Compute goes on after them");
-                } else if stopped {
-                    self.toasts.info(format!("{} stopped; what is shown is older than the scene", lane.word()));
+                let told = match lane {
+                    Lane::Goniophotometer => {
+                        "Stopped; finished states are kept, and Compute goes on after them".to_owned()
+                    }
+                    Lane::Builtin => "Stopped; the others are computed at the next start".to_owned(),
+                    Lane::Import | Lane::Export => format!("{} stopped", lane.word()),
+                    _ => format!("{} stopped; what is shown is older than the scene", lane.word()),
+                };
+                if stopped {
+                    self.toasts.info(told);
                 }
             }
             Command::Select(product) => self.select(Selection { product, state: String::new() }),

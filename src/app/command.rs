@@ -332,9 +332,10 @@ impl Command {
     }
 }
 
-/// The commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard.
+/// The commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard, an open
+/// list among others: its arrow keys do not move the clock.
 pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
-    let typing = ctx.memory(|memory| memory.focused().is_some());
+    let typing = ctx.memory(|memory| memory.focused().is_some()) || egui::Popup::is_any_open(ctx);
     // The editor of system files has a history of its own.
     let editing = ctx.memory(|memory| memory.focused()) == Some(egui::Id::unique(SYSTEM_EDITOR));
     let mut list: Vec<(KeyboardShortcut, Command)> = Command::listed()

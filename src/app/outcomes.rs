@@ -228,10 +228,11 @@ impl App {
             Ok(list) => {
                 let there = |one: &&Imported| one.same_content_as == [one.key.as_str()];
                 let known = list.iter().filter(there).count();
-                self.toasts.success(match (list.len(), known) {
-                    (all, 0) => format!("Imported: {all} products"),
-                    (all, known) if known == all => "Imported: all of it was there already".to_owned(),
-                    (all, known) => format!("Imported: {} products; {known} were there already", all - known),
+                let products = |n: usize| if n == 1 { "1 product".to_owned() } else { format!("{n} products") };
+                self.toasts.success(match (list.len() - known, known) {
+                    (new, 0) => format!("Imported: {}", products(new)),
+                    (0, _) => "Nothing new: all of it was there already".to_owned(),
+                    (new, known) => format!("Imported: {}; there already: {known}", products(new)),
                 });
                 if let Some(first) = list.first() {
                     self.apply(super::command::Command::Select(first.key.clone()));

@@ -2,7 +2,7 @@
 //! stored as they are done, taken up again where an earlier run stopped.
 
 use super::error::StudyError;
-use super::goniophotometer::{Described, Request};
+use super::goniophotometer::{Described, Request, Withdrawn};
 use super::library::Library;
 use crate::catalogue::{BUILTIN_ERROR, NewProduct};
 use crate::compute::btdf::Dataset;
@@ -21,7 +21,7 @@ pub fn compute(name: &str, progress: &dyn Progress) -> Result<(NewProduct, Vec<D
     let cells = front_basis();
     let request = Request { incident: cells.clone(), emergent: cells, error: BUILTIN_ERROR, seed: 1 };
     let states = described.states(&library)?;
-    let computed = described.measure_all(&states, &request, &library, None, progress)?;
+    let computed = described.measure_all(&states, &request, &library, None, &Withdrawn(progress))?;
     let datasets: Vec<Dataset> = computed.into_iter().map(|one| one.dataset).collect();
     Ok((described.product(&request, &datasets), datasets))
 }

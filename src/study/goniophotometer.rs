@@ -336,7 +336,7 @@ impl Described {
 }
 
 /// Hands on whether the result is still wanted; steps within a state would only make a bar jump.
-struct Withdrawn<'a>(&'a dyn Progress);
+pub(super) struct Withdrawn<'a>(pub(super) &'a dyn Progress);
 
 impl Progress for Withdrawn<'_> {
     fn cancelled(&self) -> bool {

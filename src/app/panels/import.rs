@@ -38,13 +38,16 @@ pub(super) fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let missing = import.name.trim().is_empty();
         if !import.datasets.is_empty() {
             let add = ui.add_enabled(!missing, egui::Button::new(Command::AddImport.info().text));
-            if add.on_disabled_hover_text("Give it a name first").clicked() {
+            if add.clicked() {
                 commands.push(Command::AddImport);
             }
         }
         let discard = Command::DiscardImport.info();
         if ui.button(discard.text).on_hover_text(discard.tip).clicked() {
             commands.push(Command::DiscardImport);
+        }
+        if missing && !import.datasets.is_empty() {
+            ui.weak("It needs a name: below.");
         }
     });
 }

@@ -15,7 +15,7 @@ pub struct Effort {
     /// Seed of that choice.
     pub seed: u64,
     /// Surfaces, counted over all beams together, up to which `share` holds. From there on it grows with their number,
-    /// and after [`PATIENCE`] times as many, one of the beams that are left, chosen at random in proportion to its
+    /// and after ten times as many, one of the beams that are left, chosen at random in proportion to its
     /// flux, stands for all. With it the work for one direction is bounded, without bias.
     pub surfaces: u32,
 }

@@ -1,7 +1,7 @@
 //! The data doctor: what is odd about a dataset, what that does to results, and how it may be mended.
 //!
 //! [`examine`] asks everything that can be asked of the numbers themselves; what only a reader can know (syntax,
-//! labels, counts) is already in [`Dataset::findings`] and is passed on with its meaning. [`repaired`] does what a
+//! labels, counts) is already in [`Dataset::findings`] and is passed on with its meaning. [`repaired()`] does what a
 //! finding offers, and nothing is ever mended without being asked for.
 //!
 //! Comparisons between functions are made on common cells in through-names ([`blocks`]), where a clear pane is a

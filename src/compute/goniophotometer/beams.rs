@@ -3,7 +3,7 @@
 //! An incident cell is cut into parts of equal projected solid angle. The beams of one direction of each part are
 //! found; where the rest of the part goes follows from how the beams turn with the incident direction, so that flux is
 //! laid into the emergent cells at the fineness of those and not of the parts. The flux of every part is kept exactly.
-//! The directions are a scrambled net ([`super::net`]): every power of two of them has one direction in every part.
+//! The directions are a scrambled net: every power of two of them has one direction in every part.
 //! Their number is doubled, what was found before being kept, until the totals stand.
 
 use super::cells::CellFinder;

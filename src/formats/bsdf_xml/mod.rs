@@ -29,7 +29,7 @@ use basis::Bases;
 use document::{Source, child, child_text, children, text};
 use roxmltree::Node;
 
-/// One dataset as a file: trees where all its functions are trees of one rank ([`write_tree`]), matrices otherwise
+/// One dataset as a file: trees where all its functions are trees of one rank ([`write_tree()`]), matrices otherwise
 /// ([`write_matrices`]).
 ///
 /// # Errors

@@ -75,7 +75,7 @@ impl Writer {
         self.0.extend(text.as_bytes());
     }
 
-    /// The kind of device, how many numbers are known, and each with its place in [`ThermalKey::ALL`].
+    /// The kind of device, how many numbers are known, and each with its place in `ThermalKey::ALL`.
     fn thermal(&mut self, thermal: &Thermal) {
         self.text(&thermal.device);
         self.count(thermal.known().count());
