@@ -110,9 +110,12 @@ impl Catalogue {
 
     /// Refuses files of other programs and of newer ones.
     fn judge(&self) -> Result<(), CatalogueError> {
-        let found = Self::version(&self.db)?;
-        let application: i64 = self.db.pragma_query_value(None, "application_id", |row| row.get(0))?;
-        let tables: i64 = self.db.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+        // One look at all three: another program may be making the file at this moment.
+        let look = self.db.unchecked_transaction()?;
+        let found = Self::version(&look)?;
+        let application: i64 = look.pragma_query_value(None, "application_id", |row| row.get(0))?;
+        let tables: i64 = look.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+        look.finish()?;
         if tables > 0 && application != APPLICATION {
             return Err(CatalogueError::NotACatalogue(String::new()));
         }
