@@ -1,6 +1,7 @@
 //! The descriptions of the built-in catalogue: every one reads, tells what it is, and names what is there.
 
-use cfs::compute::system::description::{LayerSource, SystemKind};
+use cfs::compute::system::SystemKind;
+use cfs::compute::system::stack::LayerSource;
 use cfs::formats::system_toml::{self, EACH_STATE, SystemFile};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

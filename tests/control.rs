@@ -6,7 +6,7 @@ use cfs::compute::control::cut_off::Section;
 use cfs::compute::direction::Surface;
 use cfs::compute::estimate::Silent;
 use cfs::compute::sky::SUN_HALF_ANGLE;
-use cfs::compute::system::slat_profile::SlatProfile;
+use cfs::compute::system::slats::SlatProfile;
 use cfs::study::control::Device;
 use cfs::study::control::keys::{ControlKeys, ControlMode};
 use cfs::study::control::year::{ClearSky, Moment, Moving, Situation, day, year};

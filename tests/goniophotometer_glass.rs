@@ -5,18 +5,18 @@
 mod kit;
 
 use cfs::compute::basis::{AzimuthMap, RingBasis};
-use cfs::compute::dielectric::prism::Prisms;
-use cfs::compute::dielectric::profile::bar;
-use cfs::compute::dielectric::{Body, Effort, Material, Outline, OutlineError, Section};
 use cfs::compute::direction::{Dir, Facade};
 use cfs::compute::estimate::Silent;
-use cfs::compute::goniophotometer::beams::{Beam, Beams, Shares, SharpBeams};
-use cfs::compute::goniophotometer::panels::CutPanel;
-use cfs::compute::goniophotometer::panes::Panes;
-use cfs::compute::goniophotometer::{Measured, Setting, Side, Specimen};
-use cfs::compute::system::coated::{Layer, stack};
-use cfs::compute::system::glazing::{Pane, fresnel};
+use cfs::compute::system::clear::prism::Prisms;
+use cfs::compute::system::clear::profile::bar;
+use cfs::compute::system::clear::{Body, Effort, Material, Outline, OutlineError, Section};
+use cfs::compute::system::laser_cut::CutPanel;
 use cfs::compute::system::laser_cut::LaserCutPanel;
+use cfs::compute::system::measure::beams::{Beam, Beams, Shares, SharpBeams};
+use cfs::compute::system::measure::{Measured, Setting, Side, Specimen};
+use cfs::compute::system::panes::Panes;
+use cfs::compute::system::panes::coated::{Layer, stack};
+use cfs::compute::system::panes::glazing::{Pane, fresnel};
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -7,9 +7,9 @@ use cfs::compute::basis::{self, RingBasis};
 use cfs::compute::btdf::Component;
 use cfs::compute::direction::Dir;
 use cfs::compute::estimate::Silent;
-use cfs::compute::goniophotometer::{Measured, Setting, Side, Specimen};
-use cfs::compute::section::{SlatArray, Surface};
-use cfs::compute::system::slat_profile::SlatProfile;
+use cfs::compute::system::measure::{Measured, Setting, Side, Specimen};
+use cfs::compute::system::slats::SlatProfile;
+use cfs::compute::system::slats::{SlatArray, Surface};
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -170,8 +170,8 @@ fn the_direct_share_is_exact_in_every_cell() {
         slats.measure(&Setting { incident: &incident, emergent: &emergent, error: 0.01, seed: 0 }, &Silent).unwrap();
     let tau = m.shares(&m.front.transmitted);
     for cell in [0, 7, 33, 60, 90, 110, 130, 144] {
-        let mean = cfs::compute::system::cell_mean(&incident.cell(cell), 1000, |d| {
-            let psi = cfs::compute::control::profile_angle(d).unwrap();
+        let mean = cfs::compute::basis::cell_mean(&incident.cell(cell), 1000, |d| {
+            let psi = cfs::compute::profile_angle::profile_angle(d).unwrap();
             (1.0 - slats.profile().extent(slats.tilt() + psi) / (slats.spacing() * psi.cos())).max(0.0)
         });
         assert!((tau[cell] - mean).abs() < 1e-5, "{cell}: {} {mean}", tau[cell]);
@@ -223,8 +223,9 @@ fn level_mirrors_pass_light_after_as_many_reflections_as_unfolding_counts() {
     };
     let tau = m.shares(&m.front.transmitted);
     for (i, cell) in m.incident.cells().enumerate() {
-        let mean =
-            cfs::compute::system::cell_mean(&cell, 200, |d| unfolded(cfs::compute::control::profile_angle(d).unwrap()));
+        let mean = cfs::compute::basis::cell_mean(&cell, 200, |d| {
+            unfolded(cfs::compute::profile_angle::profile_angle(d).unwrap())
+        });
         assert!((tau[i] - mean).abs() < 1e-3, "{i}: {} {mean}", tau[i]);
     }
     assert!(m.shares(&m.front.reflected).iter().all(|r| *r < 1e-4));

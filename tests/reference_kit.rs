@@ -183,7 +183,8 @@ fn tensor_trees() {
 
 #[test]
 fn sky_patches() {
-    use cfs::compute::sky::patches::{mean_luminance, tregenza_patches};
+    use cfs::compute::sky::mean_luminance;
+    use cfs::compute::sky::patches::tregenza_patches;
     let Some(root) = shared("sky") else { return };
     let (mut off, mut compared) = (Vec::new(), 0);
     for path in scenes(&root, "sky") {

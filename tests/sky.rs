@@ -3,7 +3,8 @@
 use cfs::compute::angle::Bearing;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::direction::{Dir, Orientation, Surface, World};
-use cfs::compute::sky::patches::{mean_luminance, tregenza_patches};
+use cfs::compute::sky::mean_luminance;
+use cfs::compute::sky::patches::tregenza_patches;
 use cfs::compute::sky::{Distribution, Frame, Outside, SUN_HALF_ANGLE, Scan, Sun, incident_illuminances, irradiance};
 use cfs::study::sun_position::{Place, parse_local_time, rise_set, sun_position};
 use proptest::prelude::*;

@@ -6,7 +6,7 @@
 use cfs::compute::control::controller::{Controller, Inputs, Rounding, Rule, Settings, SunAt};
 use cfs::compute::control::cut_off::Section;
 use cfs::compute::sky::SUN_HALF_ANGLE;
-use cfs::compute::system::slat_profile::SlatProfile;
+use cfs::compute::system::slats::SlatProfile;
 
 /// Elevation that the redirecting blind aims at. \[°\]
 pub const ELEVATION: f64 = 30.0;

@@ -180,7 +180,7 @@ fn spread_of(data: &Dataset, altitude: f64) -> f64 {
     let centre = data.incident()[row].0.vector();
     let (mut flux, mut moment) = (0.0, 0.0);
     for (cell, q) in data.emergent().cells().zip(data.row(row).iter()) {
-        for d in cfs::compute::system::sub_directions(&cell, 3) {
+        for d in cfs::compute::basis::sub_directions(&cell, 3) {
             let share = q * cell.projected_solid_angle();
             flux += share;
             moment += share * (d.vector() - centre).length_squared();

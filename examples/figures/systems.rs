@@ -82,7 +82,7 @@ fn mean_of(lobe: &Lobe, cell: &cfs::compute::basis::Cell) -> f64 {
     if (cell.centre().vector() - lobe.centre).length() > reach {
         return 0.0;
     }
-    cfs::compute::system::cell_mean(cell, 4, |w| ((w.vector().dot(lobe.centre) - 1.0) / lobe.sigma.powi(2)).exp())
+    cfs::compute::basis::cell_mean(cell, 4, |w| ((w.vector().dot(lobe.centre) - 1.0) / lobe.sigma.powi(2)).exp())
 }
 
 /// A law measured at the centres of a lattice.

@@ -170,8 +170,7 @@ layers = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::goniophotometer::outline::{drawing_period, section_drawing};
-    use crate::compute::system::description::SystemKind;
+    use crate::compute::system::SystemKind;
     use crate::formats::system_toml;
 
     #[test]
@@ -182,10 +181,10 @@ mod tests {
             if matches!(system.kind, SystemKind::Stack(_)) {
                 continue;
             }
-            let period = drawing_period(&system).unwrap_or(1.0);
+            let period = system.family().drawing_period().unwrap_or(1.0);
             assert!(period > 0.0);
             for state in system.states() {
-                let drawing = section_drawing(&system, &state);
+                let drawing = system.family().drawing(&state);
                 assert!(!drawing.is_empty(), "{} {state}: no drawing", example.name);
                 assert!(drawing.iter().all(|polygon| polygon.len() >= 3), "{} {state}", example.name);
                 assert!(drawing.iter().flatten().flatten().all(|x| x.is_finite()), "{} {state}", example.name);

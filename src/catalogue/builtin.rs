@@ -9,10 +9,12 @@ use super::described::{described_dataset, method, product_of};
 use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance, store};
 use crate::compute::btdf::{Band, Btdf, Dataset};
 use crate::compute::estimate::Silent;
-use crate::compute::goniophotometer::Setting;
-use crate::compute::goniophotometer::specimen::specimen;
-use crate::compute::system::description::{LayerSource, SystemKind, Venetian};
-use crate::compute::system::{diffuser::lambertian, front_basis};
+use crate::compute::system::SystemKind;
+use crate::compute::system::measure::Setting;
+use crate::compute::system::measure::front_basis;
+use crate::compute::system::sheets::diffuser::lambertian;
+use crate::compute::system::slats::Venetian;
+use crate::compute::system::stack::LayerSource;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile};
 use rayon::prelude::*;
 use rusqlite::OptionalExtension;
@@ -120,7 +122,7 @@ pub fn builtin_products() -> Vec<(i64, NewProduct, Vec<Dataset>)> {
                 let setting = Setting { incident: &cells, emergent: &cells, error: BUILTIN_ERROR, seed: 1 };
                 let dataset = |state: String| {
                     let specimen =
-                        specimen(&file.system, &state).expect("built-in descriptions are computed by the tests");
+                        file.system.specimen(&state).expect("built-in descriptions are computed by the tests");
                     let (visible, quality) = specimen.examine(&setting, &Silent).expect("nobody cancels");
                     described_dataset(&file, state, visible, &quality, BUILTIN_ERROR)
                 };

@@ -5,8 +5,9 @@ use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
 use crate::compute::btdf::{Band, Dataset, Finding};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
 use crate::compute::control::cut_off::Section;
-use crate::compute::goniophotometer::Quality;
-use crate::compute::system::description::{SystemDescription, SystemKind, Venetian};
+use crate::compute::system::SystemDescription;
+use crate::compute::system::measure::Quality;
+use crate::compute::system::slats::Venetian;
 use crate::formats::system_toml::SystemFile;
 use std::f64::consts::FRAC_PI_2;
 
@@ -25,14 +26,14 @@ pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dat
     NewProduct {
         key: (!file.key.is_empty()).then(|| file.key.clone()),
         name: system.name.clone(),
-        kind: system.kind.word().to_owned(),
+        kind: system.family().word().to_owned(),
         description: system.description.clone(),
         provenance: Provenance {
             origin: Origin::Computed,
             author: "cfs".to_owned(),
             method,
             source_hash: blake3::hash(text.as_bytes()).to_hex().to_string(),
-            inside_face: inside_face(system).to_owned(),
+            inside_face: system.family().inside_face().to_owned(),
             ..Provenance::default()
         },
         tags: file.tags.clone(),
@@ -46,7 +47,7 @@ pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dat
 /// How the values of a described system come to be: the program, its method, what it was asked.
 pub fn method(system: &SystemDescription, error: f64, [incident, emergent]: [usize; 2]) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    let words = method_words(system);
+    let words = system.family().method();
     format!("Numerical goniophotometer of cfs {version}: {words}; error target {error}, {incident} × {emergent} cells")
 }
 
@@ -60,7 +61,7 @@ pub fn described_dataset(file: &SystemFile, state: String, visible: Band, qualit
     let balance = 100.0 * quality.balance;
     let text = format!(
         "Computed ({}): τ + ρ + α = 1 within {balance:.3} %, {reciprocity}, estimated error of τ and ρ at most {:.4}.",
-        method_words(system),
+        system.family().method(),
         quality.error
     );
     let mut findings = vec![Finding::info("computed", text)];
@@ -73,44 +74,10 @@ pub fn described_dataset(file: &SystemFile, state: String, visible: Band, qualit
         name: system.name.clone(),
         description: system.description.clone(),
         state,
-        structure: system.structure(),
+        structure: system.family().structure(),
         visible,
         findings,
         ..Dataset::default()
-    }
-}
-
-/// The method in words, with its source.
-fn method_words(system: &SystemDescription) -> &'static str {
-    match &system.kind {
-        SystemKind::Venetian(_) => {
-            "section of endless slats, direct share in closed form, strip radiosity, mirror chains as bundles of lines"
-        }
-        SystemKind::LaserCutPanel(_) => {
-            "Edmonds' shares (Solar Energy Materials and Solar Cells 29, 1993), Fresnel faces"
-        }
-        SystemKind::Prismatic(_) | SystemKind::RedirectingGlass(_) => {
-            "section of endless clear bodies, beams followed with their polarisation, both sides averaged by reciprocity, \
-             no dispersion, no interference"
-        }
-        SystemKind::Pane(_) => {
-            "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
-        }
-        SystemKind::Diffuser(_) => "separable diffuse light and a balanced Gaussian lobe in direction cosines",
-        SystemKind::Woven(_) => "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)",
-        SystemKind::Perforated(_) => "radiosity in the hole, straight share by clipped polygons",
-        SystemKind::Stack(_) => {
-            "adding method on matrices of refined cells (Klems, ASHRAE Transactions 100, 1994), panes side by side with \
-             their polarisation in closed form"
-        }
-    }
-}
-
-const fn inside_face(system: &SystemDescription) -> &'static str {
-    match system.kind {
-        SystemKind::Venetian(_) => "room side of the description: outer edges lowered at positive angles",
-        SystemKind::Stack(_) => "last layer of the description",
-        _ => "room side of the description",
     }
 }
 
@@ -147,8 +114,8 @@ pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::section::Surface;
-    use crate::compute::system::slat_profile::SlatProfile;
+    use crate::compute::system::slats::SlatProfile;
+    use crate::compute::system::slats::Surface;
 
     fn blind() -> Venetian {
         Venetian {

@@ -38,13 +38,13 @@ pub(super) fn not_computed(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Re
         let Some(described) = Described::builtin(name) else { continue };
         let system = &described.file.system;
         let text = format!("{} {} {}", system.name, system.description, described.file.tags.join(" ")).to_lowercase();
-        let asked = args.kind.as_ref().is_none_or(|kind| kind == system.kind.word());
+        let asked = args.kind.as_ref().is_none_or(|kind| kind == system.family().word());
         if asked && words.iter().all(|word| text.contains(word)) {
             list.push(ProductRow {
                 key: described.file.key.clone(),
                 name: system.name.clone(),
                 manufacturer: String::new(),
-                kind: system.kind.word().to_owned(),
+                kind: system.family().word().to_owned(),
                 origin: Origin::Computed,
                 state_keys: described.states(&library)?,
                 tau_normal: None,

@@ -144,7 +144,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
     let told = if args.json {
         let value = json!({
             "system": described.file.system.name,
-            "kind": described.file.system.kind.word(),
+            "kind": described.file.system.family().word(),
             "method": described.method(&request),
             "states": computed.iter().map(to_json).collect::<Vec<_>>(),
         });
@@ -259,7 +259,7 @@ fn to_json(one: &Computed) -> Value {
 
 fn to_text(described: &Described, request: &Request, computed: &[Computed]) -> anyhow::Result<String> {
     let mut text = String::new();
-    writeln!(text, "{} ({})", described.file.system.name, described.file.system.kind.word())?;
+    writeln!(text, "{} ({})", described.file.system.name, described.file.system.family().word())?;
     writeln!(text, "{}", described.method(request))?;
     writeln!(text, "state      τ normal  τ hemi.  τ+ρ+α−1   reciprocity  error    seconds")?;
     for one in computed {

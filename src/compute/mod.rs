@@ -1,5 +1,27 @@
 //! Numbers in, numbers out: photometry and numerics without files, windows or clocks.
 //!
+//! # Rooms, foundations first
+//!
+//! Each room uses only those before it, and inside a room no two files use each other; `tests/tidy.rs` reads this list.
+//!
+//! - `angle`: angles and bearings as types
+//! - `direction`: directions, frames and what points where
+//! - `profile_angle`: directions in the section across slats
+//! - `estimate`: numbers with their error, progress and cancelling
+//! - `quadrature`: integrals with errors
+//! - `basis`: divisions of the hemisphere into cells
+//! - `wavelet`: compact rows of values on cells
+//! - `btdf`: the four functions of a system as data
+//! - `sky`: luminances outside, the sun and its disc
+//! - `system`: described systems, a room a family, and the goniophotometer that makes data of them
+//! - `incidence`: between incident directions
+//! - `doctor`: faults of data and their repair
+//! - `lid`: the aperture as a luminaire
+//! - `room`: apertures, direct light and interreflection
+//! - `control`: which state a moving system takes
+//!
+//! # Symbols
+//!
 //! | symbol | identifier | unit | meaning |
 //! | --- | --- | --- | --- |
 //! | q | `q`, luminance coefficient | 1/sr | luminance leaving per illuminance arriving (eq 2) |
@@ -19,16 +41,14 @@ pub mod angle;
 pub mod basis;
 pub mod btdf;
 pub mod control;
-pub mod dielectric;
 pub mod direction;
 pub mod doctor;
 pub mod estimate;
-pub mod goniophotometer;
 pub mod incidence;
 pub mod lid;
+pub mod profile_angle;
 pub mod quadrature;
 pub mod room;
-pub mod section;
 pub mod sky;
 pub mod system;
 pub mod wavelet;

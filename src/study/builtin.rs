@@ -7,7 +7,7 @@ use super::library::Library;
 use crate::catalogue::{BUILTIN_ERROR, NewProduct};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Progress, Silent};
-use crate::compute::system::front_basis;
+use crate::compute::system::measure::front_basis;
 
 /// The product of a built-in description with its datasets.
 ///

@@ -9,13 +9,13 @@ use crate::catalogue::{NewProduct, builtin_system, described_dataset, method, pr
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
-use crate::compute::goniophotometer::panes::Panes;
-use crate::compute::goniophotometer::specimen::specimen;
-use crate::compute::goniophotometer::stack::{DataLayer, Stack};
-use crate::compute::goniophotometer::upright::Upright;
-use crate::compute::goniophotometer::{Quality, Setting, Specimen};
-use crate::compute::system::coated::Layer as Pane;
-use crate::compute::system::description::{Layer, LayerSource, SystemKind};
+use crate::compute::system::SystemKind;
+use crate::compute::system::measure::upright::Upright;
+use crate::compute::system::measure::{Quality, Setting, Specimen};
+use crate::compute::system::panes::Panes;
+use crate::compute::system::panes::coated::Layer as Pane;
+use crate::compute::system::stack::{DataLayer, Stack};
+use crate::compute::system::stack::{Layer, LayerSource};
 use crate::formats::dataset_blob;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use rayon::prelude::*;
@@ -187,7 +187,7 @@ impl Described {
     ) -> Result<(), StudyError> {
         let system = &self.file.system;
         let SystemKind::Stack(layers) = &system.kind else {
-            let made = specimen(system, state).map_err(|error| StudyError::key("state", error.to_string()))?;
+            let made = system.specimen(state).map_err(|error| StudyError::key("state", error.to_string()))?;
             match (&system.kind, list.last_mut()) {
                 (SystemKind::Pane(pane), Some(Part::Panes(before))) => before.extend(pane.layers()),
                 (SystemKind::Pane(pane), _) => list.push(Part::Panes(pane.layers())),

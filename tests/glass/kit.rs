@@ -1,7 +1,7 @@
 //! Reading the cases of the reference kit: descriptions, tables, patch matrices.
 
 use cfs::compute::basis::{AzimuthMap, RingBasis};
-use cfs::compute::goniophotometer::{Measured, Side};
+use cfs::compute::system::measure::{Measured, Side};
 use std::path::PathBuf;
 use std::process::Command;
 

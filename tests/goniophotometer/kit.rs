@@ -2,9 +2,9 @@
 
 use cfs::compute::basis::{AzimuthMap, RingBasis, same_cells};
 use cfs::compute::btdf::{Band, Btdf, Component, Scattered};
-use cfs::compute::goniophotometer::Side;
-use cfs::compute::section::{SlatArray, Surface};
-use cfs::compute::system::slat_profile::SlatProfile;
+use cfs::compute::system::measure::Side;
+use cfs::compute::system::slats::SlatProfile;
+use cfs::compute::system::slats::{SlatArray, Surface};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 

@@ -117,14 +117,17 @@ fn starts_word(token: &str) -> bool {
 
 /// Every path of at least two words, and every single word after `use`; trees in braces are spread out.
 pub fn paths(source: &str) -> Vec<UsedPath> {
-    let tokens = tokens(&blank(source));
+    paths_of(&tokens(&blank(source)))
+}
+
+fn paths_of(tokens: &[(usize, String)]) -> Vec<UsedPath> {
     let mut found = vec![];
     let mut at = 0;
     while at < tokens.len() {
         let before = if at == 0 { "" } else { tokens[at - 1].1.as_str() };
         if starts_word(&tokens[at].1) && before != "." {
             let first = found.len();
-            at = tree(&tokens, at, &[], &mut found);
+            at = tree(tokens, at, &[], &mut found);
             if before != "use" {
                 let kept: Vec<UsedPath> = found.drain(first..).filter(|path| path.words.len() > 1).collect();
                 found.extend(kept);
@@ -178,4 +181,71 @@ pub fn attributes(source: &str) -> Vec<(usize, String)> {
     let tokens = tokens(&blank(source));
     let pairs = tokens.windows(3).filter(|three| three[0].1 == "#" && three[1].1 == "[");
     pairs.map(|three| three[2].clone()).collect()
+}
+
+/// The source with everything under `#[cfg(test)]` turned into blanks, besides comments and literals.
+pub fn tests_blanked(source: &str) -> String {
+    const MARK: &str = "#[cfg(test)]";
+    let mut text = blank(source);
+    while let Some(start) = text.find(MARK) {
+        let rest = &text[start + MARK.len()..];
+        let mut depth = 0_usize;
+        let end = rest.char_indices().find_map(|(at, c)| {
+            match c {
+                '{' => depth += 1,
+                '}' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            ((c == ';' || c == '}') && depth == 0).then_some(at + 1)
+        });
+        let end = start + MARK.len() + end.unwrap_or(rest.len());
+        let blanks: String = text[start..end].chars().map(|c| if c == '\n' { '\n' } else { ' ' }).collect();
+        text.replace_range(start..end, &blanks);
+    }
+    text
+}
+
+/// `use` trees with whether they are public, and the place of the first token behind them.
+fn uses(tokens: &[(usize, String)]) -> Vec<(bool, std::ops::Range<usize>)> {
+    let word = |at: usize| tokens.get(at).map_or("", |(_, token)| token.as_str());
+    let starts = (0..tokens.len()).filter(|&at| word(at) == "use");
+    starts
+        .map(|at| {
+            let end = (at..tokens.len()).find(|&end| word(end) == ";").unwrap_or(tokens.len());
+            let public = at > 0 && (word(at - 1) == "pub" || word(at - 1) == ")");
+            (public, at + 1..end)
+        })
+        .collect()
+}
+
+/// Names that a file hands on by `pub use`, each with the path it stands for.
+pub fn reexports(text: &str) -> Vec<(String, Vec<String>)> {
+    let tokens = tokens(text);
+    let mut list = vec![];
+    for (_, range) in uses(&tokens).into_iter().filter(|(public, _)| *public) {
+        let mut found = vec![];
+        tree(&tokens, range.start, &[], &mut found);
+        for path in found {
+            if let Some(name) = path.words.last() {
+                list.push((name.clone(), path.words.clone()));
+            }
+        }
+    }
+    list
+}
+
+/// Paths that a file uses itself: those of [`paths`] without what it only hands on.
+pub fn module_paths(text: &str) -> Vec<UsedPath> {
+    let tokens = tokens(text);
+    let mut kept = vec![];
+    let mut at = 0;
+    for (public, range) in uses(&tokens) {
+        kept.extend_from_slice(&tokens[at..range.start - usize::from(public)]);
+        if !public {
+            kept.extend_from_slice(&tokens[range.clone()]);
+        }
+        at = range.end;
+    }
+    kept.extend_from_slice(&tokens[at..]);
+    paths_of(&kept)
 }

@@ -85,7 +85,7 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
                 1 => String::new(),
                 many => format!(", {many} states"),
             };
-            ui.colored_label(palette.good, format!("{} ({}){states}", system.name, system.kind.word()));
+            ui.colored_label(palette.good, format!("{} ({}){states}", system.name, system.family().word()));
         }
         None => {
             ui.weak("Lengths in metres, angles in degrees.");

@@ -3,8 +3,7 @@
 use super::Cache;
 use crate::app::paint::polygon::fill;
 use crate::app::theme;
-use crate::compute::goniophotometer::outline::{drawing_period, is_schematic, section_drawing};
-use crate::compute::system::description::{SystemDescription, SystemKind};
+use crate::compute::system::{SystemDescription, SystemKind};
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Periods drawn.
@@ -38,8 +37,8 @@ pub struct Input<'a> {
 /// The polygons of all periods drawn. \[m\]
 fn stacked(system: &SystemDescription, state: usize) -> Vec<Vec<[f64; 2]>> {
     let states = system.states();
-    let one = states.get(state).map(|state| section_drawing(system, state)).unwrap_or_default();
-    let Some(period) = drawing_period(system) else { return one };
+    let one = states.get(state).map(|state| system.family().drawing(state)).unwrap_or_default();
+    let Some(period) = system.family().drawing_period() else { return one };
     let lifted = |k: usize, polygon: &Vec<[f64; 2]>| {
         let lift = k as f64 * period;
         polygon.iter().map(|[z, y]| [*z, y + lift]).collect()
@@ -127,7 +126,7 @@ fn draw(
     let write = |at: Pos2, align: Align2, text: &str| painter.text(at, align, text, font.clone(), palette.weak);
     write(rect.left_top() + vec2(7.0, 5.0), Align2::LEFT_TOP, "outside");
     write(rect.right_top() + vec2(-7.0, 5.0), Align2::RIGHT_TOP, "inside");
-    let view = match (system.upright, is_schematic(system)) {
+    let view = match (system.upright, system.family().is_schematic()) {
         (true, true) => "seen from above, schematic",
         (true, false) => "seen from above",
         (false, true) => "schematic",

@@ -4,7 +4,9 @@
 mod resample;
 mod rings;
 mod shirley_chiu;
+mod sub_directions;
 
-pub use resample::{Resampling, resample_matrix, same_cells};
+pub use resample::{Resampling, same_cells};
 pub use rings::{AzimuthMap, BasisError, Cell, Ring, RingBasis};
 pub use shirley_chiu::{MAX_LEVEL, SquareCell, SquareGrid, disk_from_square, square_from_disk};
+pub use sub_directions::{cell_mean, sub_directions};

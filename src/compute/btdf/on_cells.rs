@@ -1,8 +1,9 @@
 //! Any function as a matrix between the cells of two bases: what writers of cell formats make of functions that are
 //! not on their cells.
 
+use super::resample::resample_matrix;
 use super::{Btdf, CellMatrix, Scattered, TensorTree};
-use crate::compute::basis::{Resampling, RingBasis, SquareGrid, resample_matrix};
+use crate::compute::basis::{Resampling, RingBasis, SquareGrid};
 use std::f64::consts::PI;
 
 /// Means over incident and emergent cells; flux is kept. Light that goes straight on fills the emergent cells that its

@@ -7,105 +7,20 @@
 //! bounds the size of the file rather than its error.) The rule treats both squares alike, so that reciprocal data stay
 //! reciprocal.
 
-use super::tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
-use super::{Btdf, CellMatrix, Scattered};
+use super::tensor_tree::{TensorTree, TreeAxes, TreeNode, TreeRank};
+use super::{Btdf, Scattered};
 use crate::compute::basis::{RingBasis, SquareGrid};
 use crate::compute::direction::{Emergent, Incident};
 use rayon::prelude::*;
-use std::borrow::Cow;
 use std::f64::consts::PI;
 
+mod codes;
 mod prune;
+mod shape;
 mod turning;
 
-/// Finest tree of rank 4: 2⁶ steps a coordinate, 16.8 million boxes before pruning.
-pub const MOST_LEVEL_4: u32 = 6;
-/// Finest tree of rank 3: 2⁸ steps a coordinate, as many boxes.
-pub const MOST_LEVEL_3: u32 = 8;
-
-/// The tree that is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TreeShape {
-    /// Coordinates.
-    pub rank: TreeRank,
-    /// log₂ of the finest steps of a coordinate.
-    pub level: u32,
-    /// Largest share of the light that merging boxes may misplace, 0 … 1.
-    pub tolerance: f64,
-}
-
-/// A tree and how it differs from its source.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OnTree {
-    /// The tree.
-    pub tree: TensorTree,
-    /// Share of the light that merging boxes misplaced, of the grid before.
-    pub misplaced: f64,
-    /// Largest change of τ that merging made at any finest incident cell.
-    pub tau_change: f64,
-    /// Rank 3: share of the light by which single azimuths of incidence differ from the mean that the tree keeps.
-    pub turned: f64,
-}
-
-/// Why there is no such tree.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum OnTreeError {
-    /// Too coarse or too fine.
-    #[error("a tree of level {level}; expected 1 … {most} for rank {rank}")]
-    Level {
-        /// Asked for.
-        level: u32,
-        /// Most for the rank.
-        most: u32,
-        /// Its coordinates.
-        rank: usize,
-    },
-    /// No share.
-    #[error("a tolerance of {0}; expected a share of the light, 0 … 1")]
-    Tolerance(f64),
-    /// Larger than any reader takes.
-    #[error("a tree of more than {most} nodes; expected a coarser level or a larger tolerance")]
-    Size {
-        /// Limit.
-        most: usize,
-    },
-    /// Values that no tree can hold.
-    #[error(transparent)]
-    Tree(#[from] TreeError),
-}
-
-impl TreeShape {
-    /// The finest level that is made for a rank.
-    pub const fn most_level(rank: TreeRank) -> u32 {
-        match rank {
-            TreeRank::Four => MOST_LEVEL_4,
-            TreeRank::Three => MOST_LEVEL_3,
-        }
-    }
-
-    /// The coarsest level whose cells are about a quarter of the source's, at most 6.
-    pub fn level_for(btdf: &Btdf) -> u32 {
-        let cells = match &btdf.scattered {
-            Some(Scattered::Tree(tree)) => return tree.incident_grid().level().min(MOST_LEVEL_4),
-            Some(Scattered::Cells(matrix)) => matrix.incident().len().max(matrix.emergent().len()),
-            Some(Scattered::Directions(data)) => data.incident().len().max(data.emergent().len()),
-            Some(Scattered::Lambert(_)) | None => 145,
-        };
-        (1..MOST_LEVEL_4).find(|level| 1_usize << (2 * level) >= 4 * cells).unwrap_or(MOST_LEVEL_4)
-    }
-
-    fn check(self) -> Result<SquareGrid, OnTreeError> {
-        if !(0.0..=1.0).contains(&self.tolerance) {
-            return Err(OnTreeError::Tolerance(self.tolerance));
-        }
-        let most = Self::most_level(self.rank);
-        let wrong = OnTreeError::Level { level: self.level, most, rank: self.rank.dimensions() };
-        if self.level > most {
-            return Err(wrong);
-        }
-        SquareGrid::new(self.level).ok_or(wrong)
-    }
-}
+use codes::{Codes, matrix_of, spread_leaves, to_flux};
+pub use shape::{OnTree, OnTreeError, TreeShape};
 
 impl TensorTree {
     /// The same function with its squares in other axes, exact: front and back axes differ by a half turn, which
@@ -152,41 +67,6 @@ pub fn tree_on(btdf: &Btdf, axes: TreeAxes, shape: TreeShape) -> Result<OnTree, 
         TreeRank::Three => turning::three(btdf, axes, grid, &codes),
     };
     prune::prune(values, axes, shape, turned)
-}
-
-/// Places of boxes in the order of the tree: the children of a branch side by side on every level, so that all that
-/// lies in one box is one slice.
-struct Codes {
-    /// Bits of a coordinate, spread to those of its dimension 0.
-    spread: Vec<usize>,
-    values: usize,
-}
-
-impl Codes {
-    fn new(shape: TreeShape) -> Self {
-        let dimensions = shape.rank.dimensions();
-        let spread = (0..1_usize << shape.level)
-            .map(|at| (0..shape.level as usize).map(|bit| (at >> bit & 1) << (dimensions * bit)).sum())
-            .collect();
-        Self { spread, values: 1 << (dimensions as u32 * shape.level) }
-    }
-
-    fn of(&self, dimension: usize, at: usize) -> usize {
-        self.spread[at] << dimension
-    }
-
-    fn of_square(&self, dimension: usize, [x, y]: [usize; 2]) -> usize {
-        self.of(dimension, x) | self.of(dimension + 1, y)
-    }
-}
-
-/// The plain matrix behind cells or directions.
-fn matrix_of(scattered: &Scattered) -> Option<Cow<'_, CellMatrix>> {
-    match scattered {
-        Scattered::Cells(matrix) => Some(Cow::Borrowed(matrix)),
-        Scattered::Directions(data) => Some(Cow::Owned(data.to_cells())),
-        Scattered::Lambert(_) | Scattered::Tree(_) => None,
-    }
 }
 
 fn four(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> Vec<f64> {
@@ -259,14 +139,6 @@ fn four(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> Vec<f64
     values
 }
 
-/// Scales a row of emergent cells to its flux.
-fn to_flux(row: &mut [f64], tau: f64, projected_solid_angle: f64) {
-    let got = row.iter().sum::<f64>() * projected_solid_angle;
-    if got > 0.0 {
-        row.iter_mut().for_each(|q| *q *= tau / got);
-    }
-}
-
 /// For every grid cell the ring cells that it lies in, with their shares of it.
 fn shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
     let side = (512 / grid.resolution()).max(4);
@@ -282,19 +154,6 @@ fn shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
         list
     };
     (0..grid.len()).into_par_iter().map(of_cell).collect()
-}
-
-/// A tree's leaves on the full grid; finer ones averaged.
-fn spread_leaves(tree: &TensorTree, level: u32, codes: &Codes, values: &mut [f64]) {
-    let dimensions = tree.rank().dimensions();
-    tree.for_each_leaf(&mut |at, corner, q| {
-        let coarser = at.saturating_sub(level);
-        let code: usize =
-            (0..dimensions).map(|d| codes.of(d, (corner[d] >> coarser) << level.saturating_sub(at))).sum();
-        let boxes = 1_usize << (dimensions as u32 * level.saturating_sub(at));
-        let part = 0.5_f64.powi((dimensions as u32 * coarser) as i32);
-        values[code..code + boxes].iter_mut().for_each(|value| *value += part * q);
-    });
 }
 
 #[cfg(test)]

@@ -11,9 +11,9 @@
 //!
 //! Polylines and the outlines of thick slats are searched instead, with a bound on how fast extents change.
 
-use crate::compute::section::SlatArray;
-use crate::compute::system::description::Venetian;
-use crate::compute::system::slat_profile::SlatProfile;
+use crate::compute::system::slats::SlatArray;
+use crate::compute::system::slats::SlatProfile;
+use crate::compute::system::slats::Venetian;
 use std::f64::consts::PI;
 
 /// Slats of one section, infinitely many and infinitely long.

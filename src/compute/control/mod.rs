@@ -1,7 +1,6 @@
 //! Which state a moving system takes: rules over the sun's place before the façade, and a controller that follows
 //! them through time.
 //!
-//! * [`profile_angle`](mod@profile_angle): the sun in the section across the slats, as a centre and as a disc;
 //! * [`cut_off`]: tilts that let no direct light through, for any section of slats;
 //! * [`curve`]: demanded values over the profile angle: tables, and mirror slats that throw back or redirect;
 //! * [`states`]: from a demanded value to one of the states that a device has;
@@ -13,9 +12,7 @@
 pub mod controller;
 pub mod curve;
 pub mod cut_off;
-pub mod profile_angle;
 pub mod states;
 
 pub use curve::curve_value;
-pub use profile_angle::profile_angle;
 pub use states::{most_open, towards_closed};

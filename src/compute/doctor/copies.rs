@@ -1,18 +1,11 @@
 //! Blocks that are there twice, empty, or not at all.
 
+use super::at::{At, words};
 use super::blocks::Blocks;
-use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind, sides};
+use super::diagnosis::{Confidence, Diagnosis};
+use super::repair::{BandScope, BlockScope, RepairKind};
+use super::sides;
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
-
-/// The name of a function as files write it.
-pub(super) const fn words(component: Component) -> &'static str {
-    match component {
-        Component::TransmissionFront => "Transmission Front",
-        Component::TransmissionBack => "Transmission Back",
-        Component::ReflectionFront => "Reflection Front",
-        Component::ReflectionBack => "Reflection Back",
-    }
-}
 
 /// Do two functions hold the same numbers in the same order, as when one is a copy of the other?
 pub fn same_values(a: &Btdf, b: &Btdf) -> bool {

@@ -6,9 +6,10 @@
 //! light left over (a loss that follows the cosine exactly), and panes (what passes straight falls with the angle
 //! as Fresnel's equations say, not as the cosine).
 
+use super::at::{At, words};
 use super::blocks::{Block, Blocks, Turn};
-use super::copies::words;
-use super::{At, BlockScope, Confidence, Diagnosis, RepairKind};
+use super::diagnosis::{Confidence, Diagnosis};
+use super::repair::{BlockScope, RepairKind};
 use crate::compute::btdf::Component;
 
 /// Transmissions that are copies of each other are explained by a factor only when hardly any error is left.

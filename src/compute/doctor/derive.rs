@@ -1,7 +1,7 @@
 //! A function made from its counterpart by reciprocity.
 
-use crate::compute::basis::{AzimuthMap, resample_matrix};
-use crate::compute::btdf::{Btdf, Scattered, TreeRank};
+use crate::compute::basis::AzimuthMap;
+use crate::compute::btdf::{Btdf, Scattered, TreeRank, resample_matrix};
 
 /// The transmission of the other side, as the light goes the other way, and how well that is known. Cells are counted
 /// as files count them on that side. `to_front`: the result is for light from outside. `None` for functions without

@@ -1,11 +1,12 @@
 //! Is light won? Are numbers percent, negative, or no numbers?
 
-use super::copies::words;
-use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind};
+use super::at::{At, words};
+use super::diagnosis::{Confidence, Diagnosis};
+use super::repair::{BandScope, BlockScope, RepairKind};
 use crate::compute::basis::RingBasis;
+use crate::compute::basis::cell_mean;
 use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, tau_max};
 use crate::compute::direction::{Dir, Facade, Incident};
-use crate::compute::system::cell_mean;
 use glam::DVec3;
 
 /// Sums up to here are rounding.

@@ -11,6 +11,7 @@
 //! as when all functions are upside down together, the data cannot tell; the sentence about the sun then asks the
 //! user.
 
+mod at;
 pub mod blocks;
 mod copies;
 mod cosine;
@@ -37,6 +38,7 @@ pub use repair::{BandScope, BlockScope, Repair, RepairKind, record, recorded};
 pub use repaired::{RepairError, repaired, repaired_all};
 
 use crate::compute::btdf::{Band, Dataset, Finding};
+use at::At;
 use blocks::Blocks;
 
 /// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's. A finding
@@ -102,19 +104,4 @@ fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Op
     }
     list.extend(reciprocity::check(&at));
     list
-}
-
-/// The band under examination.
-struct At<'a> {
-    dataset: &'a Dataset,
-    band: &'a Band,
-    name: &'a str,
-    scope: BandScope,
-}
-
-impl At<'_> {
-    /// A repair of this band.
-    fn repair(&self, kind: RepairKind, blocks: BlockScope) -> Repair {
-        Repair { kind, bands: self.scope, blocks }
-    }
 }

@@ -1,8 +1,8 @@
 //! Directions without data, and spikes at grazing angles.
 
+use super::at::{At, words};
 use super::blocks::{Block, Blocks, Turn};
-use super::copies::words;
-use super::{At, Diagnosis};
+use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding};
 use crate::compute::direction::Dir;
 

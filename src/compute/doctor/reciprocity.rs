@@ -1,6 +1,7 @@
 //! Does light go both ways alike? Graded, never passed or failed: fabrics as makers measure them miss it by 20 to 60 %.
 
-use super::{At, Diagnosis};
+use super::at::At;
+use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding, reciprocity_error};
 
 /// Mean difference between the transmissions of both sides; `None` unless the source has both.

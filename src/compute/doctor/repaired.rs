@@ -2,10 +2,10 @@
 
 use super::derive::by_reciprocity;
 use super::repair::{BandScope, Repair, RepairKind, record};
-use crate::compute::basis::{AzimuthMap, Cell, RingBasis, disk_from_square, resample_matrix};
+use crate::compute::basis::{AzimuthMap, Cell, RingBasis, disk_from_square};
 use crate::compute::btdf::{
     AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Indicatrices, Scattered, TensorTree, TreeAxes,
-    TreeNode, TreeRank,
+    TreeNode, TreeRank, resample_matrix,
 };
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::DVec3;

@@ -5,9 +5,10 @@
 //! in throws light from above back; where transmission and reflection favour the same directions, one of them is
 //! turned.
 
+use super::at::{At, words};
 use super::blocks::{Block, Blocks, Turn};
-use super::copies::words;
-use super::{At, BlockScope, Confidence, Diagnosis, RepairKind};
+use super::diagnosis::{Confidence, Diagnosis};
+use super::repair::{BlockScope, RepairKind};
 use crate::compute::btdf::{Component, Scattered, TreeRank};
 
 /// A way in which a block can be wrong.

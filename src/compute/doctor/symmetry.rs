@@ -1,7 +1,9 @@
 //! Which symmetries the visible transmission has, beside the one that its form declares.
 
+use super::at::{At, words};
 use super::blocks::{Blocks, Turn};
-use super::{At, BandScope, Diagnosis};
+use super::diagnosis::Diagnosis;
+use super::repair::BandScope;
 use crate::compute::btdf::{Component, Finding, Scattered, TreeRank};
 
 /// Differences below this are noise of measuring or sampling.
@@ -30,7 +32,7 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     };
     let message = format!(
         "{} is {found} (differences: left–right {:.1} %, above–below {:.1} %, quarter turn {:.1} %).",
-        super::copies::words(component),
+        words(component),
         100.0 * left,
         100.0 * up,
         100.0 * quarter

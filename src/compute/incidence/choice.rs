@@ -14,8 +14,10 @@
 use super::grid::Grid;
 use super::lattice::{Lattice, Place};
 use super::model::Model;
+use super::schemes::SunScheme;
+use super::schemes::between::Between;
 use super::schemes::blend::{Blend, Piece, Shape};
-use super::schemes::{Between, Schemes, SunScheme};
+use super::schemes::plain::Plain;
 use super::superpose::sub_patches;
 use crate::compute::direction::Dir;
 use glam::{DQuat, DVec3};
@@ -89,7 +91,7 @@ fn order_factor(scheme: SunScheme) -> f64 {
 
 impl Choices {
     /// Leaves out one vertex after the other.
-    pub fn new(schemes: &Schemes) -> Self {
+    pub fn new(schemes: &Plain) -> Self {
         let model = &schemes.model;
         let silhouettes = Silhouettes::new(model);
         let count = model.lattice.points().len();
@@ -187,7 +189,7 @@ impl Choice {
 }
 
 /// Errors of all schemes at one vertex, predicted without it.
-fn left_out(schemes: &Schemes, silhouettes: &Silhouettes, vertex: usize) -> Option<Judged> {
+fn left_out(schemes: &Plain, silhouettes: &Silhouettes, vertex: usize) -> Option<Judged> {
     let model = &schemes.model;
     let tau = model.data.tau_by_direction();
     let mean = tau.iter().sum::<f64>() / tau.len() as f64;
@@ -211,7 +213,7 @@ fn left_out(schemes: &Schemes, silhouettes: &Silhouettes, vertex: usize) -> Opti
     let between = Between::new(model, &place, reduced.recipe(direction), direction.vector());
     let truth = silhouettes.picture(model, &Blend::of_whole(model, vertex, DQuat::IDENTITY, tau[vertex]));
     let error = |scheme, between: &Between| {
-        let picture = silhouettes.picture(model, &schemes.plain(scheme, between));
+        let picture = silhouettes.picture(model, &schemes.blend(scheme, between));
         let apart: f64 =
             picture.iter().zip(&truth).zip(&silhouettes.compare.projected).map(|((a, b), w)| (a - b).abs() * w).sum();
         0.5 * apart / tau[vertex]
@@ -373,8 +375,8 @@ mod tests {
 
     #[test]
     fn one_lobe_is_left_to_responses_and_foretold_well() {
-        let schemes = Schemes::new(Arc::new(samples::model(&samples::clear())));
-        let choices = schemes.choices();
+        let schemes = Plain::new(Arc::new(samples::model(&samples::clear())));
+        let choices = Choices::new(&schemes);
         assert_eq!(choices.triangles().len(), 258);
         let responses = choices.triangles().iter().filter(|c| c.scheme == SunScheme::Responses).count();
         assert!(responses > 200, "{responses}");
@@ -390,8 +392,8 @@ mod tests {
 
     #[test]
     fn moving_two_lobes_as_one_is_seen_through() {
-        let schemes = Schemes::new(Arc::new(samples::model(&samples::panel())));
-        let choices = schemes.choices();
+        let schemes = Plain::new(Arc::new(samples::model(&samples::panel())));
+        let choices = Choices::new(&schemes);
         let superposed = choices.triangles().iter().filter(|c| c.scheme == SunScheme::Superposed).count();
         assert!(superposed < 52, "{superposed} of 258");
         let mean = |k: usize| {

@@ -9,7 +9,7 @@ use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident, Orientation, Surface};
 use crate::compute::estimate::Estimate;
-use crate::compute::room::sun_disc::{self, Edge};
+use crate::compute::sky::sun_disc::{self, Edge};
 use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
 use glam::DVec3;
 use std::f64::consts::PI;

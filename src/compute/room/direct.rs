@@ -4,13 +4,13 @@
 use super::aperture::Aperture;
 use super::cell_weights::for_each_cell;
 use super::polygon::projected_solid_angle;
-use super::sun_disc::{self, Edge};
 use super::through::{self, Prospect};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{Emission, Facing};
 use crate::compute::quadrature::Tolerance;
+use crate::compute::sky::sun_disc::{self, Edge};
 use glam::DVec3;
 
 /// A point that receives light from in front of its normal.

@@ -13,5 +13,4 @@ pub mod mesh;
 pub mod near_field;
 pub mod polygon;
 pub mod radiosity;
-pub mod sun_disc;
 pub mod through;

@@ -1,7 +1,7 @@
 //! CIE standard general skies: ISO 15469:2004 / CIE S 011, types 1 to 15. Type 16, the traditional overcast sky, has
 //! its own closed form in `distribution`.
 
-use super::distribution::Gradated;
+use super::gradated::Gradated;
 use std::f64::consts::FRAC_PI_2;
 
 /// Gradation a, b and indicatrix c, d, e of the types 1 to 15, ISO 15469:2004 table 1.

@@ -1,48 +1,11 @@
 //! Relative luminance of the sky above the horizon: every model behind one enum.
 
 use super::cie;
+use super::gradated::Gradated;
 use super::perez::PerezState;
 use super::scan::Scan;
 use crate::compute::direction::{Dir, World};
 use glam::DVec3;
-
-/// (1 + a·e^{b/cosZ}) · (base + c·e^{dχ} + e·cos²χ), the common form of the CIE general skies and of Perez et al.
-/// Each factor is taken as 0 where it is negative.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Gradated {
-    pub a: f64,
-    pub b: f64,
-    /// 1 for Perez, 1 − c·e^{dπ/2} for CIE.
-    pub base: f64,
-    pub c: f64,
-    pub d: f64,
-    pub e: f64,
-}
-
-impl Gradated {
-    /// Gradation factor at the sine of the altitude, z > 0; 1 on the horizon as ISO 15469 has it.
-    #[inline]
-    pub fn gradation(&self, z: f64) -> f64 {
-        if self.a == 0.0 || z <= 0.0 { 1.0 } else { (1.0 + self.a * (self.b / z).exp()).max(0.0) }
-    }
-
-    /// Indicatrix factor at the angle χ from the sun. \[rad\]
-    #[inline]
-    pub fn indicatrix(&self, chi: f64) -> f64 {
-        let cos = chi.cos();
-        self.indicatrix_with_cosine(chi, cos)
-    }
-
-    #[inline]
-    fn indicatrix_with_cosine(&self, chi: f64, cos: f64) -> f64 {
-        (self.base + self.c * (self.d * chi).exp() + self.e * cos * cos).max(0.0)
-    }
-
-    /// No dependence on the sun.
-    pub fn symmetric(&self) -> bool {
-        self.c == 0.0 && self.e == 0.0
-    }
-}
 
 /// Which model a [`Distribution`] follows.
 #[derive(Debug, Clone, PartialEq)]

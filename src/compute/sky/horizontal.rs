@@ -1,6 +1,7 @@
 //! Illuminance of the open horizontal plane under a relative distribution: what a sky is scaled by.
 
-use super::distribution::{Distribution, Gradated, Model};
+use super::distribution::{Distribution, Model};
+use super::gradated::Gradated;
 use super::patches::tregenza_patches;
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::{Tolerance, integrate};

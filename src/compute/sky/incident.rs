@@ -1,7 +1,8 @@
 //! Illuminance of an aperture from each cell of a division of its hemisphere: the outside as a vector over a basis.
 
-use super::Outside;
-use super::region::{Frame, Region, Weight, integrate_region};
+use super::integral::integrate_region;
+use super::outside::Outside;
+use super::region::{Frame, Region, Weight};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::Tolerance;

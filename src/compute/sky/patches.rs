@@ -1,11 +1,7 @@
 //! Tregenza's 145 patches of the sky dome.
 
-use super::Outside;
-use super::region::{Frame, Region, Weight, integrate_region};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
-use crate::compute::estimate::Estimate;
-use crate::compute::quadrature::Tolerance;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Patches per row, lowest row first.
@@ -53,21 +49,4 @@ pub fn tregenza_patches() -> Vec<Patch> {
         }
     }
     patches
-}
-
-/// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
-pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
-    let tolerance = Tolerance::relative(1e-8);
-    // The cap goes all the way round: in quarters, as the rules are made for smooth pieces.
-    let pieces = if patch.width > PI { 4 } else { 1 };
-    let step = patch.width / f64::from(pieces);
-    let flux: Estimate = (0..pieces)
-        .map(|piece| {
-            let from = patch.bearing - 0.5 * patch.width + f64::from(piece) * step;
-            let theta = (FRAC_PI_2 - patch.altitude_max, FRAC_PI_2 - patch.altitude_min);
-            let region = Region { frame: Frame::DOME, theta, phi: (from, from + step) };
-            integrate_region(outside, &region, Weight::Solid, tolerance)
-        })
-        .sum();
-    flux * (1.0 / patch.solid_angle())
 }

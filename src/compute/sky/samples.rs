@@ -4,7 +4,7 @@
 //! The part of a cell above horizon or skyline is cut out exactly, as for [`super::incident_illuminances`]; in it stand
 //! Gauss points in azimuth and polar angle, their weights scaled to the part's own projected solid angle.
 
-use super::Outside;
+use super::outside::Outside;
 use super::region::{Frame, Region, Weight};
 use crate::compute::basis::RingBasis;
 use crate::compute::quadrature::gauss_legendre;

@@ -4,8 +4,8 @@
 //! a root in closed form, so the integral over θ is exact; over φ it is smooth between the azimuths of the
 //! lattice's corners and of the borders' crossings with the region's edges, all of them in closed form too.
 
-use super::Outside;
 use super::distribution::Model;
+use super::outside::Outside;
 use super::patches::{ROW_HEIGHT, ROWS};
 use super::region::{Region, Weight};
 use crate::compute::estimate::Estimate;

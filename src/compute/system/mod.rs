@@ -1,38 +1,108 @@
-//! Systems whose BTDF follows from a closed form or from an exact small computation: panes, diffusers, laser-cut
-//! panels, flat Lambertian slats.
+//! Described systems, a room a family: slats, clear profiles, panes, laser-cut panels, thin sheets, stacks of all.
 //!
-//! Every function here averages incidence over the incident cell and the result over the emergent cell, conserves
-//! energy and is reciprocal: q_front(ω_e, ω′) = q_back(ω′, ω_e) in through-names.
+//! Every family answers the same questions ([`Family`]): its words, states and structure, a drawing of its section, and
+//! a [`Specimen`](measure::Specimen) that the numerical goniophotometer ([`measure`]) makes data from. A family is added
+//! by a room of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in system files are
+//! in `formats::system_toml`.
 
-pub mod coated;
-pub mod description;
-pub mod diffuser;
-pub mod glazing;
+pub mod clear;
+mod family;
 pub mod laser_cut;
-pub mod slat_profile;
+pub mod measure;
+pub mod panes;
+pub mod sheets;
 pub mod slats;
-pub mod woven;
+pub mod stack;
 
-use crate::compute::basis::{AzimuthMap, Cell, RingBasis};
-use crate::compute::direction::{Dir, Facade};
+pub use family::{Family, NoSpecimen, state_key};
 
-/// The cells that computed systems are given on: LBNL/Klems Full, as light from outside names them.
-pub fn front_basis() -> RingBasis {
-    RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
+use clear::prism::Prisms;
+use clear::redirecting::RedirectingGlass;
+use laser_cut::CutPanel;
+use measure::Specimen;
+use measure::upright::Upright;
+use panes::PaneStack;
+use sheets::{Diffuser, Perforated, Woven};
+use slats::Venetian;
+use stack::Layer;
+
+/// A described system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SystemDescription {
+    /// Product name.
+    pub name: String,
+    /// Free text.
+    pub description: String,
+    /// Geometry and material.
+    pub kind: SystemKind,
+    /// Turned by 90° about the normal, so that what is horizontal in the description stands upright (vertical louvres):
+    /// what was up points to the right as seen from outside.
+    pub upright: bool,
 }
 
-/// `n` × `n` directions that share a cell's projected solid angle equally (midpoints in sin²θ and φ).
-pub fn sub_directions(cell: &Cell, n: usize) -> impl Iterator<Item = Dir<Facade>> {
-    let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
-    let (phi, width) = (cell.phi, cell.width);
-    (0..n * n).map(move |k| {
-        let (row, column) = ((k / n) as f64 + 0.5, (k % n) as f64 + 0.5);
-        let sin2 = low + (high - low) * row / n as f64;
-        Dir::from_theta_phi(sin2.sqrt().asin(), phi + width * (column / n as f64 - 0.5))
-    })
+/// What can be computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SystemKind {
+    /// Endless array of slats.
+    Venetian(Venetian),
+    /// Sheet with plane cuts.
+    LaserCutPanel(CutPanel),
+    /// Sheet with prisms on one face.
+    Prismatic(Prisms),
+    /// Profiles of clear material between two panes.
+    RedirectingGlass(RedirectingGlass),
+    /// Plane-parallel panes.
+    Pane(PaneStack),
+    /// Scattering sheet.
+    Diffuser(Diffuser),
+    /// Fabric of yarns.
+    Woven(Woven),
+    /// Opaque sheet with holes: perforated and expanded metal, grids.
+    Perforated(Perforated),
+    /// Layers from outside to inside.
+    Stack(Vec<Layer>),
 }
 
-/// Mean of a function over a cell, weighted by projected solid angle, from `n` × `n` directions.
-pub fn cell_mean(cell: &Cell, n: usize, f: impl Fn(Dir<Facade>) -> f64) -> f64 {
-    sub_directions(cell, n).map(f).sum::<f64>() / (n * n) as f64
+impl SystemKind {
+    /// The family's answers.
+    pub fn family(&self) -> &dyn Family {
+        match self {
+            Self::Venetian(blind) => blind,
+            Self::LaserCutPanel(panel) => panel,
+            Self::Prismatic(sheet) => sheet,
+            Self::RedirectingGlass(glass) => glass,
+            Self::Pane(stack) => stack,
+            Self::Diffuser(sheet) => sheet,
+            Self::Woven(fabric) => fabric,
+            Self::Perforated(sheet) => sheet,
+            Self::Stack(layers) => layers,
+        }
+    }
+}
+
+impl SystemDescription {
+    /// The family's answers.
+    pub fn family(&self) -> &dyn Family {
+        self.kind.family()
+    }
+
+    /// Keys of the states; one empty key for a system without states.
+    pub fn states(&self) -> Vec<String> {
+        self.family().states()
+    }
+
+    /// The specimen of one state of a system that needs no other files.
+    ///
+    /// # Errors
+    /// A state that is not there, geometry that encloses nothing; a stack, whose layers only its caller can find.
+    pub fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+        let family = self.family();
+        let states = self.states();
+        if !states.iter().any(|key| key == state) {
+            let states: Vec<String> = states.iter().map(|key| format!("\"{key}\"")).collect();
+            return Err(NoSpecimen(format!("no such state; its states are {}", states.join(", "))));
+        }
+        let made = family.specimen(state).map_err(|error| NoSpecimen(format!("{}: {error}", family.word())))?;
+        Ok(if self.upright { Box::new(Upright(made)) } else { made })
+    }
 }

@@ -8,9 +8,10 @@ mod sheets;
 mod transparent;
 
 use super::location::{FormatError, Location, excerpt};
-use crate::compute::section::Surface;
-use crate::compute::system::description::{Layer, LayerSource, SystemDescription, SystemKind, Venetian};
-use crate::compute::system::slat_profile::SlatProfile;
+use crate::compute::system::slats::SlatProfile;
+use crate::compute::system::slats::{Surface, Venetian};
+use crate::compute::system::stack::{Layer, LayerSource};
+use crate::compute::system::{SystemDescription, SystemKind};
 use checks::{length, share, within, wrong};
 use keys::{Angles, Keys, Kind, Pair};
 use sheets::{diffuser, perforated, woven};

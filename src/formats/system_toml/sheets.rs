@@ -2,8 +2,8 @@
 
 use super::checks::{index, length, share, within, wrong};
 use super::keys::{self, DiffuserModel, HoleShape};
-use crate::compute::system::description::{Diffuser, Hole, Perforated, Woven};
-use crate::compute::system::diffuser::{Opal, Spreading};
+use crate::compute::system::sheets::diffuser::{Opal, Spreading};
+use crate::compute::system::sheets::{Diffuser, Hole, Perforated, Woven};
 use crate::formats::location::FormatError;
 
 pub(super) fn diffuser(sheet: &keys::Diffuser) -> Result<Diffuser, FormatError> {

@@ -1,7 +1,7 @@
 //! What system files say, and what is wrong with wrong ones.
 
 use super::*;
-use crate::compute::system::coated::{self, CoatedPane};
+use crate::compute::system::panes::coated::{self, CoatedPane};
 
 const BLIND: &str = "name = \"Blind\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.080\nspacing = 0.072\n\
                      angles = [30.0, -30.0]\nupper = { reflectance = 0.8, specular = 0.1, roughness = 2.0 }\n\
@@ -56,7 +56,7 @@ fn a_pane_by_its_data_sheet() {
         _ => panic!(),
     };
     let coated::Layer::Clear(pane) = read("transmittance_normal = 0.80").pane else { panic!() };
-    let tau = crate::compute::system::glazing::stack(&[pane], 0.0).transmitted;
+    let tau = crate::compute::system::panes::glazing::stack(&[pane], 0.0).transmitted;
     assert!((tau - 0.8).abs() < 1e-12);
     let coated = read("transmittance_normal = 0.7\nreflectance_normal = 0.12\npanes = 2");
     assert_eq!(coated.panes, 2);

@@ -2,13 +2,13 @@
 
 use super::checks::{absorption, extent, index, length, share, within, wrong};
 use super::{keys, outline};
-use crate::compute::dielectric::Material;
-use crate::compute::dielectric::prism::Prisms;
-use crate::compute::goniophotometer::panels::CutPanel;
-use crate::compute::system::coated::{self, CoatedPane};
-use crate::compute::system::description::{PaneStack, RedirectingGlass};
-use crate::compute::system::glazing::Pane;
-use crate::compute::system::laser_cut::LaserCutPanel;
+use crate::compute::system::clear::Material;
+use crate::compute::system::clear::prism::Prisms;
+use crate::compute::system::clear::redirecting::RedirectingGlass;
+use crate::compute::system::laser_cut::{CutPanel, LaserCutPanel};
+use crate::compute::system::panes::PaneStack;
+use crate::compute::system::panes::coated::{self, CoatedPane};
+use crate::compute::system::panes::glazing::Pane;
 use crate::formats::location::FormatError;
 
 pub(super) fn laser_cut(panel: &keys::LaserCut) -> Result<CutPanel, FormatError> {

@@ -4,7 +4,7 @@ use super::super::error::StudyError;
 use super::keys::SlatKeys;
 use crate::catalogue::{Product, blind_of};
 use crate::compute::control::cut_off::Section;
-use crate::compute::system::slat_profile::SlatProfile;
+use crate::compute::system::slats::SlatProfile;
 
 /// A device that a controller can set.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,9 +9,9 @@ pub use device::Device;
 
 use super::error::StudyError;
 use crate::compute::control::controller::{Controller, Inputs, Period, Rounding, Rule, Settings, SunAt};
-use crate::compute::control::profile_angle::{Screen, disc_span};
 use crate::compute::direction::Dir;
 use crate::compute::lid::Facing;
+use crate::compute::profile_angle::{Screen, disc_span};
 use crate::compute::sky::{SUN_HALF_ANGLE, irradiance};
 use crate::formats::control_curve::read_control_curve;
 use device::section_from_keys;

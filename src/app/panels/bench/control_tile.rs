@@ -8,7 +8,7 @@ use crate::app::moment;
 use crate::app::state::{State, Tile};
 use crate::app::title;
 use crate::app::views::control;
-use crate::compute::control::profile_angle;
+use crate::compute::profile_angle::profile_angle;
 use crate::study::control::DEFAULT_ELEVATION;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use egui::{ComboBox, DragValue, Ui, UiBuilder};

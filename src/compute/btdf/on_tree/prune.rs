@@ -1,6 +1,6 @@
 //! Merging boxes of a full grid into leaves, as many as a stated share of the light allows.
 
-use super::{OnTree, OnTreeError, TreeShape};
+use super::shape::{OnTree, OnTreeError, TreeShape};
 use crate::compute::basis::SquareGrid;
 use crate::compute::btdf::tensor_tree::{TensorTree, TreeAxes, TreeNode, TreeRank};
 use crate::compute::direction::{Dir, Incident};

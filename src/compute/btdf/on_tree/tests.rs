@@ -3,6 +3,7 @@
 use super::*;
 use crate::compute::basis::AzimuthMap;
 use crate::compute::btdf::AngularTransmittance;
+use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Dir, Facade};
 
 fn shape(rank: TreeRank, level: u32, tolerance: f64) -> TreeShape {

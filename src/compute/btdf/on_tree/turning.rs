@@ -1,6 +1,6 @@
 //! Rank 3: a function averaged over the azimuths of incidence, on an emergent square that turns with them.
 
-use super::{Codes, matrix_of, spread_leaves, to_flux};
+use super::codes::{Codes, matrix_of, spread_leaves, to_flux};
 use crate::compute::basis::{RingBasis, SquareGrid, disk_from_square};
 use crate::compute::btdf::tensor_tree::{TreeAxes, TreeRank, rotate};
 use crate::compute::btdf::{Btdf, Scattered};

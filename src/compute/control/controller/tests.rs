@@ -1,7 +1,7 @@
 //! Steps by hand: what closes at once, what waits, what each threshold does.
 
 use super::*;
-use crate::compute::system::slat_profile::SlatProfile;
+use crate::compute::system::slats::SlatProfile;
 
 fn degrees(list: impl IntoIterator<Item = i32>) -> Vec<f64> {
     list.into_iter().map(|value| f64::from(value).to_radians()).collect()

@@ -1,8 +1,8 @@
 //! Cut-off against the classic closed form, the extent's own definition, and rays that meet slats or do not.
 
 use super::*;
-use crate::compute::section::Surface;
-use crate::compute::system::slats::cut_off_tilt;
+use crate::compute::system::slats::Surface;
+use crate::compute::system::slats::flat::cut_off_tilt;
 use std::f64::consts::FRAC_PI_2;
 
 fn flat(width: f64, spacing: f64) -> Section {

@@ -4,9 +4,10 @@
 //! Pairs are made between two directions at a time and do not depend on which comes first, so that the two triangles
 //! at an edge agree on it. A pivot per triangle, which decides for all three, would jump there.
 
+use super::between::Between;
 use super::blend::{Blend, Shape};
-use super::{Between, Schemes};
 use crate::compute::incidence::lobes::Lobe;
+use crate::compute::incidence::model::Model;
 use glam::{DQuat, DVec3};
 
 /// What disagreement in flux costs, per unit of ln(f/f′).
@@ -15,8 +16,7 @@ const FLUX_COST: f64 = 0.05;
 const GATE: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
 /// The scheme.
-pub(super) fn blend(schemes: &Schemes, between: &Between) -> Blend {
-    let model = &schemes.model;
+pub(super) fn blend(model: &Model, between: &Between) -> Blend {
     let mut blend = Blend::default();
     for &(v, w) in &between.used {
         blend.push(Shape::Base(v), DQuat::IDENTITY, w * model.base_flux[v]);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::compute::incidence::samples::{self, Sample};
+use glam::DVec3;
 
 fn schemes(sample: &Sample) -> Schemes {
     Schemes::new(Arc::new(samples::model(sample)))
@@ -32,10 +33,10 @@ fn flux_is_tau_and_nothing_is_negative_or_undefined() {
     let other = Grid::new(&crate::compute::basis::RingBasis::equal_area(14));
     for sample in [samples::panel(), samples::slats(), samples::half_blind()] {
         let schemes = schemes(&sample);
-        for d in places(&schemes.model) {
+        for d in places(schemes.model()) {
             let tau = schemes.tau(d);
             for scheme in SunScheme::ALL {
-                for (grid, points) in [(schemes.model.grid(), 1), (&other, 2)] {
+                for (grid, points) in [(schemes.model().grid(), 1), (&other, 2)] {
                     let q = schemes.coefficient(scheme, d, grid, points);
                     assert!(q.iter().all(|q| q.is_finite() && *q >= 0.0), "{scheme:?} {d:?}");
                     assert!((flux(grid, &q) - tau).abs() < 1e-12, "{scheme:?} {d:?}: {} {tau}", flux(grid, &q));
@@ -52,14 +53,14 @@ fn at_a_vertex_every_scheme_gives_back_what_was_measured() {
     let sample = samples::panel();
     let schemes = schemes(&sample);
     for v in [0, 40, 90, 130, 144] {
-        let d = Dir::from_unit(schemes.model.lattice().points()[v]);
-        let row = schemes.model.data.row(v);
+        let d = Dir::from_unit(schemes.model().lattice().points()[v]);
+        let row = schemes.model().data.row(v);
         for scheme in SunScheme::ALL {
-            let q = schemes.coefficient(scheme, d, schemes.model.grid(), 3);
+            let q = schemes.coefficient(scheme, d, schemes.model().grid(), 3);
             let apart: Vec<f64> = q.iter().zip(row.iter()).map(|(a, b)| (a - b).abs()).collect();
             // Transport stands for shapes by spots; copies of lobes that do not move are the data's own cells.
             let limit = if scheme == SunScheme::Transport { 0.12 } else { 1e-9 };
-            let share = 0.5 * flux(schemes.model.grid(), &apart) / schemes.tau(d);
+            let share = 0.5 * flux(schemes.model().grid(), &apart) / schemes.tau(d);
             assert!(share < limit, "{scheme:?} at {v}: {share}");
         }
     }
@@ -70,8 +71,8 @@ fn continuous_schemes_do_not_jump_at_vertices_edges_or_the_pole() {
     let sample = samples::panel();
     let schemes = schemes(&sample);
     let grid = Grid::new(&crate::compute::basis::RingBasis::equal_area(10));
-    let points = schemes.model.lattice().points();
-    let [a, b, c] = schemes.model.lattice().triangles()[120];
+    let points = schemes.model().lattice().points();
+    let [a, b, c] = schemes.model().lattice().triangles()[120];
     let middle = (points[a] + points[b]).normalize();
     let across = (points[c] - middle).normalize();
     let crossings = [
@@ -108,7 +109,7 @@ fn mean_misplaced(sample: &Sample) -> Vec<(SunScheme, f64)> {
         .into_iter()
         .map(|scheme| {
             let misplaced = |d: &Dir<Facade>| {
-                let q = schemes.coefficient(scheme, *d, schemes.model.grid(), 3);
+                let q = schemes.coefficient(scheme, *d, schemes.model().grid(), 3);
                 sample.misplaced(d.vector(), &q)
             };
             (scheme, directions.iter().map(misplaced).sum::<f64>() / directions.len() as f64)

@@ -5,8 +5,8 @@
 //! Robust where lobes have no names, but it moves flux between lobes whose shares change. Pairs are made between two
 //! directions at a time and are the same from either side, so that triangles agree on their edges.
 
+use super::between::Between;
 use super::blend::{Blend, Shape};
-use super::{Between, Schemes};
 use crate::compute::incidence::model::Model;
 use glam::{DQuat, DVec3};
 
@@ -22,20 +22,18 @@ pub(super) struct Cluster {
 }
 
 /// The scheme.
-pub(super) fn blend(schemes: &Schemes, between: &Between) -> Blend {
-    let model = &schemes.model;
+pub(super) fn blend(model: &Model, clusters: &[Vec<Cluster>], between: &Between) -> Blend {
     let mut blend = Blend::default();
     for &(v, w) in &between.used {
         blend.push(Shape::Base(v), DQuat::IDENTITY, w * model.base_flux[v]);
     }
-    let sharp: Vec<(usize, f64)> =
-        between.used.iter().copied().filter(|&(v, _)| !schemes.clusters[v].is_empty()).collect();
+    let sharp: Vec<(usize, f64)> = between.used.iter().copied().filter(|&(v, _)| !clusters[v].is_empty()).collect();
     // plans[i][j]: partner at j of every cluster at i.
     let mut plans = vec![vec![Vec::new(); sharp.len()]; sharp.len()];
     for i in 0..sharp.len() {
         for j in i + 1..sharp.len() {
             let (first, second) = if sharp[i].0 < sharp[j].0 { (i, j) } else { (j, i) };
-            let plan = plan(&schemes.clusters[sharp[first].0], &schemes.clusters[sharp[second].0]);
+            let plan = plan(&clusters[sharp[first].0], &clusters[sharp[second].0]);
             let mut back = vec![0; plan.len()];
             plan.iter().enumerate().for_each(|(p, &q)| back[q] = p);
             plans[first][second] = plan;
@@ -44,11 +42,11 @@ pub(super) fn blend(schemes: &Schemes, between: &Between) -> Blend {
     }
     for (i, &(v, w)) in sharp.iter().enumerate() {
         let flux: f64 = model.lobes[v].iter().map(|lobe| lobe.flux).sum();
-        let share = w * flux / schemes.clusters[v].len() as f64;
-        for (p, cluster) in schemes.clusters[v].iter().enumerate() {
+        let share = w * flux / clusters[v].len() as f64;
+        for (p, cluster) in clusters[v].iter().enumerate() {
             let mut to = cluster.centre * w;
             for (j, &(n, wn)) in sharp.iter().enumerate().filter(|(j, _)| *j != i) {
-                to += schemes.clusters[n][plans[i][j][p]].centre * wn;
+                to += clusters[n][plans[i][j][p]].centre * wn;
             }
             let to = if to.length() > 1e-9 { to.normalize_or(cluster.centre) } else { cluster.centre };
             blend.push(Shape::Spot(cluster.spread), DQuat::from_rotation_arc(DVec3::Z, to), share);

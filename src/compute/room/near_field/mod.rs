@@ -7,11 +7,12 @@
 //! sun; the sun's unscattered beam has no luminance that could be sampled and goes the exact way in all of them.
 
 pub mod homogeneity;
-pub mod monte_carlo;
+pub mod kernel;
+mod monte_carlo;
 pub mod profile_table;
 pub mod subdivision;
 
-use super::aperture::{Aperture, View};
+use super::aperture::Aperture;
 use super::direct::{self, Reception, Sensor};
 use crate::compute::direction::{Dir, Emergent};
 use crate::compute::estimate::Estimate;
@@ -118,10 +119,4 @@ impl<'a> Integrator<'a> {
         let rounding = 1e-12 * (diffuse.value + sun).abs();
         Estimate::new(diffuse.value + sun, diffuse.error + self.relative_error * diffuse.value.abs() + rounding)
     }
-}
-
-/// cosθ_F max(0, n·ω)/r² of a point of the aperture, given as the vector towards it. \[1/m²\]
-fn kernel(view: &View, to: DVec3) -> f64 {
-    let square = to.length_squared();
-    view.distance * view.normal.dot(to).max(0.0) / (square * square)
 }

@@ -7,7 +7,7 @@
 //!
 //! Reference: Ureña, Fajardo and King, An area-preserving parametrization for spherical rectangles (2013).
 
-use super::kernel;
+use super::kernel::kernel;
 use crate::compute::estimate::Estimate;
 use crate::compute::room::aperture::{Aperture, View};
 use crate::compute::room::direct::Sensor;

@@ -2,7 +2,7 @@
 //! distribution. Good at a distance; near the aperture and for narrow lobes it fails, and its error estimate sees that
 //! only as long as the points are not much further apart than the light's own detail.
 
-use super::kernel;
+use super::kernel::kernel;
 use crate::compute::estimate::Estimate;
 use crate::compute::room::aperture::View;
 use glam::DVec3;

@@ -1,0 +1,146 @@
+//! Integrals of the outside luminance over regions of the sphere.
+//!
+//! Ground and skyline are closed forms in θ, and the sky is smooth between known knots of φ. The circumsolar tip, where
+//! the luminance has a kink, becomes the corner of triangles that map it away (Duffy's transformation).
+
+use super::outside::Outside;
+use super::patches::Patch;
+use super::region::{Frame, Region, Weight};
+use super::scan_region;
+use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::{Rectangle, Tolerance, integrate, integrate_rectangles};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// ∫ L · weight over a region: sky, skyline and ground.
+pub(super) fn integrate_region(outside: &Outside, region: &Region, weight: Weight, tolerance: Tolerance) -> Estimate {
+    let mut inner = Vec::new();
+    region.cut_knots(0.0, &mut inner);
+    if outside.skyline_sine > 0.0 {
+        region.cut_knots(outside.skyline_sine, &mut inner);
+    }
+    let knots = region.sorted(inner);
+    let sky = if outside.is_piecewise_constant() {
+        scan_region::integrate_scan(outside, region, weight, &knots, tolerance)
+    } else {
+        knots.windows(2).map(|pair| sky_strip(outside, region, (pair[0], pair[1]), weight, tolerance)).sum()
+    };
+    sky + constant_parts(outside, region, weight, &knots, tolerance)
+}
+
+/// Ground and skyline, of constant luminance each: closed form in θ, 1-D in φ.
+fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f64], tolerance: Tolerance) -> Estimate {
+    let (ground, skyline) = (outside.ground_luminance, outside.skyline_luminance);
+    let has_skyline = outside.skyline_sine > 0.0 && skyline > 0.0;
+    if ground == 0.0 && !has_skyline {
+        return Estimate::default();
+    }
+    let all = weight.between(region.theta.0, region.theta.1);
+    let share = |phi: f64, level: f64| region.above(phi, level).map_or(0.0, |(low, high)| weight.between(low, high));
+    integrate(
+        |phi| {
+            let upper = share(phi, 0.0);
+            let between = if has_skyline { upper - share(phi, outside.skyline_sine) } else { 0.0 };
+            ground * (all - upper) + skyline * between
+        },
+        knots,
+        tolerance,
+    )
+}
+
+/// The open sky over one strip of azimuths between knots.
+fn sky_strip(
+    outside: &Outside,
+    region: &Region,
+    (phi_min, phi_max): (f64, f64),
+    weight: Weight,
+    tolerance: Tolerance,
+) -> Estimate {
+    let limits = |phi: f64| region.above(phi, outside.skyline_sine);
+    if outside.scale == 0.0 || limits(0.5 * (phi_min + phi_max)).is_none() {
+        return Estimate::default();
+    }
+    let width = phi_max - phi_min;
+    // The strip as the unit square: x along φ, y along θ between the limits.
+    let at = |x: f64, y: f64| {
+        let phi = phi_min + width * x;
+        let Some((low, high)) = limits(phi) else { return 0.0 };
+        let theta = low + (high - low) * y;
+        let v = region.frame.direction(theta, phi);
+        outside.sky_luminance(v) * weight.density(theta) * (high - low) * width
+    };
+    let Some((tip_x, tip_y)) = tip(outside, region, phi_min, width, &limits) else {
+        return integrate_rectangles(at, &[Rectangle::UNIT], tolerance);
+    };
+    // Four triangles from the tip to the sides of the square: p = tip + r·(side(t) − tip), |Jacobian| = r·|cross|.
+    let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    (0..4)
+        .map(|side| {
+            let (a, b) = (corners[side], corners[(side + 1) % 4]);
+            let cross = ((a.0 - tip_x) * (b.1 - tip_y) - (a.1 - tip_y) * (b.0 - tip_x)).abs();
+            if cross < 1e-13 {
+                return Estimate::default();
+            }
+            let triangle = |r: f64, t: f64| {
+                let x = tip_x + r * (a.0 + (b.0 - a.0) * t - tip_x);
+                let y = tip_y + r * (a.1 + (b.1 - a.1) * t - tip_y);
+                at(x, y) * r * cross
+            };
+            integrate_rectangles(triangle, &[Rectangle::UNIT], tolerance)
+        })
+        .sum()
+}
+
+/// Where the circumsolar tip lies in a strip's unit square, if it does.
+fn tip(
+    outside: &Outside,
+    region: &Region,
+    phi_min: f64,
+    width: f64,
+    limits: &impl Fn(f64) -> Option<(f64, f64)>,
+) -> Option<(f64, f64)> {
+    let (theta, phi) = region.frame.angles(outside.sun_direction()?.vector());
+    // At the pole the tip is a whole side of the square and the integrand smooth in θ as it is.
+    if theta < 1e-9 {
+        return None;
+    }
+    const SLACK: f64 = 1e-9;
+    let x = (phi - phi_min + SLACK).rem_euclid(2.0 * PI) - SLACK;
+    if x > width + SLACK {
+        return None;
+    }
+    let x = (x / width).clamp(0.0, 1.0);
+    let (low, high) = limits(phi_min + width * x)?;
+    (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
+}
+
+/// Illuminance of an unobstructed plane from sky, skyline and ground, without the beam. \[lx\]
+pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
+    let frame = Frame::facing(normal);
+    // Quarters: shorter pieces, and the knots of a façade's horizon among them.
+    (0..4)
+        .map(|quarter| {
+            let from = f64::from(quarter) * FRAC_PI_2;
+            let region = Region { frame, theta: (0.0, FRAC_PI_2), phi: (from, from + FRAC_PI_2) };
+            let tolerance = Tolerance { relative: 1e-7, ..Tolerance::absolute(1e-9 * outside.diffuse_horizontal) };
+            integrate_region(outside, &region, Weight::Projected, tolerance)
+        })
+        .sum()
+}
+
+/// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
+pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
+    let tolerance = Tolerance::relative(1e-8);
+    // The cap goes all the way round: in quarters, as the rules are made for smooth pieces.
+    let pieces = if patch.width > PI { 4 } else { 1 };
+    let step = patch.width / f64::from(pieces);
+    let flux: Estimate = (0..pieces)
+        .map(|piece| {
+            let from = patch.bearing - 0.5 * patch.width + f64::from(piece) * step;
+            let theta = (FRAC_PI_2 - patch.altitude_max, FRAC_PI_2 - patch.altitude_min);
+            let region = Region { frame: Frame::DOME, theta, phi: (from, from + step) };
+            integrate_region(outside, &region, Weight::Solid, tolerance)
+        })
+        .sum();
+    flux * (1.0 / patch.solid_angle())
+}

@@ -1,0 +1,197 @@
+//! Diffuse light from outside: a scaled sky over ground, behind a skyline.
+
+use super::distribution::{Distribution, Model};
+use super::horizontal;
+use super::scan::Scan;
+use crate::compute::direction::{Dir, World};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Why there is no such sky.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SkyError {
+    /// The illuminance is negative or not finite.
+    #[error("a diffuse horizontal illuminance of {0} lx (allowed: 0 and above)")]
+    Illuminance(f64),
+    /// The distribution gives the horizontal plane nothing, or without bound, so that no factor scales it.
+    #[error("the sky's relative luminance gives the horizontal plane {0}, which cannot be scaled to an illuminance")]
+    Unscalable(f64),
+    /// A reflectance outside 0 … 1.
+    #[error("a ground reflectance of {0} (allowed: 0 to 1)")]
+    Reflectance(f64),
+    /// Skyline outside 0 … 90°, or of negative luminance.
+    #[error("a skyline at {altitude}° with {luminance} cd/m² (allowed: 0 up to below 90°, 0 cd/m² and above)")]
+    Skyline {
+        /// Altitude in degrees.
+        altitude: f64,
+        /// Luminance. \[cd/m²\]
+        luminance: f64,
+    },
+}
+
+/// Diffuse light from outside: sky, ground and skyline, without the sun's disc.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outside {
+    pub(super) distribution: Distribution,
+    /// cd/m² per unit of relative luminance.
+    pub(super) scale: f64,
+    pub(super) diffuse_horizontal: f64,
+    pub(super) ground_luminance: f64,
+    pub(super) skyline_altitude: f64,
+    pub(super) skyline_sine: f64,
+    pub(super) skyline_luminance: f64,
+}
+
+impl Outside {
+    /// A sky scaled so that the exact integral over the open hemisphere is `diffuse_horizontal` \[lx\], over black ground.
+    /// 0 lx is a black sky of any model.
+    pub fn new(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
+        if !(diffuse_horizontal >= 0.0 && diffuse_horizontal.is_finite()) {
+            return Err(SkyError::Illuminance(diffuse_horizontal));
+        }
+        let scale = if diffuse_horizontal == 0.0 {
+            0.0
+        } else {
+            let relative = horizontal::horizontal_illuminance(&distribution).value;
+            let scale = diffuse_horizontal / relative;
+            if !(relative > 0.0 && scale.is_finite() && scale > 0.0) {
+                return Err(SkyError::Unscalable(relative));
+            }
+            scale
+        };
+        Ok(Self {
+            distribution,
+            scale,
+            diffuse_horizontal,
+            ground_luminance: 0.0,
+            skyline_altitude: 0.0,
+            skyline_sine: 0.0,
+            skyline_luminance: 0.0,
+        })
+    }
+
+    /// A measured sky with the luminances as they were measured.
+    pub fn measured(scan: Scan) -> Self {
+        let distribution = Distribution::scan(scan);
+        let diffuse_horizontal = horizontal::horizontal_illuminance(&distribution).value;
+        Self {
+            distribution,
+            scale: 1.0,
+            diffuse_horizontal,
+            ground_luminance: 0.0,
+            skyline_altitude: 0.0,
+            skyline_sine: 0.0,
+            skyline_luminance: 0.0,
+        }
+    }
+
+    /// Endless, unobstructed, uniform ground: L = ρ·(E_dh + E_direct,h)/π.
+    /// `direct_horizontal`: the beam's illuminance on the open horizontal plane. \[lx\]
+    pub fn with_ground(mut self, reflectance: f64, direct_horizontal: f64) -> Result<Self, SkyError> {
+        if !(0.0..=1.0).contains(&reflectance) {
+            return Err(SkyError::Reflectance(reflectance));
+        }
+        if !(direct_horizontal >= 0.0 && direct_horizontal.is_finite()) {
+            return Err(SkyError::Illuminance(direct_horizontal));
+        }
+        self.ground_luminance = reflectance * (self.diffuse_horizontal + direct_horizontal) / PI;
+        Ok(self)
+    }
+
+    /// A skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a luminance of its own \[cd/m²\].
+    /// The scale of the sky and the ground stay those of the open sky.
+    pub fn with_skyline(mut self, altitude: f64, luminance: f64) -> Result<Self, SkyError> {
+        if !((0.0..PI / 2.0).contains(&altitude) && luminance >= 0.0 && luminance.is_finite()) {
+            return Err(SkyError::Skyline { altitude: altitude.to_degrees(), luminance });
+        }
+        (self.skyline_altitude, self.skyline_sine, self.skyline_luminance) = (altitude, altitude.sin(), luminance);
+        Ok(self)
+    }
+
+    /// The same with every luminance times a factor, ground and skyline included; negative factors count as 0.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let factor = factor.max(0.0);
+        let mut outside = self.clone();
+        for luminance in [
+            &mut outside.scale,
+            &mut outside.diffuse_horizontal,
+            &mut outside.ground_luminance,
+            &mut outside.skyline_luminance,
+        ] {
+            *luminance *= factor;
+        }
+        outside
+    }
+
+    /// Luminance seen in a direction. \[cd/m²\] Altitude below 0: ground; below the skyline: skyline; else sky.
+    #[inline]
+    pub fn luminance(&self, d: Dir<World>) -> f64 {
+        let v = d.vector();
+        if v.z < 0.0 {
+            self.ground_luminance
+        } else if v.z < self.skyline_sine {
+            self.skyline_luminance
+        } else {
+            self.sky_luminance(v)
+        }
+    }
+
+    /// Luminance of the open sky; `v` of unit length with z ≥ 0 to rounding. \[cd/m²\]
+    #[inline]
+    pub(super) fn sky_luminance(&self, v: DVec3) -> f64 {
+        self.scale * self.distribution.relative(v)
+    }
+
+    /// Illuminance of the open horizontal plane from the sky alone. \[lx\]
+    pub fn diffuse_horizontal(&self) -> f64 {
+        self.diffuse_horizontal
+    }
+
+    /// Where the circumsolar part peaks; `None` for skies without one.
+    pub fn sun_direction(&self) -> Option<Dir<World>> {
+        match &self.distribution.model {
+            Model::Gradated(sky, sun) if !sky.symmetric() => Some(Dir::from_unit(*sun)),
+            _ => None,
+        }
+    }
+
+    /// Altitude of the skyline, 0 without one. \[rad\]
+    pub fn skyline_altitude(&self) -> f64 {
+        self.skyline_altitude
+    }
+
+    /// Luminance between horizon and skyline. \[cd/m²\]
+    pub fn skyline_luminance(&self) -> f64 {
+        self.skyline_luminance
+    }
+
+    /// Luminance of the ground. \[cd/m²\]
+    pub fn ground_luminance(&self) -> f64 {
+        self.ground_luminance
+    }
+
+    /// The same luminance over the whole upper hemisphere.
+    pub fn is_uniform_above_horizon(&self) -> bool {
+        let uniform_sky = match &self.distribution.model {
+            Model::Uniform => true,
+            Model::Gradated(sky, _) => sky.symmetric() && sky.a == 0.0,
+            Model::Overcast | Model::Scan(_) => false,
+        } || self.scale == 0.0;
+        uniform_sky && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
+    }
+
+    /// Luminance depends on the altitude alone.
+    pub fn is_rotationally_symmetric(&self) -> bool {
+        match &self.distribution.model {
+            Model::Uniform | Model::Overcast => true,
+            Model::Gradated(sky, sun) => sky.symmetric() || sun.truncate().length() < 1e-12,
+            Model::Scan(_) => self.scale == 0.0,
+        }
+    }
+
+    /// Luminance is constant over the band cells of Tregenza's lattice of the dome (measured skies), with jumps at
+    /// their borders.
+    pub fn is_piecewise_constant(&self) -> bool {
+        matches!(self.distribution.model, Model::Scan(_))
+    }
+}

@@ -1,0 +1,125 @@
+//! The sun as a uniform disc of 0.533°: how much of it a receiver sees past straight edges.
+//!
+//! On the disc's scale every edge (of an aperture, the receiver's own plane, the horizon) is a straight line in the
+//! plane that touches the sphere at the sun's centre.
+
+use super::sun::SUN_HALF_ANGLE;
+use glam::{DVec2, DVec3};
+
+/// One edge: directions ω with `normal · ω ≥ offset` are free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Need not be of unit length.
+    pub normal: DVec3,
+    /// 0 for a great circle; sin(altitude) for a skyline with the zenith as normal.
+    pub offset: f64,
+}
+
+impl Edge {
+    /// The half of the sphere on the normal's side.
+    pub const fn great_circle(normal: DVec3) -> Self {
+        Self { normal, offset: 0.0 }
+    }
+}
+
+/// Vertices of the polygon that stands for a partly hidden disc.
+const CORNERS: usize = 180;
+
+/// Illuminance of a receiver per normal illuminance of the whole sun: share of the disc that is free, times the mean
+/// cosine to the receiver's normal. Exact `receiver · sun` for a free disc, 0 for a hidden one; between them within
+/// 1e-4. The receiver's own plane must be among the edges.
+pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>) -> f64 {
+    let radius = SUN_HALF_ANGLE.tan();
+    let (u, v) = sun.any_orthonormal_pair();
+    let mut cut: Vec<(DVec2, f64)> = Vec::new();
+    for edge in edges {
+        let height = edge.normal.dot(sun) - edge.offset;
+        let slope = DVec2::new(edge.normal.dot(u), edge.normal.dot(v));
+        let reach = slope.length() * radius;
+        if height <= -reach {
+            return 0.0;
+        }
+        if height < reach {
+            cut.push((slope, height));
+        }
+    }
+    if cut.is_empty() {
+        return receiver.dot(sun).max(0.0);
+    }
+    // A regular polygon of the disc's area.
+    let step = 2.0 * std::f64::consts::PI / CORNERS as f64;
+    let outer = radius * (step / step.sin()).sqrt();
+    let mut polygon: Vec<DVec2> = (0..CORNERS).map(|i| outer * DVec2::from_angle(i as f64 * step)).collect();
+    let mut kept = Vec::with_capacity(CORNERS + 8);
+    for (slope, height) in cut {
+        kept.clear();
+        for (i, &p) in polygon.iter().enumerate() {
+            let q = polygon[(i + 1) % polygon.len()];
+            let (fp, fq) = (slope.dot(p) + height, slope.dot(q) + height);
+            if fp >= 0.0 {
+                kept.push(p);
+            }
+            if (fp > 0.0 && fq < 0.0) || (fp < 0.0 && fq > 0.0) {
+                kept.push(p + (q - p) * (fp / (fp - fq)));
+            }
+        }
+        std::mem::swap(&mut polygon, &mut kept);
+        if polygon.len() < 3 {
+            return 0.0;
+        }
+    }
+    let (mut area, mut moment) = (0.0, DVec2::ZERO);
+    for (i, &p) in polygon.iter().enumerate() {
+        let q = polygon[(i + 1) % polygon.len()];
+        let cross = p.perp_dot(q);
+        area += 0.5 * cross;
+        moment += (p + q) * (cross / 6.0);
+    }
+    if area <= 0.0 {
+        return 0.0;
+    }
+    let centroid = moment / area;
+    let cosine = receiver.dot(sun + u * centroid.x + v * centroid.y).max(0.0);
+    (area / (std::f64::consts::PI * radius * radius)).min(1.0) * cosine
+}
+
+/// The edges of a convex opening given by its corners as vectors from the receiver.
+pub fn opening(corners: &[DVec3]) -> Vec<Edge> {
+    let centre = corners.iter().sum::<DVec3>();
+    (0..corners.len())
+        .map(|i| {
+            let plane = corners[i].cross(corners[(i + 1) % corners.len()]).normalize_or_zero();
+            Edge::great_circle(if plane.dot(centre) >= 0.0 { plane } else { -plane })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn free_hidden_and_half() {
+        let sun = DVec3::new(0.0, 0.6, 0.8);
+        let above = Edge::great_circle(DVec3::Z);
+        assert_eq!(share(sun, DVec3::Z, [above]), 0.8);
+        assert_eq!(share(sun, DVec3::Z, [Edge::great_circle(DVec3::NEG_Z)]), 0.0);
+        let half = Edge::great_circle(DVec3::X);
+        assert!((share(sun, DVec3::Z, [half]) - 0.4).abs() < 1e-5);
+    }
+
+    #[test]
+    fn rising_sun_grows_smoothly() {
+        // ∫ max(0, z) over a disc centred on the horizon is (2/3)·r³ of π r²: mean cosine (4/3π)·r of half the disc.
+        let r = SUN_HALF_ANGLE.tan();
+        let e = share(DVec3::Y, DVec3::Z, [Edge::great_circle(DVec3::Z)]);
+        assert!((e / (2.0 * r / (3.0 * std::f64::consts::PI)) - 1.0).abs() < 1e-3);
+        let mut last = 0.0;
+        for i in 0..60 {
+            let h = (i as f64 - 30.0) * SUN_HALF_ANGLE / 25.0;
+            let e = share(DVec3::new(0.0, h.cos(), h.sin()), DVec3::Z, [Edge::great_circle(DVec3::Z)]);
+            assert!(e >= last);
+            last = e;
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Light through clear bodies that are endless along x and repeat upwards: prismatic sheets, profiles between panes.
+//!
+//! The tracing takes place in the section (z outward, y upward) because the direction cosine along x is never changed:
+//! in a material of index n the wave vector (k_x, k_y, k_z) of length n keeps k_x, and what is left obeys Snell's law
+//! in the plane with the index √(n² − k_x²). Fresnel's equations are those of the true plane of incidence, with the
+//! polarisation carried along from surface to surface. Waves are not coherent (no diffraction, no interference) and
+//! there is one index: dispersion is left out.
+//!
+//! A beam is a parallel bundle of finite width. It is cut exactly where the edges of the bodies cut it, and divides at
+//! every surface into what is thrown back and what passes, so that no part of the answer is drawn at random until its
+//! share is small.
+
+/// How data of clear bodies are computed, in words.
+const METHOD: &str = "section of endless clear bodies, beams followed with their polarisation, both sides averaged by \
+                      reciprocity, no dispersion, no interference";
+
+mod beam;
+mod hit;
+mod outline;
+mod polarised;
+pub mod prism;
+pub mod profile;
+pub mod redirecting;
+mod section;
+mod specimen;
+mod trace;
+
+pub use outline::{Outline, OutlineError};
+pub use polarised::Stokes;
+pub use section::{Body, Material, Section};
+pub use trace::{Emission, Leaving};

@@ -1,0 +1,369 @@
+//! Following all beams that one incident direction becomes.
+
+use super::beam::{Axes, Beam, Front};
+use super::hit::{Hit, extent, nearest};
+use super::polarised::{Light, at_pane, divide};
+use super::section::{Region, Section};
+use crate::compute::system::measure::beams::Effort;
+use glam::{DVec2, DVec3};
+
+/// A beam that leaves the section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leaving {
+    /// Share of the incident flux.
+    pub share: f64,
+    /// Direction of travel: cosines along y (upward) and z (outward); the one along x is that of the incident light.
+    pub y: f64,
+    /// Cosine along z. \[> 0 outwards\]
+    pub z: f64,
+    /// Change of `y` with the incident direction cosines along x and y.
+    pub change: [f64; 2],
+}
+
+/// What becomes of light of one direction, averaged over where it meets the section.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Emission {
+    /// Beams that leave, in no particular order.
+    pub leaving: Vec<Leaving>,
+    /// Share that is absorbed, what was given up included.
+    pub absorbed: f64,
+    /// Share that was given up: light still caught between total reflections after very many surfaces, which the
+    /// least absorption would take; slips of rounding at corners. An error of all shares.
+    pub lost: f64,
+    /// Surfaces that were looked for, of all beams together: what the trace took.
+    pub surfaces: u32,
+    /// Room for the beams still to be followed; empty between traces.
+    waiting: Vec<Beam>,
+}
+
+impl Emission {
+    fn clear(&mut self) {
+        self.leaving.clear();
+        (self.absorbed, self.lost, self.surfaces) = (0.0, 0.0, 0);
+    }
+}
+
+/// How much longer than usual the beams of one direction are followed, each on its own.
+const PATIENCE: u32 = 10;
+/// Surfaces after which light is given up.
+const MOST_SURFACES: u32 = 2000;
+/// Light left of a beam that absorption takes, caught between total reflections: all of it is absorbed in the end.
+const FAINT: f64 = 1e-14;
+/// A part of less than this share of the least is followed only now and then, with more flux.
+const NEGLIGIBLE: f64 = 1e-3;
+
+/// The SplitMix64 sequence.
+struct Random(u64);
+
+impl Random {
+    /// In 0 … 1.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) as f64 / 2_f64.powi(64)
+    }
+}
+
+impl Section {
+    /// Follows unpolarised light that travels along `direction` (x, y, z; unit length, z not 0) into `out`, which is
+    /// emptied before.
+    pub fn trace(&self, direction: DVec3, effort: Effort, out: &mut Emission) {
+        out.clear();
+        let stack = std::mem::take(&mut out.waiting);
+        let mut work = Work { section: self, share: effort.share, random: Random(effort.seed), stack, out };
+        let most = effort.surfaces.saturating_mul(PATIENCE);
+        let beam = self.incident(direction);
+        work.meet_pane(beam, usize::from(direction.z > 0.0), true);
+        while let Some(beam) = work.stack.pop() {
+            work.share = effort.share_after(work.out.surfaces);
+            let beam = if work.out.surfaces > most { work.one_of_all(beam) } else { beam };
+            work.follow(beam);
+        }
+        let stack = std::mem::take(&mut work.stack);
+        out.waiting = stack;
+    }
+
+    /// Light before the section, one period high.
+    fn incident(&self, k: DVec3) -> Beam {
+        let axes = Axes::new(k);
+        let z = if k.z < 0.0 { self.depth[1] + 0.5 } else { self.depth[0] - 0.5 };
+        let front = Front::new(&axes, [DVec2::new(z, 0.0), DVec2::new(z, 1.0)]);
+        let change = [DVec2::new(-k.x / k.z, 0.0), DVec2::new(-k.y / k.z, 1.0)];
+        Beam { region: 0, k, light: Light::unpolarised(k), front, change, surfaces: 0 }
+    }
+}
+
+/// Parts of a beam that are too small to be followed each on its own: one of them, chosen at random in proportion to
+/// its flux, stands for all. Their flux is kept exactly.
+#[derive(Default)]
+struct Handful {
+    /// What the chosen part meets, and where across the beam it is.
+    hit: Option<Hit>,
+    range: [f64; 2],
+    /// Flux of all.
+    flux: f64,
+}
+
+impl Handful {
+    fn add(&mut self, hit: Option<Hit>, range: [f64; 2], flux: f64, random: &mut Random) {
+        self.flux += flux;
+        if random.next() * self.flux < flux {
+            (self.hit, self.range) = (hit, range);
+        }
+    }
+}
+
+struct Work<'a> {
+    section: &'a Section,
+    /// The least share that is divided at present.
+    share: f64,
+    random: Random,
+    stack: Vec<Beam>,
+    out: &'a mut Emission,
+}
+
+impl Work<'_> {
+    /// One of all beams that are left, with the flux of all of them, no more to be divided.
+    fn one_of_all(&mut self, last: Beam) -> Beam {
+        self.share = f64::INFINITY;
+        let (mut chosen, mut flux) = (last, last.light.stokes.i);
+        while let Some(beam) = self.stack.pop() {
+            flux += beam.light.stokes.i;
+            if self.random.next() * flux < beam.light.stokes.i {
+                chosen = beam;
+            }
+        }
+        whole(chosen, flux)
+    }
+
+    /// Passes a beam on to all surfaces that it meets.
+    fn follow(&mut self, mut beam: Beam) {
+        let section = self.section;
+        let region = &section.regions[beam.region];
+        if beam.light.stokes.i < FAINT {
+            self.out.absorbed += beam.light.stokes.i;
+            return;
+        }
+        if beam.surfaces > MOST_SURFACES {
+            self.lose(beam.light.stokes.i);
+            return;
+        }
+        let axes = Axes::new(beam.k);
+        let [[c0, _], [c1, _]] = beam.front.ends;
+        let width = beam.front.width();
+        if beam.light.stokes.i < self.share || width < 1e-9 {
+            // A single ray, anywhere in the beam.
+            let c = if width > 0.0 { c0 + width * self.random.next() } else { c0 };
+            let place = [c, beam.front.at(c)];
+            beam.front.ends = [place, place];
+            self.out.surfaces += 1;
+            let hit = nearest(region, &axes, &beam.front, c);
+            self.surface(&beam, &axes, region, hit.as_ref(), [c, c], beam.light.stokes.i);
+            return;
+        }
+        let mut c = c0;
+        let mut left = beam.light.stokes.i;
+        let mut small = Handful::default();
+        while c1 - c > 1e-10 * width {
+            self.out.surfaces += 1;
+            let probe = c + (1e-9_f64).min(0.5 * (c1 - c));
+            let hit = nearest(region, &axes, &beam.front, probe);
+            let mut end = extent(region, &axes, &beam.front, probe, hit.as_ref());
+            if c1 - end <= 1e-9 {
+                end = c1;
+            }
+            let flux = if end == c1 { left } else { beam.light.stokes.i * ((end - c) / width) };
+            left -= flux;
+            if flux >= self.share {
+                self.surface(&beam, &axes, region, hit.as_ref(), [c, end], flux);
+            } else if flux > 0.0 {
+                small.add(hit, [c, end], flux, &mut self.random);
+                if small.flux >= self.share {
+                    self.one_of(&beam, &axes, region, &mut small);
+                }
+            }
+            c = end;
+        }
+        self.one_of(&beam, &axes, region, &mut small);
+    }
+
+    /// A single ray for all parts of a handful.
+    fn one_of(&mut self, beam: &Beam, axes: &Axes, region: &Region, small: &mut Handful) {
+        let Handful { hit, range, flux } = std::mem::take(small);
+        let c = range[0] + (range[1] - range[0]) * self.random.next();
+        self.surface(beam, axes, region, hit.as_ref(), [c, c], flux);
+    }
+
+    /// The part of a beam between two places across it, at what it meets there.
+    fn surface(&mut self, beam: &Beam, axes: &Axes, region: &Region, hit: Option<&Hit>, range: [f64; 2], flux: f64) {
+        if flux <= 0.0 {
+            return;
+        }
+        let mut light = beam.light;
+        light.stokes = light.stokes.scaled(flux / light.stokes.i);
+        let Some(hit) = hit else {
+            if beam.region == 0 {
+                let ends = range.map(|c| axes.place([c, beam.front.at(c)]));
+                let front = Front::new(axes, ends);
+                let towards = usize::from(beam.k.z < 0.0);
+                self.meet_pane(Beam { light, front, ..*beam }, towards, false);
+            } else {
+                self.lose(flux);
+            }
+            return;
+        };
+        if region.absorption > 0.0 {
+            let kept = mean_transmittance(region, beam, range.map(|c| hit.at(c) - beam.front.at(c)));
+            self.out.absorbed += flux * (1.0 - kept);
+            light.stokes = light.stokes.scaled(kept);
+        }
+        let normal = DVec3::new(0.0, hit.normal.y, hit.normal.x);
+        let beyond2 = self.section.regions[hit.beyond].n2;
+        let divided = divide(light, beam.k, normal, region.n2, beyond2);
+        let [before, behind] = divided.normal;
+        let places = range.map(|c| axes.place([c, hit.at(c)]) - DVec2::new(0.0, hit.copy as f64));
+        // Sheets go on for ever; keep near the origin.
+        let floor = places[0].y.floor();
+        let confined = self.section.regions[hit.beyond].confined || region.confined;
+        let places = if confined { places } else { places.map(|place| place - DVec2::new(0.0, floor)) };
+        let child = |k: DVec3, region: usize, light: Light, change: [DVec2; 2]| Beam {
+            region,
+            k,
+            light,
+            front: Front::new(&Axes::new(k), places),
+            change,
+            surfaces: beam.surfaces + 1,
+        };
+        let slopes = beam.change.map(|change| -change.dot(hit.normal));
+        let flux = [divided.reflected.stokes.i, divided.transmitted.map_or(0.0, |through| through.stokes.i)];
+        let [back, on] = if flux[1] > 0.0 { self.followed(flux) } else { flux };
+        if back > 0.0 {
+            let change = [0, 1].map(|i| beam.change[i] + 2.0 * slopes[i] * hit.normal);
+            let reflected = child(beam.k + 2.0 * before * normal, beam.region, divided.reflected, change);
+            self.stack.push(whole(reflected, back));
+        }
+        if let Some(through) = divided.transmitted
+            && on > 0.0
+        {
+            let ratio = before / behind;
+            let change = [0, 1].map(|i| beam.change[i] + slopes[i] * (1.0 - ratio) * hit.normal);
+            let transmitted = child(beam.k + (before - behind) * normal, hit.beyond, through, change);
+            self.stack.push(whole(transmitted, on));
+        }
+    }
+
+    /// Flux with which two parts of a beam are followed; one of them for both where they are small. On average both keep
+    /// theirs.
+    fn followed(&mut self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let total = a + b;
+        let least = NEGLIGIBLE * self.share;
+        if total < self.share {
+            if self.random.next() * total < a { [total, 0.0] } else { [0.0, total] }
+        } else if a < least {
+            // A trifle: followed seldom, with more flux then.
+            if self.random.next() * least < a { [least, total - least] } else { [0.0, total] }
+        } else if b < least {
+            if self.random.next() * least < b { [total - least, least] } else { [total, 0.0] }
+        } else {
+            [a, b]
+        }
+    }
+
+    /// A beam in the air at the pane of a side (0 outside, 1 inside), on its way in or out.
+    fn meet_pane(&mut self, beam: Beam, side: usize, inwards: bool) {
+        let Some(pane) = self.section.panes[side] else {
+            if inwards {
+                self.stack.push(beam);
+            } else {
+                self.leave(&beam);
+            }
+            return;
+        };
+        let before = beam.light.stokes.i;
+        let [through, back] = at_pane(beam.light, beam.k, &pane);
+        self.out.absorbed += before - through.stokes.i - back.stokes.i;
+        let through = Beam { light: through, surfaces: beam.surfaces + 1, ..beam };
+        // Thrown back at a distance that does not matter: on average every height is as likely.
+        let k = DVec3::new(beam.k.x, beam.k.y, -beam.k.z);
+        let axes = Axes::new(beam.k);
+        let places = beam.front.ends.map(|end| axes.place(end));
+        let back = Beam {
+            light: back,
+            k,
+            front: Front::new(&Axes::new(k), places),
+            change: beam.change.map(|change| DVec2::new(-change.x, change.y)),
+            surfaces: beam.surfaces + 1,
+            ..beam
+        };
+        if inwards {
+            self.leave(&back);
+            self.stack.push(through);
+        } else if before < self.share {
+            // Weak light does one of both, or weaker and weaker parts would go on between two panes.
+            let total = through.light.stokes.i + back.light.stokes.i;
+            if self.random.next() * total < through.light.stokes.i {
+                self.leave(&whole(through, total));
+            } else if total > 0.0 {
+                self.stack.push(whole(self.behind(back), total));
+            }
+        } else {
+            self.leave(&through);
+            self.stack.push(self.behind(back));
+        }
+    }
+
+    /// A beam that a pane throws back to the bodies, from beyond their depths.
+    fn behind(&self, beam: Beam) -> Beam {
+        let axes = Axes::new(beam.k);
+        let [low, high] = self.section.depth;
+        let z = if beam.k.z < 0.0 { high + 0.5 } else { low - 0.5 };
+        let places = beam.front.ends.map(|end| {
+            let place = axes.place(end);
+            // There and back: the lateral way of both passages.
+            let way = 2.0 * (z - place.x).abs() * axes.along.y / axes.along.x.abs();
+            DVec2::new(place.x, place.y + way)
+        });
+        let shift = places[0].y.floor();
+        let places = places.map(|place| {
+            let along = (z - place.x) / axes.along.x;
+            DVec2::new(z, place.y + along * axes.along.y - shift)
+        });
+        Beam { front: Front::new(&axes, places), ..beam }
+    }
+
+    fn lose(&mut self, flux: f64) {
+        self.out.lost += flux;
+        self.out.absorbed += flux;
+    }
+
+    fn leave(&mut self, beam: &Beam) {
+        let (share, k) = (beam.light.stokes.i, beam.k);
+        if share > 0.0 {
+            self.out.leaving.push(Leaving { share, y: k.y, z: k.z, change: beam.change.map(|change| change.y) });
+        }
+    }
+}
+
+/// A beam that carries this flux, so as to stand for others.
+fn whole(mut beam: Beam, flux: f64) -> Beam {
+    if beam.light.stokes.i <= 0.0 {
+        return beam;
+    }
+    beam.light.stokes = beam.light.stokes.scaled(flux / beam.light.stokes.i);
+    beam
+}
+
+/// Mean internal transmittance over a beam whose ends travel the given lengths in the section.
+///
+/// What is left is taken as evenly spread, which is exact for weak absorption or parallel borders.
+fn mean_transmittance(region: &Region, beam: &Beam, lengths: [f64; 2]) -> f64 {
+    // The true way is longer than its section.
+    let slant = region.n2.sqrt() / DVec2::new(beam.k.y, beam.k.z).length();
+    let [a, b] = lengths.map(|length| length.max(0.0) * slant * region.absorption);
+    let (mean, half) = (0.5 * (a + b), 0.5 * (b - a).abs());
+    // sinh(h)/h
+    let spread = if half < 1e-3 { 1.0 + half * half / 6.0 } else { half.sinh() / half };
+    ((-mean).exp() * spread).min(1.0)
+}

@@ -1,0 +1,68 @@
+//! Laser-cut panels as specimens: Edmonds' shares, with a loss at the cuts.
+
+use super::shares::LaserCutPanel;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::system::family::{Family, NoSpecimen, Polygons, rectangle};
+use crate::compute::system::measure::beams::{Beam, Beams, Effort, Shares, SharpBeams};
+use crate::compute::system::measure::{Side, Specimen};
+
+/// A panel with cuts that do not reflect all light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CutPanel {
+    /// Sheet and spacing.
+    pub panel: LaserCutPanel,
+    /// Share of the light that is lost at every reflection at a cut (rough cuts scatter it; here it is absorbed).
+    pub cut_loss: f64,
+}
+
+impl Family for CutPanel {
+    fn word(&self) -> &'static str {
+        "laser-cut-panel"
+    }
+
+    fn method(&self) -> &'static str {
+        "Edmonds' shares (Solar Energy Materials and Solar Cells 29, 1993), Fresnel faces"
+    }
+
+    fn structure(&self) -> Option<f64> {
+        Some(self.panel.spacing)
+    }
+
+    /// The piece of the sheet between two cuts, its outer face at depth 0.
+    fn drawing(&self, _: &str) -> Polygons {
+        let (depth, height) = (self.panel.sheet.thickness, self.panel.spacing);
+        // Cuts are as wide as a laser beam; shown as a fiftieth.
+        let cut = 0.01 * height;
+        vec![rectangle([-depth, cut], [0.0, height - cut])]
+    }
+
+    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+        Ok(Box::new(SharpBeams(*self)))
+    }
+}
+
+impl Beams for CutPanel {
+    fn beams(&self, name: Dir<Facade>, _: Side, _: Effort, out: &mut Shares) {
+        out.beams.clear();
+        let shares = self.panel.shares_with_loss(name, self.cut_loss);
+        let y = name.vector().y;
+        // The panel is the same from both sides; a turned beam has its vertical component turned round.
+        for (share, transmitted, sign) in [
+            (shares.straight, true, 1.0),
+            (shares.deflected, true, -1.0),
+            (shares.mirrored, false, 1.0),
+            (shares.returned, false, -1.0),
+        ] {
+            if share > 0.0 {
+                out.beams.push(Beam { share, transmitted, y: sign * y, change: [0.0, sign] });
+            }
+        }
+        out.lost = 0.0;
+        out.absorbed = 1.0 - shares.straight - shares.deflected - shares.mirrored - shares.returned;
+    }
+
+    fn fewest_parts(&self) -> usize {
+        // A closed form costs little, and the shares have kinks.
+        16
+    }
+}

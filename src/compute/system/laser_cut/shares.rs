@@ -1,0 +1,205 @@
+//! Laser-cut panels: a transparent sheet with plane cuts, horizontal and normal to its faces, at which light is
+//! totally reflected (Edmonds, Solar Energy Materials and Solar Cells 29, 1993).
+//!
+//! Inside the sheet a ray climbs t = (D/s)·|y′|/z′ spacings on one passage. Averaged over where it enters, the share
+//! f(t) = 1 − |1 − (t mod 2)| leaves with its vertical component turned round. A path of k passages has f(k t), so
+//! light that the faces throw back inside the sheet is followed exactly as well.
+
+use crate::compute::basis::{RingBasis, sub_directions};
+use crate::compute::btdf::{Band, Btdf, CellMatrix};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::system::measure::front_basis;
+use crate::compute::system::panes::glazing::{Pane, fresnel};
+
+/// The panel: cuts horizontal, light from either side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LaserCutPanel {
+    /// The sheet. Total reflection at the cuts for all incidence needs an index ≥ √2.
+    pub sheet: Pane,
+    /// Distance between cuts. \[m\]
+    pub spacing: f64,
+}
+
+/// Shares of the light of one direction; straight and deflected (vertical component turned round).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PanelShares {
+    /// Transmitted, direction kept.
+    pub straight: f64,
+    /// Transmitted, turned up or down.
+    pub deflected: f64,
+    /// Mirrored as by a pane.
+    pub mirrored: f64,
+    /// Thrown back with the vertical component turned round.
+    pub returned: f64,
+}
+
+/// Share that leaves with its vertical component turned round after climbing `t` spacings.
+pub fn deflected_share(t: f64) -> f64 {
+    1.0 - (1.0 - t.rem_euclid(2.0)).abs()
+}
+
+/// Shares that keep and that turn their vertical component after climbing `t` spacings.
+fn after_cuts(t: f64, cut_loss: f64) -> [f64; 2] {
+    if cut_loss == 0.0 {
+        let turned = deflected_share(t);
+        return [1.0 - turned, turned];
+    }
+    let (whole, part) = (t.floor(), t - t.floor());
+    let left = (1.0 - cut_loss).powf(whole);
+    let (fewer, more) = (left * (1.0 - part), left * (1.0 - cut_loss) * part);
+    if whole.rem_euclid(2.0) == 0.0 { [fewer, more] } else { [more, fewer] }
+}
+
+impl LaserCutPanel {
+    /// Shares for light from one direction (façade frame).
+    pub fn shares(&self, d: Dir<Facade>) -> PanelShares {
+        self.shares_with_loss(d, 0.0)
+    }
+
+    /// Shares where every reflection at a cut loses the share `cut_loss`. A path that climbs t spacings meets ⌊t⌋ cuts,
+    /// or one more for the part t − ⌊t⌋ of the places where it may have begun; an odd number turns it.
+    pub fn shares_with_loss(&self, d: Dir<Facade>, cut_loss: f64) -> PanelShares {
+        let theta = d.theta();
+        let (surface, inner) = fresnel(self.sheet.index, theta);
+        let climb = self.sheet.thickness / self.spacing * (d.vector().y / self.sheet.index).abs() / inner;
+        let passed = self.sheet.internal(inner);
+        let mut shares = PanelShares::default();
+        for r in surface {
+            shares.mirrored += 0.5 * r;
+            let mut inside = 0.5 * (1.0 - r);
+            // Odd passages end at the far face, even ones at the near face.
+            let mut passage = 1;
+            while inside > 1e-12 && passage < 4000 {
+                inside *= passed;
+                let leaves = inside * (1.0 - r);
+                let [kept, turned] = after_cuts(climb * f64::from(passage), cut_loss);
+                if passage % 2 == 1 {
+                    shares.straight += leaves * kept;
+                    shares.deflected += leaves * turned;
+                } else {
+                    shares.mirrored += leaves * kept;
+                    shares.returned += leaves * turned;
+                }
+                inside *= r;
+                passage += 1;
+            }
+        }
+        shares
+    }
+
+    /// The four functions on Klems cells, which the turn maps onto each other.
+    pub fn band(&self) -> Band {
+        let basis = front_basis();
+        let n = basis.len();
+        let weight = basis.projected_solid_angles();
+        let (mut through, mut back) = (vec![0.0; n * n], vec![0.0; n * n]);
+        for (i, cell) in basis.cells().enumerate() {
+            let turned = turned_cell(&basis, i);
+            const SUB: usize = 8;
+            for d in sub_directions(&cell, SUB) {
+                let shares = self.shares(d);
+                let scale = 1.0 / (SUB * SUB) as f64;
+                through[i * n + i] += shares.straight * scale / weight[i];
+                through[i * n + turned] += shares.deflected * scale / weight[turned];
+                back[i * n + i] += shares.mirrored * scale / weight[i];
+                back[i * n + turned] += shares.returned * scale / weight[turned];
+            }
+        }
+        let matrix = |values| CellMatrix::new(basis.clone(), basis.clone(), values).expect("n² values for n cells");
+        let (through, back) = (matrix(through), matrix(back));
+        Band {
+            transmission_back: Some(Btdf::from_cells(through.reversed())),
+            transmission_front: Some(Btdf::from_cells(through)),
+            reflection_front: Some(Btdf::from_cells(back.clone())),
+            reflection_back: Some(Btdf::from_cells(back)),
+        }
+    }
+}
+
+/// The cell of the directions with y turned round.
+fn turned_cell(basis: &RingBasis, index: usize) -> usize {
+    let cell = basis.cell(index);
+    basis.index(Dir::from_theta_phi(cell.theta(), -cell.phi)).expect("Klems cells cover the hemisphere")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::btdf::reciprocity_error;
+    use crate::compute::direction::{Emergent, Incident};
+    use glam::DVec3;
+
+    /// D/W = spacing/depth = 0.7, n = 1.5.
+    const PANEL: LaserCutPanel =
+        LaserCutPanel { sheet: Pane { index: 1.5, thickness: 0.01, absorption: 0.0 }, spacing: 0.007 };
+
+    fn first_passage(x: f64, y: f64) -> f64 {
+        let d = Dir::<Facade>::from_unit(DVec3::new(x, y, (1.0 - x * x - y * y).sqrt()));
+        let (_, inner) = fresnel(1.5, d.theta());
+        deflected_share(0.01 / 0.007 * (y / 1.5) / inner)
+    }
+
+    #[test]
+    fn shares_after_edmonds() {
+        for (x, y, f) in [(0.0, 0.5, 0.50508), (0.0, 0.5_f64.sqrt(), 0.76360), (0.3, 0.5, 0.51684)] {
+            assert!((first_passage(x, y) - f).abs() < 1e-5, "{x} {y}: {}", first_passage(x, y));
+        }
+    }
+
+    /// Follows one ray in the plane section through cells of the panel, passage by passage.
+    #[test]
+    fn closed_form_is_the_mean_over_traced_entry_points() {
+        let t = 1.37; // spacings climbed on a passage
+        for passages in 1..=3 {
+            let n = 20_000;
+            let turned = (0..n)
+                .filter(|k| {
+                    let end = (f64::from(*k) + 0.5) / f64::from(n) + t * f64::from(passages);
+                    (end.floor() as i64) % 2 != 0
+                })
+                .count();
+            let share = turned as f64 / f64::from(n);
+            assert!((share - deflected_share(t * f64::from(passages))).abs() < 1e-3, "{passages}");
+        }
+    }
+
+    #[test]
+    fn all_light_is_accounted_for_and_totals_are_the_panes() {
+        for k in 0..89 {
+            let d = Dir::from_theta_phi(f64::from(k).to_radians(), 1.1);
+            let s = PANEL.shares(d);
+            assert!((s.straight + s.deflected + s.mirrored + s.returned - 1.0).abs() < 1e-9, "{k}");
+            let pane = crate::compute::system::panes::glazing::stack(&[PANEL.sheet], d.theta());
+            assert!((s.straight + s.deflected - pane.transmitted).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn cuts_that_lose_light() {
+        // Small losses take what the number of reflections says: the derivative is the mean number of cuts met, t.
+        for t in [0.3, 0.99, 1.0, 1.7, 2.4, 5.5] {
+            let (clean, worn) = (after_cuts(t, 0.0), after_cuts(t, 1e-6));
+            assert!((clean[0] + clean[1] - 1.0).abs() < 1e-15);
+            assert!(((clean[0] + clean[1] - worn[0] - worn[1]) - 1e-6 * t).abs() < 1e-10, "{t}");
+            assert!((worn[1] - clean[1]).abs() < 1e-5, "{t}: {worn:?}");
+        }
+        // Black cuts leave what meets none.
+        assert!((after_cuts(0.4, 1.0)[0] - 0.6).abs() < 1e-15 && after_cuts(0.4, 1.0)[1] == 0.0);
+        assert!(after_cuts(1.4, 1.0) == [0.0, 0.0]);
+    }
+
+    #[test]
+    fn high_sun_is_turned_to_the_ceiling_and_the_panel_is_reciprocal() {
+        let band = PANEL.band();
+        let (front, back) = (band.transmission_front.unwrap(), band.transmission_back.unwrap());
+        assert!(reciprocity_error(&front, &back).unwrap() < 1e-12);
+        // It is symmetric as well: the same sheet from both sides.
+        assert!(reciprocity_error(&front, &front).unwrap() < 1e-12);
+        let sun = Incident(Dir::from_theta_phi(50_f64.to_radians(), 90_f64.to_radians()));
+        let (up, down) = (
+            Emergent(Dir::from_theta_phi(130_f64.to_radians(), 90_f64.to_radians())),
+            Emergent(Dir::from_theta_phi(130_f64.to_radians(), 270_f64.to_radians())),
+        );
+        assert!(front.q(sun, up) > 2.0 * front.q(sun, down) && front.q(sun, down) > 0.0);
+    }
+}

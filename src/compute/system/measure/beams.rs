@@ -1,0 +1,412 @@
+//! Systems that turn one direction into a few sharp beams: means over the incident cells, flux into emergent cells.
+//!
+//! An incident cell is cut into parts of equal projected solid angle. The beams of one direction of each part are
+//! found; where the rest of the part goes follows from how the beams turn with the incident direction, so that flux is
+//! laid into the emergent cells at the fineness of those and not of the parts. The flux of every part is kept exactly.
+//! The directions are a scrambled net: every power of two of them has one direction in every part.
+//! Their number is doubled, what was found before being kept, until the totals stand.
+
+use super::cells::CellFinder;
+use super::net;
+use super::{Measured, Seen, Setting, Side, Specimen};
+use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::{Cancelled, Progress};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A sharp beam that a direction becomes. All systems here are endless along x, which keeps the x of the name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Share of the incident flux.
+    pub share: f64,
+    /// Transmitted, or thrown back.
+    pub transmitted: bool,
+    /// The name's direction cosine along y.
+    pub y: f64,
+    /// Change of `y` with the incident name's direction cosines x and y.
+    pub change: [f64; 2],
+}
+
+/// All that light of one direction becomes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shares {
+    /// The beams.
+    pub beams: Vec<Beam>,
+    /// Share that is absorbed, what was given up included.
+    pub absorbed: f64,
+    /// Share that was given up, as an error.
+    pub lost: f64,
+    /// Surfaces that light was followed to; 0 for closed forms.
+    pub surfaces: u32,
+}
+
+/// How closely light is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Beams with less than this share of the incident flux are no longer divided: one part, chosen at random in
+    /// proportion to its flux, stands for the whole.
+    pub share: f64,
+    /// Seed of that choice.
+    pub seed: u64,
+    /// Surfaces, counted over all beams together, up to which `share` holds. From there on it grows with their number,
+    /// and after ten times as many, one of the beams that are left, chosen at random in proportion to its
+    /// flux, stands for all. With it the work for one direction is bounded, without bias.
+    pub surfaces: u32,
+}
+
+impl Effort {
+    /// Surfaces that are enough for usual sections.
+    pub const SURFACES: u32 = 1000;
+
+    /// The least share that is divided after so many surfaces.
+    pub fn share_after(&self, surfaces: u32) -> f64 {
+        if surfaces > self.surfaces {
+            self.share * f64::from(surfaces) / f64::from(self.surfaces.max(1))
+        } else {
+            self.share
+        }
+    }
+}
+
+/// A system made of sharp beams, endless along x and the same from left and right.
+pub trait Beams: Sync {
+    /// The beams of light of the given name from a side, into `out`, which is to be emptied first. `effort` is for
+    /// systems that follow very many beams.
+    fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
+
+    /// Half of the fewest parts along either side of an incident cell; a power of two.
+    fn fewest_parts(&self) -> usize {
+        8
+    }
+}
+
+/// Most directions of an incident cell, as a power of two.
+const MOST_DOUBLINGS: u32 = 20;
+/// Groups of directions from which the error is estimated; a power of two.
+const GROUPS: usize = 8;
+/// Standard errors that an error is stated as: nearly all true errors are smaller.
+const SURE: f64 = 3.0;
+/// The share of the allowed error that is aimed at. Directions stop where the estimate happens to be small, and the
+/// largest error among hundreds of cells is to be within.
+const AIM: f64 = 0.5;
+/// Surfaces for one incident cell at an error of 0.01 and above, after which it gets no more directions.
+const MOST_SURFACES: f64 = 3e5;
+/// Directions from which it is found how many surfaces a ray meets.
+const PILOTS: u32 = 32;
+/// Light is divided down to a share of the incident flux that goes with the root of the allowed error and the square of
+/// the number of surfaces that a ray meets on average: where they are many, following more directions teaches more than
+/// dividing the light of each. The factor was found by trial.
+const DIVIDED: f64 = 5.5e-3;
+/// Places along either side of a square of the size of an emergent cell that a strong beam is laid to.
+const PLACES: f64 = 96.0;
+/// Most places along either side of a part.
+const MOST_PLACES: usize = 24;
+/// Share from which a beam is laid to all of the places of its part; weaker ones to fewer in proportion.
+const STRONG: f64 = 0.2;
+
+/// A specimen of sharp beams.
+#[derive(Debug, Clone)]
+pub struct SharpBeams<B>(pub B);
+
+impl<B: Beams> Specimen for SharpBeams<B> {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        Ok(measure(&self.0, setting, progress)?.made_reciprocal())
+    }
+}
+
+/// The four functions of a system of sharp beams.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
+pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+    let bench = Bench::new(system, setting);
+    let n = setting.incident.len();
+    let sideways = |phi: f64| PI - phi;
+    let mirrored = mirror_images(setting.incident, sideways);
+    let emergent = mirror_images(setting.emergent, sideways);
+    // Left and right are alike: half of the cells are mirror images of the others.
+    let own = |i: usize| mirrored.as_ref().zip(emergent.as_ref()).is_none_or(|(map, _)| map[i] >= i);
+    let jobs: Vec<(Side, usize)> =
+        Side::BOTH.into_iter().flat_map(|side| (0..n).filter(|&i| own(i)).map(move |i| (side, i))).collect();
+    let done = AtomicUsize::new(0);
+    let rows: Vec<Option<Row>> = jobs
+        .par_iter()
+        .map(|&(side, index)| {
+            if progress.cancelled() {
+                return None;
+            }
+            let row = bench.row(side, index);
+            progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
+            Some(row)
+        })
+        .collect();
+    let mut measured = Measured::dark(setting);
+    let m = setting.emergent.len();
+    for (&(side, index), row) in jobs.iter().zip(rows) {
+        let row = row.ok_or(Cancelled)?;
+        let seen = measured.seen_mut(side);
+        if let (Some(mirrored), Some(emergent)) = (&mirrored, &emergent)
+            && mirrored[index] != index
+        {
+            let image = mirrored[index];
+            for (o, &turned) in emergent.iter().enumerate() {
+                seen.transmitted[image * m + turned] = row.transmitted[o];
+                seen.reflected[image * m + turned] = row.reflected[o];
+            }
+            (seen.absorbed[image], seen.error[image]) = (row.absorbed, row.error);
+        }
+        row.store(seen, index);
+    }
+    Ok(measured)
+}
+
+/// Which cell is the mirror image of which, `turned` giving a direction's azimuth after the exchange of left and right
+/// or of up and down; `None` where the cells do not mirror.
+pub fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<Vec<usize>> {
+    let image = |cell: Cell| {
+        let other = basis.index(Dir::from_theta_phi(cell.theta(), turned(cell.phi)))?;
+        let found = basis.cell(other);
+        let turn = (found.phi - turned(cell.phi)).rem_euclid(2.0 * PI);
+        let same = cell.width > 1.99 * PI || turn.min(2.0 * PI - turn) < 1e-9;
+        (same && found.theta_min == cell.theta_min && found.width == cell.width).then_some(other)
+    };
+    basis.cells().map(image).collect()
+}
+
+/// What one incident cell becomes.
+struct Row {
+    /// Flux into the emergent cells, summed over directions of unit flux; 1/sr when it is finished.
+    transmitted: Vec<f64>,
+    reflected: Vec<f64>,
+    absorbed: f64,
+    lost: f64,
+    error: f64,
+    /// τ and ρ of all directions, as found one after the other.
+    totals: Vec<[f64; 2]>,
+    /// Surfaces that light was followed to.
+    surfaces: f64,
+}
+
+impl Row {
+    fn new(m: usize) -> Self {
+        Self {
+            transmitted: vec![0.0; m],
+            reflected: vec![0.0; m],
+            absorbed: 0.0,
+            lost: 0.0,
+            error: 0.0,
+            totals: vec![],
+            surfaces: 0.0,
+        }
+    }
+
+    /// Error of τ or ρ, the larger one: [`SURE`] standard errors, as if the groups of directions, each of them a net of
+    /// its own all over the cell, were drawn independently. Together they lie more evenly still.
+    fn doubt(&self) -> f64 {
+        let groups = GROUPS as f64;
+        let size = (self.totals.len() / GROUPS).max(1);
+        let one = |k: usize| {
+            let mean = |part: &[[f64; 2]]| part.iter().map(|total| total[k]).sum::<f64>() / part.len() as f64;
+            let all = mean(&self.totals);
+            let apart: f64 = self.totals.chunks_exact(size).map(|group| (mean(group) - all).powi(2)).sum();
+            (apart / (groups * (groups - 1.0))).sqrt()
+        };
+        SURE * one(0).max(one(1))
+    }
+
+    /// From sums over directions to means.
+    fn finish(&mut self, weights: &[f64]) {
+        let each = 1.0 / self.totals.len() as f64;
+        for values in [&mut self.transmitted, &mut self.reflected] {
+            for (q, weight) in values.iter_mut().zip(weights) {
+                *q *= each / weight;
+            }
+        }
+        self.absorbed *= each;
+        self.error = self.doubt() + self.lost * each;
+    }
+
+    fn store(self, seen: &mut Seen, index: usize) {
+        let m = self.transmitted.len();
+        seen.transmitted[index * m..(index + 1) * m].copy_from_slice(&self.transmitted);
+        seen.reflected[index * m..(index + 1) * m].copy_from_slice(&self.reflected);
+        seen.absorbed[index] = self.absorbed;
+        seen.error[index] = self.error;
+    }
+}
+
+/// What all cells share.
+struct Bench<'a, B> {
+    system: &'a B,
+    setting: &'a Setting<'a>,
+    finder: CellFinder,
+    weights: Vec<f64>,
+    /// Typical width of an emergent cell as a direction cosine.
+    fineness: f64,
+    /// The incident cells are the emergent ones.
+    same: bool,
+    /// The mirror image of every cell, up and down exchanged, where the cells have them and `same` holds.
+    below: Option<Vec<usize>>,
+}
+
+impl<'a, B: Beams> Bench<'a, B> {
+    fn new(system: &'a B, setting: &'a Setting<'a>) -> Self {
+        let weights = setting.emergent.projected_solid_angles();
+        let fineness = (PI / weights.len().max(1) as f64).sqrt();
+        let same = setting.emergent == setting.incident;
+        let below = if same { mirror_images(setting.incident, |phi| -phi) } else { None };
+        Self { system, setting, finder: CellFinder::new(setting.emergent), weights, fineness, same, below }
+    }
+
+    /// Directions are doubled until the shares of the cell stand, or its light has met too many surfaces.
+    fn row(&self, side: Side, index: usize) -> Row {
+        let fewest = (2 * self.system.fewest_parts()).next_power_of_two().ilog2();
+        let most = MOST_SURFACES * (0.01 / self.setting.error).max(1.0).powf(1.5);
+        let mut row = Row::new(self.weights.len());
+        let mut doublings = (2 * fewest).min(MOST_DOUBLINGS);
+        let share = self.share(side, index);
+        self.add_net(&mut row, side, index, share, 0..1 << doublings);
+        while row.doubt() > AIM * self.setting.error && doublings < MOST_DOUBLINGS && row.surfaces < most {
+            self.add_net(&mut row, side, index, share, 1 << doublings..2 << doublings);
+            doublings += 1;
+        }
+        row.finish(&self.weights);
+        row
+    }
+
+    /// Seed of a direction of a cell, whatever thread works on it; number 0 is for the directions themselves.
+    fn seed(&self, side: Side, index: usize, number: u64) -> u64 {
+        net::mixed(self.setting.seed, &[u64::from(side == Side::Back), index as u64, number])
+    }
+
+    /// The share of the incident flux down to which the light of a cell is divided.
+    fn share(&self, side: Side, index: usize) -> f64 {
+        let cell = self.setting.incident.cell(index);
+        let base = self.seed(side, index, 0);
+        let mut shares = Shares::default();
+        let mut surfaces = 0.0;
+        for number in 0..PILOTS {
+            let [row, column] = net::point(number, base);
+            let effort =
+                Effort { share: f64::INFINITY, seed: net::mixed(base, &[u64::from(number)]), surfaces: u32::MAX };
+            self.system.beams(point(&cell, row, column), side, effort, &mut shares);
+            surfaces += f64::from(shares.surfaces) / f64::from(PILOTS);
+        }
+        (DIVIDED * self.setting.error.sqrt() * surfaces * surfaces).clamp(1e-6, 1.0)
+    }
+
+    /// Adds directions of a cell: as many numbers of the sequence as a power of two, from a multiple of it on.
+    fn add_net(&self, row: &mut Row, side: Side, index: usize, share: f64, numbers: Range<u32>) {
+        let doublings = numbers.len().ilog2();
+        let cell = self.setting.incident.cell(index);
+        let mut shares = Shares::default();
+        let parts = [1 << doublings.div_ceil(2), 1 << (doublings / 2)];
+        let size = (cell.projected_solid_angle() / f64::from(1_u32 << doublings)).sqrt();
+        let points = ((PLACES * size / self.fineness).ceil() as usize).clamp(1, MOST_PLACES);
+        let places = points * points;
+        // A step that visits all places in an order that spreads over the part.
+        let golden = (0.618 * places as f64) as usize;
+        let step = (golden.max(1)..).find(|&step| coprime(step, places)).unwrap_or(1);
+        let places_of = Places::new(&cell, parts.map(|n| n * points));
+        let base = self.seed(side, index, 0);
+        for number in numbers {
+            let at = net::point(number, base);
+            let corner = [0, 1].map(|k| (at[k] * parts[k] as f64) as usize);
+            let name = point(&cell, at[0], at[1]);
+            let (x, y) = (name.vector().x, name.vector().y);
+            let seed = self.seed(side, index, u64::from(number) + 1);
+            self.system.beams(name, side, Effort { share, seed, surfaces: Effort::SURFACES }, &mut shares);
+            let mut total = [0.0; 2];
+            for beam in &shares.beams {
+                total[usize::from(!beam.transmitted)] += beam.share;
+            }
+            row.totals.push(total);
+            row.surfaces += f64::from(shares.surfaces);
+            row.absorbed += shares.absorbed;
+            row.lost += shares.lost;
+            for (number, beam) in shares.beams.iter().enumerate() {
+                let to = if beam.transmitted { &mut row.transmitted } else { &mut row.reflected };
+                if self.same && beam.y == y {
+                    // Light that keeps its name keeps its cell.
+                    to[index] += beam.share;
+                    continue;
+                }
+                if let Some(below) = &self.below
+                    && beam.y == -y
+                    && beam.change == [0.0, -1.0]
+                {
+                    to[below[index]] += beam.share;
+                    continue;
+                }
+                let count = ((places as f64 * (beam.share / STRONG).min(1.0)).ceil() as usize).max(1);
+                let each = beam.share / count as f64;
+                let first = (seed as usize % places) + number;
+                for k in 0..count {
+                    let place = (first + k * step) % places;
+                    let [px, py] =
+                        places_of.at([corner[0] * points + place / points, corner[1] * points + place % points]);
+                    if let Some(cell) = self.target([x, y], [px - x, py - y], beam) {
+                        to[cell] += each;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where light goes that comes from a little beside the middle of its part.
+    fn target(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2], beam: &Beam) -> Option<usize> {
+        let x = x + dx;
+        // The slope holds near the middle only: no farther than light can go.
+        let most = (1.0 - x * x).max(0.0).sqrt();
+        let turned = beam.change[0] * dx + beam.change[1] * dy;
+        let turned = if beam.y == y && beam.change == [0.0, 1.0] { dy } else { turned.clamp(-0.3, 0.3) };
+        self.finder.find(x, (beam.y + turned).clamp(-most, most))
+    }
+}
+
+/// The middles of parts of a cell, so many rows and columns.
+struct Places {
+    /// sinθ of the rows.
+    radii: Vec<f64>,
+    /// Cosine and sine of φ of the columns.
+    turns: Vec<[f64; 2]>,
+}
+
+impl Places {
+    fn new(cell: &Cell, [rows, columns]: [usize; 2]) -> Self {
+        let middle = |k: usize, m: usize| (k as f64 + 0.5) / m as f64;
+        let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+        let turn = |k: usize| {
+            let (sin, cos) = (cell.phi + cell.width * (middle(k, columns) - 0.5)).sin_cos();
+            [cos, sin]
+        };
+        Self {
+            radii: (0..rows).map(|k| (low + (high - low) * middle(k, rows)).sqrt()).collect(),
+            turns: (0..columns).map(turn).collect(),
+        }
+    }
+
+    /// Direction cosines (x, y).
+    fn at(&self, [row, column]: [usize; 2]) -> [f64; 2] {
+        self.turns[column].map(|turn| self.radii[row] * turn)
+    }
+}
+
+/// A direction of a cell: both coordinates 0 … 1, rising in sin²θ and in φ.
+fn point(cell: &Cell, row: f64, column: f64) -> Dir<Facade> {
+    let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+    let sin2 = low + (high - low) * row;
+    Dir::from_theta_phi(sin2.sqrt().asin(), cell.phi + cell.width * (column - 0.5))
+}
+
+/// No common divisor but 1.
+fn coprime(a: usize, b: usize) -> bool {
+    let (mut a, mut b) = (a, b);
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a == 1
+}

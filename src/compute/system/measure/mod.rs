@@ -1,0 +1,193 @@
+//! The numerical goniophotometer: BTDF and BRDF of a described system, from both sides, as means over the incident
+//! **and** the emergent cells.
+//!
+//! # Names of directions
+//! Every direction is named by a vector on the outward half (z > 0 in the façade frame), so that light that goes
+//! straight through keeps its name, and so does a mirror image:
+//! * light from outside: lateral part of the name = −(x, y) of the direction in which light **travels**, before and
+//!   after the system, transmitted or thrown back (an incident name is the direction towards the source);
+//! * light from inside: lateral part = +(x, y) of the direction in which light travels.
+//!
+//! In these names reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side, the bar
+//! turning a name by 180° about the normal.
+
+pub mod beams;
+mod cells;
+mod net;
+mod reciprocal;
+pub mod upright;
+
+use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
+use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
+use crate::compute::estimate::{Cancelled, Progress};
+
+/// The cells that computed systems are given on: LBNL/Klems Full, as light from outside names them.
+pub fn front_basis() -> RingBasis {
+    RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
+}
+
+/// The side that light comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// Outside.
+    Front,
+    /// The room.
+    Back,
+}
+
+impl Side {
+    /// Both, front first.
+    pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
+}
+
+/// What is asked of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting<'a> {
+    /// Incident cells, in through-names.
+    pub incident: &'a RingBasis,
+    /// Emergent cells, in through-names.
+    pub emergent: &'a RingBasis,
+    /// Absolute error that is allowed in the directional-hemispherical transmittance and reflectance of any incident
+    /// cell. The program chooses its effort by it.
+    pub error: f64,
+    /// Seed of whatever is drawn at random. The same seed gives the same values on any number of threads.
+    pub seed: u64,
+}
+
+/// What light from one side does.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Seen {
+    /// q of transmitted light, `[i · emergent.len() + o]`. \[1/sr\]
+    pub transmitted: Vec<f64>,
+    /// q of light thrown back, the same order. \[1/sr\]
+    pub reflected: Vec<f64>,
+    /// Share that is absorbed, an incident cell. Counted on its own, not as the rest, wherever the method can.
+    pub absorbed: Vec<f64>,
+    /// Estimated absolute error of τ and ρ, an incident cell.
+    pub error: Vec<f64>,
+}
+
+/// The four functions on cells, with what is known about their quality.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Incident cells.
+    pub incident: RingBasis,
+    /// Emergent cells.
+    pub emergent: RingBasis,
+    /// Light from outside.
+    pub front: Seen,
+    /// Light from inside.
+    pub back: Seen,
+}
+
+/// Something whose scattering can be computed.
+pub trait Specimen: Sync {
+    /// The four functions on the cells of `setting`, to its error.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` says so.
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled>;
+
+    /// The four functions as the rest of the program holds them, and their quality. Light that goes straight on or is
+    /// mirrored is kept apart where it depends on the polar angle alone; otherwise it is spread over its cells.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` says so.
+    fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
+        let measured = self.measure(setting, progress)?;
+        Ok((measured.band(), measured.quality()))
+    }
+}
+
+/// Balance and reciprocity of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quality {
+    /// Largest |τ + ρ + α − 1| over the incident cells of both sides.
+    pub balance: f64,
+    /// Σ |T_front(a→b) − T_back(b→a)| over the flux of both, weighted by projected solid angles; `None` where the
+    /// incident cells are not the emergent ones, or nothing passes.
+    pub reciprocity: Option<f64>,
+    /// Largest estimated absolute error of τ and ρ.
+    pub error: f64,
+}
+
+impl Measured {
+    /// Nothing yet on the cells of a setting: every value 0.
+    pub fn dark(setting: &Setting<'_>) -> Self {
+        let (n, m) = (setting.incident.len(), setting.emergent.len());
+        let seen = Seen {
+            transmitted: vec![0.0; n * m],
+            reflected: vec![0.0; n * m],
+            absorbed: vec![0.0; n],
+            error: vec![0.0; n],
+        };
+        Self { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front: seen.clone(), back: seen }
+    }
+
+    /// Light from one side.
+    pub const fn seen(&self, side: Side) -> &Seen {
+        match side {
+            Side::Front => &self.front,
+            Side::Back => &self.back,
+        }
+    }
+
+    /// Light from one side, to be filled in.
+    pub const fn seen_mut(&mut self, side: Side) -> &mut Seen {
+        match side {
+            Side::Front => &mut self.front,
+            Side::Back => &mut self.back,
+        }
+    }
+
+    /// Directional-hemispherical transmittance or reflectance of every incident cell.
+    pub fn shares(&self, q: &[f64]) -> Vec<f64> {
+        let weight = self.emergent.projected_solid_angles();
+        q.chunks_exact(weight.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect()
+    }
+
+    /// The four functions as the rest of the program holds them.
+    pub fn band(&self) -> Band {
+        let mut band = Band::default();
+        let mut set = |component, values: &[f64]| {
+            let matrix = CellMatrix::new(self.incident.clone(), self.emergent.clone(), values.to_vec());
+            band.set(component, Btdf::from_cells(matrix.expect("values are counted by these cells")));
+        };
+        set(Component::TransmissionFront, &self.front.transmitted);
+        set(Component::TransmissionBack, &self.back.transmitted);
+        set(Component::ReflectionFront, &self.front.reflected);
+        set(Component::ReflectionBack, &self.back.reflected);
+        band
+    }
+
+    /// Balance and reciprocity.
+    pub fn quality(&self) -> Quality {
+        let mut balance: f64 = 0.0;
+        let mut error: f64 = 0.0;
+        for side in Side::BOTH {
+            let seen = self.seen(side);
+            let (t, r) = (self.shares(&seen.transmitted), self.shares(&seen.reflected));
+            for ((t, r), a) in t.iter().zip(&r).zip(&seen.absorbed) {
+                balance = balance.max((t + r + a - 1.0).abs());
+            }
+            error = seen.error.iter().copied().fold(error, f64::max);
+        }
+        Quality { balance, reciprocity: self.reciprocity(), error }
+    }
+
+    fn reciprocity(&self) -> Option<f64> {
+        let same = same_cells(&self.emergent, &self.incident)?;
+        let weight = self.incident.projected_solid_angles();
+        let n = weight.len();
+        let (mut apart, mut flux) = (0.0, 0.0);
+        for i in 0..n {
+            for o in 0..n {
+                let there = self.front.transmitted[i * n + same[o]];
+                let back = self.back.transmitted[o * n + same[i]];
+                apart += (there - back).abs() * weight[i] * weight[o];
+                flux += 0.5 * (there + back) * weight[i] * weight[o];
+            }
+        }
+        (flux > 0.0).then(|| apart / flux)
+    }
+}

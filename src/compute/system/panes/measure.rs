@@ -1,0 +1,149 @@
+//! Panes as specimens: every direction keeps its name, and what passes depends on the polar angle alone.
+//!
+//! Cells of rings overlap in a rectangle of θ and φ, so that the means are one-dimensional integrals.
+
+use super::coated::{Layer, stack};
+use super::glazing::Share;
+use crate::compute::basis::Cell;
+use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::quadrature::gauss_legendre;
+use crate::compute::system::measure::{Measured, Quality, Setting, Side, Specimen};
+use std::f64::consts::PI;
+
+/// Panes one behind the other, outside first, air between.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panes {
+    /// The panes.
+    pub layers: Vec<Layer>,
+}
+
+/// Orders of the quadrature over θ: for the values, and for the estimate of their error.
+const ORDERS: [usize; 2] = [64, 40];
+/// Steps of the tables over θ: half a degree.
+const STEPS: usize = 180;
+
+impl Panes {
+    /// `n` equal panes.
+    pub fn equal(layer: Layer, n: usize) -> Self {
+        Self { layers: vec![layer; n] }
+    }
+
+    /// Shares for unpolarised light at a polar angle. \[rad\]
+    pub fn shares(&self, theta: f64) -> Share {
+        stack(&self.layers, theta)
+    }
+}
+
+impl Specimen for Panes {
+    fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
+        let quality = self.measure(setting, progress)?.quality();
+        let table = |part: fn(&Share) -> f64| {
+            let regular = AngularTransmittance::sample(STEPS, |theta| part(&self.shares(theta)));
+            Some(Btdf { regular: Some(regular), scattered: None })
+        };
+        let band = Band {
+            transmission_front: table(|share| share.transmitted),
+            transmission_back: table(|share| share.transmitted),
+            reflection_front: table(|share| share.reflected_front),
+            reflection_back: table(|share| share.reflected_back),
+        };
+        Ok((band, quality))
+    }
+
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        let mut measured = Measured::dark(setting);
+        let rules = ORDERS.map(gauss_legendre);
+        let emergent: Vec<Cell> = setting.emergent.cells().collect();
+        let m = emergent.len();
+        let n = setting.incident.len();
+        let mut known = Known { panes: self, rules, values: vec![] };
+        for (i, cell) in setting.incident.cells().enumerate() {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let whole = cell.projected_solid_angle();
+            let add = |measured: &mut Measured, o: usize, width: f64, mean: &Share, weight: f64| {
+                let q = width / (whole * weight);
+                measured.front.transmitted[i * m + o] += mean.transmitted * q;
+                measured.back.transmitted[i * m + o] += mean.transmitted * q;
+                measured.front.reflected[i * m + o] += mean.reflected_front * q;
+                measured.back.reflected[i * m + o] += mean.reflected_back * q;
+            };
+            for (o, out) in emergent.iter().enumerate() {
+                let (from, to) = (cell.theta_min.max(out.theta_min), cell.theta_max.min(out.theta_max));
+                if to - from <= 1e-12 {
+                    continue;
+                }
+                let width = overlap(&cell, out);
+                if width > 1e-12 {
+                    let ([mean, _], _) = known.integral(from, to);
+                    add(&mut measured, o, width, &mean, out.projected_solid_angle());
+                }
+            }
+            let ([mean, coarse], weight) = known.integral(cell.theta_min, cell.theta_max);
+            for side in Side::BOTH {
+                let reflected = |s: &Share| if side == Side::Front { s.reflected_front } else { s.reflected_back };
+                let seen = measured.seen_mut(side);
+                seen.absorbed[i] = (weight - mean.transmitted - reflected(&mean)).max(0.0) / weight;
+                let apart = (mean.transmitted - coarse.transmitted).abs();
+                seen.error[i] = apart.max((reflected(&mean) - reflected(&coarse)).abs()) / weight;
+            }
+            progress.advance("goniophotometer", i + 1, n);
+        }
+        Ok(measured)
+    }
+}
+
+/// Width of the azimuths that two cells share. \[rad\]
+fn overlap(a: &Cell, b: &Cell) -> f64 {
+    let apart = (a.phi - b.phi + PI).rem_euclid(2.0 * PI) - PI;
+    [-2.0 * PI, 0.0, 2.0 * PI]
+        .iter()
+        .map(|turn| {
+            let middle = apart + turn;
+            let (low, high) =
+                ((middle - 0.5 * a.width).max(-0.5 * b.width), (middle + 0.5 * a.width).min(0.5 * b.width));
+            (high - low).max(0.0)
+        })
+        .sum()
+}
+
+/// Integrals over ranges of θ; rings ask for the same ones again and again.
+struct Known<'a> {
+    panes: &'a Panes,
+    rules: [Vec<(f64, f64)>; 2],
+    values: Vec<([f64; 2], [Share; 2])>,
+}
+
+impl Known<'_> {
+    /// ∫ share · sinθ cosθ dθ by both orders, and the same of 1.
+    fn integral(&mut self, from: f64, to: f64) -> ([Share; 2], f64) {
+        let weight = 0.5 * (to - from).sin() * (to + from).sin();
+        if let Some((_, found)) = self.values.iter().find(|(range, _)| *range == [from, to]) {
+            return (*found, weight);
+        }
+        let with = |rule: &Vec<(f64, f64)>| {
+            let mut sum = Share { transmitted: 0.0, reflected_front: 0.0, reflected_back: 0.0 };
+            let mut total = 0.0;
+            for &(x, w) in rule {
+                let theta = from + (to - from) * x;
+                let share = self.panes.shares(theta);
+                let w = w * theta.sin() * theta.cos();
+                total += w;
+                sum.transmitted += w * share.transmitted;
+                sum.reflected_front += w * share.reflected_front;
+                sum.reflected_back += w * share.reflected_back;
+            }
+            let scale = weight / total;
+            Share {
+                transmitted: sum.transmitted * scale,
+                reflected_front: sum.reflected_front * scale,
+                reflected_back: sum.reflected_back * scale,
+            }
+        };
+        let found = [with(&self.rules[0]), with(&self.rules[1])];
+        self.values.push(([from, to], found));
+        (found, weight)
+    }
+}

@@ -1,0 +1,47 @@
+//! Glazing as described: equal panes one behind the other.
+
+use super::coated::Layer;
+use super::measure::Panes;
+use crate::compute::system::family::{Family, NoSpecimen, PIECE, Polygons, rectangle};
+use crate::compute::system::measure::Specimen;
+
+/// Equal panes with air between; interference left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PaneStack {
+    /// One pane.
+    pub pane: Layer,
+    /// How many.
+    pub panes: usize,
+}
+
+impl PaneStack {
+    /// The panes one by one.
+    pub fn layers(&self) -> Vec<Layer> {
+        vec![self.pane; self.panes]
+    }
+}
+
+impl Family for PaneStack {
+    fn word(&self) -> &'static str {
+        "pane"
+    }
+
+    fn method(&self) -> &'static str {
+        "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
+    }
+
+    /// A piece of every pane, the panes of a data sheet 4 mm thick, 16 mm between them; the outermost face at depth 0.
+    fn drawing(&self, _: &str) -> Polygons {
+        const GAP: f64 = 0.016;
+        let thickness = match self.pane {
+            Layer::Clear(pane) if pane.thickness > 0.0 => pane.thickness,
+            _ => 0.004,
+        };
+        let outer = |k: usize| -(k as f64) * (thickness + GAP);
+        (0..self.panes).map(|k| rectangle([outer(k) - thickness, 0.0], [outer(k), PIECE])).collect()
+    }
+
+    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+        Ok(Box::new(Panes::equal(self.pane, self.panes)))
+    }
+}

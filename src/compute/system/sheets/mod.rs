@@ -1,0 +1,11 @@
+//! Thin sheets: diffusers, fabrics, perforated and expanded metal.
+
+pub mod diffuser;
+mod perforated;
+pub mod sheet;
+mod walls;
+mod woven;
+
+pub use diffuser::Diffuser;
+pub use perforated::{Hole, Perforated};
+pub use woven::Woven;

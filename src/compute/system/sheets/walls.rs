@@ -1,0 +1,447 @@
+//! Opaque Lambertian sheets with holes: perforated and expanded metal, grids of webs.
+//!
+//! A hole is a convex polygon carried through the thickness of the sheet, perhaps obliquely. What passes straight is the
+//! overlap of its two ends as seen along the light. Light on the walls is followed by radiosity: a point of a wall is
+//! lit when the line back to the source leaves through the hole's end, so that what falls on a patch is the area of
+//! two polygons' overlap, exactly; and what a patch sends towards a direction is what that direction would light.
+//! No light goes from one hole to another, because the faces are plane.
+
+use super::perforated::{Hole, Perforated};
+use crate::compute::basis::{Cell, RingBasis, sub_directions};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::system::measure::{Measured, Setting, Side, Specimen};
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Corners of the polygon that stands for a circle of the same area.
+const CIRCLE: usize = 24;
+/// Patches around a hole, at least.
+const AROUND: usize = 24;
+/// Patches through the thickness: the coarsest and the finest.
+const DEPTH: [usize; 2] = [3, 12];
+/// Rays a patch for the exchange between patches.
+const RAYS: usize = 2048;
+
+impl Specimen for Perforated {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        let mut coarse: Option<Measured> = None;
+        let mut depth = DEPTH[0];
+        loop {
+            let mut made = Walls::new(self, depth).measure(setting, progress)?;
+            let mut worst = f64::INFINITY;
+            if let Some(last) = &coarse {
+                worst = 0.0;
+                for side in Side::BOTH {
+                    let (t, r) = (made.shares(&made.seen(side).transmitted), made.shares(&made.seen(side).reflected));
+                    let (t0, r0) = (last.shares(&last.seen(side).transmitted), last.shares(&last.seen(side).reflected));
+                    for (i, error) in made.seen_mut(side).error.iter_mut().enumerate() {
+                        *error += (t[i] - t0[i]).abs().max((r[i] - r0[i]).abs());
+                        worst = worst.max(*error);
+                    }
+                }
+            }
+            if worst <= setting.error || depth >= DEPTH[1] {
+                return Ok(made);
+            }
+            coarse = Some(made);
+            depth *= 2;
+        }
+    }
+}
+
+/// A hole cut into patches. Lengths over the square root of the sheet's area per hole; z = 0 is the outer face.
+struct Walls {
+    outer: Vec<DVec2>,
+    inner: Vec<DVec2>,
+    thickness: f64,
+    open: f64,
+    patches: Vec<[DVec3; 4]>,
+    areas: Vec<f64>,
+    reflectance: [f64; 3],
+}
+
+/// What the cells of a basis light, when light comes from one side.
+#[derive(Clone)]
+struct Lit {
+    /// Straight through, a cell.
+    straight: Vec<f64>,
+    /// On every patch (column) for every cell (row), per light on the sheet.
+    walls: Mat<f64>,
+}
+
+impl Walls {
+    fn new(sheet: &Perforated, depth: usize) -> Self {
+        let unit = sheet.area.sqrt();
+        let corners: Vec<DVec2> = match sheet.hole {
+            Hole::Round { diameter } => {
+                let n = CIRCLE as f64;
+                // The regular polygon of the circle's area.
+                let radius = 0.5 * diameter * (2.0 * PI / (n * (2.0 * PI / n).sin())).sqrt();
+                (0..CIRCLE).map(|k| radius * DVec2::from_angle(2.0 * PI * (k as f64 + 0.5) / n)).collect()
+            }
+            Hole::Rectangle { width, height } => {
+                let (x, y) = (0.5 * width, 0.5 * height);
+                vec![DVec2::new(x, -y), DVec2::new(x, y), DVec2::new(-x, y), DVec2::new(-x, -y)]
+            }
+            Hole::Rhombus { width, height } => {
+                let (x, y) = (0.5 * width, 0.5 * height);
+                vec![DVec2::new(x, 0.0), DVec2::new(0.0, y), DVec2::new(-x, 0.0), DVec2::new(0.0, -y)]
+            }
+        };
+        let outer: Vec<DVec2> = corners.iter().map(|&c| c / unit).collect();
+        let rise = DVec2::new(0.0, sheet.rise / unit);
+        let inner: Vec<DVec2> = outer.iter().map(|&c| c + rise).collect();
+        let thickness = sheet.thickness / unit;
+        let parts = AROUND.div_ceil(outer.len());
+        let mut patches = Vec::new();
+        for k in 0..outer.len() {
+            let (a, b) = (outer[k], outer[(k + 1) % outer.len()]);
+            for part in 0..parts {
+                let along = |j: usize| a.lerp(b, j as f64 / parts as f64);
+                for d in 0..depth {
+                    let at = |p: DVec2, d: usize| {
+                        let s = d as f64 / depth as f64;
+                        (p + rise * s).extend(-thickness * s)
+                    };
+                    let (p, q) = (along(part), along(part + 1));
+                    patches.push([at(p, d), at(q, d), at(q, d + 1), at(p, d + 1)]);
+                }
+            }
+        }
+        let areas = patches.iter().map(|p| (p[1] - p[0]).cross(p[3] - p[0]).length()).collect();
+        Self { open: area(&outer), outer, inner, thickness, patches, areas, reflectance: sheet.reflectance }
+    }
+
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        let mut measured = Measured::dark(setting);
+        let n = self.patches.len();
+        let step = |k| {
+            progress.advance("holes", k, 4);
+            if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
+        };
+        step(0)?;
+        let arriving = Side::BOTH.map(|side| self.lit(setting.incident, side, false));
+        step(1)?;
+        // Leaving light is named as what would light it: the other side's name through the sheet, the turned one back.
+        let through = if setting.incident == setting.emergent {
+            arriving.clone()
+        } else {
+            Side::BOTH.map(|side| self.lit(setting.emergent, side, false))
+        };
+        let back = Side::BOTH.map(|side| self.lit(setting.emergent, side, true));
+        step(2)?;
+        let weight = setting.emergent.projected_solid_angles();
+        let escaping: Vec<f64> = (0..n)
+            .map(|j| {
+                let flux = |lit: &Lit| (0..weight.len()).map(|o| lit.walls[(o, j)] * weight[o]).sum::<f64>();
+                (flux(&through[0]) + flux(&through[1])) / (PI * self.areas[j])
+            })
+            .collect();
+        let response = self.response(&escaping);
+        step(3)?;
+        let wall = self.reflectance[2];
+        for (k, side) in Side::BOTH.into_iter().enumerate() {
+            let face = self.reflectance[k];
+            let came = &arriving[k];
+            // Light that falls on every patch in the end, a column per incident cell.
+            let landed = &response * came.walls.transpose();
+            let exitance = Mat::from_fn(n, setting.incident.len(), |j, i| wall * landed[(j, i)] / (PI * self.areas[j]));
+            let forward = &through[1 - k].walls * &exitance;
+            let returned = &back[k].walls * &exitance;
+            let mut straight = vec![0.0; setting.incident.len() * weight.len()];
+            straight_on(&mut straight, setting, &came.straight);
+            let seen = measured.seen_mut(side);
+            for i in 0..setting.incident.len() {
+                for o in 0..weight.len() {
+                    let at = i * weight.len() + o;
+                    seen.transmitted[at] = straight[at] + forward[(o, i)];
+                    seen.reflected[at] = face * (1.0 - self.open) / PI + returned[(o, i)];
+                }
+                let swallowed: f64 = (0..n).map(|j| (1.0 - wall) * landed[(j, i)]).sum();
+                seen.absorbed[i] = (1.0 - face) * (1.0 - self.open) + swallowed;
+            }
+        }
+        for side in Side::BOTH {
+            let (t, r) =
+                (measured.shares(&measured.seen(side).transmitted), measured.shares(&measured.seen(side).reflected));
+            let seen = measured.seen_mut(side);
+            for i in 0..t.len() {
+                // Light that the averages lose or win.
+                seen.error[i] = (t[i] + r[i] + seen.absorbed[i] - 1.0).abs();
+            }
+        }
+        Ok(measured)
+    }
+
+    /// The straight share and the lighting of the walls by every cell, from one side; `turned`: by the names turned by
+    /// 180° about the normal.
+    fn lit(&self, cells: &RingBasis, side: Side, turned: bool) -> Lit {
+        let list: Vec<Cell> = cells.cells().collect();
+        let rows: Vec<(f64, Vec<f64>)> = list
+            .par_iter()
+            .map(|cell| {
+                // At most 4° between directions.
+                let wide = (cell.theta_max - cell.theta_min).max(cell.width * cell.theta().sin());
+                let sub = ((wide.to_degrees() / 4.0).ceil() as usize).clamp(1, 4);
+                let share = 1.0 / (sub * sub) as f64;
+                let mut walls = vec![0.0; self.patches.len()];
+                let mut straight = 0.0;
+                for d in sub_directions(cell, sub) {
+                    straight += share * self.light(d, side, turned, share, &mut walls);
+                }
+                (straight, walls)
+            })
+            .collect();
+        Lit {
+            straight: rows.iter().map(|row| row.0).collect(),
+            walls: Mat::from_fn(list.len(), self.patches.len(), |i, j| rows[i].1[j]),
+        }
+    }
+
+    /// Adds what one direction lights, times `share`; returns its straight share.
+    fn light(&self, name: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
+        let mut v = name.vector();
+        if turned {
+            (v.x, v.y) = (-v.x, -v.y);
+        }
+        // The way light travels, where it enters and where it leaves.
+        let ends = [(&self.outer, 0.0), (&self.inner, -self.thickness)];
+        let (travel, (entry, level), (exit, far)) = match side {
+            Side::Front => (-v, ends[0], ends[1]),
+            Side::Back => (v, ends[1], ends[0]),
+        };
+        if travel.z.abs() < 1e-9 {
+            return 0.0;
+        }
+        let carried = |p: DVec3| (p - travel * ((p.z - level) / travel.z)).truncate();
+        let mut lit = 0.0;
+        for (patch, wall) in self.patches.iter().zip(walls) {
+            // Of a wall that light meets from behind, the shadow lies beside the entry: the hole is convex.
+            let shared = clipped(&patch.map(carried), entry);
+            *wall += share * shared;
+            lit += shared;
+        }
+        let image: Vec<DVec2> = exit.iter().map(|&p| carried(p.extend(far))).collect();
+        let straight = clipped(&image, entry);
+        debug_assert!((straight + lit - self.open).abs() < 1e-6 * self.open + 1e-9, "{straight} {lit} {}", self.open);
+        straight
+    }
+
+    /// Light landed on patch j in the end per light that patch i gets first: (1 − K ρ)⁻¹. `escaping`: the share that
+    /// leaves each patch through the ends of the hole.
+    fn response(&self, escaping: &[f64]) -> Mat<f64> {
+        let n = self.patches.len();
+        let rows: Vec<Vec<f64>> = (0..n).into_par_iter().map(|k| self.exchange(k)).collect();
+        // Area × factor both ways alike, and what does not escape lands: rays count either only to their noise.
+        let mutual = |i: usize, j: usize| 0.5 * (rows[i][j] * self.areas[i] + rows[j][i] * self.areas[j]);
+        let mut scale = vec![1.0; n];
+        for _ in 0..50 {
+            let sums: Vec<f64> =
+                (0..n).map(|i| scale[i] * (0..n).map(|j| mutual(i, j) * scale[j]).sum::<f64>()).collect();
+            for i in 0..n {
+                let wanted = self.areas[i] * (1.0 - escaping[i]).max(0.0);
+                scale[i] *= if sums[i] > 0.0 { (wanted / sums[i]).sqrt() } else { 0.0 };
+            }
+        }
+        let factor = |i: usize, j: usize| scale[i] * mutual(i, j) * scale[j] / self.areas[i];
+        let wall = self.reflectance[2];
+        let system = Mat::from_fn(n, n, |j, i| f64::from(u8::from(i == j)) - wall * factor(i, j));
+        system.partial_piv_lu().solve(Mat::<f64>::identity(n, n))
+    }
+
+    /// Share of what a patch sends out that lands on each other patch, by rays of equal weight.
+    fn exchange(&self, from: usize) -> Vec<f64> {
+        let corners = &self.patches[from];
+        let (u, w) = (corners[1] - corners[0], corners[3] - corners[0]);
+        let mut normal = u.cross(w).normalize_or_zero();
+        let middle = 0.5 * (corners[0] + corners[2]);
+        let axis = {
+            let centre: DVec2 = self.outer.iter().sum::<DVec2>() / self.outer.len() as f64;
+            let down = -middle.z / self.thickness;
+            (centre + (self.inner[0] - self.outer[0]) * down).extend(middle.z)
+        };
+        if normal.dot(axis - middle) < 0.0 {
+            normal = -normal;
+        }
+        let tangent = u.normalize_or_zero();
+        let side = normal.cross(tangent);
+        let depth = self.patches.len() / (self.outer.len() * AROUND.div_ceil(self.outer.len()));
+        let mut row = vec![0.0; self.patches.len()];
+        for k in 0..RAYS {
+            // A rank-1 lattice in four dimensions (powers of the plastic-like constant): even without being regular.
+            let at = |alpha: f64| (0.5 + alpha * (k as f64 + 1.0)).fract();
+            let (a, b) = (at(0.856_674_883_854_502_8), at(0.733_891_856_627_126));
+            let (c, d) = (at(0.628_706_721_018_231_5), at(0.538_597_264_883_558_2));
+            let origin = corners[0] + u * a + w * b;
+            let (sine, cosine) = (c.sqrt(), (1.0 - c).sqrt());
+            let (sin, cos) = (2.0 * PI * d).sin_cos();
+            let ray = normal * cosine + (tangent * cos + side * sin) * sine;
+            if let Some(patch) = self.hit(origin, ray, from / (depth * AROUND.div_ceil(self.outer.len())), depth) {
+                row[patch] += 1.0 / RAYS as f64;
+            }
+        }
+        row
+    }
+
+    /// The patch that a ray meets; `None` when it leaves through an end.
+    fn hit(&self, origin: DVec3, ray: DVec3, own: usize, depth: usize) -> Option<usize> {
+        let n = self.outer.len();
+        let parts = AROUND.div_ceil(n);
+        // In coordinates that follow the hole's axis the hole is upright.
+        let lean = (self.inner[0] - self.outer[0]) / self.thickness;
+        let upright = |p: DVec3| p.truncate() + lean * p.z;
+        let (start, way) = (upright(origin), ray.truncate() + lean * ray.z);
+        let mut best: Option<(f64, usize, f64)> = None;
+        for k in (0..n).filter(|&k| k != own) {
+            let (a, b) = (self.outer[k], self.outer[(k + 1) % n]);
+            let edge = b - a;
+            let across = way.perp_dot(edge);
+            if across.abs() < 1e-14 {
+                continue;
+            }
+            let t = (a - start).perp_dot(edge) / across;
+            let s = (a - start).perp_dot(way) / across;
+            if t > 1e-12 && (-1e-9..=1.0 + 1e-9).contains(&s) && best.is_none_or(|(other, ..)| t < other) {
+                best = Some((t, k, s));
+            }
+        }
+        let (t, k, s) = best?;
+        let level = -(origin.z + t * ray.z) / self.thickness;
+        if !(0.0..1.0).contains(&level) {
+            return None;
+        }
+        let part = ((s.clamp(0.0, 1.0) * parts as f64) as usize).min(parts - 1);
+        Some((k * parts + part) * depth + (level * depth as f64) as usize)
+    }
+}
+
+/// Light that goes straight on, given for every incident cell, into the emergent cells.
+fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
+    let shares = crate::compute::basis::Resampling::new(setting.incident, setting.emergent);
+    let weight = setting.incident.projected_solid_angles();
+    for o in 0..setting.emergent.len() {
+        for &(i, share) in shares.shares(o) {
+            values[i * setting.emergent.len() + o] += share * straight[i] / weight[i];
+        }
+    }
+}
+
+/// Area of a polygon, > 0 when it turns counter-clockwise.
+fn area(polygon: &[DVec2]) -> f64 {
+    (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
+}
+
+/// Most corners that a patch clipped by the entry may have.
+const CORNERS: usize = CIRCLE + 8;
+
+/// Area of the part of a convex polygon that lies within another one (counter-clockwise), by Sutherland and Hodgman.
+fn clipped(subject: &[DVec2], clip: &[DVec2]) -> f64 {
+    let (mut polygon, mut kept) = ([DVec2::ZERO; 2 * CORNERS], [DVec2::ZERO; 2 * CORNERS]);
+    polygon[..subject.len()].copy_from_slice(subject);
+    let mut n = subject.len();
+    for k in 0..clip.len() {
+        let (a, b) = (clip[k], clip[(k + 1) % clip.len()]);
+        let side = |p: DVec2| (b - a).perp_dot(p - a);
+        if polygon[..n].iter().all(|&p| side(p) >= 0.0) {
+            continue;
+        }
+        let mut count = 0;
+        for j in 0..n {
+            let (p, q) = (polygon[j], polygon[(j + 1) % n]);
+            let (sp, sq) = (side(p), side(q));
+            if sp >= 0.0 {
+                kept[count] = p;
+                count += 1;
+            }
+            if (sp >= 0.0) != (sq >= 0.0) {
+                kept[count] = p.lerp(q, sp / (sp - sq));
+                count += 1;
+            }
+        }
+        if count < 3 {
+            return 0.0;
+        }
+        std::mem::swap(&mut polygon, &mut kept);
+        n = count;
+    }
+    area(&polygon[..n]).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::estimate::Silent;
+    use crate::compute::system::measure::front_basis;
+
+    fn sheet(hole: Hole, thickness: f64, rise: f64, wall: f64) -> Perforated {
+        Perforated { hole, area: 1e-4, thickness, rise, reflectance: [0.6, 0.4, wall] }
+    }
+
+    fn measure(sheet: &Perforated) -> Measured {
+        let cells = front_basis();
+        sheet.measure(&Setting { incident: &cells, emergent: &cells, error: 0.005, seed: 1 }, &Silent).unwrap()
+    }
+
+    #[test]
+    fn balance_and_reciprocity_of_every_shape() {
+        let side = 0.007;
+        for (hole, rise) in [
+            (Hole::Round { diameter: side }, 0.0),
+            (Hole::Rectangle { width: side, height: 0.5 * side }, 0.0),
+            (Hole::Rhombus { width: 0.012, height: side }, 0.002),
+        ] {
+            for wall in [0.0, 0.9] {
+                let quality = measure(&sheet(hole, 0.004, rise, wall)).quality();
+                assert!(quality.balance < 1e-3, "{hole:?} {wall}: {quality:?}");
+                assert!(quality.reciprocity.unwrap() < 0.01, "{hole:?} {wall}: {quality:?}");
+                assert!(quality.error < 0.005, "{hole:?} {wall}: {quality:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn straight_share_of_a_square_hole_is_a_product() {
+        // Open (a − t|x|/z)(a − t|y|/z) of the unit area.
+        let (a, t) = (0.8, 0.3);
+        let hole = Hole::Rectangle { width: 0.008, height: 0.008 };
+        let walls = Walls::new(&sheet(hole, 0.003, 0.0, 0.0), 3);
+        let mut dump = vec![0.0; walls.patches.len()];
+        for (theta, phi) in [(0.2, 0.3), (0.7, 1.2), (1.1, 4.0), (1.4, 5.5)] {
+            let d = Dir::from_theta_phi(theta, phi);
+            let v = d.vector();
+            let exact = (a - t * (v.x / v.z).abs()).max(0.0) * (a - t * (v.y / v.z).abs()).max(0.0);
+            for side in Side::BOTH {
+                let found = walls.light(d, side, false, 1.0, &mut dump);
+                assert!((found - exact).abs() < 1e-12, "{theta} {phi}: {found} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_deep_hole_with_white_walls_is_a_pipe_that_loses_nothing() {
+        let made = measure(&sheet(Hole::Round { diameter: 0.008 }, 0.004, 0.0, 1.0));
+        let (t, r) = (made.shares(&made.front.transmitted), made.shares(&made.front.reflected));
+        let open = 0.25 * PI * 0.64;
+        for (t, r) in t.iter().zip(&r) {
+            assert!((t + r - open - 0.6 * (1.0 - open)).abs() < 1e-3, "{t} {r}");
+        }
+        // Clausing's probability of a tube as long as its radius: 0.6720 (Clausing 1932; exact 0.67198).
+        let cells = front_basis();
+        let uniform: f64 = cells.projected_solid_angles().iter().zip(&t).map(|(w, t)| w * t).sum::<f64>() / PI;
+        assert!((uniform / open - 0.6720).abs() < 0.01, "{}", uniform / open);
+    }
+
+    #[test]
+    fn walls_that_rise_inwards_let_low_light_through() {
+        let made = measure(&sheet(Hole::Rhombus { width: 0.018, height: 0.008 }, 0.004, 0.003, 0.0));
+        let cells = front_basis();
+        let at = |phi: f64| cells.index(Dir::from_theta_phi(0.6, phi)).unwrap();
+        let tau = made.shares(&made.front.transmitted);
+        // Light from below travels upwards and inwards.
+        assert!(tau[at(-PI / 2.0)] > 2.0 * tau[at(PI / 2.0)], "{} {}", tau[at(-PI / 2.0)], tau[at(PI / 2.0)]);
+    }
+}

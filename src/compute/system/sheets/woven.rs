@@ -1,0 +1,123 @@
+//! Woven screens by their openness and their yarn: the semi-empirical roller blind model of Kotey, Wright and Collins
+//! ("Determining off-normal solar optical properties of roller blinds", ASHRAE Transactions 115, 2009).
+//!
+//! The share that passes between the yarns ends at a cut-off angle; what the yarns transmit leaves diffusely. The model
+//! gives totals for each incidence; their distribution is made reciprocal, τ_d(θ_e) τ_d(θ_a)/(π τ̄_d), and reflection is
+//! Lambertian, as the model has it.
+
+use super::sheet::{Sheet, Spread};
+use crate::compute::btdf::AngularTransmittance;
+use crate::compute::system::family::{Family, NoSpecimen, Polygons};
+use crate::compute::system::measure::Specimen;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Pitch of the yarns as drawn; the description has none. \[m\]
+const YARN_PITCH: f64 = 0.001;
+
+/// A fabric by its openness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Woven {
+    /// Open share of the area at normal incidence.
+    pub openness: f64,
+    /// Diffuse reflectance of the yarn on the outer and inner face.
+    pub reflectance: [f64; 2],
+    /// Transmittance of the yarn, all of it diffuse.
+    pub transmittance: f64,
+}
+
+impl Woven {
+    /// Share of light that passes between the yarns. \[rad\]
+    pub fn open(&self, theta: f64) -> f64 {
+        let closed = (FRAC_PI_2 * self.openness).cos();
+        let cut_off = (90.0 - 25.0 * closed).to_radians();
+        if theta >= cut_off {
+            return 0.0;
+        }
+        let passed = self.openness * (FRAC_PI_2 * theta / cut_off).cos().powf(0.6 * closed.powf(0.3));
+        // The two correlations may cross by a little.
+        passed.min(self.total(theta))
+    }
+
+    /// Share of light that passes between and through the yarns. \[rad\]
+    pub fn total(&self, theta: f64) -> f64 {
+        let yarn = self.transmittance;
+        let exponent = if yarn <= 0.33 { 0.133 * (yarn + 0.003).powf(-0.467) } else { 0.33 * (1.0 - yarn) };
+        let normal = self.openness + yarn * (1.0 - self.openness);
+        normal * theta.cos().max(0.0).powf(exponent)
+    }
+
+    /// The fabric as a sheet.
+    pub fn sheet(&self) -> Sheet {
+        let table = |f: &dyn Fn(f64) -> f64| AngularTransmittance::sample(180, f);
+        Sheet {
+            transmission: Spread {
+                regular: table(&|theta| self.open(theta)),
+                diffuse: table(&|theta| self.total(theta) - self.open(theta)),
+                lobe: None,
+            },
+            reflection: self.reflectance.map(|yarn| Spread::lambertian(yarn * (1.0 - self.openness))),
+        }
+    }
+}
+
+impl Family for Woven {
+    fn word(&self) -> &'static str {
+        "woven"
+    }
+
+    fn method(&self) -> &'static str {
+        "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)"
+    }
+
+    /// A yarn of a plain weave: of the pitch p its threads of width d leave (1 − d/p)² open.
+    fn drawing(&self, _: &str) -> Polygons {
+        const CORNERS: usize = 32;
+        let radius = 0.5 * YARN_PITCH * (1.0 - self.openness.max(0.0).sqrt());
+        let corner = |k: usize| {
+            let (sin, cos) = (TAU * k as f64 / CORNERS as f64).sin_cos();
+            [radius * (cos - 1.0), 0.5 * YARN_PITCH + radius * sin]
+        };
+        vec![(0..CORNERS).map(corner).collect()]
+    }
+
+    fn drawing_period(&self) -> Option<f64> {
+        Some(YARN_PITCH)
+    }
+
+    fn is_schematic(&self) -> bool {
+        true
+    }
+
+    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+        Ok(Box::new(self.sheet()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn yarns_leave_the_openness() {
+        let fabric = Woven { openness: 0.09, reflectance: [0.5; 2], transmittance: 0.0 };
+        let heights = fabric.drawing("")[0].iter().map(|p| p[1]).collect::<Vec<_>>();
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let free = 1.0 - (high - low) / fabric.drawing_period().unwrap();
+        assert!((free * free - 0.09).abs() < 1e-9);
+    }
+
+    #[test]
+    fn openness_and_yarn_at_normal_incidence_and_the_cut_off() {
+        let fabric = Woven { openness: 0.05, reflectance: [0.7, 0.3], transmittance: 0.1 };
+        assert!((fabric.open(0.0) - 0.05).abs() < 1e-15 && (fabric.total(0.0) - 0.145).abs() < 1e-15);
+        // 90° − 25° cos(4.5°) = 65.08°.
+        assert!(fabric.open(65.0_f64.to_radians()) > 0.0 && fabric.open(65.1_f64.to_radians()) == 0.0);
+        for k in 0..90 {
+            let theta = f64::from(k).to_radians();
+            assert!(fabric.open(theta) <= fabric.total(theta) + 1e-15);
+        }
+        let open = Woven { openness: 0.3, reflectance: [0.0; 2], transmittance: 0.0 };
+        assert!((open.total(0.5) - open.open(0.5)).abs() < 0.06, "yarns that pass nothing leave little diffuse light");
+    }
+}

@@ -1,0 +1,166 @@
+//! An endless array of slats: its section's measures and finishes, checked.
+
+use super::profile::SlatProfile;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// Finish of one side of a slat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// Diffuse (Lambertian) reflectance.
+    pub diffuse: f64,
+    /// Reflectance as a mirror; both together at most 1.
+    pub mirror: f64,
+    /// Standard deviation σ of the mirrored direction about the ideal one, along either axis for light that comes near
+    /// the normal; the lobe for any light is described at the head of this module. \[rad\]
+    pub spread: f64,
+}
+
+impl Surface {
+    /// A matt surface.
+    pub const fn matt(diffuse: f64) -> Self {
+        Self { diffuse, mirror: 0.0, spread: 0.0 }
+    }
+
+    /// An ideal mirror.
+    pub const fn mirror(mirror: f64) -> Self {
+        Self { diffuse: 0.0, mirror, spread: 0.0 }
+    }
+}
+
+/// A value that no array of slats can have.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{key} = {value}: {allowed}")]
+pub struct SlatError {
+    /// The quantity, by the name that system descriptions give it.
+    pub key: &'static str,
+    /// What was given, in metres and degrees.
+    pub value: String,
+    /// What would be right.
+    pub allowed: String,
+}
+
+/// An endless array of equal slats, horizontal, one above the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlatArray {
+    profile: SlatProfile,
+    thickness: f64,
+    spacing: f64,
+    tilt: f64,
+    upper: Surface,
+    lower: Surface,
+}
+
+/// Points that a described profile may have.
+const MOST_POINTS: usize = 400;
+
+fn check(key: &'static str, value: f64, right: bool, allowed: impl Into<String>) -> Result<(), SlatError> {
+    if right { Ok(()) } else { Err(SlatError { key, value: format!("{value}"), allowed: allowed.into() }) }
+}
+
+fn check_surface(side: &Surface, keys: [&'static str; 3]) -> Result<(), SlatError> {
+    let share = |x: f64| (0.0..=1.0).contains(&x);
+    check(keys[0], side.diffuse, share(side.diffuse), "0 to 1")?;
+    check(keys[1], side.mirror, share(side.mirror), "0 to 1")?;
+    let sum = side.diffuse + side.mirror;
+    check(keys[1], side.mirror, sum <= 1.0 + 1e-12, format!("at most {} beside this reflectance", 1.0 - side.diffuse))?;
+    check(keys[2], side.spread.to_degrees(), (0.0..=FRAC_PI_4).contains(&side.spread), "0 to 45 degrees")
+}
+
+fn check_profile(profile: &SlatProfile) -> Result<f64, SlatError> {
+    match profile {
+        SlatProfile::Flat { width } => {
+            check("width", *width, width.is_finite() && *width > 0.0, "more than 0 m")?;
+            Ok(*width)
+        }
+        SlatProfile::Arc { width, rise } => {
+            check("width", *width, width.is_finite() && *width > 0.0, "more than 0 m")?;
+            let right = rise.is_finite() && *rise != 0.0 && rise.abs() <= 0.5 * width;
+            check("rise", *rise, right, "not 0 for an arc, at most half the width either way")?;
+            Ok(*width)
+        }
+        SlatProfile::Polyline(points) => {
+            let count = points.len();
+            check("profile", count as f64, (2..=MOST_POINTS).contains(&count), format!("2 to {MOST_POINTS} points"))?;
+            for pair in points.windows(2) {
+                let length = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+                let right = length.is_finite() && length > 0.0;
+                check("profile", length, right, "points in metres, no two alike in a row")?;
+            }
+            let ends = |axis: usize| points.iter().map(move |p| p[axis]);
+            let size =
+                |axis: usize| ends(axis).fold(f64::NEG_INFINITY, f64::max) - ends(axis).fold(f64::INFINITY, f64::min);
+            Ok(size(0).max(size(1)))
+        }
+    }
+}
+
+impl SlatArray {
+    /// Slats of a profile and thickness \[m\], one every `spacing` \[m\], turned by `tilt` \[rad\] (> 0 = outer edge lowered)
+    /// about the profile's origin. Thickness 0 is a sheet; edges of solid slats reflect diffusely, with the mean of
+    /// what both sides reflect.
+    ///
+    /// # Errors
+    /// The first value that is out of range, with what is allowed.
+    pub fn new(
+        profile: SlatProfile,
+        thickness: f64,
+        spacing: f64,
+        tilt: f64,
+        [upper, lower]: [Surface; 2],
+    ) -> Result<Self, SlatError> {
+        let size = check_profile(&profile)?;
+        check("spacing", spacing, spacing.is_finite() && spacing > 0.0, "more than 0 m")?;
+        check("spacing", spacing, (0.02..=50.0).contains(&(spacing / size)), "0.02 to 50 times the slat's width")?;
+        let thick = (0.0..=0.25 * size.min(spacing)).contains(&thickness);
+        check("thickness", thickness, thick, "0 m to a quarter of the slat's width and of the spacing")?;
+        check("angle", tilt.to_degrees(), tilt.abs() <= FRAC_PI_2 + 1e-9, "-90 to 90 degrees")?;
+        check_surface(&upper, ["upper.reflectance", "upper.specular", "upper.roughness"])?;
+        check_surface(&lower, ["lower.reflectance", "lower.specular", "lower.roughness"])?;
+        Ok(Self { profile, thickness, spacing, tilt, upper, lower })
+    }
+
+    /// Section at tilt 0.
+    pub const fn profile(&self) -> &SlatProfile {
+        &self.profile
+    }
+
+    /// Thickness. \[m\]
+    pub const fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Pitch. \[m\]
+    pub const fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// Tilt, > 0 = outer edge lowered. \[rad\]
+    pub const fn tilt(&self) -> f64 {
+        self.tilt
+    }
+
+    /// Finish of the upper side at tilt 0.
+    pub const fn upper(&self) -> Surface {
+        self.upper
+    }
+
+    /// Finish of the lower side at tilt 0.
+    pub const fn lower(&self) -> Surface {
+        self.lower
+    }
+
+    /// The same slats at another tilt.
+    ///
+    /// # Errors
+    /// A tilt beyond ±90°.
+    pub fn turned(&self, tilt: f64) -> Result<Self, SlatError> {
+        check("angle", tilt.to_degrees(), tilt.abs() <= FRAC_PI_2 + 1e-9, "-90 to 90 degrees")?;
+        Ok(Self { tilt, ..self.clone() })
+    }
+
+    /// Finish of the edges of solid slats.
+    pub(super) fn edge(&self) -> Surface {
+        let all = |side: Surface| side.diffuse + side.mirror;
+        Surface::matt((0.5 * (all(self.upper) + all(self.lower))).min(1.0))
+    }
+}

@@ -1,0 +1,265 @@
+//! Light that mirrors throw on: a ray from reflection to reflection until it leaves the slats or has died.
+
+use super::arc::Point;
+use super::outline::{Facet, Section};
+use super::sweep::Met;
+use std::f64::consts::PI;
+
+/// Rays weaker than this share of their start are given up.
+const FAINT: f64 = 1e-6;
+/// Reflections after which a ray is given up: between perfect mirrors that nearly touch it may never leave.
+const MOST: usize = 5000;
+/// A ray has left a strip when it is farther from it. In pitches.
+const OFF: f64 = 1e-10;
+
+/// A ray that has just come to a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ray {
+    /// Place, in the frame of the slat met.
+    pub(super) point: Point,
+    /// Unit direction of travel (outward, upward).
+    pub(super) direction: Point,
+    /// What it has come to.
+    pub(super) met: Met,
+}
+
+/// A ray that leaves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Exit {
+    /// Unit direction of travel.
+    pub(super) direction: Point,
+    /// What it carries.
+    pub(super) weight: f64,
+    /// Sum of the squared spreads of the mirrors met. \[rad²\]
+    pub(super) variance: f64,
+}
+
+/// Equidistributed numbers with a start of their own for every bundle of rays.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sequence {
+    /// Rays drawn so far.
+    ray: u64,
+    /// Reflections of this ray so far.
+    depth: usize,
+    start: u64,
+}
+
+/// Primes: a pair of their square roots for every reflection makes the rays' numbers equidistributed.
+const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
+
+impl Sequence {
+    /// From number `stream` on of a seed: what nodes draw goes on where their neighbours' ends, so that sums over nodes
+    /// are drawn evenly, too.
+    pub(super) fn new(seed: u64, stream: u64) -> Self {
+        Self { ray: stream * 1000, depth: 0, start: mix(seed) }
+    }
+
+    /// The next ray begins.
+    pub(super) fn next_ray(&mut self) {
+        (self.ray, self.depth) = (self.ray + 1, 0);
+    }
+
+    /// Two numbers of 0 … 1 for the next reflection.
+    fn pair(&mut self) -> [f64; 2] {
+        let first = 2 * self.depth;
+        self.depth += 1;
+        [first, first + 1].map(|k| {
+            let shift = mix(self.start ^ (k as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9));
+            match PRIMES.get(k) {
+                Some(prime) => (unit(shift) + self.ray as f64 * f64::from(*prime).sqrt()).fract(),
+                // After that many reflections any number will do.
+                None => unit(mix(shift ^ self.ray)),
+            }
+        })
+    }
+}
+
+/// SplitMix64: for starts that are unlike their neighbours'.
+const fn mix(seed: u64) -> u64 {
+    let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+fn unit(bits: u64) -> f64 {
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// A ray comes to a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    /// Straight run of strips.
+    pub(super) facet: usize,
+    /// Its second side?
+    pub(super) right: bool,
+    /// Share of the run at which the ray comes to it.
+    pub(super) share: f64,
+    /// What it still carries.
+    pub(super) weight: f64,
+}
+
+/// What becomes of a ray after its first mirror, per unit of what came to it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Trace {
+    /// What it comes to.
+    pub(super) landed: Vec<Landing>,
+    /// How it leaves.
+    pub(super) exit: Option<Exit>,
+    /// The slats and sides met, as a number: rays of a bundle with the same way have the same.
+    pub(super) way: u64,
+}
+
+/// Weaker parts do not make a way another.
+const TELLING: f64 = 1e-3;
+
+impl Section {
+    /// Follows the mirrored part of a ray of weight 1.
+    pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
+        sequence.next_ray();
+        trace.landed.clear();
+        (trace.exit, trace.way) = (None, 0);
+        let (mut variance, mut weight) = (0.0, 1.0);
+        for _ in 0..MOST {
+            let surface = self.faces[ray.met.face].surface;
+            weight *= surface.mirror;
+            if weight <= FAINT {
+                return;
+            }
+            variance += surface.spread * surface.spread;
+            ray.direction = self.mirrored(&ray, surface.spread, sequence);
+            let met = self.next(ray.point, ray.direction, ray.met.strip);
+            let place = met.map_or(1 + u64::from(ray.direction[0] > 0.0), |(.., landing, copy)| {
+                u64::from((copy + 128).unsigned_abs()) * 4 + 2 * u64::from(landing.right) + 7
+            });
+            if weight > TELLING {
+                trace.way = trace.way.wrapping_mul(0x0100_0000_01B3).wrapping_add(place);
+            }
+            match met {
+                None => {
+                    trace.exit = Some(Exit { direction: ray.direction, weight, variance });
+                    return;
+                }
+                Some((point, met, landing, _)) => {
+                    trace.landed.push(Landing { weight, ..landing });
+                    (ray.point, ray.met) = (point, met);
+                }
+            }
+        }
+    }
+
+    /// Direction after the mirror that a ray has come to. A spread σ moves the ideal direction's sine u to the face's
+    /// normal by a step on the unit sphere whose axis u is the height along (see the head of this module's parent).
+    fn mirrored(&self, ray: &Ray, spread: f64, sequence: &mut Sequence) -> Point {
+        let strip = &self.strips[ray.met.strip];
+        let d = ray.direction;
+        let facet = &self.facets[self.facet_of[ray.met.strip]];
+        let left = facet.circle.as_ref().map_or(facet.left, |circle| circle.normal(ray.point));
+        // Towards the ray.
+        let side = if strip.faces[0] == Some(ray.met.face) { 1.0 } else { -1.0 };
+        let n = left.map(|x| side * x);
+        let across = d[0] * n[0] + d[1] * n[1];
+        // A chord's ray may pass the arc: it goes on along it.
+        let mut out = if across < 0.0 { [d[0] - 2.0 * across * n[0], d[1] - 2.0 * across * n[1]] } else { d };
+        if spread > 0.0 {
+            let along = [-n[1], n[0]];
+            let u = (out[0] * along[0] + out[1] * along[1]).clamp(-1.0, 1.0);
+            let [r, s] = sequence.pair();
+            let (sin, cos) = (spread * (-2.0 * (1.0 - r).ln()).sqrt()).sin_cos();
+            let u = (u * cos + (1.0 - u * u).sqrt() * sin * (2.0 * PI * s).cos()).clamp(-1.0, 1.0);
+            let off = (1.0 - u * u).sqrt();
+            out = [u * along[0] + off * n[0], u * along[1] + off * n[1]];
+        }
+        let size = (out[0] * out[0] + out[1] * out[1]).sqrt().max(f64::MIN_POSITIVE);
+        out.map(|x| x / size)
+    }
+
+    /// The first strip that a ray from a point of the slat at the origin meets, where in the frame of the slat met,
+    /// and which slat that is.
+    fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met, Landing, i32)> {
+        let mut best: (f64, Option<(usize, i32, f64, bool)>) = (f64::INFINITY, None);
+        for step in -self.reach..=self.reach {
+            // Of sheets that lie in one another the lower is the inner one, as in the sweep.
+            let copy = if d[0] >= 0.0 { step } else { -step };
+            let p = [point[0], point[1] - f64::from(copy)];
+            for group in &self.groups {
+                let to = [group.centre[0] - p[0], group.centre[1] - p[1]];
+                let (ahead, beside) = (to[0] * d[0] + to[1] * d[1], to[0] * d[1] - to[1] * d[0]);
+                if beside.abs() > group.radius || ahead < -group.radius || ahead - group.radius > best.0 {
+                    continue;
+                }
+                for index in group.facets.clone() {
+                    let facet = &self.facets[index];
+                    let itself = copy == 0 && (facet.first..facet.first + facet.ends.len()).contains(&own);
+                    facet.hits(p, d, itself, |distance, share, right| {
+                        let seen = distance > OFF && distance < best.0 - OFF;
+                        if seen && self.strips[facet.first].faces[usize::from(right)].is_some() {
+                            best = (distance, Some((index, copy, share, right)));
+                        }
+                    });
+                }
+            }
+        }
+        let (distance, Some((facet, copy, share, right))) = best else { return None };
+        let strip = self.strip_at(facet, share);
+        let face = self.strips[strip].faces[usize::from(right)]?;
+        let at = [point[0] + distance * d[0], point[1] + distance * d[1] - f64::from(copy)];
+        Some((at, Met { strip, copy: 0, face }, Landing { facet, right, share, weight: 1.0 }, copy))
+    }
+
+    fn strip_at(&self, facet: usize, share: f64) -> usize {
+        let facet = &self.facets[facet];
+        facet.first + facet.ends.partition_point(|end| *end < share).min(facet.ends.len() - 1)
+    }
+
+    /// Divides what comes to a side of a straight run between two shares of it evenly over its faces.
+    pub(super) fn divide(&self, landing: &Landing, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
+        let (low, high) = (from.min(to), from.max(to));
+        let facet = &self.facets[landing.facet];
+        let side = usize::from(landing.right);
+        let first = self.strip_at(landing.facet, low) - facet.first;
+        let mut start = low;
+        for (k, &end) in facet.ends.iter().enumerate().skip(first) {
+            let last = end >= high || k + 1 == facet.ends.len();
+            let stop = if last { high } else { end };
+            let part = if high > low { (stop - start) / (high - low) } else { 1.0 };
+            if let Some(face) = self.strips[facet.first + k].faces[side] {
+                put(face, part);
+            }
+            if last {
+                break;
+            }
+            start = end;
+        }
+    }
+}
+
+impl Facet {
+    /// Calls `hit(distance, share of the way, from the right)` wherever a ray meets it. `itself`: the ray comes from it.
+    fn hits(&self, p: Point, d: Point, itself: bool, mut hit: impl FnMut(f64, f64, bool)) {
+        if let Some(circle) = &self.circle {
+            for distance in circle.meets(p, d).into_iter().flatten() {
+                // Where the ray comes from is one of the two.
+                if distance <= 0.0 || (itself && distance < 1e-9) {
+                    continue;
+                }
+                let n = circle.normal([p[0] + distance * d[0], p[1] + distance * d[1]]);
+                let share = circle.share(n);
+                if (0.0..=1.0).contains(&share) {
+                    hit(distance, share, d[0] * n[0] + d[1] * n[1] > 0.0);
+                }
+            }
+            return;
+        }
+        let e = [self.b[0] - self.a[0], self.b[1] - self.a[1]];
+        let across = e[0] * d[1] - e[1] * d[0];
+        let w = [p[0] - self.a[0], p[1] - self.a[1]];
+        let share = w[0] * d[1] - w[1] * d[0];
+        // From it, along it, or past its ends.
+        if itself || across == 0.0 || share * across < 0.0 || share.abs() > across.abs() {
+            return;
+        }
+        // Left of the way lies [−e₁, e₀]; a ray that comes from there has d · left < 0.
+        hit((w[0] * e[1] - w[1] * e[0]) / across, share / across, across > 0.0);
+    }
+}

@@ -1,0 +1,179 @@
+//! Light that passes between the slats without touching them: closed form, and its exact means over cells.
+
+use super::array::SlatArray;
+use super::outline;
+use super::profile::SlatProfile;
+use super::profile_weights::Piece;
+use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::quadrature::gauss_legendre;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The direct share as a function of ψ, with the places where it is not smooth.
+#[derive(Debug, Clone)]
+pub(super) struct Direct {
+    profile: SlatProfile,
+    tilt: f64,
+    pitch: f64,
+    knots: Vec<f64>,
+}
+
+/// Pieces of an arc's outline where thickness turns it into a polygon.
+const OUTLINE: usize = 256;
+
+impl SlatArray {
+    /// Share of light of the profile angle `psi` \[rad\] that passes without touching a slat.
+    pub fn direct_share(&self, psi: f64) -> f64 {
+        Direct::without_knots(self).share(psi)
+    }
+}
+
+impl Direct {
+    /// Of an array.
+    pub(super) fn new(array: &SlatArray) -> Self {
+        let direct = Self::without_knots(array);
+        Self { knots: direct.find_knots(), ..direct }
+    }
+
+    /// For single profile angles: nothing is integrated.
+    pub(super) fn without_knots(array: &SlatArray) -> Self {
+        // A solid slat takes away its outline's extent; the outline is given at its tilt already.
+        let solid = array.thickness() > 0.0;
+        let (profile, tilt) = if solid {
+            let mut points = outline::polygon(array, OUTLINE);
+            points.push(points[0]);
+            (SlatProfile::Polyline(points), 0.0)
+        } else {
+            (array.profile().clone(), array.tilt())
+        };
+        Self { profile, tilt, pitch: array.spacing(), knots: vec![] }
+    }
+
+    /// 1 − extent/(s cosψ), below 0 where nothing passes.
+    fn clearance(&self, psi: f64) -> f64 {
+        1.0 - self.profile.extent(self.tilt + psi) / (self.pitch * psi.cos())
+    }
+
+    /// Share that passes, max(0, 1 − extent/(s cosψ)).
+    pub(super) fn share(&self, psi: f64) -> f64 {
+        if psi.abs() >= FRAC_PI_2 { 0.0 } else { self.clearance(psi).max(0.0) }
+    }
+
+    /// Where the extent changes its law, and where the share reaches 0.
+    fn find_knots(&self) -> Vec<f64> {
+        let mut slopes: Vec<f64> = match &self.profile {
+            SlatProfile::Flat { .. } => vec![0.0],
+            SlatProfile::Arc { width, rise } => {
+                let half = 2.0 * (2.0 * rise.abs()).atan2(*width);
+                // The tangent leaves the arc at its ends; with ends and crown at one height the law changes, too.
+                vec![half, -half, 0.0]
+            }
+            SlatProfile::Polyline(points) => {
+                let hull = hull(points);
+                let next = hull.iter().cycle().skip(1);
+                hull.iter().zip(next).map(|(a, b)| (b[1] - a[1]).atan2(b[0] - a[0])).collect()
+            }
+        };
+        slopes.iter_mut().for_each(|slope| *slope = (*slope - self.tilt + FRAC_PI_2).rem_euclid(PI) - FRAC_PI_2);
+        slopes.extend([-FRAC_PI_2, FRAC_PI_2]);
+        slopes.sort_by(f64::total_cmp);
+        slopes.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
+        let mut knots = slopes.clone();
+        const SCAN: usize = 64;
+        for pair in slopes.windows(2) {
+            let step = (pair[1] - pair[0]) / SCAN as f64;
+            for k in 0..SCAN {
+                let (mut low, mut high) = (pair[0] + k as f64 * step, pair[0] + (k + 1) as f64 * step);
+                let below = self.clearance(low) < 0.0;
+                if below == (self.clearance(high) < 0.0) {
+                    continue;
+                }
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    if (self.clearance(middle) < 0.0) == below { low = middle } else { high = middle }
+                }
+                knots.push(0.5 * (low + high));
+            }
+        }
+        knots
+    }
+
+    fn integrate(&self, pieces: &[Piece], rule: &[(f64, f64)]) -> f64 {
+        let mut sum = 0.0;
+        for piece in pieces {
+            piece.integrate(rule, &self.knots, |psi, weight| sum += weight * psi.cos() * self.share(psi));
+        }
+        sum
+    }
+
+    /// Flux that passes from every incident cell into emergent cells: (emergent cell, ∫ share dPΩ over what both
+    /// have in common), and its mean share.
+    pub(super) fn cells(&self, incident: &RingBasis, emergent: &RingBasis) -> Vec<(f64, Vec<(usize, f64)>)> {
+        let rule = gauss_legendre(10);
+        let rings = RingIndex::new(emergent);
+        incident
+            .cells()
+            .map(|cell| {
+                let parts: Vec<(usize, f64)> = rings
+                    .near(&cell)
+                    .filter_map(|o| {
+                        let pieces = Piece::shared(&cell, &emergent.cell(o));
+                        let flux = self.integrate(&pieces, &rule);
+                        (flux > 0.0).then_some((o, flux))
+                    })
+                    .collect();
+                (self.integrate(&Piece::of(&cell), &rule) / cell.projected_solid_angle(), parts)
+            })
+            .collect()
+    }
+}
+
+/// Cells of a basis by the θ of their rings.
+struct RingIndex {
+    rings: Vec<(f64, f64, std::ops::Range<usize>)>,
+}
+
+impl RingIndex {
+    fn new(basis: &RingBasis) -> Self {
+        let rings = basis.rings().iter().enumerate();
+        Self {
+            rings: rings
+                .map(|(k, ring)| {
+                    let first = basis.first_cell(k);
+                    (ring.theta_min, ring.theta_max, first..first + ring.sectors)
+                })
+                .collect(),
+        }
+    }
+
+    fn near<'a>(&'a self, cell: &'a Cell) -> impl Iterator<Item = usize> + 'a {
+        let meets = |ring: &&(f64, f64, std::ops::Range<usize>)| ring.0 < cell.theta_max && ring.1 > cell.theta_min;
+        self.rings.iter().filter(meets).flat_map(|ring| ring.2.clone())
+    }
+}
+
+/// Convex hull, counter-clockwise (Andrew's monotone chain).
+fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    sorted.dedup();
+    if sorted.len() < 3 {
+        return sorted;
+    }
+    let chain = |order: &mut dyn Iterator<Item = &[f64; 2]>| {
+        let mut list: Vec<[f64; 2]> = vec![];
+        for &p in order {
+            while let [.., a, b] = list[..] {
+                if (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0.0 {
+                    break;
+                }
+                list.pop();
+            }
+            list.push(p);
+        }
+        list.pop();
+        list
+    };
+    let mut list = chain(&mut sorted.iter());
+    list.extend(chain(&mut sorted.iter().rev()));
+    list
+}

@@ -1,0 +1,227 @@
+//! From a section's transport to cells.
+
+use super::array::{SlatArray, Surface};
+use super::balance::Balance;
+use super::deposit::Intervals;
+use super::direct::Direct;
+use super::outline::Section;
+use super::profile::SlatProfile;
+use super::profile_weights::{ProfileGrid, ProfileWeights};
+use super::rough::add_rough;
+use super::transport::{Lobe, Transport, index};
+use crate::compute::basis::RingBasis;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::system::measure::{Measured, Seen, Setting, Side, Specimen};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use rayon::prelude::*;
+
+/// Coarse strips a slat to begin with, and at most.
+const PARTS: [usize; 2] = [16, 128];
+/// At least so many where mirrors are curved: strips are chords, and what comes past a chord misses the arc.
+const CURVED: usize = 32;
+
+/// Step of the profile angle. \[rad\]
+fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
+    let finest = setting
+        .emergent
+        .rings()
+        .iter()
+        .chain(setting.incident.rings())
+        .map(|ring| ring.theta_max - ring.theta_min)
+        .fold(f64::INFINITY, f64::min);
+    // Lobes wider than this are smooth enough.
+    let sharp = |side: Surface| side.mirror > 0.0 && side.spread < 1_f64.to_radians();
+    let wanted: f64 = if sharp(array.upper()) || sharp(array.lower()) { 0.25 } else { 0.5 };
+    let wanted = wanted * (setting.error / 0.01).sqrt().clamp(0.25, 1.0);
+    wanted.to_radians().min(0.5 * finest).max(0.1_f64.to_radians())
+}
+
+/// Landed widths of every cell: faces × cells, divided by the cells' projected solid angles. `turned`: by the
+/// opposite profile angle, as light thrown back is named.
+fn landed(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: bool) -> Mat<f64> {
+    let faces = rows[0].len();
+    let mut matrix = Mat::zeros(faces, cells.len());
+    for (index, cell) in basis.cells().enumerate() {
+        let (first, weights) = cells.cell(index);
+        let scale = 1.0 / cell.projected_solid_angle();
+        let column = matrix.col_as_slice_mut(index);
+        for (k, weight) in weights.iter().enumerate() {
+            let node = if turned { rows.len() - 1 - first - k } else { first + k };
+            column.iter_mut().zip(&rows[node]).for_each(|(sum, x)| *sum += scale * weight * x);
+        }
+    }
+    matrix
+}
+
+impl Specimen for SlatArray {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        measure(self, setting, progress)
+    }
+}
+
+/// What the array does to light, on the cells of the setting.
+fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+    const STAGE: &str = "slats";
+    progress.advance(STAGE, 0, 4);
+    let grid = ProfileGrid::new(step(array, setting));
+    let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
+    let incident = ProfileWeights::new(setting.incident, grid);
+    let same = setting.emergent == setting.incident;
+    let emergent = if same { incident.clone() } else { ProfileWeights::new(setting.emergent, grid) };
+    progress.advance(STAGE, 1, 4);
+
+    let mirrors = [array.upper(), array.lower()].iter().any(|side| side.mirror > 0.0);
+    let curved = mirrors && matches!(array.profile(), SlatProfile::Arc { .. });
+    let mut parts = if curved { CURVED } else { PARTS[0] };
+    let (transport, balance, from) = loop {
+        let section = Section::new(array, parts);
+        let transport = Transport::new(&section, grid, setting.seed, progress)?;
+        let balance = Balance::new(&section, &transport, &hat);
+        let from = [0, 1].map(|side: usize| landed(&incident, setting.incident, &transport.landed[side], false));
+        let doubt = from.iter().flat_map(|from| doubts(&balance, from)).fold(0.0, f64::max);
+        if doubt <= 0.1 * setting.error || parts >= PARTS[1] {
+            break (transport, balance, from);
+        }
+        parts *= 2;
+    };
+    progress.advance(STAGE, 2, 4);
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+
+    let mut measured = Measured::dark(setting);
+    let scattered = |side: Side| {
+        let (from, own) = (&from[index(side)], &transport.landed[index(side)]);
+        let other = &transport.landed[1 - index(side)];
+        let mut sent = Mat::zeros(from.nrows(), from.ncols());
+        // q = h M g/π, h and g in widths over the projected solid angles of their cells.
+        matmul(&mut sent, Accum::Replace, &balance.response, from, std::f64::consts::FRAC_1_PI, Par::Seq);
+        let block = |rows: &[Vec<f64>], turned| {
+            let to = landed(&emergent, setting.emergent, rows, turned);
+            let mut q: Mat<f64> = Mat::zeros(to.ncols(), sent.ncols());
+            matmul(&mut q, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
+            // The extrapolation to endless strips may fall below 0 where nothing arrives.
+            (0..q.ncols()).flat_map(|i| q.col_as_slice(i).iter().map(|q| q.max(0.0)).collect::<Vec<_>>()).collect()
+        };
+        let (transmitted, reflected): (Vec<f64>, Vec<f64>) = rayon::join(|| block(other, false), || block(own, true));
+        Seen { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
+    };
+    let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
+    (measured.front, measured.back) = (front, back);
+    progress.advance(STAGE, 3, 4);
+    add_direct(array, setting, &mut measured);
+    if transport.thrown.iter().flatten().any(|thrown| !(thrown.through.is_empty() && thrown.back.is_empty())) {
+        add_mirrored(setting, grid, &incident, &transport, &mut measured);
+    }
+    if let Some(rough) = &transport.rough {
+        add_rough(setting, grid, rough, &mut measured);
+    }
+    for side in Side::BOTH {
+        let (t, r) =
+            (measured.shares(&measured.seen(side).transmitted), measured.shares(&measured.seen(side).reflected));
+        let seen = measured.seen_mut(side);
+        for (i, error) in seen.error.iter_mut().enumerate() {
+            *error += (t[i] + r[i] + seen.absorbed[i] - 1.0).abs();
+        }
+    }
+    progress.advance(STAGE, 4, 4);
+    Ok(measured)
+}
+
+/// Light of every cell that is absorbed.
+fn absorbed(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
+    let of = |cell: usize| from.col_as_slice(cell).iter().zip(&balance.absorbed).map(|(g, a)| g * a).sum();
+    (0..from.ncols()).map(of).collect()
+}
+
+/// What the two divisions into strips differ by, a cell.
+fn doubts(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
+    let of = |cell: usize| {
+        let one = |doubt: &[f64]| from.col_as_slice(cell).iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs();
+        one(&balance.doubt[0]).max(one(&balance.doubt[1]))
+    };
+    (0..from.ncols()).map(of).collect()
+}
+
+/// Adds what passes without touching a slat.
+fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured) {
+    let cells = Direct::new(array).cells(setting.incident, setting.emergent);
+    let m = setting.emergent.len();
+    let incident = setting.incident.projected_solid_angles();
+    let emergent = setting.emergent.projected_solid_angles();
+    for (i, (_, parts)) in cells.iter().enumerate() {
+        for &(o, flux) in parts {
+            let q = flux / (incident[i] * emergent[o]);
+            measured.front.transmitted[i * m + o] += q;
+            measured.back.transmitted[i * m + o] += q;
+        }
+    }
+}
+
+/// Lobes of ideal mirrors of one node on the nodes of the grid: (node, width).
+fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> Vec<(usize, f64)> {
+    let mut line = vec![0.0; grid.len()];
+    for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
+        let [from, to] = lobe.psi;
+        let points = (2.0 * (to - from).abs() / grid.step()).ceil().max(1.0);
+        for k in 0..points as usize {
+            let (node, above) = grid.place(from + (to - from) * (k as f64 + 0.5) / points);
+            line[node] += lobe.width * (1.0 - above) / points;
+            line[node + 1] += lobe.width * above / points;
+        }
+    }
+    line.into_iter().enumerate().filter(|&(_, width)| width > 0.0).collect()
+}
+
+/// Adds what ideal mirrors throw: flux from the weights of the cells, its division among emergent cells from their nodes.
+fn add_mirrored(
+    setting: &Setting<'_>,
+    grid: ProfileGrid,
+    incident: &ProfileWeights,
+    transport: &Transport,
+    measured: &mut Measured,
+) {
+    let lines = Intervals::new(setting.emergent, grid);
+    let sources = Intervals::new(setting.incident, grid).by_cell(setting.incident.len());
+    let weight = setting.emergent.projected_solid_angles();
+    let m = weight.len();
+    for side in Side::BOTH {
+        for through in [true, false] {
+            let nodes: Vec<Vec<(usize, f64)>> = transport.thrown[index(side)]
+                .iter()
+                .map(|thrown| on_nodes(if through { &thrown.through } else { &thrown.back }, grid))
+                .collect();
+            let seen = measured.seen_mut(side);
+            let values = if through { &mut seen.transmitted } else { &mut seen.reflected };
+            values.par_chunks_mut(m).zip(setting.incident.cells().collect::<Vec<_>>()).enumerate().for_each(
+                |(i, (row, cell))| {
+                    let (first, weights) = incident.cell(i);
+                    let solid = cell.projected_solid_angle();
+                    let total: f64 = weights
+                        .iter()
+                        .enumerate()
+                        .map(|(k, w)| w * nodes[first + k].iter().map(|(_, width)| width).sum::<f64>())
+                        .sum::<f64>()
+                        / solid;
+                    let mut put = vec![0.0; m];
+                    // What the nodes of the cell send out in all, wherever it goes.
+                    let mut sum = 0.0;
+                    for &(node, from, to) in &sources[i] {
+                        let lobes = &nodes[node];
+                        let amount = (to - from) * grid.hat(node);
+                        sum += amount * lobes.iter().map(|(_, width)| width).sum::<f64>();
+                        for &(node, width) in lobes {
+                            lines.divide(node, from, to, |cell, share| put[cell] += amount * width * share);
+                        }
+                    }
+                    if sum > 0.0 {
+                        for (o, flux) in put.iter().enumerate() {
+                            row[o] += flux * total / (sum * weight[o]);
+                        }
+                    }
+                },
+            );
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Transmittance, reflectance and absorptance at single profile angles, without cells.
+
+use super::array::SlatArray;
+use super::balance::Balance;
+use super::direct::Direct;
+use super::outline::Section;
+use super::profile_weights::ProfileGrid;
+use super::transport::{Transport, beam, index};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::system::measure::Side;
+
+/// What becomes of light of one profile angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProfileShares {
+    /// Share that passes without touching a slat.
+    pub direct: f64,
+    /// Directional-hemispherical transmittance, the direct share included.
+    pub transmitted: f64,
+    /// Directional-hemispherical reflectance.
+    pub reflected: f64,
+    /// Share absorbed, counted on its own.
+    pub absorbed: f64,
+}
+
+/// Strips of the coarse division, and the step of the profile angle for the exchange. \[rad\]
+const PARTS: usize = 48;
+const STEP: f64 = std::f64::consts::PI / 720.0;
+
+impl SlatArray {
+    /// Shares of light from a side at the given profile angles \[rad, −π/2 … π/2 without the ends\], to about 1e-4.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` says so.
+    pub fn profile_shares(
+        &self,
+        side: Side,
+        psi: &[f64],
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<ProfileShares>, Cancelled> {
+        let grid = ProfileGrid::new(STEP);
+        let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
+        let section = Section::new(self, PARTS);
+        let transport = Transport::new(&section, grid, seed, progress)?;
+        let balance = Balance::new(&section, &transport, &hat);
+        let direct = Direct::without_knots(self);
+        let one = |&psi: &f64| {
+            let node = beam(&section, psi, seed);
+            let (landed, thrown) = (&node.landed[index(side)], &node.thrown[index(side)]);
+            let cosine = psi.cos();
+            let sum = |weights: &[f64]| weights.iter().zip(landed).map(|(a, b)| a * b).sum::<f64>() / cosine;
+            // Faces leave to the inside first, then to the outside.
+            let [inside, outside] = [sum(&balance.leaves[0]), sum(&balance.leaves[1])];
+            let (on, back) = if side == Side::Front { (inside, outside) } else { (outside, inside) };
+            let mirrored = |lobes: &[super::transport::Lobe]| lobes.iter().map(|l| l.width).sum::<f64>() / cosine;
+            let share = direct.share(psi);
+            ProfileShares {
+                direct: share,
+                transmitted: share + on + mirrored(&thrown.through),
+                reflected: back + mirrored(&thrown.back),
+                absorbed: sum(&balance.absorbed),
+            }
+        };
+        Ok(psi.iter().map(one).collect())
+    }
+}

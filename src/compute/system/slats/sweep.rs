@@ -1,0 +1,178 @@
+//! All lines of one direction through the section: which strips they meet, in which order.
+//!
+//! Seen along the direction (cosψ, sinψ), the ends of all strips cut the lines into bundles that meet the same strips.
+//! A bundle of width dt that leaves one face and next meets another adds dt dψ / 2 to their exchange: both ways alike,
+//! so that the exchange is symmetric whatever the division of ψ. Bundles that leave the last slat, or come to the
+//! first, are what parallel light from outside and inside meets.
+
+use super::arc::Point;
+use super::outline::Section;
+
+/// A face of the slat `copy` pitches above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Met {
+    /// Strip of the section.
+    pub(super) strip: usize,
+    /// Slat.
+    pub(super) copy: i32,
+    /// Face of the section.
+    pub(super) face: usize,
+}
+
+/// Lines that leave `from` (or come from the inside) in the direction (cosψ, sinψ) and next meet `to` (or leave to
+/// the outside). Never neither.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bundle {
+    /// Width across the direction, in pitches.
+    pub(super) width: f64,
+    /// Distance of its middle from the origin, to the left of the direction.
+    pub(super) across: f64,
+    /// Where it comes from.
+    pub(super) from: Option<Met>,
+    /// Where it goes.
+    pub(super) to: Option<Met>,
+}
+
+/// A strip of some slat as seen along the direction.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    strip: usize,
+    copy: i32,
+    low: f64,
+    high: f64,
+    /// Depth along the direction at `low`, and its slope.
+    depth: f64,
+    slope: f64,
+    /// Faces looking against and along the direction.
+    against: Option<usize>,
+    along: Option<usize>,
+}
+
+/// Narrower bundles are rounding. In pitches.
+const NARROW: f64 = 1e-13;
+/// Sheets closer than this along a line lie in one another; the lower slat then is the inner one. In pitches.
+const TOUCHING: f64 = 1e-9;
+
+/// Distance of a point to the left of the direction (cos, sin), and along it.
+pub(super) fn place([u, v]: Point, [cos, sin]: Point) -> (f64, f64) {
+    (v * cos - u * sin, u * cos + v * sin)
+}
+
+fn seen_strips(section: &Section, direction: Point) -> (Vec<Seen>, f64, f64) {
+    let own: Vec<Seen> = section
+        .strips
+        .iter()
+        .enumerate()
+        .filter_map(|(strip, s)| {
+            let ((ta, da), (tb, db)) = (place(s.a, direction), place(s.b, direction));
+            let rising = tb > ta;
+            let (low, high, depth, end) = if rising { (ta, tb, da, db) } else { (tb, ta, db, da) };
+            // The left normal of a way that rises across the direction looks against it.
+            let [left, right] = s.faces;
+            let (against, along) = if rising { (left, right) } else { (right, left) };
+            (high - low > NARROW).then(|| Seen {
+                strip,
+                copy: 0,
+                low,
+                high,
+                depth,
+                slope: (end - depth) / (high - low),
+                against,
+                along,
+            })
+        })
+        .collect();
+    let low = own.iter().map(|s| s.low).fold(f64::INFINITY, f64::min);
+    let high = own.iter().map(|s| s.high).fold(f64::NEG_INFINITY, f64::max);
+    let [cos, sin] = direction;
+    let mut all = Vec::with_capacity(3 * own.len());
+    for copy in -section.reach..=section.reach {
+        let (shift, deeper) = (f64::from(copy) * cos, f64::from(copy) * sin);
+        all.extend(own.iter().filter(|s| s.high + shift > low && s.low + shift < high).map(|s| Seen {
+            copy,
+            low: s.low + shift,
+            high: s.high + shift,
+            depth: s.depth + deeper,
+            ..*s
+        }));
+    }
+    (all, low, high)
+}
+
+/// Calls `visit` for every bundle of one pitch that leaves or meets a slat, in a fixed order.
+pub(super) fn sweep(section: &Section, direction: Point, mut visit: impl FnMut(Bundle)) {
+    let (seen, low, high) = seen_strips(section, direction);
+    let mut events: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * seen.len());
+    for (index, s) in seen.iter().enumerate() {
+        events.push((s.low.max(low), true, index));
+        events.push((s.high.min(high), false, index));
+    }
+    events.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    let mut active: Vec<(f64, usize)> = vec![];
+    for (position, &(from, starts, index)) in events.iter().enumerate() {
+        if starts {
+            active.push((0.0, index));
+        } else {
+            active.retain(|&(_, other)| other != index);
+        }
+        let Some(&(to, ..)) = events.get(position + 1) else { break };
+        if to - from <= NARROW || active.is_empty() {
+            continue;
+        }
+        let across = 0.5 * (from + to);
+        for (depth, index) in &mut active {
+            let s = &seen[*index];
+            *depth = s.depth + s.slope * (across - s.low);
+        }
+        sort_by_depth(&mut active, &seen);
+        along_line(section.solid, active.iter().map(|&(_, index)| &seen[index]), |from, to| {
+            let own = |met: Option<Met>| met.is_some_and(|met| met.copy == 0);
+            if own(from) || (from.is_none() && own(to)) {
+                visit(Bundle { width: events[position + 1].0 - events[position].0, across, from, to });
+            }
+        });
+    }
+}
+
+/// Insertion: the order of one bundle is nearly that of the next.
+fn sort_by_depth(active: &mut [(f64, usize)], seen: &[Seen]) {
+    let before = |a: &(f64, usize), b: &(f64, usize)| {
+        if (a.0 - b.0).abs() > TOUCHING { a.0 < b.0 } else { seen[a.1].copy < seen[b.1].copy }
+    };
+    for k in 1..active.len() {
+        let mut at = k;
+        while at > 0 && before(&active[at], &active[at - 1]) {
+            active.swap(at, at - 1);
+            at -= 1;
+        }
+    }
+}
+
+/// Pairs of what a line leaves and what it meets next.
+fn along_line<'a>(solid: bool, order: impl Iterator<Item = &'a Seen>, mut pair: impl FnMut(Option<Met>, Option<Met>)) {
+    let met = |s: &Seen, face: Option<usize>| face.map(|face| Met { strip: s.strip, copy: s.copy, face });
+    let mut open = None;
+    let mut inside = 0;
+    for s in order {
+        if solid {
+            // Slats that run into each other are one body.
+            if s.against.is_some() {
+                if inside == 0 {
+                    pair(open, met(s, s.against));
+                }
+                inside += 1;
+            } else {
+                inside -= 1;
+                if inside == 0 {
+                    open = met(s, s.along);
+                }
+            }
+        } else {
+            pair(open, met(s, s.against));
+            open = met(s, s.along);
+        }
+    }
+    if open.is_some() {
+        pair(open, None);
+    }
+}

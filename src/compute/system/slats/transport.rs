@@ -1,0 +1,375 @@
+//! Light between faces, to faces and past them, from sweeps over all profile angles.
+
+use super::arc::Point;
+use super::chain::{Exit, Landing, Ray, Sequence, Trace};
+use super::outline::Section;
+use super::profile_weights::ProfileGrid;
+use super::reciprocal::{Rough, Second, settle};
+use super::sweep::{Bundle, Met, sweep};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::system::measure::Side;
+use rayon::prelude::*;
+use std::rc::Rc;
+
+/// A square matrix of faces, row by row.
+#[derive(Debug, Clone)]
+pub(super) struct Exchange {
+    /// Faces.
+    pub(super) size: usize,
+    /// Row by row.
+    pub(super) values: Vec<f64>,
+}
+
+/// What a chunk of profile angles adds.
+struct Part {
+    /// Exchange between strips, without mirrors and by way of them.
+    exchange: [Exchange; 2],
+    /// Lengths seen.
+    length: Vec<f64>,
+    nodes: Vec<Node>,
+}
+
+impl Exchange {
+    fn new(size: usize) -> Self {
+        Self { size, values: vec![0.0; size * size] }
+    }
+
+    fn add(&mut self, from: usize, to: usize, amount: f64) {
+        self.values[from * self.size + to] += amount;
+    }
+
+    fn add_all(&mut self, other: &Self) {
+        self.values.iter_mut().zip(&other.values).for_each(|(sum, x)| *sum += x);
+    }
+}
+
+/// A parallel beam that leaves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lobe {
+    /// Profile angles of its name, from and to: evenly between. \[rad\]
+    pub(super) psi: [f64; 2],
+    /// Width of the incident light that it carries, in pitches.
+    pub(super) width: f64,
+    /// Sum of the squared spreads of the mirrors that it has met. \[rad²\]
+    pub(super) variance: f64,
+}
+
+/// What mirrors make of parallel light that comes at one profile angle from one side.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Thrown {
+    /// Transmitted.
+    pub(super) through: Vec<Lobe>,
+    /// Thrown back.
+    pub(super) back: Vec<Lobe>,
+}
+
+/// Everything the section does to light, before the faces' diffuse reflectance.
+#[derive(Debug, Clone)]
+pub(super) struct Transport {
+    /// Width of the light from face to face, over all directions: ½∫ t dψ, mirrors included; symmetric.
+    pub(super) exchange: Exchange,
+    /// Width over all directions that a face sends out, ½∫ t dψ: its length by the rule's count.
+    pub(super) length: Vec<f64>,
+    /// Width of a parallel beam that comes to every face, `[node][face]`, for light from outside and from inside.
+    pub(super) landed: [Vec<Vec<f64>>; 2],
+    /// Mirrored light that leaves, a node, from outside and from inside.
+    pub(super) thrown: [Vec<Thrown>; 2],
+    /// What of it has met mirrors that spread light, if any do.
+    pub(super) rough: Option<Rough>,
+}
+
+/// Index of a side in the pairs of this module.
+pub(super) const fn index(side: Side) -> usize {
+    match side {
+        Side::Front => 0,
+        Side::Back => 1,
+    }
+}
+
+/// What parallel light of one profile angle from either side does.
+pub(super) struct Node {
+    /// Width that comes to every face, without mirrors.
+    pub(super) landed: [Vec<f64>; 2],
+    /// Width that comes to every face by way of mirrors.
+    pub(super) second: [Vec<f64>; 2],
+    /// What mirrors throw out.
+    pub(super) thrown: [Thrown; 2],
+}
+
+/// Parallel light of one profile angle: what comes to every face and what mirrors throw out. \[rad\]
+pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
+    let size = section.faces.len();
+    let mut none =
+        Part { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
+    let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, 0));
+    for (landed, second) in node.landed.iter_mut().zip(&node.second) {
+        landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
+    }
+    node
+}
+
+/// A bundle that comes to a face.
+struct Arrival {
+    /// The face that sent it; `None` for parallel light from a side.
+    from: Option<Met>,
+    to: Met,
+    direction: Point,
+    side: Side,
+}
+
+/// Where light is counted.
+struct Into<'a> {
+    /// Without mirrors, by way of them.
+    exchange: &'a mut [Exchange; 2],
+    node: &'a mut Node,
+}
+
+impl Into<'_> {
+    /// A width of a bundle comes to a face by way of mirrors.
+    fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
+        match arrival.from {
+            Some(from) => self.exchange[1].add(from.face, face, weight * width),
+            None => self.node.second[index(arrival.side)][face] += width,
+        }
+    }
+
+    /// The mirrored part of a width of a bundle, by rays at its ends and between that go the same way.
+    fn add(&mut self, section: &Section, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
+        let [low, middle, high] = traces;
+        for (k, landing) in middle.landed.iter().enumerate() {
+            let amount = width * landing.weight;
+            let same = |other: &Landing| other.facet == landing.facet && other.right == landing.right;
+            match (low.landed.get(k), high.landed.get(k)) {
+                (Some(a), Some(b)) if same(a) && same(b) => {
+                    section.divide(landing, a.share, b.share, |face, part| {
+                        self.land(arrival, face, amount * part, weight);
+                    });
+                }
+                (Some(a), Some(b)) => {
+                    for (landing, part) in [(a, 0.25), (landing, 0.5), (b, 0.25)] {
+                        section.divide(landing, landing.share, landing.share, |face, _| {
+                            self.land(arrival, face, amount * part, weight);
+                        });
+                    }
+                }
+                _ => section.divide(landing, landing.share, landing.share, |face, _| {
+                    self.land(arrival, face, amount, weight);
+                }),
+            }
+        }
+        if arrival.from.is_some() {
+            return;
+        }
+        match (low.exit, middle.exit, high.exit) {
+            (Some(a), Some(b), Some(c)) => {
+                self.leave(arrival, [&a, &b], 0.5 * width);
+                self.leave(arrival, [&b, &c], 0.5 * width);
+            }
+            (_, Some(exit), _) => self.leave(arrival, [&exit; 2], width),
+            _ => (),
+        }
+    }
+
+    /// A width of a bundle leaves between two rays.
+    fn leave(&mut self, arrival: &Arrival, exits: [&Exit; 2], width: f64) {
+        // Names: against the light from outside, along the light from inside.
+        let front = arrival.side == Side::Front;
+        let sign = if front { -1.0 } else { 1.0 };
+        let psi = exits.map(|exit| (sign * exit.direction[1]).clamp(-1.0, 1.0).asin());
+        let exit = exits[0];
+        let outwards = exit.direction[0] > 0.0;
+        let thrown = &mut self.node.thrown[index(arrival.side)];
+        let list = if outwards == front { &mut thrown.back } else { &mut thrown.through };
+        list.push(Lobe { psi, width: width * exit.weight, variance: exit.variance });
+    }
+}
+
+/// Rays a pitch of parallel light, and of light from a face, where mirrors spread light.
+const ROUGH: [f64; 2] = [400.0, 64.0];
+/// Smallest part of a bundle that is looked at by itself.
+const FINEST: f64 = 1.0 / 64.0;
+/// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
+const CHUNK: usize = 12;
+
+struct Tracer<'a> {
+    section: &'a Section,
+    direction: Point,
+    weight: f64,
+    rough: bool,
+}
+
+impl Transport {
+    /// Of a section on a grid of profile angles.
+    pub(super) fn new(
+        section: &Section,
+        grid: ProfileGrid,
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let nodes: Vec<usize> = (0..grid.len()).collect();
+        let size = section.faces.len();
+        let parts: Vec<Option<Part>> = nodes
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                if progress.cancelled() {
+                    return None;
+                }
+                let exchange = [Exchange::new(size), Exchange::new(size)];
+                let mut part = Part { exchange, length: vec![0.0; size], nodes: vec![] };
+                for &node in chunk {
+                    let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
+                    let done = tracer.node(&mut part, Sequence::new(seed, node as u64));
+                    part.nodes.push(done);
+                }
+                Some(part)
+            })
+            .collect();
+        let mut all = Self {
+            exchange: Exchange::new(size),
+            length: vec![0.0; size],
+            landed: [vec![], vec![]],
+            thrown: [vec![], vec![]],
+            rough: None,
+        };
+        let mut second = Second { exchange: Exchange::new(size), landed: [vec![], vec![]] };
+        for part in parts {
+            let part = part.ok_or(Cancelled)?;
+            all.exchange.add_all(&part.exchange[0]);
+            second.exchange.add_all(&part.exchange[1]);
+            all.length.iter_mut().zip(&part.length).for_each(|(sum, x)| *sum += x);
+            for node in part.nodes {
+                for (side, (landed, more)) in node.landed.into_iter().zip(node.second).enumerate() {
+                    all.landed[side].push(landed);
+                    second.landed[side].push(more);
+                }
+                for (side, thrown) in node.thrown.into_iter().enumerate() {
+                    all.thrown[side].push(thrown);
+                }
+            }
+        }
+        let matt = |face: usize| section.faces[face].surface.diffuse > 0.0;
+        for i in 0..size {
+            for j in 0..i {
+                let (there, back) = (second.exchange.values[i * size + j], second.exchange.values[j * size + i]);
+                // Chains of mirrors are followed from either end: their mean is what both ends agree on. They are not
+                // followed from faces that send nothing.
+                let mean = match (matt(i), matt(j)) {
+                    (true, false) => there,
+                    (false, true) => back,
+                    _ => 0.5 * (there + back),
+                };
+                second.exchange.values[i * size + j] = mean;
+                second.exchange.values[j * size + i] = mean;
+            }
+        }
+        if section.rough() {
+            all.rough = Some(settle(section, grid, &all, &mut second));
+        }
+        all.exchange.add_all(&second.exchange);
+        for (rows, more) in all.landed.iter_mut().zip(&second.landed) {
+            for (row, more) in rows.iter_mut().zip(more) {
+                row.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
+            }
+        }
+        Ok(all)
+    }
+}
+
+impl<'a> Tracer<'a> {
+    fn new(section: &'a Section, psi: f64, weight: f64) -> Self {
+        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough() }
+    }
+
+    fn node(&self, part: &mut Part, mut sequence: Sequence) -> Node {
+        let none = || vec![0.0; self.section.faces.len()];
+        let mut node =
+            Node { landed: [none(), none()], second: [none(), none()], thrown: [Thrown::default(), Thrown::default()] };
+        sweep(self.section, self.direction, |bundle| {
+            let backwards = self.direction.map(|x| -x);
+            for (from, to, direction, side) in
+                [(bundle.from, bundle.to, self.direction, Side::Back), (bundle.to, bundle.from, backwards, Side::Front)]
+            {
+                if let Some(from) = from {
+                    part.length[from.face] += self.weight * bundle.width;
+                }
+                let Some(to) = to else { continue };
+                match from {
+                    Some(from) => part.exchange[0].add(from.face, to.face, self.weight * bundle.width),
+                    None => node.landed[index(side)][to.face] += bundle.width,
+                }
+                let arrival = Arrival { from, to, direction, side };
+                let mut into = Into { exchange: &mut part.exchange, node: &mut node };
+                let faces = &self.section.faces;
+                let sends = from.is_none_or(|from| faces[from.face].surface.diffuse > 0.0);
+                if sends && faces[to.face].surface.mirror > 0.0 {
+                    self.mirror(&bundle, &arrival, &mut into, &mut sequence);
+                }
+            }
+        });
+        node
+    }
+
+    /// The mirrored part of a bundle that has come to a face: cut until the rays at both ends of a part go the same
+    /// way as the one between, which then stands for it.
+    fn mirror(&self, bundle: &Bundle, arrival: &Arrival, into: &mut Into<'_>, sequence: &mut Sequence) {
+        let [low, high] = [-0.5, 0.5].map(|side| bundle.across + side * bundle.width);
+        let trace = |share: f64, sequence: &mut Sequence| {
+            let point = self.on_strip(arrival.to, low + share * (high - low));
+            let met = Met { copy: 0, ..arrival.to };
+            let mut trace = Trace::default();
+            self.section.follow(Ray { point, direction: arrival.direction, met }, sequence, &mut trace);
+            // Shared by the parts on either side of it.
+            Rc::new(trace)
+        };
+        if self.rough {
+            // As many from grazing parallel light, of which a pitch takes little, as from any other.
+            let density = match arrival.from {
+                Some(_) => ROUGH[1],
+                None => ROUGH[0] / self.direction[0].max(0.1),
+            };
+            let rays = (density * bundle.width).ceil().max(1.0);
+            for k in 0..rays as usize {
+                let done = trace((k as f64 + 0.5) / rays, sequence);
+                into.add(self.section, arrival, [&done; 3], bundle.width / rays, self.weight);
+            }
+            return;
+        }
+        // Just inside, where a neighbour bundle's edge does not decide.
+        let edge = 1e-6;
+        let mut open = vec![(edge, 1.0 - edge, trace(edge, sequence), trace(1.0 - edge, sequence))];
+        while let Some((from, to, first, last)) = open.pop() {
+            let middle = 0.5 * (from + to);
+            let done = trace(middle, sequence);
+            if (done.way == first.way && done.way == last.way) || to - from < FINEST {
+                let width = (to - from) / (1.0 - 2.0 * edge) * bundle.width;
+                let between: [&Trace; 3] =
+                    if done.way == first.way && done.way == last.way { [&first, &done, &last] } else { [&done; 3] };
+                into.add(self.section, arrival, between, width, self.weight);
+            } else {
+                open.push((middle, to, Rc::clone(&done), last));
+                open.push((from, middle, first, done));
+            }
+        }
+    }
+
+    /// Where a line of the direction meets a strip, in the frame of its slat.
+    fn on_strip(&self, met: Met, across: f64) -> Point {
+        let strip = &self.section.strips[met.strip];
+        let [cos, sin] = self.direction;
+        let of = |[u, v]: Point| v * cos - u * sin;
+        let (a, b) = (of(strip.a), of(strip.b));
+        let share = (across - f64::from(met.copy) * cos - a) / (b - a);
+        // Bundles are wider than rounding, and so are the strips that they meet.
+        let point = super::outline::between(strip.a, strip.b, share.clamp(0.0, 1.0));
+        let Some(circle) = &self.section.facets[self.section.facet_of[met.strip]].circle else { return point };
+        // The strip is a chord: the same line on the arc, or the arc's nearest point.
+        let near = |x: &f64, y: &f64| x.abs().total_cmp(&y.abs());
+        if let Some(distance) = circle.meets(point, self.direction).into_iter().flatten().min_by(near) {
+            let on = [point[0] + distance * cos, point[1] + distance * sin];
+            if (on[0] - point[0]).hypot(on[1] - point[1]) < (strip.b[0] - strip.a[0]).hypot(strip.b[1] - strip.a[1]) {
+                return on;
+            }
+        }
+        circle.at(circle.share(circle.normal(point)).clamp(0.0, 1.0))
+    }
+}

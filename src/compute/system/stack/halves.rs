@@ -1,0 +1,168 @@
+//! Flux matrices of systems that are the same from left and right, as two matrices of half the size.
+//!
+//! Light is divided into an even part (the same in mirrored cells) and an odd one (opposite in them). A system that is
+//! its own mirror image keeps both apart, so that products and inverses of matrices cost a quarter.
+
+use crate::compute::system::measure::Measured;
+use faer::Mat;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+/// Flux that may lie differently in mirrored cells, as a share of the light of an incident cell.
+const UNLIKE: f64 = 1e-6;
+
+/// Cells by pairs of mirror images.
+pub(super) struct Halves {
+    /// Cells and their images, then those that are their own images.
+    members: Vec<[usize; 2]>,
+    pairs: usize,
+    /// Number of each cell's pair, and its sign in the odd part.
+    of: Vec<(usize, f64)>,
+}
+
+impl Halves {
+    /// From the image of each cell; cells that are all their own images make a single part.
+    pub fn new(image: &[usize]) -> Self {
+        let pairs: Vec<[usize; 2]> = (0..image.len()).filter(|&k| k < image[k]).map(|k| [k, image[k]]).collect();
+        let alone = (0..image.len()).filter(|&k| k == image[k]).map(|k| [k, k]);
+        let count = pairs.len();
+        let members: Vec<[usize; 2]> = pairs.into_iter().chain(alone).collect();
+        let mut of = vec![(0, 0.0); image.len()];
+        for (e, &[k, other]) in members.iter().enumerate() {
+            let sign = if k == other { 0.0 } else { FRAC_1_SQRT_2 };
+            of[k] = (e, sign);
+            of[other] = (e, -sign);
+        }
+        Self { members, pairs: count, of }
+    }
+
+    /// Nothing is taken for granted.
+    pub fn none(n: usize) -> Self {
+        Self::new(&(0..n).collect::<Vec<_>>())
+    }
+
+    /// Does a measured layer look the same in this mirror?
+    pub fn fits(image: &[usize], measured: &Measured) -> bool {
+        let n = image.len();
+        let weight = measured.emergent.projected_solid_angles();
+        let [front, back] = [&measured.front, &measured.back];
+        [&front.transmitted, &front.reflected, &back.transmitted, &back.reflected].into_iter().all(|q| {
+            (0..n).filter(|&i| i <= image[i]).all(|i| {
+                let unlike = |o: usize| (q[i * n + o] - q[image[i] * n + image[o]]).abs() * weight[o];
+                (0..n).map(unlike).sum::<f64>() <= UNLIKE
+            })
+        })
+    }
+
+    /// Both parts of a matrix given by its entries (row, column).
+    pub fn matrix(&self, at: impl Fn(usize, usize) -> f64) -> Flux {
+        let sums = |row: usize, column: usize, sign: f64| {
+            let ([a, b], [c, d]) = (self.members[row], self.members[column]);
+            (at(a, c) + at(b, d) + sign * (at(a, d) + at(b, c))) * 0.5 * self.factor(row) * self.factor(column)
+        };
+        let (n, m) = (self.members.len(), self.pairs);
+        Flux { even: Mat::from_fn(n, n, |r, c| sums(r, c, 1.0)), odd: Mat::from_fn(m, m, |r, c| sums(r, c, -1.0)) }
+    }
+
+    /// A cell that is its own image is counted twice in sums over pairs.
+    fn factor(&self, member: usize) -> f64 {
+        if member < self.pairs { 1.0 } else { FRAC_1_SQRT_2 }
+    }
+
+    /// An entry of the whole matrix.
+    pub fn entry(&self, flux: &Flux, row: usize, column: usize) -> f64 {
+        let ((r, sign_r), (c, sign_c)) = (self.of[row], self.of[column]);
+        let even = |member: usize| if member < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
+        let odd = if sign_r * sign_c == 0.0 { 0.0 } else { sign_r * sign_c * flux.odd[(r, c)] };
+        flux.even[(r, c)] * even(r) * even(c) + odd
+    }
+
+    /// The even part of a list over all cells, of which the images have the same value.
+    pub fn list(&self, at: impl Fn(usize) -> f64) -> Vec<f64> {
+        let one = |(e, &[a, b]): (usize, &[usize; 2])| (at(a) + at(b)) * FRAC_1_SQRT_2 * self.factor(e);
+        self.members.iter().enumerate().map(one).collect()
+    }
+
+    /// The list over all cells of an even part.
+    pub fn unfolded(&self, even: &[f64]) -> Vec<f64> {
+        let value = |&(e, _): &(usize, f64)| even[e] * if e < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
+        self.of.iter().map(value).collect()
+    }
+}
+
+/// A flux matrix in two parts.
+pub(super) struct Flux {
+    even: Mat<f64>,
+    odd: Mat<f64>,
+}
+
+impl Flux {
+    pub fn times(&self, other: &Self) -> Self {
+        Self { even: &self.even * &other.even, odd: &self.odd * &other.odd }
+    }
+
+    pub fn plus(&self, other: &Self) -> Self {
+        Self { even: &self.even + &other.even, odd: &self.odd + &other.odd }
+    }
+
+    /// (1 − self)⁻¹, ready to be applied.
+    pub fn series(&self) -> Series {
+        let one = |part: &Mat<f64>| (Mat::<f64>::identity(part.nrows(), part.nrows()) - part).partial_piv_lu();
+        Series { even: one(&self.even), odd: one(&self.odd) }
+    }
+
+    /// Rows weighted by an even list and summed, for every column.
+    pub fn weighted(&self, weights: &[f64]) -> Vec<f64> {
+        let n = weights.len();
+        (0..n).map(|i| (0..n).map(|k| self.even[(k, i)] * weights[k]).sum()).collect()
+    }
+}
+
+/// Light that goes to and fro without end, summed.
+pub(super) struct Series {
+    even: PartialPivLu<f64>,
+    odd: PartialPivLu<f64>,
+}
+
+impl Series {
+    pub fn of(&self, light: &Flux) -> Flux {
+        Flux { even: self.even.solve(&light.even), odd: self.odd.solve(&light.odd) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells 0–1 and 2–4 are images of each other, cell 3 its own.
+    const IMAGE: [usize; 5] = [1, 0, 4, 3, 2];
+
+    fn mirrored(seed: f64) -> impl Fn(usize, usize) -> f64 {
+        let raw = move |r: usize, c: usize| 0.1 * (seed * (r * 5 + c) as f64 + seed).sin().abs();
+        move |r, c| 0.5 * (raw(r, c) + raw(IMAGE[r], IMAGE[c]))
+    }
+
+    #[test]
+    fn products_and_series_are_those_of_the_whole_matrix() {
+        let (a, b) = (mirrored(1.3), mirrored(2.1));
+        let [wa, wb] = [Mat::from_fn(5, 5, &a), Mat::from_fn(5, 5, &b)];
+        let product = &wa * &wb;
+        let series = (Mat::<f64>::identity(5, 5) - &product).partial_piv_lu().solve(&wa);
+        for halves in [Halves::new(&IMAGE), Halves::none(5)] {
+            let (fa, fb) = (halves.matrix(&a), halves.matrix(&b));
+            let (p, s) = (fa.times(&fb), fa.times(&fb).series().of(&fa).plus(&fa));
+            let list = [0.5, 0.5, 0.2, 0.7, 0.2];
+            let sums = halves.unfolded(&p.weighted(&halves.list(|k| list[k])));
+            for r in 0..5 {
+                for c in 0..5 {
+                    assert!((halves.entry(&fa, r, c) - a(r, c)).abs() < 1e-15);
+                    assert!((halves.entry(&p, r, c) - product[(r, c)]).abs() < 1e-15);
+                    assert!((halves.entry(&s, r, c) - series[(r, c)] - wa[(r, c)]).abs() < 1e-14);
+                }
+                let whole: f64 = (0..5).map(|k| product[(k, r)] * list[k]).sum();
+                assert!((sums[r] - whole).abs() < 1e-15);
+            }
+        }
+        assert_eq!(Halves::new(&IMAGE).pairs, 2);
+    }
+}
