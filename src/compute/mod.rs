@@ -29,6 +29,7 @@ pub mod lid;
 pub mod quadrature;
 pub mod room;
 pub mod section;
+pub mod sequence;
 pub mod sky;
 pub mod system;
 pub mod wavelet;

@@ -14,7 +14,6 @@
 pub mod beams;
 mod cells;
 mod halves;
-mod net;
 pub mod outline;
 pub mod panels;
 pub mod panes;

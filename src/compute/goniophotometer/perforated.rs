@@ -10,6 +10,7 @@ use super::{Measured, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::sequence::recurrence;
 use crate::compute::system::description::{Hole, Perforated};
 use crate::compute::system::sub_directions;
 use faer::Mat;
@@ -274,7 +275,7 @@ impl Walls {
         let mut row = vec![0.0; self.patches.len()];
         for k in 0..RAYS {
             // A rank-1 lattice in four dimensions (powers of the plastic-like constant): even without being regular.
-            let at = |alpha: f64| (0.5 + alpha * (k as f64 + 1.0)).fract();
+            let at = |alpha: f64| recurrence(0.5, k as f64 + 1.0, alpha);
             let (a, b) = (at(0.856_674_883_854_502_8), at(0.733_891_856_627_126));
             let (c, d) = (at(0.628_706_721_018_231_5), at(0.538_597_264_883_558_2));
             let origin = corners[0] + u * a + w * b;
