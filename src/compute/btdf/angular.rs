@@ -32,6 +32,13 @@ impl AngularTransmittance {
         }
     }
 
+    /// Mean over the polar angles `from` … `to` \[rad\], weighted by projected solid angle. `rule`: nodes and weights on
+    /// 0 … 1, for sin²θ across the ring.
+    pub fn ring_mean(&self, from: f64, to: f64, rule: &[(f64, f64)]) -> f64 {
+        let (a, b) = (from.sin().powi(2), to.sin().powi(2));
+        rule.iter().map(|(x, weight)| weight * self.at((a + (b - a) * x).sqrt().min(1.0).asin())).sum()
+    }
+
     /// 2 ∫ τ(θ) sinθ cosθ dθ: transmittance under uniform luminance.
     pub fn hemispherical(&self) -> f64 {
         match self {

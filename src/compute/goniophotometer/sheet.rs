@@ -10,6 +10,7 @@ use super::{Measured, Quality, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::quadrature::midpoints;
 use crate::compute::system::sub_directions;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -94,14 +95,10 @@ impl Specimen for Sheet {
 /// Angles across a ring over which functions of θ are averaged.
 const RING: usize = 128;
 
-/// Means over the cells of a function of θ: midpoints in sin²θ.
+/// Means over the cells of a function of θ.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
-    let mean = |cell: Cell| {
-        let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
-        let theta = |k: usize| (low + (high - low) * (k as f64 + 0.5) / RING as f64).sqrt().asin();
-        (0..RING).map(|k| share.at(theta(k))).sum::<f64>() / RING as f64
-    };
-    basis.cells().map(mean).collect()
+    let rule = midpoints(RING);
+    basis.cells().map(|cell| share.ring_mean(cell.theta_min, cell.theta_max, &rule)).collect()
 }
 
 impl Spread {

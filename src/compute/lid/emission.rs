@@ -9,6 +9,7 @@ use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident, Orientation, Surface};
 use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::gauss_legendre;
 use crate::compute::room::sun_disc::{self, Edge};
 use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
 use glam::DVec3;
@@ -115,9 +116,10 @@ impl Emission {
                 let rings = if matches!(tau, AngularTransmittance::Constant(_)) { 1 } else { 36 };
                 let basis = bands(rings);
                 let illuminance = incident_illuminances(facing.outside, &basis, &frame);
+                let across = gauss_legendre(ACROSS);
                 for (ring, &e) in basis.rings().iter().zip(&illuminance) {
                     emission.incident_diffuse += e;
-                    emission.uniform += e * (ring_mean(tau, ring) / PI);
+                    emission.uniform += e * (tau.ring_mean(ring.theta_min, ring.theta_max, &across) / PI);
                 }
                 if let Some(sun) = sun_direction {
                     emission.uniform += Estimate::exact(tau.at(sun.theta().min(0.5 * PI)) * incident_sun / PI);
@@ -197,12 +199,12 @@ impl Emission {
             sum += match tau {
                 AngularTransmittance::Constant(tau) => self.incident_diffuse * *tau,
                 AngularTransmittance::Table(_) => {
-                    let basis = bands(36);
+                    let (basis, across) = (bands(36), gauss_legendre(ACROSS));
                     let frame = Frame::of_aperture(facing.orientation, facing.surface);
                     incident_illuminances(facing.outside, &basis, &frame)
                         .into_iter()
                         .zip(basis.rings())
-                        .map(|(e, ring)| e * ring_mean(tau, ring))
+                        .map(|(e, ring)| e * tau.ring_mean(ring.theta_min, ring.theta_max, &across))
                         .sum()
                 }
             };
@@ -265,6 +267,9 @@ fn relative(e: Estimate) -> f64 {
     if e.value > 0.0 { e.error / e.value } else { 0.0 }
 }
 
+/// Gauss points for τ across a ring.
+const ACROSS: usize = 3;
+
 /// Rings of equal width in θ, undivided in φ.
 fn bands(count: usize) -> RingBasis {
     let step = 0.5 * PI / count as f64;
@@ -272,16 +277,4 @@ fn bands(count: usize) -> RingBasis {
         .map(|i| Ring { theta_min: i as f64 * step, theta_max: (i + 1) as f64 * step, sectors: 1, first_phi: 0.0 })
         .collect();
     RingBasis::new("bands", rings, crate::compute::basis::AzimuthMap::FACADE).expect("equal steps rise from 0 to 90°")
-}
-
-/// Mean of τ over a ring, weighted by the projected solid angle; three-point Gauss in sin²θ.
-fn ring_mean(tau: &AngularTransmittance, ring: &Ring) -> f64 {
-    if let AngularTransmittance::Constant(tau) = tau {
-        return *tau;
-    }
-    let (a, b) = (ring.theta_min.sin().powi(2), ring.theta_max.sin().powi(2));
-    crate::compute::quadrature::gauss_legendre(3)
-        .into_iter()
-        .map(|(x, weight)| weight * tau.at((a + (b - a) * x).sqrt().clamp(0.0, 1.0).asin()))
-        .sum()
 }

@@ -1,14 +1,14 @@
 //! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
 //! is seen straight through, by directions of every sensor's own.
 
-use super::transport::{self, Transport, ring_mean};
+use super::transport::{self, ACROSS, Transport};
 use super::views::{Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Facing;
-use crate::compute::quadrature::Tolerance;
+use crate::compute::quadrature::{Tolerance, gauss_legendre};
 use crate::compute::room::radiosity::dot;
 use crate::compute::room::through::{self, Prospect};
 use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_illuminances_within};
@@ -88,13 +88,15 @@ impl Part {
             }
             _ => None,
         };
+        let across = gauss_legendre(ACROSS);
         let columns: Vec<transport::Column> = (0..patches.len())
             .into_par_iter()
             .map(|p| {
                 let cell = patches.cell(p);
                 let mut column = transport.through_patch(p, &cell, sensors);
                 if let Some((tau, views)) = &straight {
-                    views.add(p, ring_mean(tau, &cell) / cell.projected_solid_angle(), &mut column.light);
+                    let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
+                    views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
                 }
                 column
             })
