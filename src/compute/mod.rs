@@ -26,6 +26,7 @@ pub mod estimate;
 pub mod goniophotometer;
 pub mod incidence;
 pub mod lid;
+pub mod polygon;
 pub mod quadrature;
 pub mod room;
 pub mod section;

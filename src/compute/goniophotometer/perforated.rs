@@ -10,6 +10,7 @@ use super::{Measured, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::polygon::{area, cut_by_all};
 use crate::compute::sequence::recurrence;
 use crate::compute::system::description::{Hole, Perforated};
 use crate::compute::system::sub_directions;
@@ -220,15 +221,15 @@ impl Walls {
             return 0.0;
         }
         let carried = |p: DVec3| (p - travel * ((p.z - level) / travel.z)).truncate();
-        let mut lit = 0.0;
+        let (mut lit, mut spare) = (0.0, Default::default());
         for (patch, wall) in self.patches.iter().zip(walls) {
             // Of a wall that light meets from behind, the shadow lies beside the entry: the hole is convex.
-            let shared = clipped(&patch.map(carried), entry);
-            *wall += share * shared;
-            lit += shared;
+            let part = shared(&patch.map(carried), entry, &mut spare);
+            *wall += share * part;
+            lit += part;
         }
         let image: Vec<DVec2> = exit.iter().map(|&p| carried(p.extend(far))).collect();
-        let straight = clipped(&image, entry);
+        let straight = shared(&image, entry, &mut spare);
         debug_assert!((straight + lit - self.open).abs() < 1e-6 * self.open + 1e-9, "{straight} {lit} {}", self.open);
         straight
     }
@@ -332,45 +333,13 @@ fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
     }
 }
 
-/// Area of a polygon, > 0 when it turns counter-clockwise.
-fn area(polygon: &[DVec2]) -> f64 {
-    (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
-}
-
-/// Most corners that a patch clipped by the entry may have.
-const CORNERS: usize = CIRCLE + 8;
-
-/// Area of the part of a convex polygon that lies within another one (counter-clockwise), by Sutherland and Hodgman.
-fn clipped(subject: &[DVec2], clip: &[DVec2]) -> f64 {
-    let (mut polygon, mut kept) = ([DVec2::ZERO; 2 * CORNERS], [DVec2::ZERO; 2 * CORNERS]);
-    polygon[..subject.len()].copy_from_slice(subject);
-    let mut n = subject.len();
-    for k in 0..clip.len() {
-        let (a, b) = (clip[k], clip[(k + 1) % clip.len()]);
-        let side = |p: DVec2| (b - a).perp_dot(p - a);
-        if polygon[..n].iter().all(|&p| side(p) >= 0.0) {
-            continue;
-        }
-        let mut count = 0;
-        for j in 0..n {
-            let (p, q) = (polygon[j], polygon[(j + 1) % n]);
-            let (sp, sq) = (side(p), side(q));
-            if sp >= 0.0 {
-                kept[count] = p;
-                count += 1;
-            }
-            if (sp >= 0.0) != (sq >= 0.0) {
-                kept[count] = p.lerp(q, sp / (sp - sq));
-                count += 1;
-            }
-        }
-        if count < 3 {
-            return 0.0;
-        }
-        std::mem::swap(&mut polygon, &mut kept);
-        n = count;
-    }
-    area(&polygon[..n]).abs()
+/// Area of the part of a convex polygon that lies within another one (counter-clockwise). `spare` is room to work in.
+fn shared(subject: &[DVec2], within: &[DVec2], [polygon, spare]: &mut [Vec<DVec2>; 2]) -> f64 {
+    polygon.clear();
+    polygon.extend(subject);
+    let edges = within.iter().zip(within.iter().cycle().skip(1));
+    cut_by_all(polygon, edges.map(|(&a, &b)| move |p: DVec2| (b - a).perp_dot(p - a)), spare);
+    area(polygon).abs()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! singularity at grazing sensors.
 
 use super::aperture::View;
-use super::polygon::{clip, edge};
+use crate::compute::polygon::{clip, edge};
 use crate::compute::angle::wrap_two_pi;
 use crate::compute::basis::{Ring, RingBasis};
 use glam::{DVec2, DVec3};
@@ -240,7 +240,7 @@ fn relative(azimuth: f64, reference: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::aperture::Aperture;
-    use super::super::polygon::projected_solid_angle;
+    use crate::compute::polygon::projected_solid_angle;
     use super::*;
     use crate::compute::basis::AzimuthMap;
     use crate::compute::direction::{Dir, Surface};

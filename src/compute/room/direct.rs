@@ -3,7 +3,7 @@
 
 use super::aperture::Aperture;
 use super::cell_weights::for_each_cell;
-use super::polygon::projected_solid_angle;
+use crate::compute::polygon::projected_solid_angle;
 use super::sun_disc::{self, Edge};
 use super::through::{self, Prospect};
 use crate::compute::basis::RingBasis;

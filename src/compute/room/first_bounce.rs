@@ -4,7 +4,7 @@ use super::aperture::{Aperture, View};
 use super::beam::landing;
 use super::direct::{Reception, Sensor};
 use super::mesh::{Mesh, Patch, Wall};
-use super::polygon::projected_solid_angle;
+use crate::compute::polygon::projected_solid_angle;
 use super::radiosity::{Radiosity, dot};
 use super::through::Prospect;
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};

@@ -11,7 +11,6 @@ pub mod form_factor;
 pub mod gather;
 pub mod mesh;
 pub mod near_field;
-pub mod polygon;
 pub mod radiosity;
 pub mod sun_disc;
 pub mod through;

@@ -6,7 +6,7 @@
 //! integrated adaptively with an error estimate.
 
 use super::aperture::View;
-use super::polygon::{clip, projected_solid_angle};
+use crate::compute::polygon::{clip, projected_solid_angle};
 use crate::compute::direction::{Dir, Orientation, Room, Surface};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};

@@ -11,7 +11,7 @@ use super::kernel;
 use crate::compute::estimate::Estimate;
 use crate::compute::room::aperture::{Aperture, View};
 use crate::compute::room::direct::Sensor;
-use crate::compute::room::polygon::clip;
+use crate::compute::polygon::clip;
 use crate::compute::sequence::{Random, mixed};
 use glam::DVec3;
 use std::f64::consts::PI;
