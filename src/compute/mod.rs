@@ -29,6 +29,7 @@ pub mod lid;
 pub mod polygon;
 pub mod quadrature;
 pub mod room;
+pub mod scaling;
 pub mod section;
 pub mod sequence;
 pub mod sky;

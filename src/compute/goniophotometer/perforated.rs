@@ -11,6 +11,7 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::polygon::{area, cut_by_all};
+use crate::compute::scaling::scales;
 use crate::compute::sequence::recurrence;
 use crate::compute::system::description::{Hole, Perforated};
 use crate::compute::system::sub_directions;
@@ -26,6 +27,8 @@ const CIRCLE: usize = 24;
 const AROUND: usize = 24;
 /// Patches through the thickness: the coarsest and the finest.
 const DEPTH: [usize; 2] = [3, 12];
+/// What may be left of what lands, relative.
+const LEFT: f64 = 1e-12;
 /// Rays a patch for the exchange between patches.
 const RAYS: usize = 2048;
 
@@ -241,15 +244,10 @@ impl Walls {
         let rows: Vec<Vec<f64>> = (0..n).into_par_iter().map(|k| self.exchange(k)).collect();
         // Area × factor both ways alike, and what does not escape lands: rays count either only to their noise.
         let mutual = |i: usize, j: usize| 0.5 * (rows[i][j] * self.areas[i] + rows[j][i] * self.areas[j]);
-        let mut scale = vec![1.0; n];
-        for _ in 0..50 {
-            let sums: Vec<f64> =
-                (0..n).map(|i| scale[i] * (0..n).map(|j| mutual(i, j) * scale[j]).sum::<f64>()).collect();
-            for i in 0..n {
-                let wanted = self.areas[i] * (1.0 - escaping[i]).max(0.0);
-                scale[i] *= if sums[i] > 0.0 { (wanted / sums[i]).sqrt() } else { 0.0 };
-            }
-        }
+        let sums = |scale: &[f64]| (0..n).map(|i| (0..n).map(|j| mutual(i, j) * scale[j]).sum()).collect();
+        let wanted: Vec<_> =
+            self.areas.iter().zip(escaping).map(|(area, gone)| Some(area * (1.0 - gone).max(0.0))).collect();
+        let scale = scales(sums, &wanted, LEFT * self.areas.iter().copied().fold(f64::INFINITY, f64::min));
         let factor = |i: usize, j: usize| scale[i] * mutual(i, j) * scale[j] / self.areas[i];
         let wall = self.reflectance[2];
         let system = Mat::from_fn(n, n, |j, i| f64::from(u8::from(i == j)) - wall * factor(i, j));

@@ -11,6 +11,7 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::midpoints;
+use crate::compute::scaling::scales;
 use crate::compute::system::sub_directions;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -92,6 +93,9 @@ impl Specimen for Sheet {
     }
 }
 
+/// What may be left of a total.
+const LEFT: f64 = 1e-12;
+
 /// Angles across a ring over which functions of θ are averaged.
 const RING: usize = 128;
 
@@ -144,23 +148,24 @@ impl Spread {
             let flux = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
             // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
             let same = incident == emergent;
-            let mut scale = vec![1.0; incident.len()];
-            let mut left = vec![0.0; incident.len()];
-            for _ in 0..if same { 40 } else { 1 } {
-                for (i, row) in rows.iter().enumerate() {
-                    let found = if same {
-                        scale[i] * row.iter().zip(&weight).zip(&scale).map(|((q, w), s)| q * w * s).sum::<f64>()
-                    } else {
-                        flux(row)
-                    };
-                    left[i] = if same { (found - totals[i]).abs() } else { 0.0 };
-                    let ratio = if found > 0.0 { totals[i] / found } else { 0.0 };
-                    scale[i] *= if same { ratio.sqrt() } else { ratio };
+            let scale = if same {
+                let sums = |scale: &[f64]| -> Vec<f64> {
+                    let factors: Vec<f64> = scale.iter().zip(&weight).map(|(s, w)| s * w).collect();
+                    let sum = |row: &Vec<f64>| row.iter().zip(&factors).map(|(q, f)| q * f).sum::<f64>();
+                    rows.iter().zip(&weight).map(|(row, w)| w * sum(row)).collect()
+                };
+                let wanted: Vec<_> = totals.iter().zip(&weight).map(|(total, w)| Some(total * w)).collect();
+                let scale = scales(sums, &wanted, LEFT * weight.iter().copied().fold(f64::INFINITY, f64::min));
+                for (((error, d), sum), (total, w)) in
+                    error.iter_mut().zip(&scale).zip(sums(&scale)).zip(totals.iter().zip(&weight))
+                {
+                    *error += (d * sum / w - total).abs();
                 }
-            }
-            for (error, left) in error.iter_mut().zip(&left) {
-                *error += left;
-            }
+                scale
+            } else {
+                let ratio = |(row, total): (&Vec<f64>, &f64)| if flux(row) > 0.0 { total / flux(row) } else { 0.0 };
+                rows.iter().zip(&totals).map(ratio).collect()
+            };
             for (i, row) in rows.iter().enumerate() {
                 for (o, lobe) in row.iter().enumerate() {
                     let factor = if same { scale[i] * scale[o] } else { scale[i] };
@@ -196,24 +201,13 @@ impl Lobe {
                 around * b / n as f64
             })
             .collect();
-        let tau: Vec<f64> = (0..n).map(|i| share.at(sine(i).asin())).collect();
-        let mut factor: Vec<f64> = vec![1.0; n];
-        for _ in 0..400 {
-            let flux: Vec<f64> = kernel
-                .chunks_exact(n)
-                .zip(&factor)
-                .map(|(row, d)| d * row.iter().zip(&factor).map(|(k, e)| k * e).sum::<f64>())
-                .collect();
-            let mut worst: f64 = 0.0;
-            for ((d, flux), tau) in factor.iter_mut().zip(&flux).zip(&tau) {
-                worst = worst.max((flux - tau).abs());
-                *d *= if *flux > 0.0 { (tau / flux).sqrt() } else { 0.0 };
-            }
-            if worst < 1e-9 {
-                break;
-            }
-        }
-        Self { spread, factor }
+        // The sine before both makes the kernel symmetric.
+        let sums = |factor: &[f64]| -> Vec<f64> {
+            let sum = |row: &[f64]| row.iter().zip(factor).map(|(k, d)| k * d).sum::<f64>();
+            kernel.chunks_exact(n).enumerate().map(|(i, row)| sine(i) * sum(row)).collect()
+        };
+        let wanted: Vec<_> = (0..n).map(|i| Some(sine(i) * share.at(sine(i).asin()))).collect();
+        Self { spread, factor: scales(sums, &wanted, LEFT * sine(0)) }
     }
 
     fn factor(&self, sine: f64) -> f64 {
