@@ -18,6 +18,11 @@ impl AngularTransmittance {
         Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
     }
 
+    /// τ where it is the same for every incidence.
+    pub const fn constant(&self) -> Option<f64> {
+        if let Self::Constant(tau) = self { Some(*tau) } else { None }
+    }
+
     /// τ at a polar angle of incidence. \[rad\] Zero beyond 90°.
     pub fn at(&self, theta: f64) -> f64 {
         match self {

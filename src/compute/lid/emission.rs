@@ -30,6 +30,11 @@ pub struct Facing<'a> {
 }
 
 impl Facing<'_> {
+    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
+    pub fn luminance(&self, d: Dir<Facade>) -> f64 {
+        self.outside.luminance(self.orientation.world_from_room(self.surface.room_dir(d)))
+    }
+
     /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
     pub fn sun_direction(&self) -> Option<Dir<Facade>> {
         self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
@@ -250,12 +255,10 @@ const TREE_CELL_ERROR: f64 = 5e-3;
 /// error of the total, from half the density. \[lx\]
 fn tree_illuminances(tree: &TensorTree, facing: &Facing<'_>) -> (Vec<f64>, f64) {
     let grid = tree.incident_grid();
-    let luminance =
-        |d: Dir<Facade>| facing.outside.luminance(facing.orientation.world_from_room(facing.surface.room_dir(d)));
     let fine = (128 / tree.incident_resolution()).max(2);
     let sample = |n: usize| -> Vec<f64> {
         let weight = grid.projected_solid_angle() / (n * n) as f64;
-        grid.cells().map(|cell| cell.samples(n).map(luminance).sum::<f64>() * weight).collect()
+        grid.cells().map(|cell| cell.samples(n).map(|d| facing.luminance(d)).sum::<f64>() * weight).collect()
     };
     let values = sample(fine);
     let coarse: f64 = sample(fine / 2).iter().sum();

@@ -10,7 +10,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Facing;
 use crate::compute::quadrature::{Tolerance, gauss_legendre};
 use crate::compute::room::radiosity::dot;
-use crate::compute::room::through::{self, Prospect};
+use crate::compute::room::through;
 use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_illuminances_within};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -220,7 +220,7 @@ impl Seen {
             return Self::default();
         };
         let altitude = scene.outside.skyline_altitude();
-        let directions = through::samples(&view, facing.surface, altitude, |theta| tau.at(theta), POINTS)
+        let directions = through::samples(&view, facing.surface, altitude, tau, POINTS)
             .into_iter()
             .map(|(d, weight)| (scene.orientation.world_from_room(d), weight))
             .collect();
@@ -255,12 +255,10 @@ fn seen_exactly(
     outside: &Outside,
     relative: f64,
 ) -> Estimate {
-    let Facing { orientation, surface, .. } = scene.facing(index);
     let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
         return Estimate::default();
     };
-    let uniform = if let AngularTransmittance::Constant(tau) = tau { Some(*tau) } else { None };
     let scale = outside.diffuse_horizontal().max(outside.ground_luminance()).max(outside.skyline_luminance());
     let tolerance = Tolerance { absolute: 1e-3 * relative * scale, relative, max_pieces: 4000 };
-    through::illuminance(&view, &Prospect { outside, orientation, surface }, uniform, |theta| tau.at(theta), tolerance)
+    through::illuminance(&view, &Facing { outside, ..scene.facing(index) }, tau, tolerance)
 }

@@ -7,7 +7,7 @@ use crate::compute::lid::Emission;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::{BackReflection, settled_light};
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
-use crate::compute::room::gather::{Reconstruction, polygon_factor, reconstruct};
+use crate::compute::room::gather::{Reconstruction, reconstruct};
 use crate::compute::room::mesh::{Mesh, Nested};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::{Key, bits};
@@ -174,13 +174,7 @@ impl Session {
             .zip(gather.par_iter())
             .zip(thrown_back.par_iter())
             .map(|((sensor, [fine, coarse]), thrown_back)| {
-                let outlines: f64 = first
-                    .outlines
-                    .iter()
-                    .map(|(wall, outline, exitance)| {
-                        exitance * polygon_factor(&mesh.walls[*wall], outline, sensor.position, sensor.normal)
-                    })
-                    .sum();
+                let outlines = first.reflected_beam(mesh, sensor.position, sensor.normal);
                 let (mut value, mut difference, mut squares) = (0.0, 0.0, 0.0_f64);
                 for (a, b) in spans(mesh).into_iter().zip(spans(&radiosity.nested.coarse)) {
                     let by_fine = dot(&fine.weights[a.clone()], &exitance.fine[a]);
