@@ -1,12 +1,12 @@
 //! Built-in products on the command line: listed at once, computed when they are asked for.
 
 use super::catalogue::{BuildArgs, ListArgs};
-use super::progress::TerminalProgress;
 use super::output;
+use super::progress::TerminalProgress;
 use crate::catalogue::{Catalogue, Origin, ProductRow, Query};
 use crate::compute::estimate::Progress;
-use crate::study::{Library, files};
 use crate::study::goniophotometer::Described;
+use crate::study::{Library, files};
 
 /// Computes those wanted of the built-in products that the catalogue does not hold yet.
 pub(super) fn complete(catalogue: &mut Catalogue, wanted: impl Fn(&str) -> bool) -> anyhow::Result<()> {

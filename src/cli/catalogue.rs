@@ -11,7 +11,7 @@ use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
 use crate::study::files;
-use anyhow::{Context, anyhow, bail};
+use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -146,7 +146,7 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Export(args) => {
             let mut catalogue = open()?;
             provide(&mut catalogue, &args.keys)?;
-            files::write(&args.out, &catalogue.export_package(&args.keys)?)
+            Ok(files::write(&args.out, &catalogue.export_package(&args.keys)?)?)
         }
         Action::Validate(args) => validate(&open()?, args),
         Action::Diff(args) => packages::diff(args),

@@ -1,10 +1,10 @@
 //! `cfs convert`: between the dataset formats that the program reads and writes.
 
 use crate::cli::dataset_file;
-use crate::study::files;
 use crate::compute::btdf::{Component, Dataset, TreeRank};
 use crate::formats::bsdf_xml::{self, TreeForm};
 use crate::formats::{Format, FormatError, Written, btdf_text, format_to_write, write_dataset};
+use crate::study::files;
 use anyhow::anyhow;
 use std::path::PathBuf;
 

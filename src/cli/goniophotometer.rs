@@ -5,8 +5,8 @@ use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
-use crate::study::{Library, files};
 use crate::study::goniophotometer::{Computed, Described, Request};
+use crate::study::{Library, files};
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -174,7 +174,7 @@ fn write_results(
             let imported = catalogue.import(&datasets, described.product(request, &datasets));
             let key = imported.map_err(|error| anyhow!("{shown}: {error}"))?.key;
             let bytes = catalogue.export_package(&[key]).map_err(|error| anyhow!("{shown}: {error}"))?;
-            files::write(path, &bytes)
+            Ok(files::write(path, &bytes)?)
         }
         Target::States(path, format) => {
             let count = datasets.len();

@@ -1,8 +1,8 @@
 //! `cfs info` of luminaire files: who, how much light, how large, which planes.
 
-use crate::study::files;
 use crate::formats::luminaire::{Luminaire, Photometry};
 use crate::formats::{eulumdat, ies};
+use crate::study::files;
 use anyhow::anyhow;
 use serde_json::json;
 use std::fmt::Write as _;

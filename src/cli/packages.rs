@@ -2,8 +2,8 @@
 
 use crate::catalogue::{PackageDiff, diff_packages, merge_packages};
 use crate::cli::output;
-use crate::study::files;
 use crate::formats::package::{self, Package};
+use crate::study::files;
 use anyhow::anyhow;
 use serde_json::json;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,10 @@
 //! `cfs repair`: datasets mended as findings offer, written anew.
 
 use crate::cli::dataset_file;
-use crate::study::files;
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{Repair, examine, record, recorded, repaired_all, sun_from_above};
 use crate::formats::{format_to_write, write_dataset};
+use crate::study::files;
 use anyhow::{anyhow, bail};
 use std::path::PathBuf;
 

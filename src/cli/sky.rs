@@ -7,7 +7,7 @@ use crate::compute::sky::patches::{mean_luminance, tregenza_patches};
 use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::study::files;
 use crate::study::sky::outside_from_keys;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -4,16 +4,6 @@ use super::blocks::Blocks;
 use super::{At, BandScope, BlockScope, Confidence, Diagnosis, RepairKind, sides};
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
 
-/// The name of a function as files write it.
-pub(super) const fn words(component: Component) -> &'static str {
-    match component {
-        Component::TransmissionFront => "Transmission Front",
-        Component::TransmissionBack => "Transmission Back",
-        Component::ReflectionFront => "Reflection Front",
-        Component::ReflectionBack => "Reflection Back",
-    }
-}
-
 /// Do two functions hold the same numbers in the same order, as when one is a copy of the other?
 pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     match (&a.scattered, &b.scattered) {
@@ -85,7 +75,7 @@ fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Di
     if copied.is_empty() || !shared.iter().any(differs) {
         return Vec::new();
     }
-    let names = copied.iter().map(|component| words(*component)).collect::<Vec<_>>().join(", ");
+    let names = copied.iter().map(|component| component.words()).collect::<Vec<_>>().join(", ");
     let message = format!(
         "{names} (solar) repeats the visible block number by number while other functions of the bands differ: \
          possibly copied from one band to the other."
@@ -122,7 +112,7 @@ fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
     let confidence = if error > 0.5 { Confidence::Certain } else { Confidence::Likely };
     let copy = blocks.and_then(sides::false_copy);
     let which = match copy {
-        Some(component) => format!("The light left over for reflection speaks against {}.", words(component)),
+        Some(component) => format!("The light left over for reflection speaks against {}.", component.words()),
         None => {
             "Which of both is the copy, the numbers do not tell; derive by reciprocity the one that is not its own."
                 .to_owned()
@@ -179,9 +169,9 @@ fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
             if tau_max(t) > 0.0 && repeats(r, t) {
                 let message = format!(
                     "{} ({}) repeats {} number by number: a mislabelled or copied block.",
-                    words(reflection),
+                    reflection.words(),
                     at.name,
-                    words(transmission)
+                    transmission.words()
                 );
                 let drop = at.repair(RepairKind::DropBlock, BlockScope::One(reflection));
                 list.push(Diagnosis::from(Finding::warning("block-mislabelled", message)).with(drop));
@@ -202,7 +192,7 @@ fn empty(at: &At) -> Vec<Diagnosis> {
         if zero(this) && at.band.get(other).is_some_and(|btdf| tau_max(btdf) > 1e-6) {
             let message = format!(
                 "{} ({}) is zero everywhere although light passes the other way: a missing block filled with zeros.",
-                words(this),
+                this.words(),
                 at.name
             );
             let derive = at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(this));
@@ -217,7 +207,7 @@ fn empty(at: &At) -> Vec<Diagnosis> {
             continue;
         }
         let passes = at.band.get(through).or(at.band.transmission_front.as_ref()).map_or(0.0, tau_max);
-        let message = format!("{} ({}) is zero everywhere", words(this), at.name);
+        let message = format!("{} ({}) is zero everywhere", this.words(), at.name);
         list.push(if passes > 0.97 {
             Finding::info("zero-block", format!("{message}, as behind an empty opening.")).into()
         } else {
@@ -251,13 +241,8 @@ fn missing(at: &At) -> Vec<Diagnosis> {
     }
     let absent: Vec<Component> = Component::ALL.into_iter().filter(|c| !has(*c)).collect();
     for component in &absent {
-        let partner = match component {
-            Component::TransmissionFront => Component::TransmissionBack,
-            Component::TransmissionBack => Component::TransmissionFront,
-            Component::ReflectionFront => Component::ReflectionBack,
-            Component::ReflectionBack => Component::ReflectionFront,
-        };
-        let message = format!("{} ({}) is missing", words(*component), at.name);
+        let partner = component.other_side();
+        let message = format!("{} ({}) is missing", component.words(), at.name);
         let one = match component {
             Component::TransmissionFront | Component::TransmissionBack if has(partner) => Diagnosis::from(
                 Finding::info("missing-block", format!("{message}; it follows from the other side by reciprocity.")),

@@ -30,7 +30,7 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     };
     let message = format!(
         "{} is {found} (differences: left–right {:.1} %, above–below {:.1} %, quarter turn {:.1} %).",
-        super::copies::words(component),
+        component.words(),
         100.0 * left,
         100.0 * up,
         100.0 * quarter

@@ -51,7 +51,8 @@ impl Measured {
             }
             sums
         };
-        let wanted: Vec<_> = wanted.iter().flat_map(|side| side.iter().zip(&weight).map(|(x, w)| Some(x * w))).collect();
+        let wanted: Vec<_> =
+            wanted.iter().flat_map(|side| side.iter().zip(&weight).map(|(x, w)| Some(x * w))).collect();
         let smallest = weight.iter().copied().fold(f64::INFINITY, f64::min);
         let scales = scales(flux, &wanted, LEFT * smallest);
         let (front, inside) = scales.split_at(n);

@@ -3,12 +3,12 @@
 
 use super::aperture::Aperture;
 use super::cell_weights::for_each_cell;
-use crate::compute::polygon::projected_solid_angle;
 use super::sun_disc::{self, Edge};
 use super::through;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{Emission, Facing};
+use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::Tolerance;
 use glam::DVec3;
 

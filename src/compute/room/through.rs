@@ -6,12 +6,12 @@
 //! integrated adaptively with an error estimate.
 
 use super::aperture::View;
-use crate::compute::polygon::{clip, projected_solid_angle};
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Room, Surface};
 use crate::compute::estimate::Estimate;
-use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};
 use crate::compute::lid::Facing;
+use crate::compute::polygon::{clip, projected_solid_angle};
+use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -25,7 +25,8 @@ pub(super) fn sun(all: &Coefficients, sun: &Sun) -> Vec<f64> {
     if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
         let (mesh, sensors) = (&room.radiosity.nested.fine, &all.scene.sensors);
         for (s, response) in room.sensors.iter().enumerate() {
-            sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam) + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
+            sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam)
+                + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
         }
     }
     sums.iter_mut().for_each(|e| *e = e.max(0.0));

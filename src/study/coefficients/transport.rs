@@ -137,7 +137,9 @@ impl Transport {
     /// Light through a patch of [`patches`].
     pub fn through_patch(&self, index: usize, cell: &Cell, sensors: usize) -> Column {
         match self {
-            Self::Even(tau, even) => Column::scaled(even, tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(ACROSS)) / PI),
+            Self::Even(tau, even) => {
+                Column::scaled(even, tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(ACROSS)) / PI)
+            }
             Self::Cells(_, columns) => Column::scaled(&columns[index], 1.0),
             Self::Tree(tree, views) => {
                 let mut column = Column::dark(sensors);

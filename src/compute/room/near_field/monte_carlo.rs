@@ -9,9 +9,9 @@
 
 use super::kernel;
 use crate::compute::estimate::Estimate;
+use crate::compute::polygon::clip;
 use crate::compute::room::aperture::{Aperture, View};
 use crate::compute::room::direct::Sensor;
-use crate::compute::polygon::clip;
 use crate::compute::sequence::{Random, mixed};
 use glam::DVec3;
 use std::f64::consts::PI;
