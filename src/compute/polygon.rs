@@ -10,15 +10,16 @@ where
     P: Copy + Add<Output = P> + Sub<Output = P> + Mul<f64, Output = P>,
 {
     kept.clear();
-    for (i, &p) in polygon.iter().enumerate() {
-        let q = polygon[(i + 1) % polygon.len()];
-        let (fp, fq) = (inside(p), inside(q));
+    let mut fp = polygon.first().map_or(0.0, |&p| inside(p));
+    for (&p, &q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let fq = inside(q);
         if fp >= 0.0 {
             kept.push(p);
         }
         if (fp > 0.0 && fq < 0.0) || (fp < 0.0 && fq > 0.0) {
             kept.push(p + (q - p) * (fp / (fp - fq)));
         }
+        fp = fq;
     }
 }
 
@@ -30,6 +31,9 @@ pub fn cut_by_all<F: Fn(DVec2) -> f64>(
     kept: &mut Vec<DVec2>,
 ) {
     for inside in borders {
+        if polygon.iter().all(|&p| inside(p) >= 0.0) {
+            continue;
+        }
         cut(polygon, inside, kept);
         std::mem::swap(polygon, kept);
         if polygon.len() < 3 {

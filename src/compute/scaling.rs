@@ -13,23 +13,48 @@ const STEPS: [usize; 2] = [8, 200];
 /// No step changes a scale by more than this, either way.
 const MOST: f64 = 2.0;
 
-/// The d for which d (A d) are the sums wanted, none off by more than `left`; `sums` gives A d. Where no sum is wanted d
-/// stays 1. By Newton's method for ln d: (D + dAd) x = wanted − d (A d) with the sums on the diagonal D is symmetric and
-/// not negative.
-pub fn scales(sums: impl Fn(&[f64]) -> Vec<f64>, wanted: &[Option<f64>], left: f64) -> Vec<f64> {
+/// The d for which d (A d) are the sums wanted; `sums` gives A d. By rounds of d ← √(d · wanted / (A d)), which halve what
+/// is left: safe from any start. They end when no sum was off by more than `left`. Where no sum is wanted, or nothing is
+/// found, d stays 1; no d goes beyond `limit`.
+pub fn by_rounds(
+    sums: impl Fn(&[f64]) -> Vec<f64>,
+    wanted: &[Option<f64>],
+    rounds: usize,
+    left: f64,
+    limit: f64,
+) -> Vec<f64> {
+    let mut d = vec![1.0; wanted.len()];
+    for _ in 0..rounds {
+        let found = sums(&d);
+        let mut worst: f64 = 0.0;
+        for ((d, sum), wanted) in d.iter_mut().zip(found).zip(wanted) {
+            if let Some(wanted) = wanted.filter(|_| sum > 0.0) {
+                worst = worst.max((*d * sum - wanted).abs());
+                *d = (*d * wanted / sum).sqrt().min(limit);
+            }
+        }
+        if worst <= left {
+            break;
+        }
+    }
+    d
+}
+
+/// The same by Newton's method for ln d, no sum off by more than `left`: (D + dAd) x = wanted − d (A d) with the sums on
+/// the diagonal D is symmetric and not negative. For what is nearly right from the start but would take very many rounds,
+/// as light that does little but pass.
+pub fn by_newton(sums: impl Fn(&[f64]) -> Vec<f64>, wanted: &[f64], left: f64) -> Vec<f64> {
     let times = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
     let mut d = vec![1.0; wanted.len()];
     for _ in 0..STEPS[0] {
         let found = times(&d, &sums(&d));
-        let lack = |(wanted, found): (&Option<f64>, &f64)| wanted.map_or(0.0, |wanted| wanted - found);
-        let lacks: Vec<f64> = wanted.iter().zip(&found).map(lack).collect();
+        let lacks: Vec<f64> = wanted.iter().zip(&found).map(|(wanted, found)| wanted - found).collect();
         if lacks.iter().all(|x| x.abs() <= left) {
             break;
         }
         let matrix = |x: &[f64]| -> Vec<f64> {
             let off = times(&d, &sums(&times(&d, x)));
-            let image = off.iter().zip(times(&found, x)).map(|(a, b)| a + b);
-            image.zip(wanted).map(|(y, wanted)| if wanted.is_some() { y } else { 0.0 }).collect()
+            off.iter().zip(times(&found, x)).map(|(a, b)| a + b).collect()
         };
         let step = conjugate_gradients(matrix, &found, &lacks, 0.1 * left);
         d.iter_mut().zip(&step).for_each(|(d, x)| *d *= x.exp().clamp(1.0 / MOST, MOST));

@@ -11,7 +11,7 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::polygon::{area, cut_by_all};
-use crate::compute::scaling::scales;
+use crate::compute::scaling::by_rounds;
 use crate::compute::sequence::recurrence;
 use crate::compute::system::description::{Hole, Perforated};
 use crate::compute::system::sub_directions;
@@ -27,10 +27,10 @@ const CIRCLE: usize = 24;
 const AROUND: usize = 24;
 /// Patches through the thickness: the coarsest and the finest.
 const DEPTH: [usize; 2] = [3, 12];
-/// What may be left of what lands, relative.
-const LEFT: f64 = 1e-12;
 /// Rays a patch for the exchange between patches.
 const RAYS: usize = 2048;
+/// Rounds of scaling that make the exchange reciprocal.
+const ROUNDS: usize = 50;
 
 impl Specimen for Perforated {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
@@ -247,7 +247,7 @@ impl Walls {
         let sums = |scale: &[f64]| (0..n).map(|i| (0..n).map(|j| mutual(i, j) * scale[j]).sum()).collect();
         let wanted: Vec<_> =
             self.areas.iter().zip(escaping).map(|(area, gone)| Some(area * (1.0 - gone).max(0.0))).collect();
-        let scale = scales(sums, &wanted, LEFT * self.areas.iter().copied().fold(f64::INFINITY, f64::min));
+        let scale = by_rounds(sums, &wanted, ROUNDS, 0.0, f64::INFINITY);
         let factor = |i: usize, j: usize| scale[i] * mutual(i, j) * scale[j] / self.areas[i];
         let wall = self.reflectance[2];
         let system = Mat::from_fn(n, n, |j, i| f64::from(u8::from(i == j)) - wall * factor(i, j));

@@ -6,7 +6,7 @@
 
 use super::beams::mirror_images;
 use super::{Measured, Side};
-use crate::compute::scaling::scales;
+use crate::compute::scaling::by_newton;
 use std::f64::consts::PI;
 
 /// What may be left of τ + ρ.
@@ -51,10 +51,9 @@ impl Measured {
             }
             sums
         };
-        let wanted: Vec<_> =
-            wanted.iter().flat_map(|side| side.iter().zip(&weight).map(|(x, w)| Some(x * w))).collect();
+        let wanted: Vec<f64> = wanted.iter().flat_map(|side| side.iter().zip(&weight).map(|(x, w)| x * w)).collect();
         let smallest = weight.iter().copied().fold(f64::INFINITY, f64::min);
-        let scales = scales(flux, &wanted, LEFT * smallest);
+        let scales = by_newton(flux, &wanted, LEFT * smallest);
         let (front, inside) = scales.split_at(n);
         for i in 0..n {
             for o in 0..n {

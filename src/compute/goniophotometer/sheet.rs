@@ -11,7 +11,7 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::midpoints;
-use crate::compute::scaling::scales;
+use crate::compute::scaling::by_rounds;
 use crate::compute::system::sub_directions;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -93,9 +93,6 @@ impl Specimen for Sheet {
     }
 }
 
-/// What may be left of a total.
-const LEFT: f64 = 1e-12;
-
 /// Angles across a ring over which functions of θ are averaged.
 const RING: usize = 128;
 
@@ -145,24 +142,20 @@ impl Spread {
                     Ok(cells.iter().map(|to| lobe.mean(&from, to)).collect())
                 })
                 .collect::<Result<_, Cancelled>>()?;
-            let flux = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
             // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
             let same = incident == emergent;
             let scale = if same {
                 let sums = |scale: &[f64]| -> Vec<f64> {
                     let factors: Vec<f64> = scale.iter().zip(&weight).map(|(s, w)| s * w).collect();
-                    let sum = |row: &Vec<f64>| row.iter().zip(&factors).map(|(q, f)| q * f).sum::<f64>();
-                    rows.iter().zip(&weight).map(|(row, w)| w * sum(row)).collect()
+                    rows.iter().map(|row| row.iter().zip(&factors).map(|(q, f)| q * f).sum()).collect()
                 };
-                let wanted: Vec<_> = totals.iter().zip(&weight).map(|(total, w)| Some(total * w)).collect();
-                let scale = scales(sums, &wanted, LEFT * weight.iter().copied().fold(f64::INFINITY, f64::min));
-                for (((error, d), sum), (total, w)) in
-                    error.iter_mut().zip(&scale).zip(sums(&scale)).zip(totals.iter().zip(&weight))
-                {
-                    *error += (d * sum / w - total).abs();
-                }
+                let wanted: Vec<_> = totals.iter().map(|total| Some(*total)).collect();
+                let scale = by_rounds(sums, &wanted, 40, 0.0, f64::INFINITY);
+                let found = sums(&scale).into_iter().zip(&scale).map(|(sum, d)| d * sum);
+                error.iter_mut().zip(found).zip(&totals).for_each(|((error, f), total)| *error += (f - total).abs());
                 scale
             } else {
+                let flux = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
                 let ratio = |(row, total): (&Vec<f64>, &f64)| if flux(row) > 0.0 { total / flux(row) } else { 0.0 };
                 rows.iter().zip(&totals).map(ratio).collect()
             };
@@ -201,13 +194,11 @@ impl Lobe {
                 around * b / n as f64
             })
             .collect();
-        // The sine before both makes the kernel symmetric.
         let sums = |factor: &[f64]| -> Vec<f64> {
-            let sum = |row: &[f64]| row.iter().zip(factor).map(|(k, d)| k * d).sum::<f64>();
-            kernel.chunks_exact(n).enumerate().map(|(i, row)| sine(i) * sum(row)).collect()
+            kernel.chunks_exact(n).map(|row| row.iter().zip(factor).map(|(k, d)| k * d).sum()).collect()
         };
-        let wanted: Vec<_> = (0..n).map(|i| Some(sine(i) * share.at(sine(i).asin()))).collect();
-        Self { spread, factor: scales(sums, &wanted, LEFT * sine(0)) }
+        let wanted: Vec<_> = (0..n).map(|i| Some(share.at(sine(i).asin()))).collect();
+        Self { spread, factor: by_rounds(sums, &wanted, 400, 1e-9, f64::INFINITY) }
     }
 
     fn factor(&self, sine: f64) -> f64 {

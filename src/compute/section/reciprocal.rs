@@ -9,7 +9,7 @@ use super::outline::Section;
 use super::profile_weights::ProfileGrid;
 use super::transport::{Exchange, Thrown, Transport, index};
 use crate::compute::goniophotometer::Side;
-use crate::compute::scaling::scales;
+use crate::compute::scaling::by_rounds;
 
 /// What comes to faces by way of mirrors, as rays have found it.
 #[derive(Debug, Clone)]
@@ -55,8 +55,10 @@ impl Rough {
     }
 }
 
-/// What may be left of the sums, relative to what falls on a node.
-const LEFT: f64 = 1e-12;
+/// Rounds of scaling; they halve what is left.
+const ROUNDS: usize = 40;
+/// No scale goes beyond this.
+const LIMIT: f64 = 16.0;
 
 /// Symmetric sums of flux and of flux times variance.
 struct Sums {
@@ -100,9 +102,8 @@ impl Sums {
     }
 }
 
-/// What every node from outside, from inside, and every face sends, with these scales of all others; faces by the part
-/// of it that they do not mirror, by which all that goes to and fro is symmetric.
-fn sent(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64]) -> Vec<f64> {
+/// The sums of every node from outside, from inside, and of every face, with these scales of all others.
+fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64]) -> Vec<f64> {
     let n = hat.len();
     let (nodes, faces) = scales.split_at(2 * n);
     let mut out = vec![0.0; scales.len()];
@@ -116,15 +117,14 @@ fn sent(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64])
             let (line, own) = (&sums.back[side][i * n..(i + 1) * n], side * n..(side + 1) * n);
             out[side * n + i] += line.iter().zip(&nodes[own]).map(|([flux, _], d)| flux * d).sum::<f64>();
             for (face, width) in second.landed[side][i].iter().enumerate() {
-                let flux = 0.5 * hat * width * kept[face];
-                out[side * n + i] += flux * faces[face];
+                let flux = 0.5 * hat * width;
+                out[side * n + i] += flux * kept[face] * faces[face];
                 out[2 * n + face] += flux * nodes[side * n + i];
             }
         }
     }
     for (face, line) in second.exchange.values.chunks(kept.len()).enumerate() {
-        let flux = line.iter().zip(kept).zip(faces).map(|((flux, c), d)| flux * c * d).sum::<f64>();
-        out[2 * n + face] += kept[face] * flux;
+        out[2 * n + face] += line.iter().zip(kept).zip(faces).map(|((flux, c), d)| flux * c * d).sum::<f64>();
     }
     out
 }
@@ -148,16 +148,16 @@ pub(super) fn settle(section: &Section, grid: ProfileGrid, direct: &Transport, s
     };
     let of_nodes = (0..2 * n).map(|k| Some(of_node(k / n, k % n)));
     // Faces that send nothing need no sums: nothing is followed from them.
-    let of_faces = direct.exchange.values.chunks(mirror.len()).zip(&section.faces).zip(&kept);
-    let of_faces = of_faces.map(|((line, face), c)| (face.surface.diffuse > 0.0).then(|| c * thrown_on(line)));
+    let of_faces = direct.exchange.values.chunks(mirror.len()).zip(&section.faces);
+    let of_faces = of_faces.map(|(line, face)| (face.surface.diffuse > 0.0).then(|| thrown_on(line)));
     let wanted: Vec<Option<f64>> = of_nodes.chain(of_faces).collect();
-    let sent = |scales: &[f64]| sent(&sums, second, &hat, &kept, scales);
-    let found = sent(&vec![1.0; wanted.len()]);
+    let rows = |scales: &[f64]| rows(&sums, second, &hat, &kept, scales);
+    let found = rows(&vec![1.0; wanted.len()]);
     let doubt = [0, 1].map(|side: usize| {
         let pairs = wanted[side * n..].iter().zip(&found[side * n..]);
         pairs.zip(&hat).map(|((wanted, found), hat)| 2.0 * (wanted.unwrap_or_default() - found).abs() / hat).collect()
     });
-    let scales = scales(sent, &wanted, LEFT * hat.iter().copied().fold(f64::INFINITY, f64::min));
+    let scales = by_rounds(rows, &wanted, ROUNDS, 0.0, LIMIT);
     let (nodes, face_scales) = scales.split_at(2 * n);
     let (front, back) = nodes.split_at(n);
 
