@@ -1,6 +1,7 @@
 //! Files on disk: read whole up to a size, written whole or not at all.
 
 use super::error::StudyError;
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::Path;
 
 /// Larger files are refused before they are read: datasets and packages, next to which all others are small. \[bytes\]
@@ -33,8 +34,8 @@ pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
 /// One sentence that names the file.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     let mut part = path.as_os_str().to_owned();
-    // Another program may write the same file.
-    part.push(format!(".{}.part", std::process::id()));
+    // A name that no other has: another program may write the same file.
+    part.push(format!(".{:016x}.part", RandomState::new().build_hasher().finish()));
     std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path)).map_err(|error| {
         // What matters is the first error; the part may not even exist.
         drop(std::fs::remove_file(&part));
