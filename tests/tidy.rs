@@ -1,6 +1,8 @@
 //! The shape of the source: layers, heads, sizes, leftovers, dependencies. The rules themselves are tested on small
 //! bad examples further down.
 
+#[path = "tidy/arrows.rs"]
+mod arrows;
 #[path = "tidy/layers.rs"]
 mod layers;
 #[path = "tidy/licences.rs"]
@@ -58,6 +60,54 @@ fn imports_go_one_way() {
         .iter()
         .flat_map(|(name, text)| layers::violations(name.trim_start_matches("src/"), text))
         .collect();
+    none(&wrong);
+}
+
+/// Files under `src` by their paths there, with their texts.
+fn tree() -> Vec<(String, String)> {
+    sources(&["src"]).into_iter().map(|(name, text)| (name.trim_start_matches("src/").to_owned(), text)).collect()
+}
+
+/// The rooms of `compute` in the order that its head gives: foundations first.
+fn rooms(head: &str) -> Vec<&str> {
+    let list = head.lines().filter_map(|line| line.strip_prefix("//! - `")?.split_once("`:"));
+    list.map(|(name, _)| name).collect()
+}
+
+/// Arrows between rooms of `compute` that lead to a room that is not before the first one's own.
+fn upward(arrows: &arrows::Arrows, order: &[&str]) -> Vec<String> {
+    let place = |room: &str| order.iter().position(|name| room.strip_prefix("compute/") == Some(name));
+    let mut wrong = vec![];
+    for (from, targets) in arrows::between_rooms(arrows, 2) {
+        for (to, line) in
+            targets.into_iter().filter(|(to, _)| from.starts_with("compute/") && to.starts_with("compute/"))
+        {
+            match (place(&from), place(&to)) {
+                (Some(own), Some(other)) if other < own => {}
+                (Some(_), Some(_)) => wrong.push(format!("src/{from} must not use src/{to} (line {line} of a file)")),
+                _ => wrong.push(format!("{from} or {to} is not in the list of src/compute/mod.rs")),
+            }
+        }
+    }
+    wrong
+}
+
+#[test]
+fn rooms_of_compute_use_only_those_before_them() {
+    let tree = tree();
+    let (_, head) = tree.iter().find(|(file, _)| file == "compute/mod.rs").unwrap();
+    let order = rooms(head);
+    assert!(order.len() > 10, "{order:?}");
+    none(&upward(&arrows::arrows(&tree), &order));
+}
+
+#[test]
+fn no_files_use_each_other_in_a_circle() {
+    let arrows = arrows::arrows(&tree());
+    assert!(arrows.values().map(std::collections::BTreeMap::len).sum::<usize>() > 500, "arrows are seen");
+    let told = |circle: Vec<String>| format!("a circle: {}", circle.join(", "));
+    let mut wrong: Vec<String> = arrows::circles(&arrows).into_iter().map(told).collect();
+    wrong.extend(arrows::circles(&arrows::between_rooms(&arrows, 2)).into_iter().map(told));
     none(&wrong);
 }
 
@@ -248,4 +298,44 @@ fn licence_expressions_are_weighed() {
         assert!(accepted(broken).is_err(), "{broken}");
     }
     assert_eq!(licences::accepted("option-ext", "MPL-2.0"), Ok(true));
+}
+
+/// A small tree of files with their texts.
+fn made(files: &[(&str, &str)]) -> Vec<(String, String)> {
+    files.iter().map(|(file, text)| ((*file).to_owned(), (*text).to_owned())).collect()
+}
+
+#[test]
+fn arrows_lead_to_who_defines_a_name() {
+    let arrows = arrows::arrows(&made(&[
+        ("lib.rs", "pub mod compute;"),
+        ("compute/mod.rs", "pub mod room; pub mod sky;"),
+        ("compute/sky/mod.rs", "mod sun; pub use sun::Sun;"),
+        ("compute/sky/sun.rs", "pub struct Sun; #[cfg(test)] mod tests { use crate::compute::room::Room; }"),
+        ("compute/room.rs", "use crate::compute::sky::Sun; pub struct Room(Sun);"),
+    ]));
+    let to: Vec<&String> = arrows["compute/room.rs"].keys().collect();
+    assert_eq!(to, ["compute/sky/sun.rs"], "re-exports are followed");
+    assert!(arrows["compute/sky/sun.rs"].is_empty() && arrows["compute/sky/mod.rs"].is_empty(), "{arrows:?}");
+    assert_eq!(arrows::circles(&arrows), Vec::<Vec<String>>::new());
+    assert_eq!(upward(&arrows, &["sky", "room"]), Vec::<String>::new());
+    assert_eq!(upward(&arrows, &["room", "sky"]).len(), 1);
+    assert_eq!(upward(&arrows, &["sky"]).len(), 1, "a room without a place in the order");
+}
+
+#[test]
+fn circles_are_seen() {
+    let parent = made(&[
+        ("app/mod.rs", "mod a; pub struct App; fn f() { a::draw(); }"),
+        ("app/a.rs", "use super::App; pub fn draw() {}"),
+    ]);
+    assert_eq!(arrows::circles(&arrows::arrows(&parent)), [["app/a.rs", "app/mod.rs"]]);
+    let rooms = made(&[
+        ("app/x/one.rs", "use crate::app::y::two::Two; pub struct One;"),
+        ("app/y/two.rs", "pub struct Two;"),
+        ("app/y/three.rs", "use crate::app::x::one::One;"),
+    ]);
+    let arrows = arrows::arrows(&rooms);
+    assert!(arrows::circles(&arrows).is_empty());
+    assert_eq!(arrows::circles(&arrows::between_rooms(&arrows, 2)), [["app/x", "app/y"]]);
 }

@@ -17,6 +17,7 @@ use crate::formats::control_curve::read_control_curve;
 use crate::formats::system_toml::is_system_file;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
+use crate::study::files;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use std::path::{Path, PathBuf};
@@ -24,9 +25,6 @@ use std::sync::Arc;
 
 /// Reads the datasets of a file: name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, String>;
-
-/// Files beyond this are refused before they are read. \[bytes\]
-const LARGEST_FILE: u64 = 1 << 30;
 
 /// What jobs bring back.
 #[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]
@@ -205,30 +203,11 @@ pub(super) fn mend(originals: &[Arc<Dataset>], repairs: Vec<Repair>) -> Outcome 
 }
 
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let told = |error: std::io::Error| format!("{}: cannot be read ({error}); check path and rights", path.display());
-    let size = std::fs::metadata(path).map_err(told)?.len();
-    if size > LARGEST_FILE {
-        return Err(format!("{}: {size} bytes are more than the 1 GiB that is read", path.display()));
-    }
-    std::fs::read(path).map_err(told)
+    files::read(path).map_err(|error| error.to_string())
 }
 
-/// Writes beside the target first, so that a failure leaves nothing half-written.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, String> {
-    let mut name = path
-        .file_name()
-        .map(std::ffi::OsStr::to_os_string)
-        .ok_or_else(|| format!("{}: names no file; give a path that ends in a file name", path.display()))?;
-    name.push(".part");
-    let part = path.with_file_name(name);
-    let told = |error: std::io::Error| format!("{}: cannot be written ({error})", path.display());
-    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
-    written.map_err(|error| {
-        // Best effort: the part may never have come to be.
-        drop(std::fs::remove_file(&part));
-        told(error)
-    })?;
-    Ok(path.to_path_buf())
+    files::write(path, bytes).map(|()| path.to_path_buf()).map_err(|error| error.to_string())
 }
 
 /// Saves the scene.

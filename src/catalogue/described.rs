@@ -5,6 +5,7 @@ use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
 use crate::compute::btdf::{Band, Dataset, Finding};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
 use crate::compute::control::cut_off::Section;
+use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::system::SystemDescription;
 use crate::compute::system::measure::Quality;
 use crate::compute::system::slats::Venetian;
@@ -14,8 +15,6 @@ use std::f64::consts::FRAC_PI_2;
 /// Elevation to which redirecting slats send the sun: flat enough to reach deep into a room, steep enough to stay on
 /// the ceiling. \[rad\]
 const ELEVATION: f64 = 0.611;
-/// Half of the sun's width, which has to stay out as well. \[rad\]
-const HALF_SUN: f64 = 0.004_65;
 /// Step of the curves over the profile angle. \[°\]
 const STEP: u32 = 5;
 
@@ -96,7 +95,8 @@ pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
     let tilt = |psi: f64| match rule {
         "cut-off" => {
             let most_open = [range[0].max(0.0), range[1]];
-            Some(section.cut_off(most_open, 0.0, [psi - HALF_SUN, psi + HALF_SUN]).unwrap_or(range[1]))
+            // The whole disc has to stay out.
+            Some(section.cut_off(most_open, 0.0, [psi - SUN_HALF_ANGLE, psi + SUN_HALF_ANGLE]).unwrap_or(range[1]))
         }
         "retro" => Some(retro_tilt(psi)),
         "redirect" => Some(redirecting_tilt(psi, ELEVATION)),

@@ -1,10 +1,10 @@
 //! `cfs accuracy`: error against run time of a scene, by method and effort.
 
-use super::output::{number, print, write_file};
+use super::output::{number, print};
 use super::progress::TerminalProgress;
 use crate::study::accuracy::{Accuracy, Coverage, Quantity, Rung, Series, ladder};
 use crate::study::accuracy_plot::{Colours, name, plot};
-use crate::study::{load_scene, system::SystemLibrary};
+use crate::study::{files, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -48,12 +48,12 @@ pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<(
     let scene = load_scene(&args.scene, library)?;
     let accuracy = ladder(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
     if let Some(path) = &args.csv {
-        write_file(path, csv(&accuracy).as_bytes())?;
+        files::write(path, csv(&accuracy).as_bytes())?;
     }
     if let Some((path, png)) = picture {
         let drawing = plot(&accuracy, SIZE[0], SIZE[1], &Colours::PAPER);
         let bytes = if png { drawing.to_png()? } else { drawing.to_svg().into_bytes() };
-        write_file(path, &bytes)?;
+        files::write(path, &bytes)?;
     }
     if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
 }

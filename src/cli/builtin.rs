@@ -1,12 +1,12 @@
 //! Built-in products on the command line: listed at once, computed when they are asked for.
 
 use super::catalogue::{BuildArgs, ListArgs};
+use super::output;
 use super::progress::TerminalProgress;
-use super::{dataset_file, output};
 use crate::catalogue::{Catalogue, Origin, ProductRow, Query};
 use crate::compute::estimate::Progress;
-use crate::study::Library;
 use crate::study::goniophotometer::Described;
+use crate::study::{Library, files};
 
 /// Computes those wanted of the built-in products that the catalogue does not hold yet.
 pub(super) fn complete(catalogue: &mut Catalogue, wanted: impl Fn(&str) -> bool) -> anyhow::Result<()> {
@@ -63,7 +63,7 @@ pub(super) fn build(catalogue: &Catalogue, args: &BuildArgs) -> anyhow::Result<(
     let rows = catalogue.search(&Query { builtin: Some(true), ..Query::default() })?;
     let keys: Vec<String> = rows.iter().map(|row| row.key.clone()).collect();
     if let Some(out) = &args.out {
-        dataset_file::write(out, &catalogue.export_package(&keys)?)?;
+        files::write(out, &catalogue.export_package(&keys)?)?;
     }
     let states: usize = rows.iter().map(|row| row.state_keys.len().max(1)).sum();
     output::print(&format!("{} built-in products, {states} states\n", keys.len()))

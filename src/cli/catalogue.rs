@@ -2,7 +2,6 @@
 
 use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, gather};
 use crate::cli::builtin::{build, complete, not_computed, provide};
-use crate::cli::dataset_file;
 use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::cli::validate::{ValidateArgs, validate};
@@ -11,7 +10,8 @@ use crate::compute::doctor::meaning;
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
-use anyhow::{Context, anyhow, bail};
+use crate::study::files;
+use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -146,7 +146,7 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Export(args) => {
             let mut catalogue = open()?;
             provide(&mut catalogue, &args.keys)?;
-            dataset_file::write(&args.out, &catalogue.export_package(&args.keys)?)
+            Ok(files::write(&args.out, &catalogue.export_package(&args.keys)?)?)
         }
         Action::Validate(args) => validate(&open()?, args),
         Action::Diff(args) => packages::diff(args),
@@ -323,14 +323,14 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     // Everything is read before anything is stored.
     for path in &args.files {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cfsp")) {
-            let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+            let bytes = files::read(path)?;
             if !looks_like_package(&bytes) {
                 bail!("{}: not a package; expected a zip file written by export", path.display());
             }
             packages.push((path, bytes));
         } else {
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-            let bytes = dataset_file::bytes(path)?;
+            let bytes = files::read(path)?;
             let source = SourceFile::read(&name, &bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?;
             sources.push(source);
         }

@@ -5,6 +5,7 @@ use crate::compute::btdf::Dataset;
 use crate::compute::wavelet::Criterion;
 use crate::formats::dataset_blob;
 use crate::study::compact::{CompactedFunction, compact, criterion_words};
+use crate::study::files;
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -97,7 +98,7 @@ pub fn run(args: &CompactArgs) -> anyhow::Result<()> {
             );
         }
         if let Some(out) = &args.out {
-            dataset_file::write(out, &dataset_blob::encode(&made.dataset))?;
+            files::write(out, &dataset_blob::encode(&made.dataset))?;
         }
         texts.push(to_text(dataset, criterion, &made.functions)?);
         values.push(to_json(dataset, args.by, criterion, &made.functions));

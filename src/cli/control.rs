@@ -1,9 +1,9 @@
 //! `cfs control SCENE`: the states that controls pick over a year, as a table for other programs.
 
-use super::output::{print, write_file};
+use super::output::print;
 use super::progress::TerminalProgress;
 use crate::study::control::year::{ClearSky, Moment, Moving, Situation, Summary, moving, summary, year};
-use crate::study::{Library, read_scene_file};
+use crate::study::{Library, files, read_scene_file};
 use anyhow::anyhow;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let moments = year(&situation, base, &list, args.step, &ClearSky, &progress).map_err(told)?;
     drop(progress);
     if let Some(path) = &args.out {
-        write_file(path, csv(&list, &moments).as_bytes())?;
+        files::write(path, csv(&list, &moments).as_bytes())?;
     }
     let sums: Vec<Summary> =
         (0..list.len()).map(|k| summary(&moments, k, list[k].device.keys.len(), args.step)).collect();

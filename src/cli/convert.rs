@@ -4,6 +4,7 @@ use crate::cli::dataset_file;
 use crate::compute::btdf::{Component, Dataset, TreeRank};
 use crate::formats::bsdf_xml::{self, TreeForm};
 use crate::formats::{Format, FormatError, Written, btdf_text, format_to_write, write_dataset};
+use crate::study::files;
 use anyhow::anyhow;
 use std::path::PathBuf;
 
@@ -102,7 +103,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
         }
     };
     let written = written.map_err(|error| anyhow!("{out_name}: {error}"))?;
-    dataset_file::write(&args.output, &written.bytes)?;
+    files::write(&args.output, &written.bytes)?;
     for finding in datasets.iter().flat_map(|one| &one.findings).chain(&written.findings) {
         eprintln!("{}: {}", finding.severity.word(), finding.message);
     }

@@ -1,12 +1,12 @@
 //! `cfs goniophotometer`: datasets computed from a description of geometry and material.
 
-use super::{dataset_file, output, progress::TerminalProgress};
+use super::{output, progress::TerminalProgress};
 use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
-use crate::study::Library;
 use crate::study::goniophotometer::{Computed, Described, Request};
+use crate::study::{Library, files};
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -174,7 +174,7 @@ fn write_results(
             let imported = catalogue.import(&datasets, described.product(request, &datasets));
             let key = imported.map_err(|error| anyhow!("{shown}: {error}"))?.key;
             let bytes = catalogue.export_package(&[key]).map_err(|error| anyhow!("{shown}: {error}"))?;
-            dataset_file::write(path, &bytes)
+            Ok(files::write(path, &bytes)?)
         }
         Target::States(path, format) => {
             let count = datasets.len();
@@ -219,7 +219,7 @@ fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result
     match format {
         Format::BsdfXml => {
             let written = write_dataset(format, std::slice::from_ref(dataset)).map_err(told)?;
-            dataset_file::write(path, &written.bytes)?;
+            files::write(path, &written.bytes)?;
             Ok(written.findings)
         }
         Format::BtdfText => {
@@ -230,7 +230,7 @@ fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result
                     other => path_with(path, &other.key().replace('_', "-")),
                 };
                 let written = btdf_text::write_component(dataset, component).map_err(told)?;
-                dataset_file::write(&path, &written.bytes)?;
+                files::write(&path, &written.bytes)?;
                 findings.extend(written.findings);
             }
             Ok(findings)

@@ -1,13 +1,13 @@
 //! `cfs lid`: the luminous-intensity distribution of an aperture as a luminaire file, table or diagram.
 
-use super::output::{print, write_file};
+use super::output::print;
 use super::progress::TerminalProgress;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire::Description;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::{Session, load_scene, read_scene_file, system::SystemLibrary};
+use crate::study::{Session, files, load_scene, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -93,7 +93,7 @@ fn write_distribution(
     });
     let (lid, text) = distribution(&args.scene, args.aperture as usize - 1)?;
     let file = encode(&lid, text, format, aim, step).with_context(|| format!("{shown}"))?;
-    write_file(&args.out, &file.bytes)?;
+    files::write(&args.out, &file.bytes)?;
     if args.json {
         let summary = serde_json::json!({
             "out": args.out.to_string_lossy(),

@@ -1,8 +1,8 @@
 //! `cfs info` of luminaire files: who, how much light, how large, which planes.
 
-use crate::cli::dataset_file;
 use crate::formats::luminaire::{Luminaire, Photometry};
 use crate::formats::{eulumdat, ies};
+use crate::study::files;
 use anyhow::anyhow;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -22,7 +22,7 @@ pub fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<String>> {
         "ies" => ies::read,
         _ => return Ok(None),
     };
-    let luminaire = read(&dataset_file::bytes(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))?;
+    let luminaire = read(&files::read(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))?;
     Ok(Some(if as_json { serde_json::to_string_pretty(&to_json(&luminaire))? + "\n" } else { to_text(&luminaire) }))
 }
 

@@ -1,28 +1,7 @@
-//! Results to files and standard output: whole or not at all.
+//! Results to standard output, and how numbers read.
 
 use anyhow::Context as _;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
-
-/// Writes beside the target and renames, so that a full disk or a break leaves no half file.
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".part");
-    let partial = PathBuf::from(partial);
-    let result = std::fs::File::create(&partial)
-        .and_then(|mut file| file.write_all(bytes))
-        .and_then(|()| std::fs::rename(&partial, path));
-    if result.is_err() {
-        // The first error is the one to report; a part that cannot be removed was never made.
-        std::fs::remove_file(&partial).ok();
-    }
-    result
-}
-
-/// [`write_whole`] with the file's name in the error.
-pub(super) fn write_file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    write_whole(path, bytes).map_err(|e| anyhow::anyhow!("{}: cannot be written: {e}", path.display()))
-}
 
 /// To standard output; a closed pipe is the reader's choice, not an error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {

@@ -1,8 +1,9 @@
 //! `cfs catalogue diff` and `cfs catalogue merge`: packages beside each other, without a catalogue.
 
 use crate::catalogue::{PackageDiff, diff_packages, merge_packages};
-use crate::cli::{dataset_file, output};
+use crate::cli::output;
 use crate::formats::package::{self, Package};
+use crate::study::files;
 use anyhow::anyhow;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -43,8 +44,7 @@ pub struct Differ {
 }
 
 fn read(path: &Path) -> anyhow::Result<Package> {
-    let bytes = std::fs::read(path).map_err(|error| anyhow!("{}: {error}; expected a package", path.display()))?;
-    package::read(&bytes).map_err(|error| anyhow!("{}: {error}", path.display()))
+    package::read(&files::read(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))
 }
 
 /// Prints how two packages differ.
@@ -119,7 +119,7 @@ fn as_text(diff: &PackageDiff) -> String {
 /// A package that cannot be read, or written.
 pub fn merge(args: &MergeArgs) -> anyhow::Result<()> {
     let merged = merge_packages(&read(&args.first)?, &read(&args.second)?)?;
-    dataset_file::write(&args.out, &package::write(&merged.package)?)?;
+    files::write(&args.out, &package::write(&merged.package)?)?;
     for key in &merged.same {
         eprintln!("note: {key}: the same in both, kept once");
     }

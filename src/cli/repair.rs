@@ -4,6 +4,7 @@ use crate::cli::dataset_file;
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{Repair, examine, record, recorded, repaired_all, sun_from_above};
 use crate::formats::{format_to_write, write_dataset};
+use crate::study::files;
 use anyhow::{anyhow, bail};
 use std::path::PathBuf;
 
@@ -61,7 +62,7 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
         *dataset = mended;
     }
     let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
-    dataset_file::write(&args.out, &written.bytes)?;
+    files::write(&args.out, &written.bytes)?;
     for finding in &written.findings {
         eprintln!("{}: {}", finding.severity.word(), finding.message);
     }

@@ -1,8 +1,8 @@
 //! `cfs room`: illuminance at every sensor of a scene.
 
-use super::output::{number, print, write_file};
+use super::output::{number, print};
 use super::progress::TerminalProgress;
-use crate::study::{RoomResult, Scene, Session, load_scene, system::SystemLibrary};
+use crate::study::{RoomResult, Scene, Session, files, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::path::PathBuf;
@@ -44,7 +44,7 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
         csv.push('\n');
     }
     if let Some(path) = &args.out {
-        write_file(path, csv.as_bytes())?;
+        files::write(path, csv.as_bytes())?;
     }
     if args.json {
         print(&format!("{:#}\n", to_json(&scene, &result)))?;

@@ -1,14 +1,14 @@
 //! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
 
-use super::output::write_whole;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
 use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun, irradiance};
+use crate::study::files;
 use crate::study::sky::outside_from_keys;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let facade = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(scene.site.azimuth));
     let vertical = irradiance(&outside, facade);
     if let Some(path) = &args.out {
-        write_whole(path, csv(&rows).as_bytes()).with_context(|| format!("{}", path.display()))?;
+        files::write(path, csv(&rows).as_bytes())?;
     }
     if args.json {
         println!("{:#}", json(&rows, &outside, sun.as_ref(), vertical, facade));

@@ -9,6 +9,9 @@
 //! - `profile_angle`: directions in the section across slats
 //! - `estimate`: numbers with their error, progress and cancelling
 //! - `quadrature`: integrals with errors
+//! - `sequence`: random and evenly spread numbers
+//! - `scaling`: matrices scaled to given sums, symmetric ones kept so
+//! - `polygon`: convex polygons cut, their areas and solid angles
 //! - `basis`: divisions of the hemisphere into cells
 //! - `wavelet`: compact rows of values on cells
 //! - `btdf`: the four functions of a system as data
@@ -46,9 +49,12 @@ pub mod doctor;
 pub mod estimate;
 pub mod incidence;
 pub mod lid;
+pub mod polygon;
 pub mod profile_angle;
 pub mod quadrature;
 pub mod room;
+pub mod scaling;
+pub mod sequence;
 pub mod sky;
 pub mod system;
 pub mod wavelet;

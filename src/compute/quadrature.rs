@@ -68,6 +68,11 @@ pub fn gauss_legendre(order: usize) -> Vec<(f64, f64)> {
     rule
 }
 
+/// Nodes and weights of `count` midpoints on 0 … 1: for what is not smooth.
+pub fn midpoints(count: usize) -> Vec<(f64, f64)> {
+    (0..count).map(|k| ((k as f64 + 0.5) / count as f64, 1.0 / count as f64)).collect()
+}
+
 /// Kronrod's 15 points on −1 … 1 (the half with x ≥ 0): node, Kronrod weight, weight in the 7-point Gauss rule.
 const KRONROD_15: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4),

@@ -26,7 +26,7 @@ pub enum StudyError {
         /// What is wrong.
         message: String,
     },
-    /// A file cannot be read.
+    /// A file cannot be read or written.
     #[error("{}: {message}", path.display())]
     File {
         /// Which.

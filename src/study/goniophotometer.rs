@@ -2,6 +2,7 @@
 //! their quality. Finished states can be kept, so that an interrupted run goes on where it stopped.
 
 use super::error::StudyError;
+use super::files;
 use super::library::Library;
 use super::scene_file::SystemKeys;
 use super::system::SystemLibrary;
@@ -102,7 +103,7 @@ impl Described {
     /// Reads a system file. The error names the file.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
-        let bytes = std::fs::read(path).map_err(|e| error(format!("cannot be read: {e}")))?;
+        let bytes = files::read(path)?;
         let base = Base::Folder(path.parent().unwrap_or(Path::new(".")).to_owned());
         Self::from_text(&String::from_utf8_lossy(&bytes), base).map_err(|e| error(e.to_string()))
     }

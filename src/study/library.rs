@@ -2,6 +2,7 @@
 
 use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
+use super::files;
 use super::scene_file::SystemKeys;
 use super::system::{System, SystemLibrary, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
@@ -12,9 +13,6 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
-
-/// Largest dataset file that is read. Makers' largest are tens of megabytes.
-const LARGEST_FILE: u64 = 512 << 20;
 
 /// No measuring error makes this of the light that comes.
 const OTHER_UNIT: f64 = 1.5;
@@ -75,20 +73,13 @@ impl Library {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let meta = std::fs::metadata(path).map_err(|e| error(format!("cannot be read: {e}")))?;
         let stamp = (meta.modified().unwrap_or(SystemTime::UNIX_EPOCH), meta.len());
-        let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((then, systems)) = files.get(path)
+        let mut known = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((then, systems)) = known.get(path)
             && *then == stamp
         {
             return Ok(systems.clone());
         }
-        if meta.len() > LARGEST_FILE {
-            return Err(error(format!(
-                "{} MB; datasets of up to {} MB are read",
-                meta.len() >> 20,
-                LARGEST_FILE >> 20
-            )));
-        }
-        let bytes = std::fs::read(path).map_err(|e| error(format!("cannot be read: {e}")))?;
+        let bytes = files::read(path)?;
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let datasets = read_dataset(&name, &bytes).map_err(|e| error(e.to_string()))?;
         // Readers pass on percent so that they can be mended; a room would be a hundred times too bright.
@@ -106,7 +97,7 @@ impl Library {
                 Arc::new(System { label, state: dataset.state.clone(), dataset: Arc::new(dataset) })
             })
             .collect();
-        files.insert(path.to_owned(), (stamp, systems.clone()));
+        known.insert(path.to_owned(), (stamp, systems.clone()));
         Ok(systems)
     }
 }

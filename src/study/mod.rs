@@ -10,6 +10,7 @@ pub mod coefficients;
 pub mod compact;
 pub mod control;
 mod error;
+pub mod files;
 pub mod goniophotometer;
 pub mod library;
 pub mod luminaire_file;

@@ -1,5 +1,6 @@
 //! From the scene's `[sky]` and `[site]` to sky and sun: which keys belong together, and what they may be.
 
+use super::files;
 use super::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use super::sun_position::{Place, parse_local_time, sun_position};
 use crate::compute::angle::Bearing;
@@ -153,7 +154,7 @@ fn measured(sky: &SkyKeys, base_dir: &Path) -> Result<Outside, SkyKeyError> {
         return Err(wrong("sky.file", "missing: model \"scan\" needs a file of 145 luminances"));
     };
     let path = base_dir.join(file);
-    let bytes = std::fs::read(&path).map_err(|error| wrong("sky.file", format!("{}: {error}", path.display())))?;
+    let bytes = files::read(&path).map_err(|error| wrong("sky.file", error.to_string()))?;
     let scan: Scan = read_scan(&bytes).map_err(|error| wrong("sky.file", format!("{}: {error}", path.display())))?;
     match sky.diffuse_horizontal {
         Some(illuminance) => scaled(Distribution::scan(scan), illuminance),

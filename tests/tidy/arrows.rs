@@ -119,8 +119,11 @@ pub fn circles(arrows: &Arrows) -> Vec<Vec<String>> {
     let reached: BTreeMap<&String, BTreeSet<&String>> = arrows.keys().map(|file| (file, reach(file))).collect();
     let mut sets = BTreeSet::new();
     for (file, to) in &reached {
-        let together: Vec<String> =
-            to.iter().filter(|other| reached.get(*other).is_some_and(|back| back.contains(file))).map(|s| (*s).clone()).collect();
+        let together: Vec<String> = to
+            .iter()
+            .filter(|other| reached.get(*other).is_some_and(|back| back.contains(file)))
+            .map(|s| (*s).clone())
+            .collect();
         if together.len() > 1 {
             sets.insert(together);
         }

@@ -18,6 +18,11 @@ impl AngularTransmittance {
         Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
     }
 
+    /// τ where it is the same for every incidence.
+    pub const fn constant(&self) -> Option<f64> {
+        if let Self::Constant(tau) = self { Some(*tau) } else { None }
+    }
+
     /// τ at a polar angle of incidence. \[rad\] Zero beyond 90°.
     pub fn at(&self, theta: f64) -> f64 {
         match self {
@@ -30,6 +35,13 @@ impl AngularTransmittance {
             }
             Self::Table(values) => table_at(values, theta),
         }
+    }
+
+    /// Mean over the polar angles `from` … `to` \[rad\], weighted by projected solid angle. `rule`: nodes and weights on
+    /// 0 … 1, for sin²θ across the ring.
+    pub fn ring_mean(&self, from: f64, to: f64, rule: &[(f64, f64)]) -> f64 {
+        let (a, b) = (from.sin().powi(2), to.sin().powi(2));
+        rule.iter().map(|(x, weight)| weight * self.at((a + (b - a) * x).sqrt().min(1.0).asin())).sum()
     }
 
     /// 2 ∫ τ(θ) sinθ cosθ dθ: transmittance under uniform luminance.

@@ -29,6 +29,36 @@ impl Component {
             Self::ReflectionBack => "reflection_back",
         }
     }
+
+    /// The name as files and messages write it.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::TransmissionFront => "Transmission Front",
+            Self::TransmissionBack => "Transmission Back",
+            Self::ReflectionFront => "Reflection Front",
+            Self::ReflectionBack => "Reflection Back",
+        }
+    }
+
+    /// The same for light from the other side.
+    pub const fn other_side(self) -> Self {
+        match self {
+            Self::TransmissionFront => Self::TransmissionBack,
+            Self::TransmissionBack => Self::TransmissionFront,
+            Self::ReflectionFront => Self::ReflectionBack,
+            Self::ReflectionBack => Self::ReflectionFront,
+        }
+    }
+
+    /// Light that goes through, not back?
+    pub const fn is_transmission(self) -> bool {
+        matches!(self, Self::TransmissionFront | Self::TransmissionBack)
+    }
+
+    /// Of light from outside?
+    pub const fn is_front(self) -> bool {
+        matches!(self, Self::TransmissionFront | Self::ReflectionFront)
+    }
 }
 
 /// The functions of one spectral band.
@@ -55,15 +85,19 @@ impl Band {
         }
     }
 
-    /// Stores one of the four.
-    pub fn set(&mut self, component: Component, btdf: Btdf) {
-        let place = match component {
+    /// The place of one of the four.
+    pub const fn place(&mut self, component: Component) -> &mut Option<Btdf> {
+        match component {
             Component::TransmissionFront => &mut self.transmission_front,
             Component::TransmissionBack => &mut self.transmission_back,
             Component::ReflectionFront => &mut self.reflection_front,
             Component::ReflectionBack => &mut self.reflection_back,
-        };
-        *place = Some(btdf);
+        }
+    }
+
+    /// Stores one of the four.
+    pub fn set(&mut self, component: Component, btdf: Btdf) {
+        *self.place(component) = Some(btdf);
     }
 
     /// Which are there, in the order of [`Component::ALL`].

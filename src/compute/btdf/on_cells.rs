@@ -4,6 +4,7 @@
 use super::resample::resample_matrix;
 use super::{Btdf, CellMatrix, Scattered, TensorTree};
 use crate::compute::basis::{Resampling, RingBasis, SquareGrid};
+use crate::compute::quadrature::midpoints;
 use std::f64::consts::PI;
 
 /// Means over incident and emergent cells; flux is kept. Light that goes straight on fills the emergent cells that its
@@ -19,25 +20,21 @@ pub fn matrix_roughly_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis
 
 fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usize) -> CellMatrix {
     let n = emergent.len();
+    let across = midpoints(ACROSS);
     let mut values = match &btdf.scattered {
         None => vec![0.0; incident.len() * n],
         Some(Scattered::Cells(matrix)) => resample_matrix(matrix, incident, emergent).values().to_vec(),
         Some(Scattered::Directions(data)) => resample_matrix(&data.to_cells(), incident, emergent).values().to_vec(),
         Some(Scattered::Lambert(tau)) => incident
             .cells()
-            .flat_map(|cell| {
-                let mean = ring_mean((cell.theta_min, cell.theta_max), |theta| tau.at(theta));
-                std::iter::repeat_n(mean / PI, n)
-            })
+            .flat_map(|cell| std::iter::repeat_n(tau.ring_mean(cell.theta_min, cell.theta_max, &across) / PI, n))
             .collect(),
         Some(Scattered::Tree(tree)) => tree_on(tree, incident, emergent, side),
     };
     if let Some(tau) = &btdf.regular {
         let mean: Vec<f64> = incident
             .cells()
-            .map(|cell| {
-                ring_mean((cell.theta_min, cell.theta_max), |theta| tau.at(theta)) / cell.projected_solid_angle()
-            })
+            .map(|cell| tau.ring_mean(cell.theta_min, cell.theta_max, &across) / cell.projected_solid_angle())
             .collect();
         if incident == emergent {
             (0..n).for_each(|k| values[k * n + k] += mean[k]);
@@ -53,13 +50,8 @@ fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usi
     CellMatrix::new(incident.clone(), emergent.clone(), values).expect("a row was made for every incident cell")
 }
 
-/// Mean over a ring by projected solid angle: midpoints in sin²θ.
-fn ring_mean((from, to): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
-    const STEPS: usize = 512;
-    let (a, b) = (from.sin().powi(2), to.sin().powi(2));
-    let theta = |k: usize| (a + (b - a) * (k as f64 + 0.5) / STEPS as f64).sqrt().asin();
-    (0..STEPS).map(|k| f(theta(k))).sum::<f64>() / STEPS as f64
-}
+/// Angles across a ring over which τ is averaged.
+const ACROSS: usize = 512;
 
 /// Mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of tree cells in
 /// ring cells are counted on `side`² directions of equal weight; every distribution is then scaled to its exact flux.

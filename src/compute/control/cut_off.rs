@@ -11,9 +11,7 @@
 //!
 //! Polylines and the outlines of thick slats are searched instead, with a bound on how fast extents change.
 
-use crate::compute::system::slats::SlatArray;
-use crate::compute::system::slats::SlatProfile;
-use crate::compute::system::slats::Venetian;
+use crate::compute::system::slats::{SlatArray, SlatProfile, Venetian, arc};
 use std::f64::consts::PI;
 
 /// Slats of one section, infinitely many and infinitely long.
@@ -72,8 +70,7 @@ impl Section {
 
     /// Share of light of a profile angle that passes straight between slats of a tilt. \[rad\]
     pub fn direct_share(&self, tilt: f64, psi: f64) -> f64 {
-        let pitch = self.spacing * psi.cos();
-        if pitch > 0.0 { (1.0 - self.profile.extent(tilt + psi) / pitch).max(0.0) } else { 0.0 }
+        self.profile.open_share(tilt, self.spacing, psi)
     }
 
     /// Is all direct light of the profile angles `span` kept out, by every tilt within `tolerance` of `tilt`? \[rad\]
@@ -213,12 +210,6 @@ impl Section {
             .flatten()
             .min_by(|a, b| a.abs().total_cmp(&b.abs()).then(b.total_cmp(a)))
     }
-}
-
-/// Radius and half opening angle of an arc.
-fn arc(width: f64, rise: f64) -> (f64, f64) {
-    let rise = rise.abs();
-    ((0.25 * width * width + rise * rise) / (2.0 * rise), 2.0 * (2.0 * rise).atan2(width))
 }
 
 /// Greatest distance between two points of a polyline; the chord of others, whose extent no beam exceeds.

@@ -1,7 +1,7 @@
-//! The band under examination, and the names of its functions.
+//! The band under examination.
 
 use super::repair::{BandScope, BlockScope, Repair, RepairKind};
-use crate::compute::btdf::{Band, Component, Dataset};
+use crate::compute::btdf::{Band, Dataset};
 
 /// The band under examination.
 pub(super) struct At<'a> {
@@ -15,15 +15,5 @@ impl At<'_> {
     /// A repair of this band.
     pub(super) fn repair(&self, kind: RepairKind, blocks: BlockScope) -> Repair {
         Repair { kind, bands: self.scope, blocks }
-    }
-}
-
-/// The name of a function as files write it.
-pub(super) const fn words(component: Component) -> &'static str {
-    match component {
-        Component::TransmissionFront => "Transmission Front",
-        Component::TransmissionBack => "Transmission Back",
-        Component::ReflectionFront => "Reflection Front",
-        Component::ReflectionBack => "Reflection Back",
     }
 }

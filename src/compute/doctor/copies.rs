@@ -1,6 +1,6 @@
 //! Blocks that are there twice, empty, or not at all.
 
-use super::at::{At, words};
+use super::at::At;
 use super::blocks::Blocks;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BandScope, BlockScope, RepairKind};
@@ -78,7 +78,7 @@ fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Di
     if copied.is_empty() || !shared.iter().any(differs) {
         return Vec::new();
     }
-    let names = copied.iter().map(|component| words(*component)).collect::<Vec<_>>().join(", ");
+    let names = copied.iter().map(|component| component.words()).collect::<Vec<_>>().join(", ");
     let message = format!(
         "{names} (solar) repeats the visible block number by number while other functions of the bands differ: \
          possibly copied from one band to the other."
@@ -115,7 +115,7 @@ fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
     let confidence = if error > 0.5 { Confidence::Certain } else { Confidence::Likely };
     let copy = blocks.and_then(sides::false_copy);
     let which = match copy {
-        Some(component) => format!("The light left over for reflection speaks against {}.", words(component)),
+        Some(component) => format!("The light left over for reflection speaks against {}.", component.words()),
         None => {
             "Which of both is the copy, the numbers do not tell; derive by reciprocity the one that is not its own."
                 .to_owned()
@@ -172,9 +172,9 @@ fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
             if tau_max(t) > 0.0 && repeats(r, t) {
                 let message = format!(
                     "{} ({}) repeats {} number by number: a mislabelled or copied block.",
-                    words(reflection),
+                    reflection.words(),
                     at.name,
-                    words(transmission)
+                    transmission.words()
                 );
                 let drop = at.repair(RepairKind::DropBlock, BlockScope::One(reflection));
                 list.push(Diagnosis::from(Finding::warning("block-mislabelled", message)).with(drop));
@@ -195,7 +195,7 @@ fn empty(at: &At) -> Vec<Diagnosis> {
         if zero(this) && at.band.get(other).is_some_and(|btdf| tau_max(btdf) > 1e-6) {
             let message = format!(
                 "{} ({}) is zero everywhere although light passes the other way: a missing block filled with zeros.",
-                words(this),
+                this.words(),
                 at.name
             );
             let derive = at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(this));
@@ -210,7 +210,7 @@ fn empty(at: &At) -> Vec<Diagnosis> {
             continue;
         }
         let passes = at.band.get(through).or(at.band.transmission_front.as_ref()).map_or(0.0, tau_max);
-        let message = format!("{} ({}) is zero everywhere", words(this), at.name);
+        let message = format!("{} ({}) is zero everywhere", this.words(), at.name);
         list.push(if passes > 0.97 {
             Finding::info("zero-block", format!("{message}, as behind an empty opening.")).into()
         } else {
@@ -244,13 +244,8 @@ fn missing(at: &At) -> Vec<Diagnosis> {
     }
     let absent: Vec<Component> = Component::ALL.into_iter().filter(|c| !has(*c)).collect();
     for component in &absent {
-        let partner = match component {
-            Component::TransmissionFront => Component::TransmissionBack,
-            Component::TransmissionBack => Component::TransmissionFront,
-            Component::ReflectionFront => Component::ReflectionBack,
-            Component::ReflectionBack => Component::ReflectionFront,
-        };
-        let message = format!("{} ({}) is missing", words(*component), at.name);
+        let partner = component.other_side();
+        let message = format!("{} ({}) is missing", component.words(), at.name);
         let one = match component {
             Component::TransmissionFront | Component::TransmissionBack if has(partner) => Diagnosis::from(
                 Finding::info("missing-block", format!("{message}; it follows from the other side by reciprocity.")),

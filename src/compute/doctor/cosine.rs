@@ -6,7 +6,7 @@
 //! light left over (a loss that follows the cosine exactly), and panes (what passes straight falls with the angle
 //! as Fresnel's equations say, not as the cosine).
 
-use super::at::{At, words};
+use super::at::At;
 use super::blocks::{Block, Blocks, Turn};
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BlockScope, RepairKind};
@@ -87,7 +87,7 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
             continue;
         }
         let Some(block) = blocks.get(component) else { continue };
-        let transmission = matches!(component, Component::TransmissionFront | Component::TransmissionBack);
+        let transmission = component.is_transmission();
         let alone =
             blocks.get(Component::TransmissionFront).is_none() || blocks.get(Component::TransmissionBack).is_none();
         if !transmission || alone {
@@ -129,7 +129,7 @@ fn told(at: &At, blocks: &Blocks, found: &[Found]) -> Vec<Diagnosis> {
         let Some(confidence) = these.iter().map(|one| one.confidence).max() else { continue };
         // Incident and emergent cosines look alike to every witness: whoever made the data must say which it was.
         let confidence = if suspect.twin().is_some() { confidence.min(Confidence::Likely) } else { confidence };
-        let names = these.iter().map(|one| words(one.component)).collect::<Vec<_>>().join(", ");
+        let names = these.iter().map(|one| one.component.words()).collect::<Vec<_>>().join(", ");
         let lit = |c: &Component| blocks.get(*c).is_some_and(|block| blocks.hemispherical(block) > 0.0);
         let lit: Vec<Component> = Component::ALL.into_iter().filter(lit).collect();
         let all = lit.iter().all(|c| these.iter().any(|one| one.component == *c));

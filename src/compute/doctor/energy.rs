@@ -1,6 +1,6 @@
 //! Is light won? Are numbers percent, negative, or no numbers?
 
-use super::at::{At, words};
+use super::at::At;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BandScope, BlockScope, RepairKind};
 use crate::compute::basis::RingBasis;
@@ -52,7 +52,7 @@ fn not_numbers(at: &At) -> Vec<Diagnosis> {
             negative += usize::from(q < 0.0);
             broken += usize::from(!q.is_finite());
         });
-        let place = format!("{} ({})", words(component), at.name);
+        let place = format!("{} ({})", component.words(), at.name);
         if negative > 0 {
             let message = format!("{negative} values of {place} are below zero; light cannot be.");
             let clamp = at.repair(RepairKind::ClampNegative, BlockScope::One(component));
@@ -85,11 +85,7 @@ fn surely_percent(dataset: &Dataset) -> bool {
 fn percent(at: &At) -> Vec<Diagnosis> {
     let components = at.band.components();
     let largest = |component: Component| at.band.get(component).map_or(0.0, tau_max);
-    let partner = |component| match component {
-        Component::TransmissionFront => Some(Component::TransmissionBack),
-        Component::TransmissionBack => Some(Component::TransmissionFront),
-        _ => None,
-    };
+    let partner = |component: Component| component.is_transmission().then(|| component.other_side());
     let own = |component: &Component| !at.dataset.derived.contains(component);
     let hemispherical = |component| at.band.get(component).map_or(0.0, Btdf::tau_hemispherical);
     let ratio = |component: Component| {
@@ -117,7 +113,7 @@ fn percent(at: &At) -> Vec<Diagnosis> {
     };
     let rated: Vec<(Component, Option<Confidence>)> =
         components.into_iter().filter(own).map(|component| (component, suspicion(component))).collect();
-    let names = |list: &[Component]| list.iter().map(|c| words(*c)).collect::<Vec<_>>().join(", ");
+    let names = |list: &[Component]| list.iter().map(|c| c.words()).collect::<Vec<_>>().join(", ");
     let mut list = Vec::new();
     for confidence in [Confidence::Certain, Confidence::Likely] {
         let percent: Vec<Component> =
@@ -192,7 +188,7 @@ fn sums(at: &At) -> Vec<Diagnosis> {
             if largest > 1.0 {
                 let message = format!(
                     "The largest directional-hemispherical sum of {} ({}) is {largest:.4}, above 1",
-                    words(component),
+                    component.words(),
                     at.name
                 );
                 single |= largest > ROUNDING;

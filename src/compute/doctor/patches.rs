@@ -1,6 +1,6 @@
 //! Directions without data, and spikes at grazing angles.
 
-use super::at::{At, words};
+use super::at::At;
 use super::blocks::{Block, Blocks, Turn};
 use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding};
@@ -28,7 +28,7 @@ fn gaps(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Option
         return None;
     }
     let dark = block.tau.iter().filter(|tau| **tau == 0.0).count();
-    let place = format!("{} ({})", words(component), at.name);
+    let place = format!("{} ({})", component.words(), at.name);
     if 2 * dark > n && n > 10 {
         return Some(
             Finding::warning(
@@ -108,7 +108,7 @@ fn alone(blocks: &Blocks, values: &[f64], largest: f64) -> Vec<usize> {
 }
 
 fn spikes(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Option<Diagnosis> {
-    let transmission = matches!(component, Component::TransmissionFront | Component::TransmissionBack);
+    let transmission = component.is_transmission();
     let rings = blocks.tau_by_ring(block);
     let [.., before, last] = rings.as_slice() else { return None };
     // Reflection rises towards grazing everywhere; transmission nowhere.
@@ -121,7 +121,7 @@ fn spikes(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Opti
     {
         let message = format!(
             "{} ({}) rises towards grazing incidence, from {:.3} at {:.0}° to {:.3} at {:.0}°, where it should fall.",
-            words(component),
+            component.words(),
             at.name,
             before.1,
             before.0.to_degrees(),
@@ -149,7 +149,7 @@ fn spikes(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Opti
     let cell = blocks.basis.cell(first + odd);
     let message = format!(
         "{} ({}): {:.3} at θ {:.0}°, φ {:.0}°, more than {SPIKE:.0} times the directions beside it: a grazing spike.",
-        words(component),
+        component.words(),
         at.name,
         values[odd],
         cell.theta().to_degrees(),

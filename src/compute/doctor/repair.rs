@@ -140,7 +140,7 @@ pub enum BlockScope {
 impl BlockScope {
     /// Is a function meant?
     pub fn holds(self, component: Component) -> bool {
-        let transmission = matches!(component, Component::TransmissionFront | Component::TransmissionBack);
+        let transmission = component.is_transmission();
         match self {
             Self::All => true,
             Self::Transmission => transmission,

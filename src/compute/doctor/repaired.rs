@@ -50,7 +50,7 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
         }
         if repair.kind == RepairKind::SwapSides {
             for component in &mut out.derived {
-                *component = other_side(*component);
+                *component = component.other_side();
             }
         }
     }
@@ -78,30 +78,12 @@ pub fn repaired_all(dataset: &Dataset, repairs: &[Repair]) -> Result<Dataset, Re
     repairs.iter().try_fold(dataset.clone(), |dataset, repair| repaired(&dataset, *repair))
 }
 
-const fn other_side(component: Component) -> Component {
-    match component {
-        Component::TransmissionFront => Component::TransmissionBack,
-        Component::TransmissionBack => Component::TransmissionFront,
-        Component::ReflectionFront => Component::ReflectionBack,
-        Component::ReflectionBack => Component::ReflectionFront,
-    }
-}
-
-fn place(band: &mut Band, component: Component) -> &mut Option<Btdf> {
-    match component {
-        Component::TransmissionFront => &mut band.transmission_front,
-        Component::TransmissionBack => &mut band.transmission_back,
-        Component::ReflectionFront => &mut band.reflection_front,
-        Component::ReflectionBack => &mut band.reflection_back,
-    }
-}
-
 /// Was there anything to mend?
 fn mend(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
     let meant: Vec<Component> = Component::ALL.into_iter().filter(|c| repair.blocks.holds(*c)).collect();
     match repair.kind {
         RepairKind::DropBlock => {
-            let dropped = meant.iter().map(|component| place(band, *component).take().is_some());
+            let dropped = meant.iter().map(|component| band.place(*component).take().is_some());
             Ok(dropped.fold(false, |any, one| any | one))
         }
         RepairKind::DeriveByReciprocity => {
@@ -111,12 +93,12 @@ fn mend(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
                     Component::TransmissionBack => false,
                     Component::ReflectionFront | Component::ReflectionBack => continue,
                 };
-                let given = band.get(other_side(*component)).ok_or(RepairError::NoCounterpart(repair))?;
+                let given = band.get(component.other_side()).ok_or(RepairError::NoCounterpart(repair))?;
                 let (made, _) = by_reciprocity(given, front).ok_or(RepairError::Form {
                     repair,
                     what: "single incident directions have no reverse; give them as a matrix",
                 })?;
-                *place(band, *component) = Some(made);
+                band.set(*component, made);
                 return Ok(true);
             }
             Ok(false)
@@ -130,19 +112,18 @@ fn mend(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
                 if !repair.blocks.holds(front) && !repair.blocks.holds(back) {
                     continue;
                 }
-                let (f, b) = (place(band, front).take(), place(band, back).take());
+                let (f, b) = (band.place(front).take(), band.place(back).take());
                 done |= f.is_some() || b.is_some();
-                *place(band, front) =
+                *band.place(front) =
                     b.map(|btdf| relabelled(btdf, TreeAxes::Front)).transpose().map_err(form(repair))?;
-                *place(band, back) =
-                    f.map(|btdf| relabelled(btdf, TreeAxes::Back)).transpose().map_err(form(repair))?;
+                *band.place(back) = f.map(|btdf| relabelled(btdf, TreeAxes::Back)).transpose().map_err(form(repair))?;
             }
             Ok(done)
         }
         _ => {
             let mut done = false;
             for component in meant {
-                if let Some(btdf) = place(band, component) {
+                if let Some(btdf) = band.place(component) {
                     *btdf = changed(btdf, repair.kind).map_err(form(repair))?;
                     done = true;
                 }

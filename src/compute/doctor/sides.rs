@@ -5,7 +5,7 @@
 //! in throws light from above back; where transmission and reflection favour the same directions, one of them is
 //! turned.
 
-use super::at::{At, words};
+use super::at::At;
 use super::blocks::{Block, Blocks, Turn};
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BlockScope, RepairKind};
@@ -172,7 +172,7 @@ fn pair(at: &At, blocks: &Blocks, four: &Four) -> Option<(Diagnosis, Four)> {
         (Component::TransmissionBack, as_back)
     };
     let (name, other) = if known {
-        (words(component), "")
+        (component.words(), "")
     } else {
         ("One transmission", " Which of the two is the wrong one, the data do not tell; look at the pictures.")
     };
@@ -369,17 +369,14 @@ fn flat(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     if odd.is_empty() {
         return Vec::new();
     }
-    let names = odd.iter().map(|component| words(*component)).collect::<Vec<_>>().join(", ");
+    let names = odd.iter().map(|component| component.words()).collect::<Vec<_>>().join(", ");
     let message = format!(
         "{names} ({}): as much light leaves for every angle of incidence, but unevenly over the angles of emergence; \
          for scattering materials it is the other way round: probably transposed.",
         at.name
     );
     let given = Component::ALL.into_iter().filter(|component| blocks.get(*component).is_some());
-    let whole = given.clone().count() > 1
-        && given
-            .filter(|c| matches!(c, Component::ReflectionFront | Component::ReflectionBack))
-            .all(|c| odd.contains(&c));
+    let whole = given.clone().count() > 1 && given.filter(|c| !c.is_transmission()).all(|c| odd.contains(&c));
     let scopes = if whole { vec![BlockScope::All] } else { odd.into_iter().map(BlockScope::One).collect::<Vec<_>>() };
     scopes
         .into_iter()

@@ -1,6 +1,6 @@
 //! Which symmetries the visible transmission has, beside the one that its form declares.
 
-use super::at::{At, words};
+use super::at::At;
 use super::blocks::{Blocks, Turn};
 use super::diagnosis::Diagnosis;
 use super::repair::BandScope;
@@ -32,7 +32,7 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     };
     let message = format!(
         "{} is {found} (differences: left–right {:.1} %, above–below {:.1} %, quarter turn {:.1} %).",
-        words(component),
+        component.words(),
         100.0 * left,
         100.0 * up,
         100.0 * quarter

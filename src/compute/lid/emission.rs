@@ -9,6 +9,7 @@ use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident, Orientation, Surface};
 use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::gauss_legendre;
 use crate::compute::sky::sun_disc::{self, Edge};
 use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
 use glam::DVec3;
@@ -29,6 +30,11 @@ pub struct Facing<'a> {
 }
 
 impl Facing<'_> {
+    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
+    pub fn luminance(&self, d: Dir<Facade>) -> f64 {
+        self.outside.luminance(self.orientation.world_from_room(self.surface.room_dir(d)))
+    }
+
     /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
     pub fn sun_direction(&self) -> Option<Dir<Facade>> {
         self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
@@ -115,9 +121,10 @@ impl Emission {
                 let rings = if matches!(tau, AngularTransmittance::Constant(_)) { 1 } else { 36 };
                 let basis = bands(rings);
                 let illuminance = incident_illuminances(facing.outside, &basis, &frame);
+                let across = gauss_legendre(ACROSS);
                 for (ring, &e) in basis.rings().iter().zip(&illuminance) {
                     emission.incident_diffuse += e;
-                    emission.uniform += e * (ring_mean(tau, ring) / PI);
+                    emission.uniform += e * (tau.ring_mean(ring.theta_min, ring.theta_max, &across) / PI);
                 }
                 if let Some(sun) = sun_direction {
                     emission.uniform += Estimate::exact(tau.at(sun.theta().min(0.5 * PI)) * incident_sun / PI);
@@ -197,12 +204,12 @@ impl Emission {
             sum += match tau {
                 AngularTransmittance::Constant(tau) => self.incident_diffuse * *tau,
                 AngularTransmittance::Table(_) => {
-                    let basis = bands(36);
+                    let (basis, across) = (bands(36), gauss_legendre(ACROSS));
                     let frame = Frame::of_aperture(facing.orientation, facing.surface);
                     incident_illuminances(facing.outside, &basis, &frame)
                         .into_iter()
                         .zip(basis.rings())
-                        .map(|(e, ring)| e * ring_mean(tau, ring))
+                        .map(|(e, ring)| e * tau.ring_mean(ring.theta_min, ring.theta_max, &across))
                         .sum()
                 }
             };
@@ -248,12 +255,10 @@ const TREE_CELL_ERROR: f64 = 5e-3;
 /// error of the total, from half the density. \[lx\]
 fn tree_illuminances(tree: &TensorTree, facing: &Facing<'_>) -> (Vec<f64>, f64) {
     let grid = tree.incident_grid();
-    let luminance =
-        |d: Dir<Facade>| facing.outside.luminance(facing.orientation.world_from_room(facing.surface.room_dir(d)));
     let fine = (128 / tree.incident_resolution()).max(2);
     let sample = |n: usize| -> Vec<f64> {
         let weight = grid.projected_solid_angle() / (n * n) as f64;
-        grid.cells().map(|cell| cell.samples(n).map(luminance).sum::<f64>() * weight).collect()
+        grid.cells().map(|cell| cell.samples(n).map(|d| facing.luminance(d)).sum::<f64>() * weight).collect()
     };
     let values = sample(fine);
     let coarse: f64 = sample(fine / 2).iter().sum();
@@ -265,6 +270,9 @@ fn relative(e: Estimate) -> f64 {
     if e.value > 0.0 { e.error / e.value } else { 0.0 }
 }
 
+/// Gauss points for τ across a ring.
+const ACROSS: usize = 3;
+
 /// Rings of equal width in θ, undivided in φ.
 fn bands(count: usize) -> RingBasis {
     let step = 0.5 * PI / count as f64;
@@ -272,16 +280,4 @@ fn bands(count: usize) -> RingBasis {
         .map(|i| Ring { theta_min: i as f64 * step, theta_max: (i + 1) as f64 * step, sectors: 1, first_phi: 0.0 })
         .collect();
     RingBasis::new("bands", rings, crate::compute::basis::AzimuthMap::FACADE).expect("equal steps rise from 0 to 90°")
-}
-
-/// Mean of τ over a ring, weighted by the projected solid angle; three-point Gauss in sin²θ.
-fn ring_mean(tau: &AngularTransmittance, ring: &Ring) -> f64 {
-    if let AngularTransmittance::Constant(tau) = tau {
-        return *tau;
-    }
-    let (a, b) = (ring.theta_min.sin().powi(2), ring.theta_max.sin().powi(2));
-    crate::compute::quadrature::gauss_legendre(3)
-        .into_iter()
-        .map(|(x, weight)| weight * tau.at((a + (b - a) * x).sqrt().clamp(0.0, 1.0).asin()))
-        .sum()
 }

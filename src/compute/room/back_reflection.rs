@@ -8,8 +8,12 @@
 use super::aperture::Aperture;
 use super::first_bounce::PatchWeights;
 use super::mesh::Mesh;
+use super::radiosity::{Exitance, Radiosity};
 use crate::compute::btdf::{CellMatrix, Scattered};
 use crate::compute::direction::Dir;
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -69,6 +73,64 @@ impl<'a> BackReflection<'a> {
     pub fn weights(&self) -> &PatchWeights {
         &self.weights
     }
+}
+
+/// Mirroring apertures with their numbers.
+type Mirrors<'a> = [(usize, BackReflection<'a>)];
+
+/// What goes to and fro between apertures and room, for one light: the luminance of every mirroring aperture once it has
+/// settled; `exitance` is brought up to date. [`settled_weights`] serves many lights.
+pub fn settled_light(
+    radiosity: &Radiosity,
+    geometry: &[Aperture],
+    mirrors: &Mirrors<'_>,
+    first: &[f64],
+    beam: &[f64],
+    exitance: &mut Exitance,
+) -> Vec<Vec<f64>> {
+    let mesh = &radiosity.nested.fine;
+    let brightest = first.iter().copied().fold(0.0, f64::max);
+    let mut returned = vec![0.0; first.len()];
+    let mut luminances = Vec::new();
+    // Each turn leaves the share of the light that comes back to an aperture, about a tenth.
+    for _ in 0..60 {
+        let emitted: Vec<f64> =
+            mesh.patches.iter().zip(&exitance.fine).zip(beam).map(|((p, b), e)| b + p.reflectance * e).collect();
+        luminances =
+            mirrors.iter().map(|(index, mirror)| mirror.luminance(mesh, &geometry[*index], &emitted)).collect();
+        let mut next = vec![0.0; first.len()];
+        for ((_, mirror), luminance) in mirrors.iter().zip(&luminances) {
+            let (part, _) = mirror.weights().illuminance(luminance);
+            next.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
+        }
+        let change = next.iter().zip(&returned).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        returned = next;
+        let all: Vec<f64> = first.iter().zip(&returned).map(|(a, b)| a + b).collect();
+        *exitance = radiosity.exitance(&all, beam);
+        if change <= 1e-9 * brightest {
+            break;
+        }
+    }
+    luminances
+}
+
+/// [`settled_light`] read backwards. With l the luminances of all mirroring cells, W what the patches receive of them
+/// and Q what the room returns to them of a first illuminance e, l = Q (e + W l): the rows of (1 − Q W)⁻¹ Q, by patch.
+pub fn settled_weights(radiosity: &Radiosity, geometry: &[Aperture], mirrors: &Mirrors<'_>) -> Vec<Vec<f64>> {
+    let mesh = &radiosity.nested.fine;
+    let by_patch: Vec<Vec<f64>> =
+        mirrors.iter().flat_map(|(index, mirror)| mirror.by_patch(mesh, &geometry[*index])).collect();
+    let returned: Vec<Vec<f64>> = by_patch.par_iter().map(|weights| radiosity.adjoint_fine(weights)).collect();
+    let again: Vec<Vec<f64>> = returned.par_iter().map(|row| gathered(mirrors, row)).collect();
+    let (count, patches) = (returned.len(), mesh.patches.len());
+    let balance = Mat::from_fn(count, count, |i, j| f64::from(u8::from(i == j)) - again[i][j]);
+    let settled = balance.partial_piv_lu().solve(&Mat::from_fn(count, patches, |i, j| returned[i][j]));
+    (0..count).map(|i| (0..patches).map(|j| settled[(i, j)]).collect()).collect()
+}
+
+/// For weights of the patches' illuminance the weights of the luminances of all mirroring cells.
+pub fn gathered(mirrors: &Mirrors<'_>, weights: &[f64]) -> Vec<f64> {
+    mirrors.iter().flat_map(|(_, mirror)| mirror.weights().gathered(weights)).collect()
 }
 
 #[cfg(test)]

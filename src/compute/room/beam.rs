@@ -2,6 +2,7 @@
 
 use super::aperture::Aperture;
 use super::mesh::Mesh;
+use crate::compute::polygon::{area, cut_by_all};
 use glam::{DVec2, DVec3};
 
 /// Where a beam lands.
@@ -44,7 +45,7 @@ pub fn landing(mesh: &Mesh, aperture: &Aperture, sun: DVec3) -> Landing {
             let patch = &mesh.patches[i];
             let lit = overlap(&outline, patch.extent);
             if lit.len() >= 3 {
-                landing.shares[i] = area(&lit) / patch.area;
+                landing.shares[i] = area(&lit).abs() / patch.area;
                 if patch.reflectance != rho {
                     landing.outlines.push((number, lit, patch.reflectance - rho));
                 }
@@ -56,32 +57,11 @@ pub fn landing(mesh: &Mesh, aperture: &Aperture, sun: DVec3) -> Landing {
 
 /// A convex polygon inside a rectangle.
 fn overlap(polygon: &[DVec2], extent: [[f64; 2]; 2]) -> Vec<DVec2> {
-    let mut current = polygon.to_vec();
-    for (axis, limits) in extent.into_iter().enumerate() {
-        for (limit, sign) in [(limits[0], 1.0), (limits[1], -1.0)] {
-            let inside = |p: DVec2| sign * (p[axis] - limit);
-            let mut kept = Vec::with_capacity(current.len() + 1);
-            for (i, &p) in current.iter().enumerate() {
-                let q = current[(i + 1) % current.len()];
-                let (fp, fq) = (inside(p), inside(q));
-                if fp >= 0.0 {
-                    kept.push(p);
-                }
-                if (fp > 0.0 && fq < 0.0) || (fp < 0.0 && fq > 0.0) {
-                    kept.push(p + (q - p) * (fp / (fp - fq)));
-                }
-            }
-            current = kept;
-            if current.len() < 3 {
-                return Vec::new();
-            }
-        }
-    }
-    current
-}
-
-fn area(polygon: &[DVec2]) -> f64 {
-    (0..polygon.len()).map(|i| polygon[i].perp_dot(polygon[(i + 1) % polygon.len()])).sum::<f64>().abs() * 0.5
+    let limits = extent.into_iter().enumerate().flat_map(|(axis, [low, high])| [(axis, low, 1.0), (axis, high, -1.0)]);
+    let mut kept = polygon.to_vec();
+    let borders = limits.map(|(axis, limit, sign)| move |p: DVec2| sign * (p[axis] - limit));
+    cut_by_all(&mut kept, borders, &mut Vec::with_capacity(polygon.len() + 4));
+    kept
 }
 
 #[cfg(test)]

@@ -7,9 +7,9 @@
 //! singularity at grazing sensors.
 
 use super::aperture::View;
-use super::polygon::{clip, edge};
 use crate::compute::angle::wrap_two_pi;
 use crate::compute::basis::{Ring, RingBasis};
+use crate::compute::polygon::{clip, edge};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -240,10 +240,10 @@ fn relative(azimuth: f64, reference: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::aperture::Aperture;
-    use super::super::polygon::projected_solid_angle;
     use super::*;
     use crate::compute::basis::AzimuthMap;
     use crate::compute::direction::{Dir, Surface};
+    use crate::compute::polygon::projected_solid_angle;
 
     fn window() -> Aperture {
         Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 1.0), size: [3.0, 1.5] }

@@ -3,12 +3,11 @@
 
 use super::aperture::Aperture;
 use super::cell_weights::for_each_cell;
-use super::polygon::projected_solid_angle;
-use super::through::{self, Prospect};
+use super::through;
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::AngularTransmittance;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{Emission, Facing};
+use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::Tolerance;
 use crate::compute::sky::sun_disc::{self, Edge};
 use glam::DVec3;
@@ -65,10 +64,7 @@ pub fn illuminance(
     }
     if let Some(tau) = &emission.regular {
         if let Some(view) = aperture.view(sensor.position, sensor.normal) {
-            let prospect =
-                Prospect { outside: facing.outside, orientation: facing.orientation, surface: facing.surface };
-            let uniform_tau = if let AngularTransmittance::Constant(tau) = tau { Some(*tau) } else { None };
-            sum += through::illuminance(&view, &prospect, uniform_tau, |theta| tau.at(theta), tolerance);
+            sum += through::illuminance(&view, facing, tau, tolerance);
         }
         sum += Estimate::exact(sun_through(sensor, aperture, emission, facing));
     }

@@ -3,14 +3,14 @@
 use super::aperture::{Aperture, View};
 use super::beam::landing;
 use super::direct::{Reception, Sensor};
+use super::gather::polygon_factor;
 use super::mesh::{Mesh, Patch, Wall};
-use super::polygon::projected_solid_angle;
 use super::radiosity::{Radiosity, dot};
-use super::through::Prospect;
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::btdf::AngularTransmittance;
-use crate::compute::direction::Surface;
+use crate::compute::direction::{Dir, Surface};
 use crate::compute::lid::{Emission, Facing};
+use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::gauss_legendre;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -265,6 +265,14 @@ impl FirstLight {
         }
     }
 
+    /// What a point gets from the beam's first reflection, by its exact outlines. \[lx\]
+    pub fn reflected_beam(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
+        let part = |(wall, outline, exitance): &(usize, Vec<DVec2>, f64)| {
+            exitance * polygon_factor(&mesh.walls[*wall], outline, position, normal)
+        };
+        self.outlines.iter().map(part).sum()
+    }
+
     fn add_diffuse(&mut self, (part, gap): (Vec<f64>, f64)) {
         for (sum, e) in self.diffuse.iter_mut().zip(part) {
             *sum += e;
@@ -282,7 +290,6 @@ fn outside_seen(
     facing: &Facing<'_>,
     tau: &AngularTransmittance,
 ) -> (Vec<f64>, f64) {
-    let prospect = Prospect { outside: facing.outside, orientation: facing.orientation, surface: facing.surface };
     let rules = rules(8);
     let mut first: Vec<f64> = mesh
         .patches
@@ -292,7 +299,7 @@ fn outside_seen(
             samples(patch, wall, &rules, points_a_side(patch, wall, aperture))
                 .map(|(position, share)| {
                     let view = aperture.view(position, wall.normal);
-                    view.map_or(0.0, |view| share * seen_from(&view, &prospect, tau, &rules))
+                    view.map_or(0.0, |view| share * seen_from(&view, facing, tau, &rules))
                 })
                 .sum()
         })
@@ -312,11 +319,11 @@ fn outside_seen(
 
 /// Illuminance at a point that has all of the opening in front of it: ground in closed form where nothing depends on
 /// the angle, the sky by a Gauss rule in the two angles of profile, in which the opening's near field is smooth.
-fn seen_from(view: &View, prospect: &Prospect<'_>, tau: &AngularTransmittance, rules: &[Vec<(f64, f64)>]) -> f64 {
-    let uniform = if let AngularTransmittance::Constant(tau) = tau { Some(*tau) } else { None };
+fn seen_from(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, rules: &[Vec<(f64, f64)>]) -> f64 {
+    let uniform = tau.constant();
     let mut sum = 0.0;
     let mut bands = vec![view.y];
-    if prospect.surface == Surface::Facade {
+    if facing.surface == Surface::Facade {
         // The horizon of the point cuts the opening.
         let [low, high] = view.y;
         let level = 0.0_f64.clamp(low, high);
@@ -324,7 +331,7 @@ fn seen_from(view: &View, prospect: &Prospect<'_>, tau: &AngularTransmittance, r
         match uniform {
             Some(tau) => {
                 let below = View { y: [low, level], ..*view };
-                let ground = tau * prospect.outside.ground_luminance();
+                let ground = tau * facing.outside.ground_luminance();
                 if ground > 0.0 && level > low {
                     sum += ground * projected_solid_angle(&below.corners(), view.normal);
                 }
@@ -332,8 +339,8 @@ fn seen_from(view: &View, prospect: &Prospect<'_>, tau: &AngularTransmittance, r
             None => bands.push([low, level]),
         }
     }
-    if let Some(tau) = uniform.filter(|_| prospect.outside.is_uniform_above_horizon()) {
-        let luminance = prospect.luminance(prospect.surface.facade_from_room(DVec3::Z));
+    if let Some(tau) = uniform.filter(|_| facing.outside.is_uniform_above_horizon()) {
+        let luminance = facing.luminance(facing.surface.facade_dir(Dir::from_unit(DVec3::Z)));
         let above = View { y: bands[0], ..*view };
         return sum + tau * luminance * projected_solid_angle(&above.corners(), view.normal);
     }
@@ -355,7 +362,7 @@ fn seen_from(view: &View, prospect: &Prospect<'_>, tau: &AngularTransmittance, r
                 let tau = uniform.unwrap_or_else(|| tau.at(d.z.acos()));
                 // dω = dx dy / r³ with dx = (1 + x²) da.
                 let solid = (1.0 + x * x) * (1.0 + y * y) / (square * square.sqrt());
-                part += ws * wt * solid * view.normal.dot(d).max(0.0) * tau * prospect.luminance(d);
+                part += ws * wt * solid * view.normal.dot(d).max(0.0) * tau * facing.luminance(Dir::from_unit(d));
             }
         }
         sum += part * (a1 - a0) * (b1 - b0);

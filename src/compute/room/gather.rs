@@ -5,7 +5,7 @@
 //! Reference: Lambert's edge sum for a rectangle parallel to two axes.
 
 use super::mesh::{Mesh, Patch, Wall};
-use super::polygon::{clip, projected_solid_angle, vector_solid_angle};
+use crate::compute::polygon::{clip, projected_solid_angle, vector_solid_angle};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 

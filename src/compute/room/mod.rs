@@ -11,6 +11,5 @@ pub mod form_factor;
 pub mod gather;
 pub mod mesh;
 pub mod near_field;
-pub mod polygon;
 pub mod radiosity;
 pub mod through;

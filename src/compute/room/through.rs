@@ -6,51 +6,27 @@
 //! integrated adaptively with an error estimate.
 
 use super::aperture::View;
-use super::polygon::{clip, projected_solid_angle};
-use crate::compute::direction::{Dir, Orientation, Room, Surface};
+use crate::compute::btdf::AngularTransmittance;
+use crate::compute::direction::{Dir, Room, Surface};
 use crate::compute::estimate::Estimate;
+use crate::compute::lid::Facing;
+use crate::compute::polygon::{clip, projected_solid_angle};
 use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};
-use crate::compute::sky::Outside;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// What stands outside an aperture, and how the room is turned to it.
-#[derive(Debug, Clone, Copy)]
-pub struct Prospect<'a> {
-    /// Luminance of sky, ground and skyline.
-    pub outside: &'a Outside,
-    /// Turns the room to the compass.
-    pub orientation: Orientation,
-    /// The aperture's surface.
-    pub surface: Surface,
-}
-
-impl Prospect<'_> {
-    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
-    pub fn luminance(&self, d: DVec3) -> f64 {
-        let room = Dir::from_unit(self.surface.room_from_facade(d));
-        self.outside.luminance(self.orientation.world_from_room(room))
-    }
-}
-
-/// Illuminance at a sensor from the outside seen through the opening, each direction weighted by `tau(θ)` of the
-/// system. \[lx\] `uniform_tau` is the transmittance if it does not depend on θ: parts of constant luminance then have
-/// a closed form.
-pub fn illuminance(
-    view: &View,
-    prospect: &Prospect<'_>,
-    uniform_tau: Option<f64>,
-    tau: impl Fn(f64) -> f64,
-    tolerance: Tolerance,
-) -> Estimate {
-    let to_room = |v: DVec3| prospect.surface.room_from_facade(v);
+/// Illuminance at a sensor from the outside seen through the opening, each direction weighted by τ(θ) of the system.
+/// \[lx\] Where it does not depend on θ, parts of constant luminance have a closed form.
+pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> Estimate {
+    let to_room = |v: DVec3| facing.surface.room_from_facade(v);
+    let uniform_tau = tau.constant();
     let normal = to_room(view.normal);
     let mut polygon = Vec::with_capacity(6);
     clip(&view.corners().map(to_room), normal, &mut polygon);
     if polygon.len() < 3 {
         return Estimate::default();
     }
-    let outside = prospect.outside;
+    let outside = facing.outside;
     let mut sum = Estimate::default();
     let mut above = polygon.clone();
     if let Some(tau) = uniform_tau {
@@ -64,19 +40,19 @@ pub fn illuminance(
             return sum;
         }
         if outside.is_uniform_above_horizon() {
-            let luminance = prospect.luminance(prospect.surface.facade_from_room(DVec3::Z));
+            let luminance = facing.luminance(facing.surface.facade_dir(Dir::from_unit(DVec3::Z)));
             return sum + Estimate::exact(tau * luminance * projected_solid_angle(&above, normal));
         }
     }
-    let sun = outside.sun_direction().map(|sun| prospect.orientation.room_from_world(sun).vector());
-    let region = Region::new(&above, prospect.surface, sun, outside.skyline_altitude());
+    let sun = outside.sun_direction().map(|sun| facing.orientation.room_from_world(sun).vector());
+    let region = Region::new(&above, facing.surface, sun, outside.skyline_altitude());
     let integrand = |(sin_a, cos_a): (f64, f64), altitude: f64| {
         let (sin_h, cos_h) = altitude.sin_cos();
         let d = DVec3::new(cos_h * cos_a, cos_h * sin_a, sin_h);
-        let luminance = outside.luminance(prospect.orientation.world_from_room(Dir::from_unit(d)));
+        let luminance = outside.luminance(facing.orientation.world_from_room(Dir::from_unit(d)));
         let tau = uniform_tau.unwrap_or_else(|| {
-            let cosine = prospect.surface.facade_from_room(d).z;
-            tau(cosine.clamp(-1.0, 1.0).acos())
+            let cosine = facing.surface.facade_from_room(d).z;
+            tau.at(cosine.clamp(-1.0, 1.0).acos())
         });
         luminance * tau * normal.dot(d).max(0.0) * cos_h
     };
@@ -84,13 +60,13 @@ pub fn illuminance(
 }
 
 /// The sky through the opening, by directions that are fixed once: room directions above the skyline's altitude \[rad\]
-/// (0: the horizon) with weights that hold the sensor's cosine and `tau(θ)`. \[sr\] `parts` Gauss points or more along
+/// (0: the horizon) with weights that hold the sensor's cosine and τ(θ). \[sr\] `parts` Gauss points or more along
 /// each side of every piece.
 pub fn samples(
     view: &View,
     surface: Surface,
     skyline: f64,
-    tau: impl Fn(f64) -> f64,
+    tau: &AngularTransmittance,
     parts: usize,
 ) -> Vec<(Dir<Room>, f64)> {
     let to_room = |v: DVec3| surface.room_from_facade(v);
@@ -109,7 +85,8 @@ pub fn samples(
         let (sin_h, cos_h) = altitude.sin_cos();
         let (sin_a, cos_a) = azimuth.sin_cos();
         let d = DVec3::new(cos_h * cos_a, cos_h * sin_a, sin_h);
-        let weight = tau(surface.facade_from_room(d).z.clamp(-1.0, 1.0).acos()) * normal.dot(d).max(0.0) * cos_h * area;
+        let tau = tau.at(surface.facade_from_room(d).z.clamp(-1.0, 1.0).acos());
+        let weight = tau * normal.dot(d).max(0.0) * cos_h * area;
         if weight > 0.0 {
             list.push((Dir::from_unit(d), weight));
         }

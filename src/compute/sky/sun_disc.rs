@@ -4,6 +4,7 @@
 //! plane that touches the sphere at the sun's centre.
 
 use super::sun::SUN_HALF_ANGLE;
+use crate::compute::polygon::cut_by_all;
 use glam::{DVec2, DVec3};
 
 /// One edge: directions ω with `normal · ω ≥ offset` are free.
@@ -31,7 +32,7 @@ const CORNERS: usize = 180;
 pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>) -> f64 {
     let radius = SUN_HALF_ANGLE.tan();
     let (u, v) = sun.any_orthonormal_pair();
-    let mut cut: Vec<(DVec2, f64)> = Vec::new();
+    let mut crossing: Vec<(DVec2, f64)> = Vec::new();
     for edge in edges {
         let height = edge.normal.dot(sun) - edge.offset;
         let slope = DVec2::new(edge.normal.dot(u), edge.normal.dot(v));
@@ -40,34 +41,18 @@ pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>)
             return 0.0;
         }
         if height < reach {
-            cut.push((slope, height));
+            crossing.push((slope, height));
         }
     }
-    if cut.is_empty() {
+    if crossing.is_empty() {
         return receiver.dot(sun).max(0.0);
     }
     // A regular polygon of the disc's area.
     let step = 2.0 * std::f64::consts::PI / CORNERS as f64;
     let outer = radius * (step / step.sin()).sqrt();
     let mut polygon: Vec<DVec2> = (0..CORNERS).map(|i| outer * DVec2::from_angle(i as f64 * step)).collect();
-    let mut kept = Vec::with_capacity(CORNERS + 8);
-    for (slope, height) in cut {
-        kept.clear();
-        for (i, &p) in polygon.iter().enumerate() {
-            let q = polygon[(i + 1) % polygon.len()];
-            let (fp, fq) = (slope.dot(p) + height, slope.dot(q) + height);
-            if fp >= 0.0 {
-                kept.push(p);
-            }
-            if (fp > 0.0 && fq < 0.0) || (fp < 0.0 && fq > 0.0) {
-                kept.push(p + (q - p) * (fp / (fp - fq)));
-            }
-        }
-        std::mem::swap(&mut polygon, &mut kept);
-        if polygon.len() < 3 {
-            return 0.0;
-        }
-    }
+    let borders = crossing.into_iter().map(|(slope, height)| move |p: DVec2| slope.dot(p) + height);
+    cut_by_all(&mut polygon, borders, &mut Vec::with_capacity(CORNERS + 8));
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
     for (i, &p) in polygon.iter().enumerate() {
         let q = polygon[(i + 1) % polygon.len()];

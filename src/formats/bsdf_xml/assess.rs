@@ -28,15 +28,6 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
     Ok(())
 }
 
-const fn words(component: Component) -> &'static str {
-    match component {
-        Component::TransmissionFront => "Transmission Front",
-        Component::TransmissionBack => "Transmission Back",
-        Component::ReflectionFront => "Reflection Front",
-        Component::ReflectionBack => "Reflection Back",
-    }
-}
-
 /// A reflection block that repeats a transmission block number by number is that transmission, mislabelled.
 fn mislabelled(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     for (reflection, place) in [
@@ -53,8 +44,8 @@ fn mislabelled(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
                     "block-mislabelled",
                     format!(
                         "{} ({name}) repeats {} number by number: a mislabelled block, left out.",
-                        words(reflection),
-                        words(transmission)
+                        reflection.words(),
+                        transmission.words()
                     ),
                 ));
                 *place = None;
@@ -67,11 +58,11 @@ fn plausible(band: &Band, name: &str) -> Result<(), FormatError> {
     for component in band.components() {
         let Some(btdf) = band.get(component) else { continue };
         let largest = tau_max(btdf);
-        let transmission = matches!(component, Component::TransmissionFront | Component::TransmissionBack);
+        let transmission = component.is_transmission();
         let limit = if transmission && name == "Visible" { IMPOSSIBLE } else { OVERFLOW };
         if !largest.is_finite() || largest > limit {
             return Err(FormatError::new(
-                Location::file().in_element(format!("{} ({name})", words(component))),
+                Location::file().in_element(format!("{} ({name})", component.words())),
                 if largest < 1e4 {
                     format!("a directional-hemispherical sum of {largest:.4}, which is not plausible")
                 } else {

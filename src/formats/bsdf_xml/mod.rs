@@ -202,7 +202,7 @@ impl Reader<'_> {
         })?;
         let at = self.source.place(data);
         let at = Location { element: Some(format!("<ScatteringData> of {title}")), ..at };
-        let outside = matches!(component, Component::TransmissionFront | Component::ReflectionFront);
+        let outside = component.is_front();
         let btdf = match self.structure {
             Structure::Tree(rank) => self.tree(rank, outside, block, &text(data), &title, &at)?,
             Structure::Columns | Structure::Rows => self.matrix(outside, block, &text(data), &title, &at)?,

@@ -12,7 +12,7 @@
 use super::document::escaped;
 use super::material;
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Band, Component, Dataset, Finding, Scattered, matrix_on};
+use crate::compute::btdf::{Band, Dataset, Finding, Scattered, matrix_on};
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
@@ -93,8 +93,8 @@ fn common_basis(dataset: &Dataset) -> RingBasis {
     own.unwrap_or_else(|| RingBasis::klems_full(AzimuthMap::KLEMS_FRONT))
 }
 
-/// Everything before the bands; tells which defaults it took.
-fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
+/// The first lines of all files.
+pub(super) fn opening(xml: &mut String, dataset: &Dataset) {
     xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml.push_str(
         "<WindowElement xmlns=\"http://windows.lbl.gov\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" ",
@@ -106,6 +106,11 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> 
     xml.push_str(
         "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
     );
+}
+
+/// Everything before the bands; tells which defaults it took.
+fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
+    opening(xml, dataset);
     let findings = material::write(xml, dataset, true);
     xml.push_str("\t\t\t<Geometry></Geometry>\n");
     xml.push_str("\t\t\t<DataDefinition>\n\t\t\t\t<IncidentDataStructure>Columns</IncidentDataStructure>\n");
@@ -141,12 +146,7 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
     };
     for component in band.components() {
         let Some(btdf) = band.get(component) else { continue };
-        let (title, map) = match component {
-            Component::TransmissionFront => ("Transmission Front", AzimuthMap::KLEMS_FRONT),
-            Component::TransmissionBack => ("Transmission Back", AzimuthMap::KLEMS_BACK),
-            Component::ReflectionFront => ("Reflection Front", AzimuthMap::KLEMS_FRONT),
-            Component::ReflectionBack => ("Reflection Back", AzimuthMap::KLEMS_BACK),
-        };
+        let map = if component.is_front() { AzimuthMap::KLEMS_FRONT } else { AzimuthMap::KLEMS_BACK };
         let basis_of_side = basis.clone().with_azimuth(map);
         let matrix = matrix_on(btdf, &basis_of_side, &basis_of_side);
         let basis_name = escaped(basis.name());
@@ -154,10 +154,11 @@ fn band(xml: &mut String, band: &Band, name: &str, basis: &RingBasis) {
             xml,
             "\t\t\t<WavelengthData>\n\t\t\t\t<LayerNumber>System</LayerNumber>\n\
              \t\t\t\t<Wavelength unit=\"Integral\">{name}</Wavelength>\n{spectra}\t\t\t\t<WavelengthDataBlock>\n\
-             \t\t\t\t\t<WavelengthDataDirection>{title}</WavelengthDataDirection>\n\
+             \t\t\t\t\t<WavelengthDataDirection>{}</WavelengthDataDirection>\n\
              \t\t\t\t\t<ColumnAngleBasis>{basis_name}</ColumnAngleBasis>\n\
              \t\t\t\t\t<RowAngleBasis>{basis_name}</RowAngleBasis>\n\
-             \t\t\t\t\t<ScatteringDataType>BTDF</ScatteringDataType>\n\t\t\t\t\t<ScatteringData>\n"
+             \t\t\t\t\t<ScatteringDataType>BTDF</ScatteringDataType>\n\t\t\t\t\t<ScatteringData>\n",
+            component.words()
         );
         let n = basis.len();
         let values = matrix.values();

@@ -7,6 +7,7 @@
 //! for rank 3. The Geometry element is empty.
 
 use super::material;
+use super::write::opening;
 use crate::compute::btdf::{
     Band, Btdf, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank, TreeShape, tree_on,
 };
@@ -155,17 +156,7 @@ fn tree_of(
 }
 
 fn head(xml: &mut String, dataset: &Dataset, rank: TreeRank) {
-    xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    xml.push_str(
-        "<WindowElement xmlns=\"http://windows.lbl.gov\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" ",
-    );
-    xml.push_str("xsi:schemaLocation=\"http://windows.lbl.gov/BSDF-v1.4.xsd\">\n");
-    if !dataset.description.is_empty() {
-        let _ = writeln!(xml, "<!-- {} -->", dataset.description.replace("--", "- -").trim_end_matches('-'));
-    }
-    xml.push_str(
-        "\t<WindowElementType>System</WindowElementType>\n\t<FileType>BSDF</FileType>\n\t<Optical>\n\t\t<Layer>\n",
-    );
+    opening(xml, dataset);
     // Other programs than WINDOW read trees: nothing is invented for them.
     material::write(xml, dataset, false);
     xml.push_str("\t\t\t<Geometry></Geometry>\n");
@@ -178,12 +169,7 @@ fn head(xml: &mut String, dataset: &Dataset, rank: TreeRank) {
 }
 
 fn block(xml: &mut String, tree: &TensorTree, component: Component, band: &str) {
-    let (title, kind) = match component {
-        Component::TransmissionFront => ("Transmission Front", "BTDF"),
-        Component::TransmissionBack => ("Transmission Back", "BTDF"),
-        Component::ReflectionFront => ("Reflection Front", "BRDF"),
-        Component::ReflectionBack => ("Reflection Back", "BRDF"),
-    };
+    let (title, kind) = (component.words(), if component.is_transmission() { "BTDF" } else { "BRDF" });
     let _ = write!(
         xml,
         "\t\t\t<WavelengthData>\n\t\t\t\t<LayerNumber>System</LayerNumber>\n\

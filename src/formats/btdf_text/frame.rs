@@ -26,18 +26,14 @@ pub(super) struct Naming {
 impl Naming {
     /// Of the directions towards the source.
     pub fn incident(component: Component) -> Self {
-        let inside = matches!(component, Component::TransmissionBack | Component::ReflectionBack);
+        let inside = !component.is_front();
         Self { inward: inside, turned: inside }
     }
 
     /// Of the directions in which light leaves.
     pub fn emergent(component: Component) -> Self {
-        match component {
-            Component::TransmissionFront => Self { inward: true, turned: true },
-            Component::TransmissionBack => Self { inward: false, turned: false },
-            Component::ReflectionFront => Self { inward: false, turned: true },
-            Component::ReflectionBack => Self { inward: true, turned: false },
-        }
+        // Inward goes what passes from outside, and what is thrown back inside.
+        Self { inward: component.is_transmission() == component.is_front(), turned: component.is_front() }
     }
 
     /// Allowed θ of the file. \[°\]

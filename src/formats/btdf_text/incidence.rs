@@ -11,7 +11,7 @@ use crate::formats::location::{FormatError, Location};
 
 /// The cells whose centres the incidences should be; `None` for listed ones.
 pub(super) fn lattice(choice: IncidenceChoice, component: Component, mean: bool) -> Option<RingBasis> {
-    let inside = matches!(component, Component::TransmissionBack | Component::ReflectionBack);
+    let inside = !component.is_front();
     match choice {
         IncidenceChoice::Tregenza => Some(RingBasis::tregenza()),
         // Lists of directions are recognised in the order of the front.

@@ -163,7 +163,9 @@ fn plausible(
             "at most 1 (100 in percent): values q = L/E in 1/sr, without π or the cosine of the emergent angle",
         ));
     }
-    let (rows_of, what) = (list.len(), words(header.component));
+    let rows_of = list.len();
+    let what = if header.component.is_transmission() { "transmission" } else { "reflection" };
+    let what = format!("{what} of light from {}", if header.component.is_front() { "outside" } else { "inside" });
     if largest > ROUNDING && largest <= OTHER_UNIT {
         let message =
             format!("{what}: up to {largest:.4} of the light leaves, more than 1 at {above} of {rows_of} incidences");
@@ -184,15 +186,6 @@ fn plausible(
         ));
     }
     Ok(())
-}
-
-const fn words(component: Component) -> &'static str {
-    match component {
-        Component::TransmissionFront => "transmission of light from outside",
-        Component::TransmissionBack => "transmission of light from inside",
-        Component::ReflectionFront => "reflection of light from outside",
-        Component::ReflectionBack => "reflection of light from inside",
-    }
 }
 
 /// Names, rows in their order, and the lattice whose cell centres the names are, when they are.

@@ -217,14 +217,8 @@ fn head(text: &mut String, dataset: &Dataset, component: Component, table: &Tabl
     if let Some(thickness) = dataset.thickness {
         line("thickness", &format!("{thickness:?}"));
     }
-    let (quantity, side) = match component {
-        Component::TransmissionFront => ("btdf", "outside"),
-        Component::TransmissionBack => ("btdf", "inside"),
-        Component::ReflectionFront => ("brdf", "outside"),
-        Component::ReflectionBack => ("brdf", "inside"),
-    };
-    line("quantity", &quoted(quantity));
-    line("light_from", &quoted(side));
+    line("quantity", &quoted(if component.is_transmission() { "btdf" } else { "brdf" }));
+    line("light_from", &quoted(if component.is_front() { "outside" } else { "inside" }));
     if !dataset.state.is_empty() {
         line("state", &quoted(&dataset.state));
     }

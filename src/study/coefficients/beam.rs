@@ -5,7 +5,6 @@ use crate::compute::estimate::Estimate;
 use crate::compute::lid::{Emission, Facing};
 use crate::compute::room::direct::sun_through;
 use crate::compute::room::first_bounce::FirstLight;
-use crate::compute::room::gather::polygon_factor;
 use crate::compute::room::radiosity::dot;
 use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
@@ -24,8 +23,10 @@ pub(super) fn sun(all: &Coefficients, sun: &Sun) -> Vec<f64> {
         add_beam(all, index, &facing, illuminance, &mut first, &mut sums);
     }
     if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
+        let (mesh, sensors) = (&room.radiosity.nested.fine, &all.scene.sensors);
         for (s, response) in room.sensors.iter().enumerate() {
-            sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam) + outlines(all, &first, s);
+            sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam)
+                + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
         }
     }
     sums.iter_mut().for_each(|e| *e = e.max(0.0));
@@ -54,9 +55,10 @@ pub(super) fn sun_estimate(all: &Coefficients, light: &Sun) -> Vec<Estimate> {
         add_beam(all, index, &facing, illuminance, &mut first, &mut own);
     }
     if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
+        let (mesh, sensors) = (&room.radiosity.nested.fine, &all.scene.sensors);
         for (s, response) in room.sensors.iter().enumerate() {
             let (value, difference, thrown_back) = response.of(&first.beam, &first.beam);
-            let value = value + outlines(all, &first, s);
+            let value = value + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
             estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(all.rest() * value) + UNEVEN * thrown_back;
         }
     }
@@ -94,13 +96,4 @@ fn add_beam(
     if let (Some(first), Some(room)) = (first, &all.room) {
         first.add_beam(&room.radiosity.nested.fine, aperture, &emission, facing);
     }
-}
-
-/// What a sensor gets from the beam's first reflection, by its exact outlines.
-fn outlines(all: &Coefficients, first: &FirstLight, sensor: usize) -> f64 {
-    let Some(room) = &all.room else { return 0.0 };
-    let (walls, sensor) = (&room.radiosity.nested.fine.walls, &all.scene.sensors[sensor]);
-    let factor =
-        |wall: usize, outline: &[glam::DVec2]| polygon_factor(&walls[wall], outline, sensor.position, sensor.normal);
-    first.outlines.iter().map(|(wall, outline, exitance)| exitance * factor(*wall, outline)).sum()
 }

@@ -1,16 +1,16 @@
 //! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
 //! is seen straight through, by directions of every sensor's own.
 
-use super::transport::{self, Transport, ring_mean};
+use super::transport::{self, ACROSS, Transport};
 use super::views::{Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Facing;
-use crate::compute::quadrature::Tolerance;
+use crate::compute::quadrature::{Tolerance, gauss_legendre};
 use crate::compute::room::radiosity::dot;
-use crate::compute::room::through::{self, Prospect};
+use crate::compute::room::through;
 use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_illuminances_within};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -88,13 +88,15 @@ impl Part {
             }
             _ => None,
         };
+        let across = gauss_legendre(ACROSS);
         let columns: Vec<transport::Column> = (0..patches.len())
             .into_par_iter()
             .map(|p| {
                 let cell = patches.cell(p);
                 let mut column = transport.through_patch(p, &cell, sensors);
                 if let Some((tau, views)) = &straight {
-                    views.add(p, ring_mean(tau, &cell) / cell.projected_solid_angle(), &mut column.light);
+                    let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
+                    views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
                 }
                 column
             })
@@ -218,7 +220,7 @@ impl Seen {
             return Self::default();
         };
         let altitude = scene.outside.skyline_altitude();
-        let directions = through::samples(&view, facing.surface, altitude, |theta| tau.at(theta), POINTS)
+        let directions = through::samples(&view, facing.surface, altitude, tau, POINTS)
             .into_iter()
             .map(|(d, weight)| (scene.orientation.world_from_room(d), weight))
             .collect();
@@ -253,12 +255,10 @@ fn seen_exactly(
     outside: &Outside,
     relative: f64,
 ) -> Estimate {
-    let Facing { orientation, surface, .. } = scene.facing(index);
     let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
         return Estimate::default();
     };
-    let uniform = if let AngularTransmittance::Constant(tau) = tau { Some(*tau) } else { None };
     let scale = outside.diffuse_horizontal().max(outside.ground_luminance()).max(outside.skyline_luminance());
     let tolerance = Tolerance { absolute: 1e-3 * relative * scale, relative, max_pieces: 4000 };
-    through::illuminance(&view, &Prospect { outside, orientation, surface }, uniform, |theta| tau.at(theta), tolerance)
+    through::illuminance(&view, &Facing { outside, ..scene.facing(index) }, tau, tolerance)
 }

@@ -25,6 +25,8 @@ const TREE_PATCH: f64 = 5.0 * PI / 180.0;
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 /// Directions in cells that are as wide as a dataset's. \[rad\]
 const SPACING: f64 = 4.0 * PI / 180.0;
+/// Gauss points for τ across a ring.
+pub(super) const ACROSS: usize = 3;
 /// What interpolation between incident directions leaves after its own doubts, relative.
 const REST: f64 = 4e-3;
 /// What the straightened cells of a tree cost, relative.
@@ -135,7 +137,9 @@ impl Transport {
     /// Light through a patch of [`patches`].
     pub fn through_patch(&self, index: usize, cell: &Cell, sensors: usize) -> Column {
         match self {
-            Self::Even(tau, even) => Column::scaled(even, ring_mean(tau, cell) / PI),
+            Self::Even(tau, even) => {
+                Column::scaled(even, tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(ACROSS)) / PI)
+            }
             Self::Cells(_, columns) => Column::scaled(&columns[index], 1.0),
             Self::Tree(tree, views) => {
                 let mut column = Column::dark(sensors);
@@ -236,11 +240,4 @@ impl Column {
     fn scaled(light: &[f64], factor: f64) -> Self {
         Self { light: light.iter().map(|e| e * factor).collect(), doubt: Vec::new() }
     }
-}
-
-/// Mean of τ over the ring of a cell, by projected solid angle.
-pub(super) fn ring_mean(tau: &AngularTransmittance, cell: &Cell) -> f64 {
-    let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
-    let rule = gauss_legendre(3);
-    rule.into_iter().map(|(x, w)| w * tau.at((a + (b - a) * x).sqrt().clamp(0.0, 1.0).asin())).sum()
 }

@@ -5,11 +5,11 @@ use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Emission;
 use crate::compute::room::aperture::Aperture;
-use crate::compute::room::back_reflection::BackReflection;
+use crate::compute::room::back_reflection::{BackReflection, settled_light};
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
-use crate::compute::room::gather::{Reconstruction, polygon_factor, reconstruct};
+use crate::compute::room::gather::{Reconstruction, reconstruct};
 use crate::compute::room::mesh::{Mesh, Nested};
-use crate::compute::room::radiosity::{Exitance, Radiosity, dot};
+use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::{Key, bits};
 use crate::study::error::StudyError;
 use crate::study::scene::{Scene, SceneAperture};
@@ -153,8 +153,7 @@ impl Session {
         let mirrors = mirrors(scene, weights);
         if !mirrors.is_empty() {
             check(progress)?;
-            let luminances =
-                between_room_and_apertures(&radiosity, &geometry, &mirrors, &all, &first.beam, &mut exitance);
+            let luminances = settled_light(&radiosity, &geometry, &mirrors, &all, &first.beam, &mut exitance);
             for ((index, mirror), luminance) in mirrors.iter().zip(luminances) {
                 let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
                 for (sum, reception) in thrown_back.iter_mut().zip(receptions.iter()) {
@@ -175,13 +174,7 @@ impl Session {
             .zip(gather.par_iter())
             .zip(thrown_back.par_iter())
             .map(|((sensor, [fine, coarse]), thrown_back)| {
-                let outlines: f64 = first
-                    .outlines
-                    .iter()
-                    .map(|(wall, outline, exitance)| {
-                        exitance * polygon_factor(&mesh.walls[*wall], outline, sensor.position, sensor.normal)
-                    })
-                    .sum();
+                let outlines = first.reflected_beam(mesh, sensor.position, sensor.normal);
                 let (mut value, mut difference, mut squares) = (0.0, 0.0, 0.0_f64);
                 for (a, b) in spans(mesh).into_iter().zip(spans(&radiosity.nested.coarse)) {
                     let by_fine = dot(&fine.weights[a.clone()], &exitance.fine[a]);
@@ -215,42 +208,6 @@ pub(super) fn mirrors<'a>(
         Some((index, BackReflection::new(matrix, weights(index, &Arc::new(matrix.incident().clone())))))
     };
     scene.apertures.iter().enumerate().filter_map(reflecting).collect()
-}
-
-/// Luminance of every mirroring aperture, once what goes to and fro between them and the room has settled; `exitance` is
-/// brought up to date.
-fn between_room_and_apertures(
-    radiosity: &Radiosity,
-    geometry: &[Aperture],
-    mirrors: &[(usize, BackReflection<'_>)],
-    first: &[f64],
-    beam: &[f64],
-    exitance: &mut Exitance,
-) -> Vec<Vec<f64>> {
-    let mesh = &radiosity.nested.fine;
-    let brightest = first.iter().copied().fold(0.0, f64::max);
-    let mut returned = vec![0.0; first.len()];
-    let mut luminances = Vec::new();
-    // Each turn leaves the share of the light that comes back to an aperture, about a tenth.
-    for _ in 0..60 {
-        let emitted: Vec<f64> =
-            mesh.patches.iter().zip(&exitance.fine).zip(beam).map(|((p, b), e)| b + p.reflectance * e).collect();
-        luminances =
-            mirrors.iter().map(|(index, mirror)| mirror.luminance(mesh, &geometry[*index], &emitted)).collect();
-        let mut next = vec![0.0; first.len()];
-        for ((_, mirror), luminance) in mirrors.iter().zip(&luminances) {
-            let (part, _) = mirror.weights().illuminance(luminance);
-            next.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
-        }
-        let change = next.iter().zip(&returned).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        returned = next;
-        let all: Vec<f64> = first.iter().zip(&returned).map(|(a, b)| a + b).collect();
-        *exitance = radiosity.exitance(&all, beam);
-        if change <= 1e-9 * brightest {
-            break;
-        }
-    }
-    luminances
 }
 
 /// What a meshed room depends on.

@@ -6,13 +6,12 @@ use super::{Session, check};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
 use crate::compute::room::aperture::Aperture;
+use crate::compute::room::back_reflection::{gathered, settled_weights};
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -78,42 +77,24 @@ impl Session {
         Ok(responses)
     }
 
-    /// What goes to and fro between the room and apertures that reflect by direction. With l the luminances of their
-    /// cells, W what the patches receive of them and Q what they return of a first illuminance e, l = Q (e + W l): solved
-    /// once, and every sensor's weights a become a + (a W + r) (1 − Q W)⁻¹ Q, r what it sees of l itself.
+    /// What goes to and fro between the room and apertures that reflect by direction: with the symbols of
+    /// [`settled_weights`], every sensor's weights a become a + (a W + r) (1 − Q W)⁻¹ Q, r what it sees of l itself.
     fn add_mirrors(&self, scene: &Scene, responses: &mut Responses, progress: &dyn Progress) -> Result<(), StudyError> {
         let mirrors = mirrors(scene, |index, basis| responses.weights(self, index, basis));
         if mirrors.is_empty() {
             return Ok(());
         }
         check(progress)?;
-        let radiosity = &responses.radiosity;
-        let mesh = &radiosity.nested.fine;
-        let returned: Vec<Vec<f64>> = mirrors
-            .iter()
-            .flat_map(|(index, mirror)| mirror.by_patch(mesh, &responses.geometry[*index]))
-            .collect::<Vec<_>>()
-            .par_iter()
-            .map(|weights| radiosity.adjoint_fine(weights))
-            .collect();
-        let on_mirrors = |weights: &[f64]| -> Vec<f64> {
-            mirrors.iter().flat_map(|(_, mirror)| mirror.weights().gathered(weights)).collect()
-        };
-        check(progress)?;
-        let again: Vec<Vec<f64>> = returned.par_iter().map(|row| on_mirrors(row)).collect();
-        let count = returned.len();
-        let balance = Mat::from_fn(count, count, |i, j| f64::from(u8::from(i == j)) - again[i][j]);
-        let settled = balance.partial_piv_lu().solve(&Mat::from_fn(count, mesh.patches.len(), |i, j| returned[i][j]));
-        let settled: Vec<Vec<f64>> =
-            (0..count).map(|i| (0..mesh.patches.len()).map(|j| settled[(i, j)]).collect()).collect();
+        let patches = responses.radiosity.nested.fine.patches.len();
+        let settled = settled_weights(&responses.radiosity, &responses.geometry, &mirrors);
         let through = |weights: &[f64]| -> Vec<f64> {
-            let mut sums = vec![0.0; mesh.patches.len()];
+            let mut sums = vec![0.0; patches];
             for (w, row) in weights.iter().zip(&settled).filter(|(w, _)| **w != 0.0) {
                 sums.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
             }
             sums
         };
-        let mut seen = vec![Vec::with_capacity(count); scene.sensors.len()];
+        let mut seen = vec![Vec::with_capacity(settled.len()); scene.sensors.len()];
         for (index, mirror) in &mirrors {
             let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
             seen.iter_mut().zip(receptions.iter()).for_each(|(list, reception)| list.extend(&reception.cells));
@@ -121,13 +102,13 @@ impl Session {
         check(progress)?;
         responses.sensors.par_iter_mut().zip(seen).for_each(|(sensor, seen)| {
             let add = |to: &mut Vec<f64>, part: &[f64]| to.iter_mut().zip(part).for_each(|(sum, x)| *sum += x);
-            let back = through(&on_mirrors(&sensor.value));
+            let back = through(&gathered(&mirrors, &sensor.value));
             add(&mut sensor.value, &back);
             sensor.thrown_back = through(&seen);
             let thrown_back = sensor.thrown_back.clone();
             add(&mut sensor.value, &thrown_back);
             for wall in &mut sensor.walls {
-                let back = through(&on_mirrors(&wall.value));
+                let back = through(&gathered(&mirrors, &wall.value));
                 add(&mut wall.value, &back);
             }
         });

@@ -9,9 +9,10 @@
 
 use super::kernel::kernel;
 use crate::compute::estimate::Estimate;
+use crate::compute::polygon::clip;
 use crate::compute::room::aperture::{Aperture, View};
 use crate::compute::room::direct::Sensor;
-use crate::compute::room::polygon::clip;
+use crate::compute::sequence::{Random, mixed};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -19,28 +20,10 @@ use std::f64::consts::PI;
 /// far is the same.
 const SMALL: f64 = 1e-7;
 
-/// Numbers that follow from a seed alone: SplitMix64 (Steele, Lea and Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// 0 ≤ number < 1.
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
 /// A seed of its own for each sensor and aperture, the same on every run and for any number of threads.
 pub fn seed(sensor: &Sensor, aperture: &Aperture) -> u64 {
     let [p, n, c] = [sensor.position, sensor.normal, aperture.corner].map(|v: DVec3| v.to_array());
-    let numbers = p.into_iter().chain(n).chain(c).chain(aperture.size);
-    numbers.fold(0x5EED, |seed, number| SplitMix(seed ^ number.to_bits()).next())
+    mixed(0x5EED, p.into_iter().chain(n).chain(c).chain(aperture.size).map(f64::to_bits))
 }
 
 /// Mean over `samples` points and its standard error. `luminance` is asked with vectors towards the aperture, façade
@@ -57,7 +40,7 @@ pub fn illuminance(view: &View, samples: usize, seed: u64, luminance: impl Fn(DV
     };
     let (x, y) = (range(0), range(1));
     let sampler = SphericalRectangle::new(x, y, view.distance);
-    let mut random = SplitMix(seed);
+    let mut random = Random(seed);
     let (mut mean, mut squares) = (0.0, 0.0);
     for count in 1..=samples {
         let (u, v) = (random.unit(), random.unit());

@@ -7,8 +7,8 @@
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Estimate;
+use crate::compute::polygon::{clip, vector_solid_angle};
 use crate::compute::room::aperture::View;
-use crate::compute::room::polygon::{clip, vector_solid_angle};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};

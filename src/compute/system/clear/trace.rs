@@ -4,6 +4,7 @@ use super::beam::{Axes, Beam, Front};
 use super::hit::{Hit, extent, nearest};
 use super::polarised::{Light, at_pane, divide};
 use super::section::{Region, Section};
+use crate::compute::sequence::Random;
 use crate::compute::system::measure::beams::Effort;
 use glam::{DVec2, DVec3};
 
@@ -52,18 +53,9 @@ const FAINT: f64 = 1e-14;
 /// A part of less than this share of the least is followed only now and then, with more flux.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// The SplitMix64 sequence.
-struct Random(u64);
-
-impl Random {
-    /// In 0 … 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (z ^ (z >> 31)) as f64 / 2_f64.powi(64)
-    }
+/// In 0 … 1, from all 64 bits: stored results hang on these very numbers.
+const fn drawn(random: &mut Random) -> f64 {
+    random.bits() as f64 / (1_u128 << 64) as f64
 }
 
 impl Section {
@@ -109,7 +101,7 @@ struct Handful {
 impl Handful {
     fn add(&mut self, hit: Option<Hit>, range: [f64; 2], flux: f64, random: &mut Random) {
         self.flux += flux;
-        if random.next() * self.flux < flux {
+        if drawn(random) * self.flux < flux {
             (self.hit, self.range) = (hit, range);
         }
     }
@@ -131,7 +123,7 @@ impl Work<'_> {
         let (mut chosen, mut flux) = (last, last.light.stokes.i);
         while let Some(beam) = self.stack.pop() {
             flux += beam.light.stokes.i;
-            if self.random.next() * flux < beam.light.stokes.i {
+            if drawn(&mut self.random) * flux < beam.light.stokes.i {
                 chosen = beam;
             }
         }
@@ -155,7 +147,7 @@ impl Work<'_> {
         let width = beam.front.width();
         if beam.light.stokes.i < self.share || width < 1e-9 {
             // A single ray, anywhere in the beam.
-            let c = if width > 0.0 { c0 + width * self.random.next() } else { c0 };
+            let c = if width > 0.0 { c0 + width * drawn(&mut self.random) } else { c0 };
             let place = [c, beam.front.at(c)];
             beam.front.ends = [place, place];
             self.out.surfaces += 1;
@@ -192,7 +184,7 @@ impl Work<'_> {
     /// A single ray for all parts of a handful.
     fn one_of(&mut self, beam: &Beam, axes: &Axes, region: &Region, small: &mut Handful) {
         let Handful { hit, range, flux } = std::mem::take(small);
-        let c = range[0] + (range[1] - range[0]) * self.random.next();
+        let c = range[0] + (range[1] - range[0]) * drawn(&mut self.random);
         self.surface(beam, axes, region, hit.as_ref(), [c, c], flux);
     }
 
@@ -260,12 +252,12 @@ impl Work<'_> {
         let total = a + b;
         let least = NEGLIGIBLE * self.share;
         if total < self.share {
-            if self.random.next() * total < a { [total, 0.0] } else { [0.0, total] }
+            if drawn(&mut self.random) * total < a { [total, 0.0] } else { [0.0, total] }
         } else if a < least {
             // A trifle: followed seldom, with more flux then.
-            if self.random.next() * least < a { [least, total - least] } else { [0.0, total] }
+            if drawn(&mut self.random) * least < a { [least, total - least] } else { [0.0, total] }
         } else if b < least {
-            if self.random.next() * least < b { [total - least, least] } else { [total, 0.0] }
+            if drawn(&mut self.random) * least < b { [total - least, least] } else { [total, 0.0] }
         } else {
             [a, b]
         }
@@ -303,7 +295,7 @@ impl Work<'_> {
         } else if before < self.share {
             // Weak light does one of both, or weaker and weaker parts would go on between two panes.
             let total = through.light.stokes.i + back.light.stokes.i;
-            if self.random.next() * total < through.light.stokes.i {
+            if drawn(&mut self.random) * total < through.light.stokes.i {
                 self.leave(&whole(through, total));
             } else if total > 0.0 {
                 self.stack.push(whole(self.behind(back), total));

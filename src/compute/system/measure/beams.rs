@@ -7,11 +7,11 @@
 //! Their number is doubled, what was found before being kept, until the totals stand.
 
 use super::cells::CellFinder;
-use super::net;
 use super::{Measured, Seen, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::sequence::{mixed, net};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -279,7 +279,7 @@ impl<'a, B: Beams> Bench<'a, B> {
 
     /// Seed of a direction of a cell, whatever thread works on it; number 0 is for the directions themselves.
     fn seed(&self, side: Side, index: usize, number: u64) -> u64 {
-        net::mixed(self.setting.seed, &[u64::from(side == Side::Back), index as u64, number])
+        mixed(self.setting.seed, [u64::from(side == Side::Back), index as u64, number])
     }
 
     /// The share of the incident flux down to which the light of a cell is divided.
@@ -289,9 +289,8 @@ impl<'a, B: Beams> Bench<'a, B> {
         let mut shares = Shares::default();
         let mut surfaces = 0.0;
         for number in 0..PILOTS {
-            let [row, column] = net::point(number, base);
-            let effort =
-                Effort { share: f64::INFINITY, seed: net::mixed(base, &[u64::from(number)]), surfaces: u32::MAX };
+            let [row, column] = net(number, base);
+            let effort = Effort { share: f64::INFINITY, seed: mixed(base, [u64::from(number)]), surfaces: u32::MAX };
             self.system.beams(point(&cell, row, column), side, effort, &mut shares);
             surfaces += f64::from(shares.surfaces) / f64::from(PILOTS);
         }
@@ -313,7 +312,7 @@ impl<'a, B: Beams> Bench<'a, B> {
         let places_of = Places::new(&cell, parts.map(|n| n * points));
         let base = self.seed(side, index, 0);
         for number in numbers {
-            let at = net::point(number, base);
+            let at = net(number, base);
             let corner = [0, 1].map(|k| (at[k] * parts[k] as f64) as usize);
             let name = point(&cell, at[0], at[1]);
             let (x, y) = (name.vector().x, name.vector().y);

@@ -13,7 +13,6 @@
 
 pub mod beams;
 mod cells;
-mod net;
 mod reciprocal;
 pub mod upright;
 

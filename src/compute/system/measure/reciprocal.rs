@@ -2,21 +2,15 @@
 //!
 //! Light from outside by direction i to inside by o, and the same way back, carry the same q (Helmholtz); found apart,
 //! both are estimates of it, whose mean is better than either. The sums of the means over all that light of a cell can
-//! do are no longer exactly what was found; a symmetric scaling d A d, the d of every cell such that all sums are right
-//! again, repairs that (the scaling: P. Knight, D. Ruiz, B. Uçar, "A symmetry preserving algorithm for matrix scaling",
-//! SIAM J. Matrix Anal. Appl. 35, 2014; here by Newton's method, as in P. Knight, D. Ruiz, "A fast algorithm for matrix
-//! balancing", IMA J. Numer. Anal. 33, 2013).
+//! do are no longer exactly what was found; a scaling of every cell, such that all sums are right again, repairs that.
 
 use super::beams::mirror_images;
 use super::{Measured, Side};
+use crate::compute::scaling::by_newton;
 use std::f64::consts::PI;
 
-/// Newton steps for the scales, and steps of conjugate gradients in each.
-const STEPS: [usize; 2] = [8, 200];
 /// What may be left of τ + ρ.
 const LEFT: f64 = 1e-10;
-/// No step scales a cell beyond this, either way.
-const MOST: f64 = 2.0;
 
 impl Measured {
     /// Reciprocal, with τ + ρ of every incident cell as found. Unchanged where the emergent cells are not the incident
@@ -59,7 +53,7 @@ impl Measured {
         };
         let wanted: Vec<f64> = wanted.iter().flat_map(|side| side.iter().zip(&weight).map(|(x, w)| x * w)).collect();
         let smallest = weight.iter().copied().fold(f64::INFINITY, f64::min);
-        let scales = scales(flux, &wanted, LEFT * smallest);
+        let scales = by_newton(flux, &wanted, LEFT * smallest);
         let (front, inside) = scales.split_at(n);
         for i in 0..n {
             for o in 0..n {
@@ -71,57 +65,6 @@ impl Measured {
         }
         self
     }
-}
-
-/// The d for which d (A d) are the sums wanted, by Newton's method for ln d: (D + dAd) x = wanted − d (A d) with the
-/// sums on the diagonal D is symmetric and not negative.
-fn scales(flux: impl Fn(&[f64]) -> Vec<f64>, wanted: &[f64], left: f64) -> Vec<f64> {
-    let times = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
-    let mut d = vec![1.0; wanted.len()];
-    for _ in 0..STEPS[0] {
-        let sums = times(&d, &flux(&d));
-        let lacks: Vec<f64> = wanted.iter().zip(&sums).map(|(wanted, sum)| wanted - sum).collect();
-        if lacks.iter().all(|x| x.abs() <= left) {
-            break;
-        }
-        let matrix = |x: &[f64]| -> Vec<f64> {
-            let off = times(&d, &flux(&times(&d, x)));
-            off.iter().zip(times(&sums, x)).map(|(a, b)| a + b).collect()
-        };
-        let step = conjugate_gradients(matrix, &sums, &lacks, 0.1 * left);
-        d.iter_mut().zip(&step).for_each(|(d, x)| *d *= x.exp().clamp(1.0 / MOST, MOST));
-    }
-    d
-}
-
-/// Solves a symmetric system, its diagonal being about `diagonal`, until no value is off by more than `left`.
-fn conjugate_gradients(matrix: impl Fn(&[f64]) -> Vec<f64>, diagonal: &[f64], right: &[f64], left: f64) -> Vec<f64> {
-    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-    let eased =
-        |r: &[f64]| -> Vec<f64> { r.iter().zip(diagonal).map(|(r, d)| if *d > 0.0 { r / d } else { 0.0 }).collect() };
-    let mut x = vec![0.0; right.len()];
-    let mut rest = right.to_vec();
-    let mut z = eased(&rest);
-    let (mut way, mut size) = (z.clone(), dot(&rest, &z));
-    for _ in 0..STEPS[1] {
-        if rest.iter().all(|r| r.abs() <= left) {
-            break;
-        }
-        let image = matrix(&way);
-        let bend = dot(&way, &image);
-        // What is left cannot be reached: light that does nothing but pass, of which one side has more.
-        if bend <= f64::MIN_POSITIVE {
-            break;
-        }
-        let step = size / bend;
-        x.iter_mut().zip(&way).for_each(|(x, w)| *x += step * w);
-        rest.iter_mut().zip(&image).for_each(|(r, y)| *r -= step * y);
-        z = eased(&rest);
-        let next = dot(&rest, &z);
-        way.iter_mut().zip(&z).for_each(|(w, z)| *w = z + next / size * *w);
-        size = next;
-    }
-    x
 }
 
 #[cfg(test)]

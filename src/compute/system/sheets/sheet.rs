@@ -9,6 +9,8 @@
 use crate::compute::basis::{Cell, RingBasis, sub_directions};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::quadrature::midpoints;
+use crate::compute::scaling::by_rounds;
 use crate::compute::system::measure::{Measured, Quality, Setting, Side, Specimen};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -93,14 +95,10 @@ impl Specimen for Sheet {
 /// Angles across a ring over which functions of θ are averaged.
 const RING: usize = 128;
 
-/// Means over the cells of a function of θ: midpoints in sin²θ.
+/// Means over the cells of a function of θ.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
-    let mean = |cell: Cell| {
-        let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
-        let theta = |k: usize| (low + (high - low) * (k as f64 + 0.5) / RING as f64).sqrt().asin();
-        (0..RING).map(|k| share.at(theta(k))).sum::<f64>() / RING as f64
-    };
-    basis.cells().map(mean).collect()
+    let rule = midpoints(RING);
+    basis.cells().map(|cell| share.ring_mean(cell.theta_min, cell.theta_max, &rule)).collect()
 }
 
 impl Spread {
@@ -143,26 +141,23 @@ impl Spread {
                     Ok(cells.iter().map(|to| lobe.mean(&from, to)).collect())
                 })
                 .collect::<Result<_, Cancelled>>()?;
-            let flux = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
             // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
             let same = incident == emergent;
-            let mut scale = vec![1.0; incident.len()];
-            let mut left = vec![0.0; incident.len()];
-            for _ in 0..if same { 40 } else { 1 } {
-                for (i, row) in rows.iter().enumerate() {
-                    let found = if same {
-                        scale[i] * row.iter().zip(&weight).zip(&scale).map(|((q, w), s)| q * w * s).sum::<f64>()
-                    } else {
-                        flux(row)
-                    };
-                    left[i] = if same { (found - totals[i]).abs() } else { 0.0 };
-                    let ratio = if found > 0.0 { totals[i] / found } else { 0.0 };
-                    scale[i] *= if same { ratio.sqrt() } else { ratio };
-                }
-            }
-            for (error, left) in error.iter_mut().zip(&left) {
-                *error += left;
-            }
+            let scale = if same {
+                let sums = |scale: &[f64]| -> Vec<f64> {
+                    let factors: Vec<f64> = scale.iter().zip(&weight).map(|(s, w)| s * w).collect();
+                    rows.iter().map(|row| row.iter().zip(&factors).map(|(q, f)| q * f).sum()).collect()
+                };
+                let wanted: Vec<_> = totals.iter().map(|total| Some(*total)).collect();
+                let scale = by_rounds(sums, &wanted, 40, 0.0, f64::INFINITY);
+                let found = sums(&scale).into_iter().zip(&scale).map(|(sum, d)| d * sum);
+                error.iter_mut().zip(found).zip(&totals).for_each(|((error, f), total)| *error += (f - total).abs());
+                scale
+            } else {
+                let flux = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+                let ratio = |(row, total): (&Vec<f64>, &f64)| if flux(row) > 0.0 { total / flux(row) } else { 0.0 };
+                rows.iter().zip(&totals).map(ratio).collect()
+            };
             for (i, row) in rows.iter().enumerate() {
                 for (o, lobe) in row.iter().enumerate() {
                     let factor = if same { scale[i] * scale[o] } else { scale[i] };
@@ -198,24 +193,11 @@ impl Lobe {
                 around * b / n as f64
             })
             .collect();
-        let tau: Vec<f64> = (0..n).map(|i| share.at(sine(i).asin())).collect();
-        let mut factor: Vec<f64> = vec![1.0; n];
-        for _ in 0..400 {
-            let flux: Vec<f64> = kernel
-                .chunks_exact(n)
-                .zip(&factor)
-                .map(|(row, d)| d * row.iter().zip(&factor).map(|(k, e)| k * e).sum::<f64>())
-                .collect();
-            let mut worst: f64 = 0.0;
-            for ((d, flux), tau) in factor.iter_mut().zip(&flux).zip(&tau) {
-                worst = worst.max((flux - tau).abs());
-                *d *= if *flux > 0.0 { (tau / flux).sqrt() } else { 0.0 };
-            }
-            if worst < 1e-9 {
-                break;
-            }
-        }
-        Self { spread, factor }
+        let sums = |factor: &[f64]| -> Vec<f64> {
+            kernel.chunks_exact(n).map(|row| row.iter().zip(factor).map(|(k, d)| k * d).sum()).collect()
+        };
+        let wanted: Vec<_> = (0..n).map(|i| Some(share.at(sine(i).asin()))).collect();
+        Self { spread, factor: by_rounds(sums, &wanted, 400, 1e-9, f64::INFINITY) }
     }
 
     fn factor(&self, sine: f64) -> f64 {

@@ -10,6 +10,9 @@ use super::perforated::{Hole, Perforated};
 use crate::compute::basis::{Cell, RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::polygon::{area, cut_by_all};
+use crate::compute::scaling::by_rounds;
+use crate::compute::sequence::recurrence;
 use crate::compute::system::measure::{Measured, Setting, Side, Specimen};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -25,6 +28,8 @@ const AROUND: usize = 24;
 const DEPTH: [usize; 2] = [3, 12];
 /// Rays a patch for the exchange between patches.
 const RAYS: usize = 2048;
+/// Rounds of scaling that make the exchange reciprocal.
+const ROUNDS: usize = 50;
 
 impl Specimen for Perforated {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
@@ -218,15 +223,15 @@ impl Walls {
             return 0.0;
         }
         let carried = |p: DVec3| (p - travel * ((p.z - level) / travel.z)).truncate();
-        let mut lit = 0.0;
+        let (mut lit, mut spare) = (0.0, Default::default());
         for (patch, wall) in self.patches.iter().zip(walls) {
             // Of a wall that light meets from behind, the shadow lies beside the entry: the hole is convex.
-            let shared = clipped(&patch.map(carried), entry);
-            *wall += share * shared;
-            lit += shared;
+            let part = shared(&patch.map(carried), entry, &mut spare);
+            *wall += share * part;
+            lit += part;
         }
         let image: Vec<DVec2> = exit.iter().map(|&p| carried(p.extend(far))).collect();
-        let straight = clipped(&image, entry);
+        let straight = shared(&image, entry, &mut spare);
         debug_assert!((straight + lit - self.open).abs() < 1e-6 * self.open + 1e-9, "{straight} {lit} {}", self.open);
         straight
     }
@@ -238,15 +243,10 @@ impl Walls {
         let rows: Vec<Vec<f64>> = (0..n).into_par_iter().map(|k| self.exchange(k)).collect();
         // Area × factor both ways alike, and what does not escape lands: rays count either only to their noise.
         let mutual = |i: usize, j: usize| 0.5 * (rows[i][j] * self.areas[i] + rows[j][i] * self.areas[j]);
-        let mut scale = vec![1.0; n];
-        for _ in 0..50 {
-            let sums: Vec<f64> =
-                (0..n).map(|i| scale[i] * (0..n).map(|j| mutual(i, j) * scale[j]).sum::<f64>()).collect();
-            for i in 0..n {
-                let wanted = self.areas[i] * (1.0 - escaping[i]).max(0.0);
-                scale[i] *= if sums[i] > 0.0 { (wanted / sums[i]).sqrt() } else { 0.0 };
-            }
-        }
+        let sums = |scale: &[f64]| (0..n).map(|i| (0..n).map(|j| mutual(i, j) * scale[j]).sum()).collect();
+        let wanted: Vec<_> =
+            self.areas.iter().zip(escaping).map(|(area, gone)| Some(area * (1.0 - gone).max(0.0))).collect();
+        let scale = by_rounds(sums, &wanted, ROUNDS, 0.0, f64::INFINITY);
         let factor = |i: usize, j: usize| scale[i] * mutual(i, j) * scale[j] / self.areas[i];
         let wall = self.reflectance[2];
         let system = Mat::from_fn(n, n, |j, i| f64::from(u8::from(i == j)) - wall * factor(i, j));
@@ -273,7 +273,7 @@ impl Walls {
         let mut row = vec![0.0; self.patches.len()];
         for k in 0..RAYS {
             // A rank-1 lattice in four dimensions (powers of the plastic-like constant): even without being regular.
-            let at = |alpha: f64| (0.5 + alpha * (k as f64 + 1.0)).fract();
+            let at = |alpha: f64| recurrence(0.5, k as f64 + 1.0, alpha);
             let (a, b) = (at(0.856_674_883_854_502_8), at(0.733_891_856_627_126));
             let (c, d) = (at(0.628_706_721_018_231_5), at(0.538_597_264_883_558_2));
             let origin = corners[0] + u * a + w * b;
@@ -330,45 +330,13 @@ fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
     }
 }
 
-/// Area of a polygon, > 0 when it turns counter-clockwise.
-fn area(polygon: &[DVec2]) -> f64 {
-    (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
-}
-
-/// Most corners that a patch clipped by the entry may have.
-const CORNERS: usize = CIRCLE + 8;
-
-/// Area of the part of a convex polygon that lies within another one (counter-clockwise), by Sutherland and Hodgman.
-fn clipped(subject: &[DVec2], clip: &[DVec2]) -> f64 {
-    let (mut polygon, mut kept) = ([DVec2::ZERO; 2 * CORNERS], [DVec2::ZERO; 2 * CORNERS]);
-    polygon[..subject.len()].copy_from_slice(subject);
-    let mut n = subject.len();
-    for k in 0..clip.len() {
-        let (a, b) = (clip[k], clip[(k + 1) % clip.len()]);
-        let side = |p: DVec2| (b - a).perp_dot(p - a);
-        if polygon[..n].iter().all(|&p| side(p) >= 0.0) {
-            continue;
-        }
-        let mut count = 0;
-        for j in 0..n {
-            let (p, q) = (polygon[j], polygon[(j + 1) % n]);
-            let (sp, sq) = (side(p), side(q));
-            if sp >= 0.0 {
-                kept[count] = p;
-                count += 1;
-            }
-            if (sp >= 0.0) != (sq >= 0.0) {
-                kept[count] = p.lerp(q, sp / (sp - sq));
-                count += 1;
-            }
-        }
-        if count < 3 {
-            return 0.0;
-        }
-        std::mem::swap(&mut polygon, &mut kept);
-        n = count;
-    }
-    area(&polygon[..n]).abs()
+/// Area of the part of a convex polygon that lies within another one (counter-clockwise). `spare` is room to work in.
+fn shared(subject: &[DVec2], within: &[DVec2], [polygon, spare]: &mut [Vec<DVec2>; 2]) -> f64 {
+    polygon.clear();
+    polygon.extend(subject);
+    let edges = within.iter().zip(within.iter().cycle().skip(1));
+    cut_by_all(polygon, edges.map(|(&a, &b)| move |p: DVec2| (b - a).perp_dot(p - a)), spare);
+    area(polygon).abs()
 }
 
 #[cfg(test)]

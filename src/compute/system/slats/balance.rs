@@ -5,8 +5,8 @@
 //! A division into strips half as fine has a fourth of the strips' error (faces of constant exitance); both are
 //! solved, (4 M_fine − M_coarse)/3 is used, and a third of their difference is the stated error.
 
+use super::flows::Transport;
 use super::outline::Section;
-use super::transport::Transport;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 

@@ -3,6 +3,7 @@
 use super::arc::Point;
 use super::outline::{Facet, Section};
 use super::sweep::Met;
+use crate::compute::sequence::{mix, recurrence, unit};
 use std::f64::consts::PI;
 
 /// Rays weaker than this share of their start are given up.
@@ -66,24 +67,12 @@ impl Sequence {
         [first, first + 1].map(|k| {
             let shift = mix(self.start ^ (k as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9));
             match PRIMES.get(k) {
-                Some(prime) => (unit(shift) + self.ray as f64 * f64::from(*prime).sqrt()).fract(),
+                Some(prime) => recurrence(unit(shift), self.ray as f64, f64::from(*prime).sqrt()),
                 // After that many reflections any number will do.
                 None => unit(mix(shift ^ self.ray)),
             }
         })
     }
-}
-
-/// SplitMix64: for starts that are unlike their neighbours'.
-const fn mix(seed: u64) -> u64 {
-    let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
-}
-
-fn unit(bits: u64) -> f64 {
-    (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// A ray comes to a face.

@@ -2,7 +2,7 @@
 
 use super::array::SlatArray;
 use super::outline;
-use super::profile::SlatProfile;
+use super::profile::{SlatProfile, arc};
 use super::profile_weights::Piece;
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::quadrature::gauss_legendre;
@@ -48,14 +48,9 @@ impl Direct {
         Self { profile, tilt, pitch: array.spacing(), knots: vec![] }
     }
 
-    /// 1 − extent/(s cosψ), below 0 where nothing passes.
-    fn clearance(&self, psi: f64) -> f64 {
-        1.0 - self.profile.extent(self.tilt + psi) / (self.pitch * psi.cos())
-    }
-
-    /// Share that passes, max(0, 1 − extent/(s cosψ)).
+    /// Share that passes.
     pub(super) fn share(&self, psi: f64) -> f64 {
-        if psi.abs() >= FRAC_PI_2 { 0.0 } else { self.clearance(psi).max(0.0) }
+        self.profile.open_share(self.tilt, self.pitch, psi)
     }
 
     /// Where the extent changes its law, and where the share reaches 0.
@@ -63,7 +58,7 @@ impl Direct {
         let mut slopes: Vec<f64> = match &self.profile {
             SlatProfile::Flat { .. } => vec![0.0],
             SlatProfile::Arc { width, rise } => {
-                let half = 2.0 * (2.0 * rise.abs()).atan2(*width);
+                let half = arc(*width, *rise).1;
                 // The tangent leaves the arc at its ends; with ends and crown at one height the law changes, too.
                 vec![half, -half, 0.0]
             }
@@ -78,18 +73,19 @@ impl Direct {
         slopes.sort_by(f64::total_cmp);
         slopes.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
         let mut knots = slopes.clone();
+        let closed = |psi: f64| self.profile.clearance(self.tilt, self.pitch, psi) < 0.0;
         const SCAN: usize = 64;
         for pair in slopes.windows(2) {
             let step = (pair[1] - pair[0]) / SCAN as f64;
             for k in 0..SCAN {
                 let (mut low, mut high) = (pair[0] + k as f64 * step, pair[0] + (k + 1) as f64 * step);
-                let below = self.clearance(low) < 0.0;
-                if below == (self.clearance(high) < 0.0) {
+                let below = closed(low);
+                if below == closed(high) {
                     continue;
                 }
                 for _ in 0..60 {
                     let middle = 0.5 * (low + high);
-                    if (self.clearance(middle) < 0.0) == below { low = middle } else { high = middle }
+                    if closed(middle) == below { low = middle } else { high = middle }
                 }
                 knots.push(0.5 * (low + high));
             }

@@ -28,6 +28,7 @@ mod chain;
 mod deposit;
 mod direct;
 pub mod flat;
+mod flows;
 mod measure;
 mod outline;
 mod profile;
@@ -40,6 +41,6 @@ mod transport;
 mod venetian;
 
 pub use array::{SlatArray, SlatError, Surface};
-pub use profile::SlatProfile;
+pub use profile::{SlatProfile, arc};
 pub use profile_shares::ProfileShares;
 pub use venetian::Venetian;

@@ -58,6 +58,17 @@ impl SlatProfile {
         if high > low { high - low } else { 0.0 }
     }
 
+    /// Share of light of profile angle ψ that passes between slats of this tilt and pitch without touching them; below 0,
+    /// by how much slats overlap. Between −90° and 90°. \[rad, m\]
+    pub fn clearance(&self, tilt: f64, pitch: f64, psi: f64) -> f64 {
+        1.0 - self.extent(tilt + psi) / (pitch * psi.cos())
+    }
+
+    /// [`clearance`](Self::clearance) as a share: 0 where nothing passes.
+    pub fn open_share(&self, tilt: f64, pitch: f64, psi: f64) -> f64 {
+        if psi.abs() < FRAC_PI_2 { self.clearance(tilt, pitch, psi).max(0.0) } else { 0.0 }
+    }
+
     /// The profile as `parts` straight pieces of equal length for an arc; as it is for straight profiles.
     pub fn polyline(&self, parts: usize) -> Vec<[f64; 2]> {
         match self {
@@ -77,7 +88,7 @@ impl SlatProfile {
 }
 
 /// Radius and half opening angle of an arc.
-fn arc(width: f64, rise: f64) -> (f64, f64) {
+pub fn arc(width: f64, rise: f64) -> (f64, f64) {
     let rise = rise.abs();
     ((0.25 * width * width + rise * rise) / (2.0 * rise), 2.0 * (2.0 * rise).atan2(width))
 }

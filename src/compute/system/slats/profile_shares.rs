@@ -3,9 +3,10 @@
 use super::array::SlatArray;
 use super::balance::Balance;
 use super::direct::Direct;
+use super::flows::{Transport, index};
 use super::outline::Section;
 use super::profile_weights::ProfileGrid;
-use super::transport::{Transport, beam, index};
+use super::transport::beam;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::Side;
 
@@ -52,7 +53,7 @@ impl SlatArray {
             // Faces leave to the inside first, then to the outside.
             let [inside, outside] = [sum(&balance.leaves[0]), sum(&balance.leaves[1])];
             let (on, back) = if side == Side::Front { (inside, outside) } else { (outside, inside) };
-            let mirrored = |lobes: &[super::transport::Lobe]| lobes.iter().map(|l| l.width).sum::<f64>() / cosine;
+            let mirrored = |lobes: &[super::flows::Lobe]| lobes.iter().map(|l| l.width).sum::<f64>() / cosine;
             let share = direct.share(psi);
             ProfileShares {
                 direct: share,

@@ -1,64 +1,19 @@
 //! What rough mirrors do, from rays that are drawn, made reciprocal and energy-keeping.
 //!
 //! Rays from either end of a path estimate the same flux: their mean is symmetric. Its sums over all that light can do
-//! then are no longer exactly what was sent out, by the scatter of the drawing; a symmetric scaling d A d, the d of
-//! every direction and face such that all sums are right again, repairs that (R. Sinkhorn, "A relationship between
-//! arbitrary positive matrices and doubly stochastic matrices", Ann. Math. Statist. 35 (1964); the symmetric form by
-//! P. Knight, D. Ruiz, B. Uçar, "A symmetry preserving algorithm for matrix scaling", SIAM J. Matrix Anal. Appl. 35
-//! (2014)). What the sums lacked before is stated as error.
+//! then are no longer exactly what was sent out, by the scatter of the drawing; a scaling of every direction and face,
+//! such that all sums are right again, repairs that. What the sums lacked before is stated as error.
 
 use super::along::Along;
+use super::flows::{Level, Rough, Second, Thrown, Transport};
 use super::outline::Section;
 use super::profile_weights::ProfileGrid;
-use super::transport::{Exchange, Thrown, Transport, index};
-use crate::compute::system::measure::Side;
-
-/// What comes to faces by way of mirrors, as rays have found it.
-#[derive(Debug, Clone)]
-pub(super) struct Second {
-    /// From face to face, symmetric.
-    pub(super) exchange: Exchange,
-    /// From parallel light, `[node][face]`, from outside and from inside.
-    pub(super) landed: [Vec<Vec<f64>>; 2],
-}
-
-/// Light of one variance that rough mirrors throw out, between nodes: ∫∫ over both nodes' hats of the width, divided by
-/// both hats.
-#[derive(Debug, Clone)]
-pub(super) struct Level {
-    /// From outside by the first index to inside by the second; from inside it is the transpose.
-    pub(super) through: Vec<f64>,
-    /// Thrown back outside and inside; the second index is the node from which light takes the way back.
-    pub(super) back: [Vec<f64>; 2],
-}
-
-/// All light that rough mirrors throw out.
-#[derive(Debug, Clone)]
-pub(super) struct Rough {
-    /// What becomes of x.
-    pub(super) along: Along,
-    /// As many as `along` has.
-    pub(super) levels: Vec<Level>,
-    /// What the sums over all that light can do lacked, a node, from outside and from inside. In pitches.
-    pub(super) doubt: [Vec<f64>; 2],
-}
-
-impl Rough {
-    /// Flows of a level, by the nodes that name the light: incident, emergent.
-    pub(super) fn flows(&self, level: usize, side: Side, through: bool) -> Vec<f64> {
-        let level = &self.levels[level];
-        let n = self.doubt[0].len();
-        match (through, side) {
-            (true, Side::Front) => level.through.clone(),
-            (true, Side::Back) => (0..n * n).map(|at| level.through[at % n * n + at / n]).collect(),
-            // Names of what is thrown back are opposite.
-            (false, _) => level.back[index(side)].chunks(n).flat_map(|line| line.iter().rev().copied()).collect(),
-        }
-    }
-}
+use crate::compute::scaling::by_rounds;
 
 /// Rounds of scaling; they halve what is left.
 const ROUNDS: usize = 40;
+/// No scale goes beyond this.
+const LIMIT: f64 = 16.0;
 
 /// Symmetric sums of flux and of flux times variance.
 struct Sums {
@@ -102,42 +57,29 @@ impl Sums {
     }
 }
 
-/// Scales of the nodes from outside and inside, and of the faces.
-#[derive(Debug, Clone)]
-struct Scales {
-    nodes: [Vec<f64>; 2],
-    faces: Vec<f64>,
-}
-
-impl Scales {
-    fn all(&mut self) -> impl Iterator<Item = &mut f64> {
-        let [front, back] = &mut self.nodes;
-        front.iter_mut().chain(back).chain(&mut self.faces)
-    }
-}
-
-/// The sums of every node and face, with these scales of all others.
-fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &Scales) -> Scales {
+/// The sums of every node from outside, from inside, and of every face, with these scales of all others.
+fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64]) -> Vec<f64> {
     let n = hat.len();
-    let mut out = Scales { nodes: [vec![0.0; n], vec![0.0; n]], faces: vec![0.0; kept.len()] };
+    let (nodes, faces) = scales.split_at(2 * n);
+    let mut out = vec![0.0; scales.len()];
     for (i, hat) in hat.iter().enumerate() {
         let line = &sums.through[i * n..(i + 1) * n];
         for (j, [flux, _]) in line.iter().enumerate() {
-            out.nodes[0][i] += flux * scales.nodes[1][j];
-            out.nodes[1][j] += flux * scales.nodes[0][i];
+            out[i] += flux * nodes[n + j];
+            out[n + j] += flux * nodes[i];
         }
         for side in [0, 1] {
-            let line = &sums.back[side][i * n..(i + 1) * n];
-            out.nodes[side][i] += line.iter().zip(&scales.nodes[side]).map(|([flux, _], d)| flux * d).sum::<f64>();
+            let (line, own) = (&sums.back[side][i * n..(i + 1) * n], side * n..(side + 1) * n);
+            out[side * n + i] += line.iter().zip(&nodes[own]).map(|([flux, _], d)| flux * d).sum::<f64>();
             for (face, width) in second.landed[side][i].iter().enumerate() {
                 let flux = 0.5 * hat * width;
-                out.nodes[side][i] += flux * kept[face] * scales.faces[face];
-                out.faces[face] += flux * scales.nodes[side][i];
+                out[side * n + i] += flux * kept[face] * faces[face];
+                out[2 * n + face] += flux * nodes[side * n + i];
             }
         }
     }
     for (face, line) in second.exchange.values.chunks(kept.len()).enumerate() {
-        out.faces[face] += line.iter().zip(kept).zip(&scales.faces).map(|((flux, c), d)| flux * c * d).sum::<f64>();
+        out[2 * n + face] += line.iter().zip(kept).zip(faces).map(|((flux, c), d)| flux * c * d).sum::<f64>();
     }
     out
 }
@@ -159,45 +101,38 @@ pub(super) fn settle(section: &Section, grid: ProfileGrid, direct: &Transport, s
     let of_node = |side: usize, node: usize| {
         0.5 * hat[node] * (thrown_on(&direct.landed[side][node]) - ideal(&direct.thrown[side][node])).max(0.0)
     };
-    let mut wanted = Scales {
-        nodes: [0, 1].map(|side: usize| (0..n).map(|node| of_node(side, node)).collect()),
-        faces: direct.exchange.values.chunks(mirror.len()).map(thrown_on).collect(),
-    };
-    let mut scales = Scales { nodes: [vec![1.0; n], vec![1.0; n]], faces: vec![1.0; mirror.len()] };
-    let found = rows(&sums, second, &hat, &kept, &scales);
-    let doubt = [0, 1].map(|side: usize| {
-        let pairs = wanted.nodes[side].iter().zip(&found.nodes[side]);
-        pairs.zip(&hat).map(|((wanted, found), hat)| 2.0 * (wanted - found).abs() / hat).collect()
-    });
+    let of_nodes = (0..2 * n).map(|k| Some(of_node(k / n, k % n)));
     // Faces that send nothing need no sums: nothing is followed from them.
-    let sends: Vec<bool> = section.faces.iter().map(|face| face.surface.diffuse > 0.0).collect();
-    for _ in 0..ROUNDS {
-        let mut found = rows(&sums, second, &hat, &kept, &scales);
-        let free = std::iter::repeat_n(&true, 2 * n).chain(&sends);
-        for (((d, wanted), found), free) in scales.all().zip(wanted.all()).zip(found.all()).zip(free) {
-            if *free && *found > 0.0 {
-                *d = (*d * *wanted / *found).sqrt().min(16.0);
-            }
-        }
-    }
+    let of_faces = direct.exchange.values.chunks(mirror.len()).zip(&section.faces);
+    let of_faces = of_faces.map(|(line, face)| (face.surface.diffuse > 0.0).then(|| thrown_on(line)));
+    let wanted: Vec<Option<f64>> = of_nodes.chain(of_faces).collect();
+    let rows = |scales: &[f64]| rows(&sums, second, &hat, &kept, scales);
+    let found = rows(&vec![1.0; wanted.len()]);
+    let doubt = [0, 1].map(|side: usize| {
+        let pairs = wanted[side * n..].iter().zip(&found[side * n..]);
+        pairs.zip(&hat).map(|((wanted, found), hat)| 2.0 * (wanted.unwrap_or_default() - found).abs() / hat).collect()
+    });
+    let scales = by_rounds(rows, &wanted, ROUNDS, 0.0, LIMIT);
+    let (nodes, face_scales) = scales.split_at(2 * n);
+    let (front, back) = nodes.split_at(n);
 
     for side in [0, 1] {
-        for (line, d) in second.landed[side].iter_mut().zip(&scales.nodes[side]) {
-            line.iter_mut().zip(&scales.faces).for_each(|(x, face)| *x *= d * face);
+        for (line, d) in second.landed[side].iter_mut().zip(&nodes[side * n..]) {
+            line.iter_mut().zip(face_scales).for_each(|(x, face)| *x *= d * face);
         }
     }
     let faces = mirror.len();
     for (at, x) in second.exchange.values.iter_mut().enumerate() {
-        *x *= scales.faces[at / faces] * scales.faces[at % faces];
+        *x *= face_scales[at / faces] * face_scales[at % faces];
     }
     let smallest = section.faces.iter().filter(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
     let along = Along::new(smallest.map(|face| face.surface.spread.powi(2)).fold(f64::INFINITY, f64::min));
-    let levels = divided(&sums, &scales, &hat, &along);
+    let levels = divided(&sums, [front, back], &hat, &along);
     Rough { along, levels, doubt }
 }
 
 /// The scaled sums as densities, divided among levels of variance.
-fn divided(sums: &Sums, scales: &Scales, hat: &[f64], along: &Along) -> Vec<Level> {
+fn divided(sums: &Sums, [front, back]: [&[f64]; 2], hat: &[f64], along: &Along) -> Vec<Level> {
     let n = hat.len();
     let none = || vec![0.0; n * n];
     let mut levels: Vec<Level> =
@@ -212,7 +147,6 @@ fn divided(sums: &Sums, scales: &Scales, hat: &[f64], along: &Along) -> Vec<Leve
                 pick(&mut levels[level + 1])[at] += density * above;
             }
         };
-        let [front, back] = &scales.nodes;
         put(sums.through[at], front[i] * back[j], |level| &mut level.through);
         put(sums.back[0][at], front[i] * front[j], |level| &mut level.back[0]);
         put(sums.back[1][at], back[i] * back[j], |level| &mut level.back[1]);

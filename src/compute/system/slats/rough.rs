@@ -2,8 +2,8 @@
 //! between nodes, and the kernel K between bins; symmetric throughout, and complete where cells cover the hemisphere.
 
 use super::along::{Along, BINS};
+use super::flows::Rough;
 use super::profile_weights::{Piece, ProfileGrid, primitive};
-use super::reciprocal::Rough;
 use crate::compute::basis::RingBasis;
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::system::measure::{Measured, Setting, Side};
@@ -95,7 +95,7 @@ pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough,
     for side in Side::BOTH {
         for (i, error) in measured.seen_mut(side).error.iter_mut().enumerate() {
             // Nodes are drawn independently.
-            let doubt = &rough.doubt[super::transport::index(side)];
+            let doubt = &rough.doubt[super::flows::index(side)];
             let square = |f: &Footing| (f.parts.iter().sum::<f64>() * doubt[f.node]).powi(2);
             *error += incident[i].iter().map(square).sum::<f64>().sqrt() / solid[0][i];
         }

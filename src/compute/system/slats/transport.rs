@@ -2,23 +2,15 @@
 
 use super::arc::Point;
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
+use super::flows::{Exchange, Lobe, Second, Thrown, Transport, index};
 use super::outline::Section;
 use super::profile_weights::ProfileGrid;
-use super::reciprocal::{Rough, Second, settle};
+use super::reciprocal::settle;
 use super::sweep::{Bundle, Met, sweep};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::Side;
 use rayon::prelude::*;
 use std::rc::Rc;
-
-/// A square matrix of faces, row by row.
-#[derive(Debug, Clone)]
-pub(super) struct Exchange {
-    /// Faces.
-    pub(super) size: usize,
-    /// Row by row.
-    pub(super) values: Vec<f64>,
-}
 
 /// What a chunk of profile angles adds.
 struct Part {
@@ -27,63 +19,6 @@ struct Part {
     /// Lengths seen.
     length: Vec<f64>,
     nodes: Vec<Node>,
-}
-
-impl Exchange {
-    fn new(size: usize) -> Self {
-        Self { size, values: vec![0.0; size * size] }
-    }
-
-    fn add(&mut self, from: usize, to: usize, amount: f64) {
-        self.values[from * self.size + to] += amount;
-    }
-
-    fn add_all(&mut self, other: &Self) {
-        self.values.iter_mut().zip(&other.values).for_each(|(sum, x)| *sum += x);
-    }
-}
-
-/// A parallel beam that leaves.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Lobe {
-    /// Profile angles of its name, from and to: evenly between. \[rad\]
-    pub(super) psi: [f64; 2],
-    /// Width of the incident light that it carries, in pitches.
-    pub(super) width: f64,
-    /// Sum of the squared spreads of the mirrors that it has met. \[rad²\]
-    pub(super) variance: f64,
-}
-
-/// What mirrors make of parallel light that comes at one profile angle from one side.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Thrown {
-    /// Transmitted.
-    pub(super) through: Vec<Lobe>,
-    /// Thrown back.
-    pub(super) back: Vec<Lobe>,
-}
-
-/// Everything the section does to light, before the faces' diffuse reflectance.
-#[derive(Debug, Clone)]
-pub(super) struct Transport {
-    /// Width of the light from face to face, over all directions: ½∫ t dψ, mirrors included; symmetric.
-    pub(super) exchange: Exchange,
-    /// Width over all directions that a face sends out, ½∫ t dψ: its length by the rule's count.
-    pub(super) length: Vec<f64>,
-    /// Width of a parallel beam that comes to every face, `[node][face]`, for light from outside and from inside.
-    pub(super) landed: [Vec<Vec<f64>>; 2],
-    /// Mirrored light that leaves, a node, from outside and from inside.
-    pub(super) thrown: [Vec<Thrown>; 2],
-    /// What of it has met mirrors that spread light, if any do.
-    pub(super) rough: Option<Rough>,
-}
-
-/// Index of a side in the pairs of this module.
-pub(super) const fn index(side: Side) -> usize {
-    match side {
-        Side::Front => 0,
-        Side::Back => 1,
-    }
 }
 
 /// What parallel light of one profile angle from either side does.

@@ -1,20 +1,56 @@
-//! Polygons seen from a point: clipping by planes through the point, and Lambert's closed form for their light.
+//! Convex polygons: what of them lies on the kept side of straight borders, and Lambert's closed form for the light of
+//! those that are seen from a point.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use std::ops::{Add, Mul, Sub};
 
-/// Keeps the part of a convex polygon with `normal · p ≥ 0` (Sutherland–Hodgman). Appends to an empty `kept`.
-pub fn clip(polygon: &[DVec3], normal: DVec3, kept: &mut Vec<DVec3>) {
+/// Keeps the part of a convex polygon with `inside` ≥ 0, a linear function (Sutherland–Hodgman). `kept` is emptied first.
+pub fn cut<P>(polygon: &[P], inside: impl Fn(P) -> f64, kept: &mut Vec<P>)
+where
+    P: Copy + Add<Output = P> + Sub<Output = P> + Mul<f64, Output = P>,
+{
     kept.clear();
-    for (i, &p) in polygon.iter().enumerate() {
-        let q = polygon[(i + 1) % polygon.len()];
-        let (fp, fq) = (normal.dot(p), normal.dot(q));
+    let mut fp = polygon.first().map_or(0.0, |&p| inside(p));
+    for (&p, &q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let fq = inside(q);
         if fp >= 0.0 {
             kept.push(p);
         }
         if (fp > 0.0 && fq < 0.0) || (fp < 0.0 && fq > 0.0) {
             kept.push(p + (q - p) * (fp / (fp - fq)));
         }
+        fp = fq;
     }
+}
+
+/// Leaves of a convex polygon what all of the functions keep, see [`cut`]; nothing where that has no area. `kept` is
+/// room to work in.
+pub fn cut_by_all<F: Fn(DVec2) -> f64>(
+    polygon: &mut Vec<DVec2>,
+    borders: impl IntoIterator<Item = F>,
+    kept: &mut Vec<DVec2>,
+) {
+    for inside in borders {
+        if polygon.iter().all(|&p| inside(p) >= 0.0) {
+            continue;
+        }
+        cut(polygon, inside, kept);
+        std::mem::swap(polygon, kept);
+        if polygon.len() < 3 {
+            polygon.clear();
+            return;
+        }
+    }
+}
+
+/// Area of a plane polygon, > 0 when it turns counter-clockwise.
+pub fn area(polygon: &[DVec2]) -> f64 {
+    (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
+}
+
+/// Keeps the part of a convex polygon with `normal · p ≥ 0`, see [`cut`].
+pub fn clip(polygon: &[DVec3], normal: DVec3, kept: &mut Vec<DVec3>) {
+    cut(polygon, |p| normal.dot(p), kept);
 }
 
 /// ∫ ω dω over the solid angle of a polygon whose corners are given as vectors from the point; positive when the
