@@ -1,27 +1,28 @@
 //! File dialogs behind a trait, so that tests can script them. They run in a job: some block until answered.
 
+use super::error::AppError;
 use super::state::PathUse;
 use std::path::PathBuf;
 
 /// Asks the user for paths.
 pub trait FileDialogs: Send + Sync {
     /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
-    fn open(&self) -> Result<Vec<PathBuf>, String>;
+    fn open(&self) -> Result<Vec<PathBuf>, AppError>;
     /// Where to write.
-    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, String>;
+    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError>;
 }
 
 /// The desktop's own dialogs.
 pub struct NativeDialogs;
 
 impl FileDialogs for NativeDialogs {
-    fn open(&self) -> Result<Vec<PathBuf>, String> {
+    fn open(&self) -> Result<Vec<PathBuf>, AppError> {
         let dialog =
             rfd::FileDialog::new().set_title("Open datasets, a system or a scene").add_filter("All files", &["*"]);
         Ok(dialog.pick_files().unwrap_or_default())
     }
 
-    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, String> {
+    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError> {
         let dialog = match what {
             PathUse::ExportLid => rfd::FileDialog::new()
                 .set_title("Export the LID")
@@ -29,8 +30,8 @@ impl FileDialogs for NativeDialogs {
                 .add_filter("Luminaire files", &["ldt", "ies"])
                 .add_filter("Table or diagram", &["csv", "svg", "png"]),
             PathUse::ExportTile(tile) => rfd::FileDialog::new()
-                .set_title(format!("Export {}", tile.title()))
-                .set_file_name(super::export::file_name(tile))
+                .set_title(format!("Export {}", tile.title))
+                .set_file_name(tile.file_name())
                 .add_filter("Numbers", &["csv"])
                 .add_filter("Picture", &["png"]),
             PathUse::ExportMeasured => rfd::FileDialog::new()
@@ -52,11 +53,11 @@ impl FileDialogs for NativeDialogs {
 pub struct NoDialogs;
 
 impl FileDialogs for NoDialogs {
-    fn open(&self) -> Result<Vec<PathBuf>, String> {
-        Err("no file dialog here".to_owned())
+    fn open(&self) -> Result<Vec<PathBuf>, AppError> {
+        Err(AppError::NoDialog)
     }
 
-    fn save(&self, _what: PathUse) -> Result<Option<PathBuf>, String> {
-        Err("no file dialog here".to_owned())
+    fn save(&self, _what: PathUse) -> Result<Option<PathBuf>, AppError> {
+        Err(AppError::NoDialog)
     }
 }

@@ -1,11 +1,12 @@
 //! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
 
 use super::import;
-use crate::app::App;
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
+use crate::app::offer::listed;
 use crate::app::state::{PathUse, Sheet, State};
 use crate::app::views::accuracy;
+use crate::app::window::App;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 use std::path::PathBuf;
 
@@ -73,13 +74,10 @@ fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 
 fn keys(ui: &mut Ui) {
     egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-        for command in Command::listed() {
-            let info = command.info();
-            if let Some(keys) = info.shortcut {
-                ui.label(RichText::new(ui.ctx().format_shortcut(&keys)).monospace());
-                ui.label(info.text);
-                ui.end_row();
-            }
+        for (offer, keys) in listed().filter_map(|offer| Some((offer, offer.keys?))) {
+            ui.label(RichText::new(ui.ctx().format_shortcut(&keys)).monospace());
+            ui.label(&offer.text);
+            ui.end_row();
         }
     });
 }
