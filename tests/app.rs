@@ -98,7 +98,7 @@ fn title(harness: &Harness<'_, App>) -> String {
 #[test]
 fn a_first_start_shows_six_tiles_of_a_product_at_a_place_and_time() {
     let (harness, _) = window();
-    for title in TILES.map(|entry| entry.tile.title) {
+    for title in TILES.iter().map(|entry| entry.tile.title) {
         assert!(harness.query_by_label(&format!("Tile {title}")).is_some(), "{title}");
     }
     let title = title(&harness);

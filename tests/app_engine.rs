@@ -190,7 +190,7 @@ fn every_tile_is_written_as_numbers() {
     let mut harness = window();
     select_blind(&mut harness);
     let folder = tempfile::tempdir().unwrap();
-    for tile in TILES.map(|entry| entry.tile) {
+    for tile in TILES.iter().map(|entry| entry.tile) {
         let path = folder.path().join(format!("{}.csv", tile.title));
         apply(&mut harness, Command::Write(PathUse::ExportTile(tile), path.clone()));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{tile:?}: {error}"));

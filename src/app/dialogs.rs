@@ -23,27 +23,20 @@ impl FileDialogs for NativeDialogs {
     }
 
     fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError> {
+        let dialog = rfd::FileDialog::new().set_title(what.title()).set_file_name(what.file_name());
         let dialog = match what {
-            PathUse::ExportLid => rfd::FileDialog::new()
-                .set_title("Export the LID")
-                .set_file_name("window.ldt")
+            PathUse::ExportLid => dialog
                 .add_filter("Luminaire files", &["ldt", "ies"])
                 .add_filter("Table or diagram", &["csv", "svg", "png"]),
-            PathUse::ExportTile(tile) => rfd::FileDialog::new()
+            PathUse::ExportTile(tile) => dialog
                 .set_title(format!("Export {}", tile.title))
-                .set_file_name(tile.file_name())
                 .add_filter("Numbers", &["csv"])
                 .add_filter("Picture", &["png"]),
-            PathUse::ExportMeasured => rfd::FileDialog::new()
-                .set_title("Export the computed data")
-                .set_file_name("system.cfsp")
+            PathUse::ExportMeasured => dialog
                 .add_filter("Package of all states", &["cfsp"])
                 .add_filter("BSDF", &["xml"])
                 .add_filter("BTDF text", &["btdf.txt"]),
-            PathUse::SaveScene | PathUse::Open => rfd::FileDialog::new()
-                .set_title("Save the scene")
-                .set_file_name("scene.toml")
-                .add_filter("Scene", &["toml"]),
+            PathUse::SaveScene | PathUse::Open => dialog.add_filter("Scene", &["toml"]),
         };
         Ok(dialog.save_file())
     }

@@ -8,10 +8,10 @@ const LARGEST_FILE: u64 = 1 << 30;
 
 /// Reads a file that is not larger than anything the window knows.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, AppError> {
-    let told = |error| AppError::Read { path: path.to_owned(), error };
+    let told = |error| AppError::Read(path.to_owned(), error);
     let size = std::fs::metadata(path).map_err(told)?.len();
     if size > LARGEST_FILE {
-        return Err(AppError::TooLarge { path: path.to_owned(), size });
+        return Err(AppError::TooLarge(path.to_owned(), size));
     }
     std::fs::read(path).map_err(told)
 }
@@ -26,7 +26,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, AppError> {
     written.map_err(|error| {
         // Best effort: the part may never have come to be.
         drop(std::fs::remove_file(&part));
-        AppError::Write { path: path.to_owned(), error }
+        AppError::Write(path.to_owned(), error)
     })?;
     Ok(path.to_owned())
 }

@@ -55,62 +55,27 @@ pub enum AppError {
     /// A tile's picture is larger than any file of pictures.
     #[error("the picture cannot be encoded: it is too large")]
     PictureSize,
-    /// An error that is about a file.
-    #[error("{place}: {error}")]
-    About {
-        /// Name or path.
-        place: String,
-        /// What is wrong with it.
-        error: Box<Self>,
-    },
-    /// The system does not let a file be read.
-    #[error("{}: cannot be read ({error}); check path and rights", path.display())]
-    Read {
-        /// Which.
-        path: PathBuf,
-        /// What the system says.
-        error: io::Error,
-    },
-    /// The system does not let a file be written.
-    #[error("{}: cannot be written ({error})", path.display())]
-    Write {
-        /// Which.
-        path: PathBuf,
-        /// What the system says.
-        error: io::Error,
-    },
-    /// A file beyond what is read.
-    #[error("{}: {size} bytes are more than the 1 GiB that is read", path.display())]
-    TooLarge {
-        /// Which.
-        path: PathBuf,
-        /// Its size. \[bytes\]
-        size: u64,
-    },
+    /// An error that is about a file of this name or path.
+    #[error("{0}: {1}")]
+    About(String, Box<Self>),
+    /// The system does not let a file be read, and what it says.
+    #[error("{path}: cannot be read ({1}); check path and rights", path = .0.display())]
+    Read(PathBuf, io::Error),
+    /// The system does not let a file be written, and what it says.
+    #[error("{path}: cannot be written ({1})", path = .0.display())]
+    Write(PathBuf, io::Error),
+    /// A file beyond what is read, and its size. \[bytes\]
+    #[error("{path}: {1} bytes are more than the 1 GiB that is read", path = .0.display())]
+    TooLarge(PathBuf, u64),
     /// A path without a file name.
     #[error("{}: names no file; give a path that ends in a file name", .0.display())]
     NoFileName(PathBuf),
-    /// Bytes where text is expected.
-    #[error("{}: byte {byte} is not UTF-8; {what} is a text file", path.display())]
-    NotText {
-        /// Which file.
-        path: PathBuf,
-        /// The first that is wrong.
-        byte: usize,
-        /// What is expected, e.g. `a scene`.
-        what: &'static str,
-    },
-    /// A path for a tile whose ending says neither numbers nor picture.
-    #[error(
-        "{}: the ending \"{ending}\" is none that a tile is written as: use .csv for numbers, .png for a picture",
-        path.display()
-    )]
-    TileEnding {
-        /// Which.
-        path: PathBuf,
-        /// As it ends.
-        ending: String,
-    },
+    /// Bytes where text is expected: the first that is wrong, and what is expected, e.g. `a scene`.
+    #[error("byte {0} is not UTF-8; {1} is a text file")]
+    NotText(usize, &'static str),
+    /// An ending that says neither numbers nor picture of a tile.
+    #[error("the ending \"{0}\" is none that a tile is written as: use .csv for numbers, .png for a picture")]
+    TileEnding(String),
     /// A path for computed data whose ending names no format.
     #[error("an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt")]
     MeasuredEnding,
@@ -137,6 +102,6 @@ pub enum AppError {
 impl AppError {
     /// The same, about a file.
     pub fn about(self, place: impl Display) -> Self {
-        Self::About { place: place.to_string(), error: Box::new(self) }
+        Self::About(place.to_string(), Box::new(self))
     }
 }

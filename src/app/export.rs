@@ -38,7 +38,7 @@ impl Exports {
         match ending.as_str() {
             "csv" => self.numbers = Some((tile, Target::File(path))),
             "png" => self.picture = Some((tile, path)),
-            _ => return Err(AppError::TileEnding { path, ending }),
+            _ => return Err(AppError::TileEnding(ending).about(path.display())),
         }
         Ok(())
     }

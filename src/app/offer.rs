@@ -11,39 +11,18 @@ use crate::study::scene_file::ControlMode;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
-/// A menu of the bar.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Menu {
-    /// What comes in and goes out.
-    File,
-    /// What changes the scene.
-    Edit,
-    /// What is in sight.
-    View,
-    /// What explains.
-    Help,
-}
-
-impl Menu {
-    /// In the order of the bar.
-    pub const ALL: [Self; 4] = [Self::File, Self::Edit, Self::View, Self::Help];
-
-    /// As the bar has it.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::File => "File",
-            Self::Edit => "Edit",
-            Self::View => "View",
-            Self::Help => "Help",
-        }
-    }
-}
+const FILE: &str = "File";
+const EDIT: &str = "Edit";
+const VIEW: &str = "View";
+const HELP: &str = "Help";
+/// The menus, in the order of the bar.
+pub const MENUS: [&str; 4] = [FILE, EDIT, VIEW, HELP];
 
 /// Where the menus have a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
-    /// In which.
-    pub menu: Menu,
+    /// Which of [`MENUS`].
+    pub menu: &'static str,
     /// Order in the menu; a line separates one ten from the next.
     pub rank: u8,
     /// Name of the menu in the menu that gathers it with its like.
@@ -76,7 +55,7 @@ impl Offer {
         Self { keys: Some(KeyboardShortcut::new(modifiers, key)), ..self }
     }
 
-    fn menu(self, menu: Menu, rank: u8) -> Self {
+    fn menu(self, menu: &'static str, rank: u8) -> Self {
         Self { place: Some(Place { menu, rank, within: None }), ..self }
     }
 
@@ -92,47 +71,41 @@ impl Offer {
 const CTRL: Modifiers = Modifiers::COMMAND;
 const PLAIN: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
-/// Keys of the tiles, in their order.
-const TILE_KEYS: [Key; 9] =
-    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
-
 /// Numbers of tiles in words.
 const COUNTS: [&str; 10] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
 
 /// The table, in the order of palette and keys sheet.
 fn table() -> Vec<Offer> {
     use Command::*;
-    use Menu::*;
     let sheet = |sheet| Command::Sheet(Some(sheet));
     let tiles = || TILES.iter().map(|entry| entry.tile);
     let mut list = vec![
         offer(Open, "Open…", "Read datasets, a system or a scene; or drop files on the window")
             .keys(CTRL, Key::O)
-            .menu(File, 0),
+            .menu(FILE, 0),
         offer(sheet(state::Sheet::Path(PathUse::Open)), "Type a path", "Give a path instead of choosing a file")
-            .menu(File, 1)
+            .menu(FILE, 1)
             .unlisted(),
         offer(SaveScene, "Save scene…", "Write everything this study needs as a text file")
             .keys(CTRL, Key::S)
-            .menu(File, 10),
+            .menu(FILE, 10),
         offer(ExportLid, "Export LID…", "Write the window as a luminaire (.ldt, .ies) for other programs")
             .keys(CTRL, Key::E)
-            .menu(File, 11),
-        offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(Edit, 0),
-        offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(Edit, 1),
+            .menu(FILE, 11),
+        offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
+        offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
         offer(Search, "Search the catalogue", "Put the cursor into the search field").keys(CTRL, Key::F),
-        offer(Palette, "Command palette", "Find a command by its words").keys(CTRL, Key::K).menu(Help, 0),
+        offer(Palette, "Command palette", "Find a command by its words").keys(CTRL, Key::K).menu(HELP, 0),
     ];
     for (number, tile) in tiles().enumerate() {
-        let one = offer(Maximise(Some(tile)), format!("Maximise {}", tile.title), tile.help).menu(View, 0);
-        list.push(match TILE_KEYS.get(number) {
-            Some(key) => one.keys(PLAIN, *key),
-            None => one,
-        });
+        let one = offer(Maximise(Some(tile)), format!("Maximise {}", tile.title), tile.help).menu(VIEW, 0);
+        // The first nine by their number.
+        let key = Key::from_name(&(number + 1).to_string());
+        list.push(Offer { keys: key.map(|key| KeyboardShortcut::new(PLAIN, key)), ..one });
     }
     let all = format!("All {} tiles", COUNTS.get(TILES.len()).unwrap_or(&"the"));
     list.extend([
-        offer(Maximise(None), all, "Back from one tile to all").keys(PLAIN, Key::Num0).menu(View, 1),
+        offer(Maximise(None), all, "Back from one tile to all").keys(PLAIN, Key::Num0).menu(VIEW, 1),
         offer(Hour(1), "One hour later", "Move the clock").keys(PLAIN, Key::ArrowRight),
         offer(Hour(-1), "One hour earlier", "Move the clock").keys(PLAIN, Key::ArrowLeft),
         offer(Hour(3), "Three hours later", "Move the clock").keys(SHIFT, Key::ArrowRight),
@@ -151,34 +124,34 @@ fn table() -> Vec<Offer> {
     list.extend([
         offer(ToggleCatalogue, "Catalogue panel", "Show or hide the list of products")
             .keys(CTRL, Key::B)
-            .menu(View, 20),
-        offer(ToggleScene, "Scene panel", "Show or hide place, time, sky and room").keys(CTRL, Key::J).menu(View, 21),
+            .menu(VIEW, 20),
+        offer(ToggleScene, "Scene panel", "Show or hide place, time, sky and room").keys(CTRL, Key::J).menu(VIEW, 21),
     ]);
     list.extend(tiles().map(|tile| {
         let tip = "Write this tile as numbers (.csv) or as a picture (.png)";
-        offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(File, 12).within("Export tile")
+        offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(FILE, 12).within("Export tile")
     }));
     list.extend(tiles().map(|tile| {
         offer(CopyTile(tile), format!("Copy tile {} as CSV", tile.title), "This tile's numbers into the clipboard")
     }));
     list.extend(ThemeChoice::ALL.map(|choice| {
-        offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(View, 30)
+        offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(VIEW, 30)
     }));
     list.extend([
-        offer(ResetScene, "Reset the scene", "Stuttgart, south, 21 March 12:00, clear sky").menu(Edit, 2),
+        offer(ResetScene, "Reset the scene", "Stuttgart, south, 21 March 12:00, clear sky").menu(EDIT, 2),
         offer(
             sheet(state::Sheet::Findings),
             "Findings of the dataset",
             "What the checks say about the selected dataset",
         )
-        .menu(Help, 2),
+        .menu(HELP, 2),
         offer(
             sheet(state::Sheet::Accuracy),
             "Accuracy",
             "Error against run time of every method for this scene, and what stated errors are worth",
         )
         .keys(PLAIN, Key::A)
-        .menu(View, 11),
+        .menu(VIEW, 11),
         offer(
             MeasureAccuracy,
             "Measure error against run time",
@@ -190,7 +163,7 @@ fn table() -> Vec<Offer> {
             "Compute a system's data from its geometry and material, with a drawing of its section",
         )
         .keys(PLAIN, Key::G)
-        .menu(View, 10),
+        .menu(VIEW, 10),
         offer(
             MeasureSystem,
             "Compute the described system",
@@ -213,8 +186,8 @@ fn table() -> Vec<Offer> {
         offer(SystemExample(number), text, "Fill the goniophotometer's sheet with this system")
     }));
     list.extend([
-        offer(sheet(state::Sheet::Keys), "Keys", "All keyboard shortcuts").keys(PLAIN, Key::Questionmark).menu(Help, 1),
-        offer(Quit, "Quit", "Close the window").keys(CTRL, Key::Q).menu(File, 20),
+        offer(sheet(state::Sheet::Keys), "Keys", "All keyboard shortcuts").keys(PLAIN, Key::Questionmark).menu(HELP, 1),
+        offer(Quit, "Quit", "Close the window").keys(CTRL, Key::Q).menu(FILE, 20),
     ]);
     list
 }

@@ -160,7 +160,7 @@ impl App {
             Outcome::ReadSystem(Ok((text, base))) => self.open_system(text, base),
             Outcome::Measured(result) => self.take_measured(result),
             Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
-                self.toasts.error(error.to_string()).duration(None);
+                self.tell(&error);
             }
             Outcome::Added(number, result) => self.take_added(number, result),
             Outcome::Imported(result) => self.take_imported(result),
@@ -176,14 +176,11 @@ impl App {
                     self.state.scene_path = Some(path);
                 }
             }
-            Outcome::Written(_, Err(error)) => {
-                self.toasts.error(error.to_string()).duration(None);
-            }
+            Outcome::Written(_, Err(error)) => self.tell(&error),
         }
     }
 
     fn take_scene(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, SkyKeyError>) {
-        self.results.revision += 1;
         match shelved {
             Ok(Shelved { product, state, dataset }) => {
                 self.state.product = Some(product);
@@ -234,9 +231,7 @@ impl App {
                     self.apply(Command::Select(first.key.clone()));
                 }
             }
-            Err(error) => {
-                self.toasts.error(error.to_string()).duration(None);
-            }
+            Err(error) => self.tell(&error),
         }
         self.search();
     }

@@ -28,13 +28,6 @@ pub struct Tile {
     pub help: &'static str,
 }
 
-impl Tile {
-    /// A name to start from when it is written.
-    pub fn file_name(self) -> String {
-        format!("{}.csv", self.title.to_lowercase())
-    }
-}
-
 /// What undo and redo go over.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
@@ -125,8 +118,6 @@ pub struct Results {
     pub accuracy: Shown<Accuracy>,
     /// Counts the ladders that came in.
     pub accuracy_revision: u64,
-    /// Counts what the pictures depend on.
-    pub revision: u64,
 }
 
 /// Sky and sun of the moment.
@@ -194,6 +185,29 @@ pub enum PathUse {
     ExportTile(Tile),
     /// Write what the goniophotometer computed.
     ExportMeasured,
+}
+
+impl PathUse {
+    /// Title of whatever asks for the path.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open",
+            Self::SaveScene => "Save the scene",
+            Self::ExportLid => "Export the LID",
+            Self::ExportTile(_) => "Export a tile",
+            Self::ExportMeasured => "Export the computed data",
+        }
+    }
+
+    /// A name to start from.
+    pub fn file_name(self) -> String {
+        match self {
+            Self::Open | Self::SaveScene => "scene.toml".to_owned(),
+            Self::ExportLid => "window.ldt".to_owned(),
+            Self::ExportTile(tile) => format!("{}.csv", tile.title.to_lowercase()),
+            Self::ExportMeasured => "system.cfsp".to_owned(),
+        }
+    }
 }
 
 /// Everything.

@@ -111,6 +111,11 @@ impl App {
         self.jobs.start(lane, move || ctx.request_repaint(), work);
     }
 
+    /// Says an error until somebody has read it.
+    pub(super) fn tell(&mut self, error: &AppError) {
+        self.toasts.error(error.to_string()).duration(None);
+    }
+
     /// Is something still being read or computed?
     pub fn busy(&self) -> bool {
         !self.jobs.views().is_empty() || !self.pending_changes.is_empty()

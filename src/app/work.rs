@@ -134,7 +134,7 @@ pub(super) fn take_from_shelf(
 /// Reads files: one scene, system or control curve, or datasets.
 pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
     let text_of = |path: &Path, what: &'static str| {
-        let wrong = |byte| AppError::NotText { path: path.to_owned(), byte, what };
+        let wrong = |byte| AppError::NotText(byte, what).about(path.display());
         String::from_utf8(read_bytes(path)?).map_err(|error| wrong(error.utf8_error().valid_up_to()))
     };
     if let [path] = paths

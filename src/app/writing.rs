@@ -21,10 +21,7 @@ impl App {
     pub(super) fn ask_target(&mut self, what: PathUse) {
         self.state.path = match (what, &self.state.scene_path) {
             (PathUse::SaveScene, Some(path)) => path.display().to_string(),
-            (PathUse::ExportLid, _) => "window.ldt".to_owned(),
-            (PathUse::ExportTile(tile), _) => tile.file_name(),
-            (PathUse::ExportMeasured, _) => "system.cfsp".to_owned(),
-            _ => "scene.toml".to_owned(),
+            _ => what.file_name(),
         };
         self.state.sheet = Some(Sheet::Path(what));
         let dialogs = self.services.dialogs.clone();
@@ -74,7 +71,7 @@ impl App {
     fn export_tile(&mut self, tile: Tile, path: PathBuf) {
         match self.export.ask(tile, path) {
             Ok(()) => self.bring_up(tile),
-            Err(error) => drop(self.toasts.error(error.to_string()).duration(None)),
+            Err(error) => self.tell(&error),
         }
     }
 

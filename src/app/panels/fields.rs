@@ -1,6 +1,7 @@
-//! Fields that sections of the scene share.
+//! Fields and buttons that panels share.
 
-use egui::{DragValue, Ui};
+use crate::app::offer::Offer;
+use egui::{Button, DragValue, Ui};
 use std::ops::RangeInclusive;
 
 /// A labelled number with unit and range.
@@ -23,5 +24,14 @@ pub fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, s
     number(ui, label, unit, &mut number_value, range, 2);
     if number_value != before || value.is_none() {
         *value = Some(number_value);
+    }
+}
+
+/// A button with the words and keys of what it does.
+pub fn button<'a>(ui: &Ui, offer: &'a Offer) -> Button<'a> {
+    let button = Button::new(&offer.text);
+    match &offer.keys {
+        Some(keys) => button.shortcut_text(ui.ctx().format_shortcut(keys)),
+        None => button,
     }
 }

@@ -1,24 +1,21 @@
 //! The menu bar, as the table of what is offered has it.
 
+use super::fields::button;
 use crate::app::command::Command;
-use crate::app::offer::{Menu, Offer, Place, offers};
+use crate::app::offer::{MENUS, Offer, Place, offers};
 use crate::app::state::State;
-use egui::{Button, MenuBar, Ui};
+use egui::{MenuBar, Ui};
 
 /// One entry with its keys and tip.
 fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
-    let mut button = Button::new(&offer.text);
-    if let Some(keys) = &offer.keys {
-        button = button.shortcut_text(ui.ctx().format_shortcut(keys));
-    }
-    if ui.add(button).on_hover_text(offer.tip).clicked() {
+    if ui.add(button(ui, offer)).on_hover_text(offer.tip).clicked() {
         commands.push(offer.command.clone());
         ui.close();
     }
 }
 
 /// What a menu holds, in order.
-fn entries(menu: Menu) -> Vec<(Place, &'static Offer)> {
+fn entries(menu: &str) -> Vec<(Place, &'static Offer)> {
     let placed = offers().iter().filter_map(|offer| Some((offer.place?, offer)));
     let mut list: Vec<_> = placed.filter(|(place, _)| place.menu == menu).collect();
     list.sort_by_key(|(place, _)| place.rank);
@@ -26,7 +23,7 @@ fn entries(menu: Menu) -> Vec<(Place, &'static Offer)> {
 }
 
 /// One menu; entries of one rank that belong within another menu are gathered there.
-fn show_menu(ui: &mut Ui, menu: Menu, commands: &mut Vec<Command>) {
+fn show_menu(ui: &mut Ui, menu: &str, commands: &mut Vec<Command>) {
     let list = entries(menu);
     let mut section = 0;
     for group in list.chunk_by(|a, b| a.0 == b.0) {
@@ -46,8 +43,8 @@ fn show_menu(ui: &mut Ui, menu: Menu, commands: &mut Vec<Command>) {
 /// Draws the bar.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
-        for menu in Menu::ALL {
-            ui.menu_button(menu.word(), |ui| show_menu(ui, menu, commands));
+        for menu in MENUS {
+            ui.menu_button(menu, |ui| show_menu(ui, menu, commands));
         }
         ui.separator();
         // The selection in words: also where the window has no title bar.

@@ -1,5 +1,6 @@
 //! The command palette: words narrow the list, Enter takes the first.
 
+use super::fields::button;
 use crate::app::command::Command;
 use crate::app::offer::{Offer, listed};
 use crate::app::state::State;
@@ -32,10 +33,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 ui.weak("No command has these words");
             }
             for (row, offer) in list.into_iter().enumerate() {
-                let mut button = egui::Button::new(&offer.text).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
-                if let Some(keys) = offer.keys {
-                    button = button.shortcut_text(ui.ctx().format_shortcut(&keys));
-                }
+                let button = button(ui, offer).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
                 if ui.add(button).on_hover_text(offer.tip).clicked() || (row == 0 && entered) {
                     commands.push(Command::Palette);
                     commands.push(offer.command.clone());

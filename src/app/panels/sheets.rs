@@ -18,11 +18,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Keys => "Keys",
         Sheet::Accuracy => "Accuracy",
         Sheet::Goniophotometer => "Goniophotometer",
-        Sheet::Path(PathUse::Open) => "Open",
-        Sheet::Path(PathUse::SaveScene) => "Save the scene",
-        Sheet::Path(PathUse::ExportLid) => "Export the LID",
-        Sheet::Path(PathUse::ExportTile(_)) => "Export a tile",
-        Sheet::Path(PathUse::ExportMeasured) => "Export the computed data",
+        Sheet::Path(what) => what.title(),
     };
     ui.horizontal(|ui| {
         ui.heading(title);

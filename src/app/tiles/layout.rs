@@ -34,7 +34,7 @@ fn parts(length: f32, gap: f32, weights: impl Iterator<Item = f32> + Clone) -> V
 
 impl Layout {
     /// Two rows of equal tiles.
-    pub fn even(tiles: &[Tile]) -> Self {
+    pub fn even(tiles: Vec<Tile>) -> Self {
         let columns = tiles.len().div_ceil(2).max(1);
         let row = |tiles: &[Tile]| Row { weight: 1.0, tiles: tiles.iter().map(|tile| (1.0, *tile)).collect() };
         Self { rows: tiles.chunks(columns).map(row).collect() }
@@ -72,7 +72,7 @@ mod tests {
             (c, rect(10.0, 176.0, 116.0, 226.0)),
         ];
         assert_eq!(Layout { rows }.places(whole, 6.0), wanted);
-        let even = Layout::even(&[a, b, c]);
+        let even = Layout::even(vec![a, b, c]);
         assert_eq!(even.rows.iter().map(|row| row.tiles.len()).collect::<Vec<_>>(), [2, 1]);
     }
 }

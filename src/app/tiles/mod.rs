@@ -30,7 +30,7 @@ const fn entry<D: Drawn + Default + 'static>(tile: Tile) -> Entry {
 }
 
 /// All tiles, in the order of bench and keys.
-pub const TILES: [Entry; 6] = [
+pub const TILES: &[Entry] = &[
     entry::<btdf::Drawing>(btdf::TILE),
     entry::<transmittance::Drawing>(transmittance::TILE),
     entry::<sky::Drawing>(sky::TILE),
@@ -49,7 +49,7 @@ pub struct Bench {
 impl Default for Bench {
     fn default() -> Self {
         Self {
-            layout: Layout::even(&TILES.map(|entry| entry.tile)),
+            layout: Layout::even(TILES.iter().map(|entry| entry.tile).collect()),
             drawn: TILES.iter().map(|entry| (entry.tile, (entry.begin)())).collect(),
         }
     }

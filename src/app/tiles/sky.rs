@@ -2,10 +2,9 @@
 
 use super::drawn::{Drawn, Revision, Seen};
 use crate::app::command::Command;
-use crate::app::moment;
 use crate::app::state::Tile;
-use crate::app::title;
 use crate::app::views::sky;
+use crate::app::{moment, title};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::Dir;
 use egui::Ui;

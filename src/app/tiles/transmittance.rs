@@ -3,11 +3,10 @@
 use super::drawn::{Drawn, Revision, Seen};
 use crate::app::command::Command;
 use crate::app::facing::{incident, sun_incident, surface};
-use crate::app::moment;
 use crate::app::state::Tile;
-use crate::app::title;
 use crate::app::views::Cache;
 use crate::app::views::transmittance::{self, FluxSplit};
+use crate::app::{moment, title};
 use crate::compute::btdf::{Btdf, zone_shares};
 use crate::compute::direction::{Incident, Surface};
 use crate::study::scene_file::SceneFile;
