@@ -56,7 +56,7 @@ impl App {
                 self.state.sheet = Some(Sheet::Goniophotometer);
                 match self.state.goniophotometer.run.clone() {
                     Some(run) => {
-                        self.start(Lane::Export, move |_| Outcome::Written(what, goniophotometer::export(&run, &path)))
+                        self.start(Lane::Export, move |_| Outcome::Written(what, goniophotometer::export(&run, &path)));
                     }
                     None => drop(self.toasts.info("Compute the system first")),
                 }
