@@ -65,8 +65,9 @@
 //! | add a scene key | [`study::scene_file`], then [`study::scene`]; describe it in `examples/office.toml` |
 //! | skip work that a scene does not need | [`study::plan`] |
 //! | add a subcommand | a file in [`cli`] named like it |
-//! | add a menu entry or a shortcut | [`app::command`] |
+//! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
 //! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
+//! | add a tile to the bench | a picture, a file in [`app::tiles`] that feeds it, its entry in [`app::tiles::TILES`] |
 //! | store something new | the next `migrations/NNNN_*.sql`, then [`catalogue`] |
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]

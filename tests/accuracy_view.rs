@@ -3,10 +3,11 @@
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::error::AppError;
 use cfs::app::jobs::Lane;
 use cfs::app::state::Sheet;
 use cfs::app::views::accuracy as view;
-use cfs::compute::estimate::{Estimate, Progress};
+use cfs::compute::estimate::{Cancelled, Estimate, Progress};
 use cfs::study::accuracy::{Accuracy, Errors, Quantity, Reference, Rung, Series};
 use egui::{Key, Theme};
 use egui_kittest::kittest::Queryable;
@@ -56,7 +57,7 @@ struct Scripted {
 }
 
 impl Engine for Scripted {
-    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, String> {
+    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, AppError> {
         let estimate = vec![Estimate::new(500.0, 2.0)];
         Ok(RoomFigures {
             positions: vec![[2.0, 3.0, 0.85]],
@@ -67,26 +68,26 @@ impl Engine for Scripted {
         })
     }
 
-    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, String> {
-        Err("no LID in this test".to_owned())
+    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {
+        Err(AppError::NoLid)
     }
 
-    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, String> {
+    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {
         assert_eq!(question.scene.aperture.len(), 1);
         progress.advance("accuracy", 3, 12);
         let start = Instant::now();
         while self.slow.load(Ordering::Relaxed) && start.elapsed() < Duration::from_secs(20) {
             if progress.cancelled() {
                 self.withdrawn.store(true, Ordering::Relaxed);
-                return Err("withdrawn".to_owned());
+                return Err(AppError::Study(Cancelled.into()));
             }
             std::thread::sleep(Duration::from_millis(1));
         }
         Ok(made_up())
     }
 
-    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, String> {
-        Err("no luminaire in this test".to_owned())
+    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, AppError> {
+        Err(AppError::NoLid)
     }
 }
 

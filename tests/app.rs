@@ -2,8 +2,10 @@
 
 use cfs::app::App;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
-use cfs::app::state::{Sheet, Tile};
-use cfs::compute::estimate::{Estimate, Progress};
+use cfs::app::error::AppError;
+use cfs::app::state::Sheet;
+use cfs::app::tiles::TILES;
+use cfs::compute::estimate::{Cancelled, Estimate, Progress};
 use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -24,7 +26,7 @@ struct Scripted {
 const SLOW: f64 = 0.13;
 
 impl Engine for Scripted {
-    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, String> {
+    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError> {
         self.started.fetch_add(1, Ordering::SeqCst);
         if question.scene.room.reflectance.floor == SLOW {
             let start = Instant::now();
@@ -32,7 +34,7 @@ impl Engine for Scripted {
                 std::thread::sleep(Duration::from_millis(1));
             }
             self.withdrawn.fetch_add(1, Ordering::SeqCst);
-            return Err("withdrawn".to_owned());
+            return Err(AppError::Study(Cancelled.into()));
         }
         if question.scene.room.reflectance.ceiling == SLOW {
             panic!("a fault on purpose");
@@ -43,16 +45,16 @@ impl Engine for Scripted {
         Ok(RoomFigures { positions: sensors, direct: estimate.clone(), interreflected: estimate, grid, seconds: 0.001 })
     }
 
-    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, String> {
-        Err("no LID in this test".to_owned())
+    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {
+        Err(AppError::NoLid)
     }
 
-    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, String> {
-        Err("no ladder in this test".to_owned())
+    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, AppError> {
+        Err(AppError::NoAperture)
     }
 
-    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, String> {
-        Err("no luminaire in this test".to_owned())
+    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, AppError> {
+        Err(AppError::NoLid)
     }
 }
 
@@ -70,6 +72,11 @@ fn window() -> (Harness<'static, App>, Arc<Scripted>) {
         );
     settle(&mut harness);
     (harness, engine)
+}
+
+/// Title of the tile that fills the bench.
+fn maximised(harness: &Harness<'_, App>) -> Option<&'static str> {
+    harness.state().state.maximised.map(|tile| tile.title)
 }
 
 /// Steps until no job is left, then a few frames more.
@@ -91,8 +98,8 @@ fn title(harness: &Harness<'_, App>) -> String {
 #[test]
 fn a_first_start_shows_six_tiles_of_a_product_at_a_place_and_time() {
     let (harness, _) = window();
-    for tile in Tile::ALL {
-        assert!(harness.query_by_label(&format!("Tile {}", tile.title())).is_some(), "{tile:?}");
+    for title in TILES.iter().map(|entry| entry.tile.title) {
+        assert!(harness.query_by_label(&format!("Tile {title}")).is_some(), "{title}");
     }
     let title = title(&harness);
     for word in ["Stuttgart", "south", "21 Mar 12:00", "clear"] {
@@ -116,7 +123,7 @@ fn typing_in_the_search_field_filters_the_list() {
     harness.get_by_role_and_label(Role::TextInput, "Search").type_text("1");
     harness.key_press(Key::Num1);
     settle(&mut harness);
-    assert_eq!(harness.state().state.maximised, None);
+    assert_eq!(maximised(&harness), None);
     assert!(harness.query_by_label("Nothing has all these words.").is_some());
 }
 
@@ -143,7 +150,7 @@ fn keys_maximise_tiles_and_move_the_clock() {
     let (mut harness, _) = window();
     harness.key_press(Key::Num3);
     harness.run_steps(2);
-    assert_eq!(harness.state().state.maximised, Some(Tile::Sky));
+    assert_eq!(maximised(&harness), Some("Sky"));
     assert!(harness.query_by_label("Tile Room").is_none());
     harness.key_press(Key::Num0);
     harness.key_press(Key::ArrowRight);
@@ -316,7 +323,7 @@ fn the_palette_finds_a_command_by_its_words() {
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     harness.run_steps(4);
-    assert_eq!(harness.state().state.maximised, Some(Tile::Lid));
+    assert_eq!(maximised(&harness), Some("LID"));
     assert!(harness.state().state.palette.is_none());
 }
 

@@ -4,10 +4,11 @@
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
-use cfs::app::control::CONTROLLED;
 use cfs::app::shelf::Query;
-use cfs::app::state::{PathUse, Tile};
+use cfs::app::state::PathUse;
+use cfs::app::tiles::TILES;
 use cfs::formats::{Format, eulumdat, ies, write_dataset};
+use cfs::study::control::year::CONTROLLED;
 use cfs::study::scene_file::ControlMode;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -189,8 +190,8 @@ fn every_tile_is_written_as_numbers() {
     let mut harness = window();
     select_blind(&mut harness);
     let folder = tempfile::tempdir().unwrap();
-    for tile in Tile::ALL {
-        let path = folder.path().join(format!("{}.csv", tile.title()));
+    for tile in TILES.iter().map(|entry| entry.tile) {
+        let path = folder.path().join(format!("{}.csv", tile.title));
         apply(&mut harness, Command::Write(PathUse::ExportTile(tile), path.clone()));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{tile:?}: {error}"));
         let rows: Vec<&str> = text.lines().collect();
@@ -199,7 +200,7 @@ fn every_tile_is_written_as_numbers() {
     }
     let room = std::fs::read_to_string(folder.path().join("Room.csv")).unwrap();
     assert_eq!(room.lines().count(), 1 + 8, "one row a sensor");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6, "no part files stay");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), TILES.len(), "no part files stay");
 }
 
 fn import(harness: &mut Harness<'_, App>, path: PathBuf) {

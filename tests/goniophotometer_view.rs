@@ -3,6 +3,7 @@
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::error::AppError;
 use cfs::app::goniophotometer::{Emergence, Incidence, Setup};
 use cfs::app::jobs::Lane;
 use cfs::app::state::{PathUse, Sheet};
@@ -21,7 +22,7 @@ use std::time::{Duration, Instant};
 struct Idle;
 
 impl Engine for Idle {
-    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, String> {
+    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, AppError> {
         let estimate = vec![Estimate::new(500.0, 2.0)];
         Ok(RoomFigures {
             positions: vec![[2.0, 3.0, 0.85]],
@@ -32,16 +33,16 @@ impl Engine for Idle {
         })
     }
 
-    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, String> {
-        Err("no LID in this test".to_owned())
+    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {
+        Err(AppError::NoLid)
     }
 
-    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, String> {
-        Err("no ladder in this test".to_owned())
+    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, AppError> {
+        Err(AppError::NoAperture)
     }
 
-    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, String> {
-        Err("no luminaire in this test".to_owned())
+    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, AppError> {
+        Err(AppError::NoLid)
     }
 }
 

@@ -1,49 +1,18 @@
 //! Acting on commands: the only place where what the window knows changes by the user's will.
 
-use super::App;
 use super::command::{Command, ImportFields};
-use super::control::CONTROLLED;
 use super::jobs::Lane;
 use super::moment;
+use super::scene::{Selection, fill, first_scene, rule, set_rule};
 use super::shelf::Addition;
-use super::state::{Added, CatalogueState, PathUse, Selection, Sheet, first_scene};
+use super::state::{Added, PathUse};
+use super::window::App;
 use super::work;
 use crate::catalogue::{NewProduct, Provenance};
 use crate::compute::doctor::{Repair, record};
+use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
-use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
-use std::path::PathBuf;
-
-/// Puts a product into every aperture that is filled from the catalogue; into the first one if none is.
-pub fn fill(scene: &mut SceneFile, selection: &Selection) {
-    let state = (!selection.state.is_empty()).then(|| selection.state.clone());
-    if selection.state != CONTROLLED {
-        scene.control = None;
-        scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
-    }
-    let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
-    let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
-    if !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)) {
-        if let Some(first) = scene.aperture.first_mut() {
-            first.system = keys;
-        }
-        return;
-    }
-    for aperture in scene.aperture.iter_mut().filter(|aperture| from_catalogue(&aperture.system)) {
-        aperture.system = keys.clone();
-    }
-}
-
-/// Sets the rule of one aperture, or of the whole scene, which then has no other.
-fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<ControlKeys>) {
-    match aperture.and_then(|index| scene.aperture.get_mut(index)) {
-        Some(aperture) => aperture.control = keys,
-        None => {
-            scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
-            scene.control = keys;
-        }
-    }
-}
+use crate::study::scene_file::{ControlKeys, ControlMode};
 
 impl App {
     /// Does what a command says.
@@ -55,6 +24,7 @@ impl App {
             Command::ExportLid => self.ask_target(PathUse::ExportLid),
             Command::ExportTile(tile) => self.ask_target(PathUse::ExportTile(tile)),
             Command::CopyTile(tile) => self.copy_tile(tile),
+            Command::Incidence(chosen) => state.incident = chosen,
             Command::Control(mode) => self.control(mode),
             Command::ControlKeys(keys) => self.set_control(*keys),
             Command::ControlOf(index) => {
@@ -188,7 +158,7 @@ impl App {
             return;
         }
         let scene = &self.state.document.scene;
-        let keys = super::control::rule(scene, self.state.control_aperture())
+        let keys = rule(scene, self.state.control_aperture())
             .map_or_else(|| ControlKeys::of(mode), |keys| keys.with_mode(mode));
         self.set_control(keys);
     }
@@ -210,8 +180,7 @@ impl App {
         }
         let document = &mut self.state.document;
         let change = document.selection.state != CONTROLLED
-            || super::control::rule(&document.scene, self.state.control_of.unwrap_or(0)).map(|old| old.mode)
-                != Some(keys.mode);
+            || rule(&document.scene, self.state.control_of.unwrap_or(0)).map(|old| old.mode) != Some(keys.mode);
         // A change of rule is a step of its own; a curve that is dragged is one step when it comes to rest.
         if change {
             self.undoer.add_undo(document);
@@ -311,74 +280,5 @@ impl App {
         self.undoer.add_undo(&self.state.document);
         self.state.document.additions.push(number);
         self.store_addition(number, addition);
-    }
-
-    /// Asks for files: the path field at once, the desktop's dialog beside it.
-    fn ask_paths(&mut self) {
-        self.state.path.clear();
-        self.state.sheet = Some(Sheet::Path(PathUse::Open));
-        let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Import, move |_| work::Outcome::Chosen(dialogs.open()));
-    }
-
-    fn ask_target(&mut self, what: PathUse) {
-        self.state.path = match (what, &self.state.scene_path) {
-            (PathUse::SaveScene, Some(path)) => path.display().to_string(),
-            (PathUse::ExportLid, _) => "window.ldt".to_owned(),
-            (PathUse::ExportTile(tile), _) => super::export::file_name(tile),
-            (PathUse::ExportMeasured, _) => "system.cfsp".to_owned(),
-            _ => "scene.toml".to_owned(),
-        };
-        self.state.sheet = Some(Sheet::Path(what));
-        let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Export, move |_| work::Outcome::Target(what, dialogs.save(what)));
-    }
-
-    fn read_paths(&mut self, paths: Vec<PathBuf>) {
-        if paths.is_empty() {
-            return;
-        }
-        self.state.sheet = None;
-        // A package is whole: it needs no questions, and goes where it came from.
-        let (packages, paths): (Vec<_>, Vec<_>) =
-            paths.into_iter().partition(|path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("cfsp")));
-        packages.into_iter().for_each(|path| self.import_package(path));
-        if paths.is_empty() {
-            return;
-        }
-        let read = self.services.read;
-        self.start(Lane::Import, move |_| work::read_files(&paths, read));
-    }
-
-    fn write(&mut self, what: PathUse, path: PathBuf) {
-        self.state.sheet = None;
-        match what {
-            PathUse::Open => self.read_paths(vec![path]),
-            PathUse::SaveScene => {
-                let text = toml::to_string_pretty(&self.state.document.scene);
-                self.start(Lane::Export, move |_| work::save_scene(&path, text));
-            }
-            PathUse::ExportTile(tile) => self.export_tile(tile, path),
-            PathUse::ExportMeasured => {
-                self.state.sheet = Some(Sheet::Goniophotometer);
-                match self.state.goniophotometer.run.clone() {
-                    Some(run) => self.start(Lane::Export, move |_| {
-                        work::Outcome::Written(what, super::goniophotometer::export(&run, &path))
-                    }),
-                    None => drop(self.toasts.info("Compute the system first")),
-                }
-            }
-            PathUse::ExportLid => {
-                let (engine, lid) = (self.services.engine.clone(), self.results.lid.value.clone());
-                self.start(Lane::Export, move |_| work::export_lid(&path, lid.as_deref(), &*engine));
-            }
-        }
-    }
-
-    /// Opens the catalogue in a job.
-    pub(super) fn open_catalogue(&mut self) {
-        self.state.catalogue = CatalogueState::Opening;
-        let open = self.services.open_catalogue.clone();
-        self.start(Lane::Catalogue, move |_| work::Outcome::Opened(open()));
     }
 }

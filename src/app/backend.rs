@@ -1,6 +1,7 @@
 //! The window's services as they are in earnest: the catalogue's file, the study, luminaire files.
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
+use super::error::AppError;
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
 use crate::catalogue::{self, Catalogue, Imported, NewProduct, Product};
 use crate::compute::btdf::{Btdf, Dataset};
@@ -24,20 +25,20 @@ struct CatalogueShelf {
 }
 
 /// Opens a catalogue's file, or the user's own.
-pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, String> {
-    let catalogue = path.map_or_else(Catalogue::open_default, Catalogue::open).map_err(|error| error.to_string())?;
+pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, AppError> {
+    let catalogue = path.map_or_else(Catalogue::open_default, Catalogue::open)?;
     Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), fills: true }))
 }
 
 /// A new catalogue in memory with the built-in products.
-pub fn memory_shelf() -> Result<Arc<dyn Shelf>, String> {
-    let catalogue = Catalogue::in_memory().map_err(|error| error.to_string())?;
+pub fn memory_shelf() -> Result<Arc<dyn Shelf>, AppError> {
+    let catalogue = Catalogue::in_memory()?;
     Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), fills: false }))
 }
 
 /// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
-pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, String> {
-    let catalogue = Catalogue::empty_in_memory().map_err(told)?;
+pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
+    let catalogue = Catalogue::empty_in_memory()?;
     let shelf = CatalogueShelf { catalogue: Mutex::new(catalogue), fills: false };
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
     {
@@ -58,21 +59,17 @@ impl CatalogueShelf {
     }
 }
 
-fn told(error: catalogue::CatalogueError) -> String {
-    error.to_string()
-}
-
 impl Shelf for CatalogueShelf {
-    fn search(&self, query: &Query) -> Result<Found, String> {
+    fn search(&self, query: &Query) -> Result<Found, AppError> {
         let catalogue = self.lock();
         let words = catalogue::Query {
             text: query.text.clone(),
             favourite: query.favourites.then_some(true),
             ..catalogue::Query::default()
         };
-        let mut found = Found { total: catalogue.facets().map_err(told)?.all, ..Found::default() };
+        let mut found = Found { total: catalogue.facets()?.all, ..Found::default() };
         let mut kinds = std::collections::BTreeMap::new();
-        for row in catalogue.search(&words).map_err(told)? {
+        for row in catalogue.search(&words)? {
             *kinds.entry(row.kind.clone()).or_insert(0) += 1;
             if !query.kinds.is_empty() && !query.kinds.contains(&row.kind) {
                 continue;
@@ -93,20 +90,20 @@ impl Shelf for CatalogueShelf {
         Ok(found)
     }
 
-    fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, String> {
+    fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError> {
         let catalogue = self.lock();
         match state {
-            Some(state) => catalogue.dataset(product, Some(state)).map_err(told),
+            Some(state) => Ok(catalogue.dataset(product, Some(state))?),
             None => {
-                let first = catalogue.product(product).map_err(told)?.states.into_iter().next();
-                let first = first.ok_or_else(|| format!("{product} has no state: import it again"))?;
-                catalogue.dataset(product, Some(&first.key)).map_err(told)
+                let first = catalogue.product(product)?.states.into_iter().next();
+                let first = first.ok_or_else(|| AppError::NoState(product.to_owned()))?;
+                Ok(catalogue.dataset(product, Some(&first.key))?)
             }
         }
     }
 
-    fn product(&self, product: &str) -> Result<Arc<Product>, String> {
-        self.lock().product(product).map(Arc::new).map_err(told)
+    fn product(&self, product: &str) -> Result<Arc<Product>, AppError> {
+        Ok(Arc::new(self.lock().product(product)?))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
@@ -114,33 +111,33 @@ impl Shelf for CatalogueShelf {
         pick_state(&Device::of(&product)?, asked)
     }
 
-    fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, String> {
+    fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, AppError> {
         if !self.fills {
             return Ok(None);
         }
-        let missing = self.lock().missing_builtin().map_err(told)?;
+        let missing = self.lock().missing_builtin()?;
         Ok(missing.first().map(|&name| (name, missing.len())))
     }
 
-    fn put_builtin(&self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), String> {
-        self.lock().put_builtin(name, product, datasets).map_err(told)
+    fn put_builtin(&self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), AppError> {
+        Ok(self.lock().put_builtin(name, product, datasets)?)
     }
 
-    fn add(&self, addition: &Addition) -> Result<String, String> {
+    fn add(&self, addition: &Addition) -> Result<String, AppError> {
         let datasets: Vec<Dataset> = addition.datasets.iter().map(|dataset| stored_by_default(dataset)).collect();
-        self.lock().import(&datasets, addition.product.clone()).map(|imported| imported.key).map_err(told)
+        Ok(self.lock().import(&datasets, addition.product.clone())?.key)
     }
 
-    fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, String> {
-        self.lock().import_package(bytes).map_err(told)
+    fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, AppError> {
+        Ok(self.lock().import_package(bytes)?)
     }
 
-    fn remove(&self, product: &str) -> Result<(), String> {
-        self.lock().remove_product(product).map(drop).map_err(told)
+    fn remove(&self, product: &str) -> Result<(), AppError> {
+        Ok(self.lock().remove_product(product).map(drop)?)
     }
 
-    fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), String> {
-        self.lock().set_favourite(product, favourite).map_err(told)
+    fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), AppError> {
+        Ok(self.lock().set_favourite(product, favourite)?)
     }
 }
 
@@ -153,7 +150,8 @@ struct WindowLibrary<'a> {
 impl SystemLibrary for WindowLibrary<'_> {
     fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError> {
         let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base) };
-        let dataset = self.shelf.load(key, state.as_deref()).map_err(StudyError::Catalogue)?;
+        let dataset =
+            self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
         Ok(Arc::new(System { label: dataset.name.clone(), state: state.clone().unwrap_or_default(), dataset }))
     }
 
@@ -170,17 +168,17 @@ pub struct StudyEngine {
 }
 
 impl StudyEngine {
-    fn scene(&self, question: &Question) -> Result<Scene, String> {
+    fn scene(&self, question: &Question) -> Result<Scene, AppError> {
         let library = WindowLibrary { files: &self.files, shelf: &*question.shelf };
-        Scene::resolve(&question.scene, &question.base, &library).map_err(|error| error.to_string())
+        Ok(Scene::resolve(&question.scene, &question.base, &library)?)
     }
 }
 
 impl Engine for StudyEngine {
-    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, String> {
+    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError> {
         let start = Instant::now();
         let scene = self.scene(question)?;
-        let result = self.session.room(&scene, progress).map_err(|error| error.to_string())?;
+        let result = self.session.room(&scene, progress)?;
         Ok(RoomFigures {
             positions: result.sensors.iter().map(|sensor| sensor.sensor.position.to_array()).collect(),
             direct: result.sensors.iter().map(|sensor| sensor.direct).collect(),
@@ -190,13 +188,13 @@ impl Engine for StudyEngine {
         })
     }
 
-    fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, String> {
+    fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError> {
         let start = Instant::now();
         let scene = self.scene(question)?;
         if scene.apertures.is_empty() {
-            return Err("the scene has no aperture: add one in the scene panel".to_owned());
+            return Err(AppError::NoAperture);
         }
-        let result = self.session.lid(&scene, 0, progress).map_err(|error| error.to_string())?;
+        let result = self.session.lid(&scene, 0, progress)?;
         let name = scene.apertures[0].system.label.clone();
         Ok(LidFigures {
             lid: result.lid,
@@ -207,14 +205,13 @@ impl Engine for StudyEngine {
         })
     }
 
-    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, String> {
-        ladder(&self.scene(question)?, progress).map_err(|error| error.to_string())
+    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {
+        Ok(ladder(&self.scene(question)?, progress)?)
     }
 
-    fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, String> {
-        let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-        let format = LidFormat::of(path, IesEdition::Lm63_2002).map_err(|error| told(&error))?;
-        let file = encode(&lid.lid, lid.description.clone(), format, None, None).map_err(|error| told(&error))?;
-        Ok(file.bytes)
+    fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError> {
+        let encoded = LidFormat::of(path, IesEdition::Lm63_2002)
+            .and_then(|format| encode(&lid.lid, lid.description.clone(), format, None, None));
+        Ok(encoded.map_err(|error| AppError::from(error).about(path.display()))?.bytes)
     }
 }

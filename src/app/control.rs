@@ -3,14 +3,13 @@
 //! Today and the year are told for a sun that shines: which hours it is before the façade, and which state it asks for.
 
 use super::moment;
-use super::state::State;
 use crate::catalogue::Product;
 use crate::compute::direction::Surface;
 use crate::compute::estimate::Progress;
-pub use crate::study::control::year::CONTROLLED;
+use crate::study::StudyError;
 use crate::study::control::year::{ClearSky, Moment, Moving, Setting, Situation, day, year as study_year};
 use crate::study::control::{Device, curve, settings};
-use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile, SurfaceKey};
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,34 +20,59 @@ const YEAR_STEP: u32 = 60;
 const DAY_STEP: u32 = 30;
 
 /// What the window calls a rule.
-pub const fn word(mode: ControlMode) -> &'static str {
-    match mode {
-        ControlMode::Fixed => "fixed by hand",
-        ControlMode::Curve => "follows the curve",
-        ControlMode::CutOff => "keeps the sun just out (cut-off)",
-        ControlMode::Din5034 => "closed in sun (DIN 5034)",
-        ControlMode::RetroReflect => "throws the sun back",
-        ControlMode::Redirect => "redirects the sun",
-        ControlMode::User => "by the user's clock",
-    }
+pub struct Words {
+    /// In a list.
+    pub short: &'static str,
+    /// As what a product does.
+    pub does: &'static str,
+    /// As what it is told to do.
+    pub order: &'static str,
+    /// One sentence.
+    pub tip: &'static str,
 }
 
-/// Where an aperture of the scene lies; the façade where there is none.
-pub fn surface_of(scene: &SceneFile, aperture: usize) -> Surface {
-    match scene.aperture.get(aperture).map(|aperture| aperture.surface) {
-        Some(SurfaceKey::Roof) => Surface::Roof,
-        _ => Surface::Facade,
-    }
-}
-
-/// Where the scene's first aperture lies.
-pub fn surface(scene: &SceneFile) -> Surface {
-    surface_of(scene, 0)
-}
-
-/// The rule of an aperture: its own, else the scene's.
-pub fn rule(scene: &SceneFile, aperture: usize) -> Option<&ControlKeys> {
-    scene.aperture.get(aperture).and_then(|aperture| aperture.control.as_ref()).or(scene.control.as_ref())
+/// What the window calls a rule.
+pub const fn words(mode: ControlMode) -> Words {
+    let (short, does, order, tip) = match mode {
+        ControlMode::Fixed => ("By hand", "fixed by hand", "by hand", "The state stays where [ and ] put it"),
+        ControlMode::Curve => (
+            "Curve",
+            "follows the curve",
+            "follow the curve",
+            "The state that a curve asks for at the sun's profile angle: the product's, or one edited in the tile",
+        ),
+        ControlMode::CutOff => (
+            "Cut-off",
+            "keeps the sun just out (cut-off)",
+            "keep the sun just out (cut-off)",
+            "The most open state that lets no direct sun through, the whole disc counted",
+        ),
+        ControlMode::Din5034 => (
+            "DIN 5034",
+            "closed in sun (DIN 5034)",
+            "closed in sun (DIN 5034)",
+            "The most closed state while the sun is on the façade, else the most open",
+        ),
+        ControlMode::RetroReflect => (
+            "Retro-reflect",
+            "throws the sun back",
+            "throw the sun back",
+            "Mirror slats stand across the beam: 90° − ψ, for the lower part of a window",
+        ),
+        ControlMode::Redirect => (
+            "Redirect",
+            "redirects the sun",
+            "redirect the sun",
+            "Mirror slats send the sun to the ceiling: half of (elevation − ψ), for the upper part of a window",
+        ),
+        ControlMode::User => (
+            "User",
+            "by the user's clock",
+            "by the user's clock",
+            "A state by hours of the day; the hours are set in the scene file",
+        ),
+    };
+    Words { short, does, order, tip }
 }
 
 /// Place, façade and rule: all that a year of control hangs on.
@@ -64,21 +88,15 @@ pub struct YearKey {
 }
 
 impl YearKey {
-    /// Of the window's scene and selection; `None` without place and date.
-    pub fn new(state: &State, product: &str) -> Option<Self> {
-        let scene = &state.document.scene;
+    /// Of a scene in which one product moves by these keys, seen by an aperture of `surface`; `None` without place and
+    /// date.
+    pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, surface: Surface, base: PathBuf) -> Option<Self> {
         moment::of(scene)?;
-        Some(Self {
-            product: product.to_owned(),
-            keys: state.control_keys(),
-            situation: Situation::of(scene).ok()?,
-            surface: surface_of(scene, state.control_aperture()),
-            base: state.base(),
-        })
+        Some(Self { product: product.to_owned(), keys, situation: Situation::of(scene).ok()?, surface, base })
     }
 
-    fn moving(&self, product: &Product) -> Result<Vec<Moving>, String> {
-        let device = Device::of(product).map_err(|error| error.to_string())?;
+    fn moving(&self, product: &Product) -> Result<Vec<Moving>, StudyError> {
+        let device = Device::of(product)?;
         let section = device.section.clone();
         Ok(vec![Moving { aperture: 1, surface: self.surface, device, keys: self.keys.clone(), section }])
     }
@@ -118,10 +136,9 @@ fn ordered_keys(product: &Product) -> Vec<String> {
 }
 
 /// The year of a product. Called in a job.
-pub fn year(product: &Arc<Product>, key: YearKey, progress: &dyn Progress) -> Result<Year, String> {
+pub fn year(product: &Arc<Product>, key: YearKey, progress: &dyn Progress) -> Result<Year, StudyError> {
     let moving = key.moving(product)?;
-    let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &ClearSky, progress)
-        .map_err(|error| error.to_string())?;
+    let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &ClearSky, progress)?;
     let states = ordered_keys(product);
     let of = |moment: &Moment| seen(product, &states, &moment.settings[0]).map(|(_, index)| index);
     let hours = moments.iter().map(of).collect();
@@ -133,24 +150,22 @@ pub fn year(product: &Arc<Product>, key: YearKey, progress: &dyn Progress) -> Re
 pub type TodayPoint = (f64, Option<(f64, u16)>);
 
 /// Every half hour of the scene's day.
-pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<TodayPoint>, String> {
+pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<TodayPoint>, StudyError> {
     let Some(time) = moment::of(scene) else { return Ok(Vec::new()) };
     let date: Date = time.date();
     let moving = key.moving(product)?;
-    let moments =
-        day(&key.situation, &key.base, &moving, date, DAY_STEP, &ClearSky).map_err(|error| error.to_string())?;
+    let moments = day(&key.situation, &key.base, &moving, date, DAY_STEP, &ClearSky)?;
     let states = ordered_keys(product);
     let hour = |step: usize| step as f64 * f64::from(DAY_STEP) / 60.0;
     Ok(moments.iter().enumerate().map(|(k, moment)| (hour(k), seen(product, &states, &moment.settings[0]))).collect())
 }
 
 /// What a rule asks for at profile angles: points of its curve (profile angle \[°\], value); none for rules without one.
-pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<Vec<[f64; 2]>, String> {
-    let told = |error: crate::study::StudyError| error.to_string();
-    let device = Device::of(product).map_err(told)?;
+pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
+    let device = Device::of(product)?;
     if keys.mode == ControlMode::Curve {
-        return curve(keys, &device, base).map_err(told);
+        return curve(keys, &device, base);
     }
-    let settings = settings(keys, &device, base).map_err(told)?;
+    let settings = settings(keys, &device, base)?;
     Ok(settings.curve().into_iter().map(|(psi, value)| [psi.to_degrees(), value.to_degrees()]).collect())
 }

@@ -1,48 +1,42 @@
 //! File dialogs behind a trait, so that tests can script them. They run in a job: some block until answered.
 
+use super::error::AppError;
 use super::state::PathUse;
 use std::path::PathBuf;
 
 /// Asks the user for paths.
 pub trait FileDialogs: Send + Sync {
     /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
-    fn open(&self) -> Result<Vec<PathBuf>, String>;
+    fn open(&self) -> Result<Vec<PathBuf>, AppError>;
     /// Where to write.
-    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, String>;
+    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError>;
 }
 
 /// The desktop's own dialogs.
 pub struct NativeDialogs;
 
 impl FileDialogs for NativeDialogs {
-    fn open(&self) -> Result<Vec<PathBuf>, String> {
+    fn open(&self) -> Result<Vec<PathBuf>, AppError> {
         let dialog =
             rfd::FileDialog::new().set_title("Open datasets, a system or a scene").add_filter("All files", &["*"]);
         Ok(dialog.pick_files().unwrap_or_default())
     }
 
-    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, String> {
+    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError> {
+        let dialog = rfd::FileDialog::new().set_title(what.title()).set_file_name(what.file_name());
         let dialog = match what {
-            PathUse::ExportLid => rfd::FileDialog::new()
-                .set_title("Export the LID")
-                .set_file_name("window.ldt")
+            PathUse::ExportLid => dialog
                 .add_filter("Luminaire files", &["ldt", "ies"])
                 .add_filter("Table or diagram", &["csv", "svg", "png"]),
-            PathUse::ExportTile(tile) => rfd::FileDialog::new()
-                .set_title(format!("Export {}", tile.title()))
-                .set_file_name(super::export::file_name(tile))
+            PathUse::ExportTile(tile) => dialog
+                .set_title(format!("Export {}", tile.title))
                 .add_filter("Numbers", &["csv"])
                 .add_filter("Picture", &["png"]),
-            PathUse::ExportMeasured => rfd::FileDialog::new()
-                .set_title("Export the computed data")
-                .set_file_name("system.cfsp")
+            PathUse::ExportMeasured => dialog
                 .add_filter("Package of all states", &["cfsp"])
                 .add_filter("BSDF", &["xml"])
                 .add_filter("BTDF text", &["btdf.txt"]),
-            PathUse::SaveScene | PathUse::Open => rfd::FileDialog::new()
-                .set_title("Save the scene")
-                .set_file_name("scene.toml")
-                .add_filter("Scene", &["toml"]),
+            PathUse::SaveScene | PathUse::Open => dialog.add_filter("Scene", &["toml"]),
         };
         Ok(dialog.save_file())
     }
@@ -52,11 +46,11 @@ impl FileDialogs for NativeDialogs {
 pub struct NoDialogs;
 
 impl FileDialogs for NoDialogs {
-    fn open(&self) -> Result<Vec<PathBuf>, String> {
-        Err("no file dialog here".to_owned())
+    fn open(&self) -> Result<Vec<PathBuf>, AppError> {
+        Err(AppError::NoDialog)
     }
 
-    fn save(&self, _what: PathUse) -> Result<Option<PathBuf>, String> {
-        Err("no file dialog here".to_owned())
+    fn save(&self, _what: PathUse) -> Result<Option<PathBuf>, AppError> {
+        Err(AppError::NoDialog)
     }
 }

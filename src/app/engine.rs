@@ -1,5 +1,6 @@
 //! What the window asks of the study. A trait, so that tests can put a slow or failing one in its place.
 
+use super::error::AppError;
 use super::shelf::Shelf;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Lid;
@@ -68,14 +69,14 @@ pub struct Question {
     pub shelf: Arc<dyn Shelf>,
 }
 
-/// Computes. Every error is a sentence for the user.
+/// Computes.
 pub trait Engine: Send + Sync {
     /// Illuminances in the room.
-    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, String>;
+    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError>;
     /// The light of the first aperture.
-    fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, String>;
+    fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError>;
     /// Error against run time of every method.
-    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, String>;
+    fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;
     /// The bytes of a luminaire file, its format by the path's extension.
-    fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, String>;
+    fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError>;
 }

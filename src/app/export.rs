@@ -2,14 +2,12 @@
 //!
 //! Both need the tile to be drawn once more: its numbers are known to its drawing alone, its picture to the screen.
 
-use super::App;
-use super::jobs::Lane;
-use super::state::{PathUse, Tile};
-use super::work::{Outcome, write_whole};
+use super::error::AppError;
+use super::state::Tile;
 use egui::{ColorImage, Rect};
 use image::ImageEncoder;
 use image::codecs::png::PngEncoder;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Where a tile's numbers go.
@@ -28,12 +26,23 @@ pub struct Exports {
     done: Vec<(Tile, PathBuf, String)>,
 }
 
-/// A name to start from.
-pub fn file_name(tile: Tile) -> String {
-    format!("{}.csv", tile.title().to_lowercase())
-}
-
 impl Exports {
+    /// Asks a tile for its numbers, for the clipboard.
+    pub fn ask_copy(&mut self, tile: Tile) {
+        self.numbers = Some((tile, Target::Clipboard));
+    }
+
+    /// Asks a tile for its numbers (.csv) or its picture (.png).
+    pub fn ask(&mut self, tile: Tile, path: PathBuf) -> Result<(), AppError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "csv" => self.numbers = Some((tile, Target::File(path))),
+            "png" => self.picture = Some((tile, path)),
+            _ => return Err(AppError::TileEnding(ending).about(path.display())),
+        }
+        Ok(())
+    }
+
     /// True when this tile's numbers are asked for.
     pub fn wants_numbers(&self, tile: Tile) -> bool {
         self.numbers.as_ref().is_some_and(|(wanted, _)| *wanted == tile)
@@ -49,6 +58,16 @@ impl Exports {
             }
             None => {}
         }
+    }
+
+    /// Numbers that are to be written.
+    pub fn next_numbers(&mut self) -> Option<(Tile, PathBuf, String)> {
+        self.done.pop()
+    }
+
+    /// A picture that is to be written.
+    pub fn next_picture(&mut self) -> Option<(Tile, PathBuf, ColorImage)> {
+        self.taken.lock().unwrap_or_else(PoisonError::into_inner).pop()
     }
 
     /// Asks the screen for a tile's picture if it is wanted; the tile stands at `rect`.
@@ -73,72 +92,12 @@ fn crop(screen: &ColorImage, rect: Rect, scale: f32) -> ColorImage {
 }
 
 /// A picture as PNG.
-fn png(picture: &ColorImage) -> Result<Vec<u8>, String> {
-    let told = |error: &dyn std::fmt::Display| format!("the picture cannot be encoded: {error}");
+pub fn png(picture: &ColorImage) -> Result<Vec<u8>, AppError> {
     let pixels: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
-    let size = picture.size.map(u32::try_from);
-    let [Ok(width), Ok(height)] = size else { return Err(told(&"it is too large")) };
+    let [Ok(width), Ok(height)] = picture.size.map(u32::try_from) else { return Err(AppError::PictureSize) };
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes)
-        .write_image(&pixels, width, height, image::ExtendedColorType::Rgba8)
-        .map_err(|error| told(&error))?;
+    PngEncoder::new(&mut bytes).write_image(&pixels, width, height, image::ExtendedColorType::Rgba8)?;
     Ok(bytes)
-}
-
-fn extension(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
-}
-
-impl App {
-    /// Asks a tile for its numbers or its picture, by the path's ending.
-    pub(super) fn export_tile(&mut self, tile: Tile, path: PathBuf) {
-        match extension(&path).as_str() {
-            "csv" => self.export.numbers = Some((tile, Target::File(path))),
-            "png" => self.export.picture = Some((tile, path)),
-            other => {
-                let text = format!(
-                    "{}: the ending \"{other}\" is none that a tile is written as: use .csv for numbers, .png for a picture",
-                    path.display()
-                );
-                self.toasts.error(text).duration(None);
-                return;
-            }
-        }
-        self.bring_up(tile);
-    }
-
-    /// Asks a tile for its numbers, for the clipboard.
-    pub(super) fn copy_tile(&mut self, tile: Tile) {
-        self.export.numbers = Some((tile, Target::Clipboard));
-        self.bring_up(tile);
-    }
-
-    /// A hidden tile is not drawn and so knows nothing.
-    fn bring_up(&mut self, tile: Tile) {
-        if self.state.maximised.is_some_and(|shown| shown != tile) {
-            self.state.maximised = Some(tile);
-        }
-    }
-
-    /// Writes what tiles and screen gave since the last frame.
-    pub(super) fn write_exports(&mut self) {
-        if self.jobs.busy(Lane::Export) {
-            return;
-        }
-        if let Some((tile, path, text)) = self.export.done.pop() {
-            self.start(Lane::Export, move |_| {
-                Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes()))
-            });
-            return;
-        }
-        let taken = self.export.taken.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        if let Some((tile, path, picture)) = taken {
-            self.start(Lane::Export, move |_| {
-                let written = png(&picture).and_then(|bytes| write_whole(&path, &bytes));
-                Outcome::Written(PathUse::ExportTile(tile), written)
-            });
-        }
-    }
 }
 
 #[cfg(test)]

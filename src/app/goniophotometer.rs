@@ -2,13 +2,10 @@
 //!
 //! Every state is a job of its own, so that finished ones show at once and stay when the run is stopped.
 
-use super::App;
-use super::examples::EXAMPLES;
-use super::jobs::{JobState, Lane};
-use super::shelf::Addition;
-use super::state::Sheet;
-use super::work::{Outcome, write_whole};
-use crate::catalogue::{Catalogue, NewProduct};
+use super::disk::{ends_in, write_whole};
+use super::error::AppError;
+use super::jobs::JobState;
+use crate::catalogue::{Catalogue, CatalogueError, NewProduct};
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::Dataset;
 use crate::compute::system::SystemKind;
@@ -139,14 +136,14 @@ impl Run {
 }
 
 /// What the sheet holds. Not under undo: nothing of it is in the catalogue before it is added.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct Bench {
     /// The system file as typed.
     pub text: String,
     /// What the text names other files relative to.
     pub base: PathBuf,
     /// The text as read, or what is wrong with it; `None` while there is none.
-    pub described: Option<Result<Arc<Described>, String>>,
+    pub described: Option<Result<Arc<Described>, AppError>>,
     /// Counts the texts.
     pub revision: u64,
     /// Number of the state that is drawn.
@@ -185,28 +182,27 @@ impl Bench {
 }
 
 /// Reads a text and tries its geometry, which only building the system shows to be possible.
-fn check(text: &str, base: PathBuf) -> Result<Described, String> {
-    let described = Described::from_text(text, Base::Folder(base)).map_err(|error| error.to_string())?;
+fn check(text: &str, base: PathBuf) -> Result<Described, AppError> {
+    let described = Described::from_text(text, Base::Folder(base))?;
     let system = &described.file.system;
     if !matches!(system.kind, SystemKind::Stack(_)) {
         let nothing_else = Library::default();
         for state in system.states() {
-            described.specimen(&state, &nothing_else).map_err(|error| error.to_string())?;
+            described.specimen(&state, &nothing_else)?;
         }
     }
     Ok(described)
 }
 
 /// Measures the state after those that are finished.
-fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<String>, Finished), String> {
-    let told = |error: crate::study::StudyError| error.to_string();
+pub fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<String>, Finished), AppError> {
     let states = match &run.states {
         Some(states) => states.clone(),
-        None => run.described.states(library).map_err(told)?,
+        None => run.described.states(library)?,
     };
-    let state = states.get(run.finished.len()).ok_or("the system has no states: give it at least one angle")?;
+    let state = states.get(run.finished.len()).ok_or(AppError::NoStates)?;
     let request = run.setup.request();
-    let computed = run.described.measure(state, &request, library, None, job).map_err(told)?;
+    let computed = run.described.measure(state, &request, library, None, job)?;
     let tau_normal = computed.dataset.transmission().map_or(0.0, crate::compute::btdf::Btdf::tau_normal);
     let dataset =
         if request.emergent.len() > MOST_WHOLE_CELLS { stored_by_default(&computed.dataset) } else { computed.dataset };
@@ -215,111 +211,45 @@ fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<Strin
     Ok((states, finished))
 }
 
-fn product(run: &Run) -> NewProduct {
+/// What is stored with the states.
+pub fn product(run: &Run) -> NewProduct {
     // Names hang on the states alone.
     let named = |finished: &Finished| Dataset { state: finished.dataset.state.clone(), ..Dataset::default() };
     let names: Vec<Dataset> = run.finished.iter().map(named).collect();
     run.described.product(&run.setup.request(), &names)
 }
 
+fn package(run: &Run) -> Result<Vec<u8>, CatalogueError> {
+    let datasets: Vec<Dataset> = run.finished.iter().map(|one| (*one.dataset).clone()).collect();
+    let mut catalogue = Catalogue::empty_in_memory()?;
+    let imported = catalogue.import(&datasets, product(run))?;
+    catalogue.export_package(&[imported.key])
+}
+
 /// Writes all states: one package (.cfsp), or a file a state (.xml, .btdf.txt), named by the states if there are several.
-pub(super) fn export(run: &Run, path: &Path) -> Result<PathBuf, String> {
-    let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cfsp")) {
-        let datasets: Vec<Dataset> = run.finished.iter().map(|one| (*one.dataset).clone()).collect();
-        let mut catalogue = Catalogue::empty_in_memory().map_err(|error| told(&error))?;
-        let imported = catalogue.import(&datasets, product(run)).map_err(|error| told(&error))?;
-        let bytes = catalogue.export_package(&[imported.key]).map_err(|error| told(&error))?;
-        return write_whole(path, &bytes);
+pub fn export(run: &Run, path: &Path) -> Result<PathBuf, AppError> {
+    let told = |error: AppError| error.about(path.display());
+    if ends_in(path, "cfsp") {
+        return write_whole(path, &package(run).map_err(|error| told(error.into()))?);
     }
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let format = Format::from_name(&name)
-        .ok_or_else(|| told(&"an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt"))?;
+    let format = Format::from_name(&name).ok_or_else(|| told(AppError::MeasuredEnding))?;
     let stem = Format::stem(&name);
     for one in &run.finished {
         let path = match run.finished.len() {
             1 => path.to_owned(),
             _ => path.with_file_name(format!("{stem}_{}{}", one.dataset.state, &name[stem.len()..])),
         };
-        let written = write_dataset(format, std::slice::from_ref(&*one.dataset)).map_err(|error| told(&error))?;
-        write_whole(&path, &written.bytes)?;
+        let written = write_dataset(format, std::slice::from_ref(&*one.dataset));
+        write_whole(&path, &written.map_err(|error| told(error.into()))?.bytes)?;
     }
     Ok(path.to_owned())
-}
-
-impl App {
-    /// Fills the sheet with a text and opens it.
-    pub(super) fn open_system(&mut self, text: String, base: PathBuf) {
-        self.state.sheet = Some(Sheet::Goniophotometer);
-        let bench = &mut self.state.goniophotometer;
-        bench.base = base;
-        bench.drawn = 0;
-        bench.failure = None;
-        bench.set_text(text);
-    }
-
-    /// Fills the sheet with an example.
-    pub(super) fn open_example(&mut self, number: usize) {
-        if let Some(example) = EXAMPLES.get(number) {
-            self.open_system(example.text.to_owned(), PathBuf::new());
-        }
-    }
-
-    /// Measures what is described; a run that was stopped goes on.
-    pub(super) fn measure_system(&mut self) {
-        self.state.sheet = Some(Sheet::Goniophotometer);
-        if self.jobs.busy(Lane::Goniophotometer) {
-            return;
-        }
-        let bench = &mut self.state.goniophotometer;
-        let Some(described) = bench.valid().cloned() else {
-            self.toasts.info("Describe a system first: an example, a file, or a text");
-            return;
-        };
-        bench.failure = None;
-        let goes_on = bench.run.take().filter(|run| bench.is_current(run) && !run.complete());
-        let run = goes_on.unwrap_or(Run { described, setup: bench.setup, states: None, finished: Vec::new() });
-        bench.run = Some(run);
-        self.measure_next_state();
-    }
-
-    fn measure_next_state(&mut self) {
-        let Some(run) = self.state.goniophotometer.run.clone() else { return };
-        let library = self.library.clone();
-        self.start(Lane::Goniophotometer, move |job| Outcome::Measured(next_state(&run, &library, job).map(Box::new)));
-    }
-
-    /// Takes in a finished state and goes on to the next.
-    pub(super) fn take_measured(&mut self, result: Result<Box<(Vec<String>, Finished)>, String>) {
-        let bench = &mut self.state.goniophotometer;
-        match (result, &mut bench.run) {
-            (Ok(measured), Some(run)) => {
-                run.states = Some(measured.0);
-                run.finished.push(measured.1);
-                if !run.complete() {
-                    self.measure_next_state();
-                }
-            }
-            (Ok(_), None) => {}
-            (Err(error), _) => bench.failure = Some(error),
-        }
-    }
-
-    /// Stores all states as a product; undo takes it out again.
-    pub(super) fn add_measured(&mut self) {
-        let Some(run) = self.state.goniophotometer.run.as_ref().filter(|run| run.complete()) else {
-            self.toasts.info("Compute the system first");
-            return;
-        };
-        let datasets = run.finished.iter().map(|one| one.dataset.clone()).collect();
-        let addition = Addition { datasets, product: product(run) };
-        self.add_to_catalogue(addition);
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::examples::EXAMPLES;
 
     #[test]
     fn a_wrong_key_is_told_at_once() {
@@ -330,11 +260,11 @@ mod tests {
         bench.set_text(EXAMPLES[0].text.replace("step = 15", "step = 35"));
         assert_eq!((bench.states().len(), bench.drawn), (4, 3));
         bench.set_text(EXAMPLES[0].text.replace("reflectance = 0.50", "reflectance = 5"));
-        let error = bench.described.clone().unwrap().unwrap_err();
+        let error = bench.described.as_ref().unwrap().as_ref().unwrap_err().to_string();
         assert!(error.contains("venetian.lower.reflectance: 5; expected 0 to 1"), "{error}");
         // Keys that are right one by one, and a slat that cannot be.
         bench.set_text(EXAMPLES[0].text.replace("spacing = 0.072", "spacing = 900"));
-        let error = bench.described.clone().unwrap().unwrap_err();
+        let error = bench.described.as_ref().unwrap().as_ref().unwrap_err().to_string();
         assert!(error.contains("spacing"), "{error}");
         bench.set_text("  \n".to_owned());
         assert!(bench.described.is_none() && bench.states().is_empty());

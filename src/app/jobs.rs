@@ -4,6 +4,7 @@
 //! "cancelled", and what it still returns is thrown away. Results come back through a channel that the window polls.
 //! A panic inside a job is caught and told as a failure; the window lives on.
 
+use super::error::JobError;
 use crate::compute::estimate::Progress;
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -104,8 +105,8 @@ struct Running {
 pub struct Finished<M> {
     /// Whose.
     pub lane: Lane,
-    /// What the job returned, or the text of its panic.
-    pub outcome: Result<M, String>,
+    /// What the job returned, or why it did not.
+    pub outcome: Result<M, JobError>,
 }
 
 /// The job under way in a lane, as the status line shows it.
@@ -120,8 +121,8 @@ pub struct JobView {
 pub struct Jobs<M> {
     running: BTreeMap<Lane, Running>,
     next: u64,
-    sender: Sender<(Lane, u64, Result<M, String>)>,
-    receiver: Receiver<(Lane, u64, Result<M, String>)>,
+    sender: Sender<(Lane, u64, Result<M, JobError>)>,
+    receiver: Receiver<(Lane, u64, Result<M, JobError>)>,
 }
 
 impl<M: Send + 'static> Default for Jobs<M> {
@@ -146,16 +147,16 @@ impl<M: Send + 'static> Jobs<M> {
         self.running.insert(lane, Running { generation, state: state.clone() });
         let sender = self.sender.clone();
         let job = move || {
-            let outcome = catch_unwind(AssertUnwindSafe(|| work(&state))).map_err(|panic| panic_text(&*panic));
+            let outcome = catch_unwind(AssertUnwindSafe(|| work(&state))).map_err(|panic| fault(&*panic));
             // The window may be gone by now; nobody is left to tell.
             if sender.send((lane, generation, outcome)).is_ok() {
                 wake();
             }
         };
         if let Err(error) = std::thread::Builder::new().name(format!("cfs {}", lane.word())).spawn(job) {
-            let text = format!("no thread for this job could be started ({error}); close other programs and try again");
+            let error = JobError::NoThread(error.to_string());
             // Sent to ourselves: the receiver lives as long as we do.
-            if self.sender.send((lane, generation, Err(text))).is_err() {
+            if self.sender.send((lane, generation, Err(error))).is_err() {
                 self.running.remove(&lane);
             }
         }
@@ -199,13 +200,10 @@ impl<M> Drop for Jobs<M> {
     }
 }
 
-fn panic_text(panic: &(dyn Any + Send)) -> String {
-    let said = panic
-        .downcast_ref::<&str>()
-        .map(|text| (*text).to_owned())
-        .or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "no message".to_owned());
-    format!("the computation stopped at a fault of the program ({said}); what is shown is the last good result")
+fn fault(panic: &(dyn Any + Send)) -> JobError {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+    JobError::Panic(text.unwrap_or_else(|| "no message".to_owned()))
 }
 
 #[cfg(test)]
@@ -251,7 +249,7 @@ mod tests {
         let mut jobs: Jobs<i32> = Jobs::default();
         jobs.start(Lane::Lid, || {}, |_| panic!("seven"));
         let list = wait(&mut jobs);
-        assert!(list[0].outcome.as_ref().unwrap_err().contains("seven"));
+        assert_eq!(list[0].outcome, Err(JobError::Panic("seven".to_owned())));
         jobs.start(Lane::Lid, || {}, |_| 3);
         assert_eq!(wait(&mut jobs)[0].outcome, Ok(3));
     }

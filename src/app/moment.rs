@@ -107,7 +107,7 @@ pub fn bearing_word(degrees: f64) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::state::first_scene;
+    use crate::app::scene::first_scene;
 
     #[test]
     fn steps_cross_midnight_and_months() {

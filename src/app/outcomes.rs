@@ -1,12 +1,15 @@
 //! Starts jobs, and takes what they bring back into the window.
 
-use super::App;
-use super::control::YearKey;
+use super::command::Command;
+use super::disk::read_bytes;
 use super::engine::Question;
-use super::jobs::{JobState, Lane};
+use super::error::AppError;
+use super::jobs::Lane;
+use super::scene::{Selection, fill, selection_of};
 use super::shelf::{Addition, Shelf};
-use super::state::{CatalogueState, Daylight, PathUse, Selection, Sheet};
-use super::work::{Outcome, Shelved, fill_one, read_bytes, take_from_shelf};
+use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
+use super::window::{App, fresh_undoer};
+use super::work::{Outcome, Shelved, fill_one, take_from_shelf};
 use crate::catalogue::Imported;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
@@ -14,10 +17,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 impl App {
-    /// Starts a job that wakes the window when it ends.
-    pub(super) fn start(&mut self, lane: Lane, work: impl FnOnce(&JobState) -> Outcome + Send + 'static) {
-        let ctx = self.ctx.clone();
-        self.jobs.start(lane, move || ctx.request_repaint(), work);
+    /// Opens the catalogue in a job.
+    pub(super) fn open_catalogue(&mut self) {
+        self.state.catalogue = CatalogueState::Opening;
+        let open = self.services.open_catalogue.clone();
+        self.start(Lane::Catalogue, move |_| Outcome::Opened(open()));
     }
 
     /// Looks the list up anew.
@@ -36,7 +40,7 @@ impl App {
     }
 
     /// Changes the catalogue, one change after the other.
-    pub(super) fn store(&mut self, change: impl FnOnce(&dyn Shelf) -> Result<(), String> + Send + 'static) {
+    pub(super) fn store(&mut self, change: impl FnOnce(&dyn Shelf) -> Result<(), AppError> + Send + 'static) {
         self.pending_changes.push_back(Box::new(move |shelf| Outcome::Stored(change(shelf))));
         self.start_pending_change();
     }
@@ -50,7 +54,7 @@ impl App {
     /// Stores the products of a package.
     pub(super) fn import_package(&mut self, path: PathBuf) {
         self.pending_changes.push_back(Box::new(move |shelf| {
-            let told = |error: String| format!("{}: {error}", path.display());
+            let told = |error: AppError| error.about(path.display());
             Outcome::Imported(read_bytes(&path).and_then(|bytes| shelf.import_package(&bytes).map_err(told)))
         }));
         self.start_pending_change();
@@ -109,13 +113,13 @@ impl App {
             Outcome::Builtin(Err(error)) => {
                 self.toasts.warning(format!("Built-in products: {error}"));
             }
-            Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error),
+            Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error.to_string()),
             Outcome::Found(Ok(found)) => {
                 self.state.search_error = None;
                 self.state.found = Arc::new(found);
                 self.select_something();
             }
-            Outcome::Found(Err(error)) => self.state.search_error = Some(error),
+            Outcome::Found(Err(error)) => self.state.search_error = Some(error.to_string()),
             Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
             Outcome::Year(result) => self.results.year.take(result),
             Outcome::Accuracy(result) => {
@@ -124,10 +128,10 @@ impl App {
             }
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Room(result) => self.results.room.take(result),
-            Outcome::Chosen(Ok(paths)) => self.apply(super::command::Command::OpenPaths(paths)),
+            Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
-            Outcome::Target(what, Ok(Some(path))) => self.apply(super::command::Command::Write(what, path)),
+            Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Read(import) => {
                 self.state.import = Some(*import);
                 self.state.sheet = Some(Sheet::Import);
@@ -139,7 +143,7 @@ impl App {
                 }
             }
             Outcome::Mended(Err(error)) => {
-                self.toasts.error(error);
+                self.toasts.error(error.to_string());
             }
             Outcome::ReadScene(path, Ok(scene)) => {
                 self.undoer.add_undo(&self.state.document);
@@ -151,18 +155,18 @@ impl App {
             Outcome::ReadCurve(Ok(curve)) => {
                 let keys = self.state.control_keys().with_mode(ControlMode::Curve);
                 let keys = ControlKeys { curve, curve_file: None, ..keys };
-                self.apply(super::command::Command::ControlKeys(Box::new(keys)));
+                self.apply(Command::ControlKeys(Box::new(keys)));
             }
             Outcome::ReadSystem(Ok((text, base))) => self.open_system(text, base),
             Outcome::Measured(result) => self.take_measured(result),
             Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
-                self.toasts.error(error).duration(None);
+                self.tell(&error);
             }
             Outcome::Added(number, result) => self.take_added(number, result),
             Outcome::Imported(result) => self.take_imported(result),
             Outcome::Stored(result) => {
                 if let Err(error) = result {
-                    self.toasts.error(error);
+                    self.toasts.error(error.to_string());
                 }
                 self.search();
             }
@@ -172,14 +176,11 @@ impl App {
                     self.state.scene_path = Some(path);
                 }
             }
-            Outcome::Written(_, Err(error)) => {
-                self.toasts.error(error).duration(None);
-            }
+            Outcome::Written(_, Err(error)) => self.tell(&error),
         }
     }
 
-    fn take_scene(&mut self, shelved: Result<Shelved, String>, daylight: Result<Daylight, SkyKeyError>) {
-        self.results.revision += 1;
+    fn take_scene(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, SkyKeyError>) {
         match shelved {
             Ok(Shelved { product, state, dataset }) => {
                 self.state.product = Some(product);
@@ -189,21 +190,13 @@ impl App {
                 self.state.dataset.error = None;
                 self.ask_year();
             }
-            Err(error) => self.state.dataset.error = Some(error),
+            Err(error) => self.state.dataset.error = Some(error.to_string()),
         }
-        match daylight {
-            Ok(daylight) => {
-                self.state.scene_error = None;
-                self.state.daylight.take(Ok(daylight));
-            }
-            Err(error) => {
-                self.state.daylight.error = Some(error.to_string());
-                self.state.scene_error = Some(error);
-            }
-        }
+        self.state.scene_error = daylight.as_ref().err().cloned();
+        self.state.daylight.take(daylight);
     }
 
-    fn take_added(&mut self, number: usize, result: Result<String, String>) {
+    fn take_added(&mut self, number: usize, result: Result<String, AppError>) {
         match result {
             // Undone while it was being stored.
             Ok(key) if !self.state.document.additions.contains(&number) => self.store(move |shelf| shelf.remove(&key)),
@@ -212,7 +205,7 @@ impl App {
                 self.state.additions[number].key = Some(key.clone());
                 // The step that added it also shows it.
                 self.state.document.selection = Selection { product: key, state: String::new() };
-                super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
+                fill(&mut self.state.document.scene, &self.state.document.selection);
                 self.undoer.add_undo(&self.state.document);
             }
             Err(error) => {
@@ -223,7 +216,7 @@ impl App {
         self.search();
     }
 
-    fn take_imported(&mut self, result: Result<Vec<Imported>, String>) {
+    fn take_imported(&mut self, result: Result<Vec<Imported>, AppError>) {
         match result {
             Ok(list) => {
                 let there = |one: &&Imported| one.same_content_as == [one.key.as_str()];
@@ -235,19 +228,17 @@ impl App {
                     (new, known) => format!("Imported: {}; there already: {known}", products(new)),
                 });
                 if let Some(first) = list.first() {
-                    self.apply(super::command::Command::Select(first.key.clone()));
+                    self.apply(Command::Select(first.key.clone()));
                 }
             }
-            Err(error) => {
-                self.toasts.error(error).duration(None);
-            }
+            Err(error) => self.tell(&error),
         }
         self.search();
     }
 
     /// After opening a scene the selection is what its first catalogue aperture holds.
     fn adopt_selection(&mut self) {
-        if let Some(selection) = super::state::selection_of(&self.state.document.scene) {
+        if let Some(selection) = selection_of(&self.state.document.scene) {
             self.state.document.selection = selection;
         }
     }
@@ -266,15 +257,15 @@ impl App {
             || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
         let chosen = moving.or_else(guiding).unwrap_or(&entries[0]);
         self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
-        super::apply::fill(&mut self.state.document.scene, &self.state.document.selection);
-        self.undoer = super::fresh_undoer(&self.state.document);
+        fill(&mut self.state.document.scene, &self.state.document.selection);
+        self.undoer = fresh_undoer(&self.state.document);
     }
 
     /// Asks for the year of control anew when something that it hangs on has changed.
     fn ask_year(&mut self) {
         let state = &self.state;
         let Some(product) = state.product.clone() else { return };
-        let key = YearKey::new(state, &product.key);
+        let key = state.year_key(&product.key);
         if key == self.asked_year {
             return;
         }
@@ -284,7 +275,7 @@ impl App {
             Some(key) => self.start(Lane::Year, move |job| Outcome::Year(super::control::year(&product, key, job))),
             None => {
                 self.jobs.cancel(Lane::Year);
-                self.results.year = super::state::Shown::default();
+                self.results.year = Shown::default();
             }
         }
     }

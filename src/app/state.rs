@@ -1,75 +1,31 @@
 //! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
 
+use super::control::{Year, YearKey};
+use super::engine::{LidFigures, RoomFigures};
+use super::facing::surface_of;
 use super::goniophotometer::Bench;
+use super::scene::{Selection, first_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
 use crate::catalogue::{Product, Provenance};
 use crate::compute::btdf::Dataset;
+use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, Repair};
 use crate::compute::sky::{Outside, Sun};
-use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, ControlMode, PlaneKeys, ReflectanceKeys, RoomKeys,
-    SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
-};
+use crate::study::accuracy::Accuracy;
+use crate::study::control::year::CONTROLLED;
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The six tiles of the bench.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
-pub enum Tile {
-    /// Incident and emergent hemisphere.
-    Btdf,
-    /// τ over the incident hemisphere.
-    Transmittance,
-    /// The dome.
-    Sky,
-    /// Polar diagram.
-    Lid,
-    /// Plan and section.
-    Room,
-    /// State against profile angle, and the year.
-    Control,
-}
-
-impl Tile {
-    /// In the order of the keys 1 … 6.
-    pub const ALL: [Self; 6] = [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control];
-
-    /// Title with its unit.
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Btdf => "BTDF",
-            Self::Transmittance => "Transmittance",
-            Self::Sky => "Sky",
-            Self::Lid => "LID",
-            Self::Room => "Room",
-            Self::Control => "Control",
-        }
-    }
-
+/// A tile of the bench, by what it says of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Tile {
+    /// Title, and its name elsewhere.
+    pub title: &'static str,
     /// One sentence and its source.
-    pub const fn help(self) -> &'static str {
-        match self {
-            Self::Btdf => {
-                "Where light from one direction leaves, as luminance per illuminance (q in 1/sr). IEA SHC Task 31, eq 2."
-            }
-            Self::Transmittance => "The share of the light from each direction that enters the room. Task 31, eq 1.",
-            Self::Sky => "Luminance of sky, sun and ground as the façade sees them. CIE S 011 / ISO 15469.",
-            Self::Lid => "The window as a luminaire: luminous intensity into the room. Task 31, eq 5.",
-            Self::Room => "Illuminance on the sensor plane, direct and interreflected. Task 31, eq 17.",
-            Self::Control => "Which state control chooses against the sun's profile angle, today and over the year.",
-        }
-    }
-}
-
-/// Product and state: the window's one selection.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Selection {
-    /// Product key.
-    pub product: String,
-    /// Key of the state; empty for the first or only one; `controlled` when the scene's control picks it.
-    pub state: String,
+    pub help: &'static str,
 }
 
 /// What undo and redo go over.
@@ -141,12 +97,27 @@ impl<T> Default for Shown<T> {
 
 impl<T> Shown<T> {
     /// Takes a new result; a failure keeps the last good one, marked stale.
-    pub fn take(&mut self, result: Result<T, String>) {
+    pub fn take(&mut self, result: Result<T, impl std::fmt::Display>) {
         match result {
             Ok(value) => *self = Self { value: Some(Arc::new(value)), stale: false, error: None },
-            Err(error) => self.error = Some(error),
+            Err(error) => self.error = Some(error.to_string()),
         }
     }
+}
+
+/// What was computed last.
+#[derive(Default)]
+pub struct Results {
+    /// The first aperture as a luminaire.
+    pub lid: Shown<LidFigures>,
+    /// The room.
+    pub room: Shown<RoomFigures>,
+    /// What control does over the year.
+    pub year: Shown<Year>,
+    /// Error against run time, of the scene that it was asked for.
+    pub accuracy: Shown<Accuracy>,
+    /// Counts the ladders that came in.
+    pub accuracy_revision: u64,
 }
 
 /// Sky and sun of the moment.
@@ -216,6 +187,29 @@ pub enum PathUse {
     ExportMeasured,
 }
 
+impl PathUse {
+    /// Title of whatever asks for the path.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open",
+            Self::SaveScene => "Save the scene",
+            Self::ExportLid => "Export the LID",
+            Self::ExportTile(_) => "Export a tile",
+            Self::ExportMeasured => "Export the computed data",
+        }
+    }
+
+    /// A name to start from.
+    pub fn file_name(self) -> String {
+        match self {
+            Self::Open | Self::SaveScene => "scene.toml".to_owned(),
+            Self::ExportLid => "window.ldt".to_owned(),
+            Self::ExportTile(tile) => format!("{}.csv", tile.title.to_lowercase()),
+            Self::ExportMeasured => "system.cfsp".to_owned(),
+        }
+    }
+}
+
 /// Everything.
 pub struct State {
     /// Under undo.
@@ -250,6 +244,8 @@ pub struct State {
     pub dataset: Shown<Dataset>,
     /// The selected product: states with their numbers, control curve.
     pub product: Option<Arc<Product>>,
+    /// The incidence that the user chose; the sun's while `None` and the sun is before the façade.
+    pub incident: Option<Incident>,
     /// Key of the state that is shown: as set by hand, or as control picked it.
     pub shown_state: String,
     /// Sky and sun.
@@ -264,62 +260,6 @@ pub struct State {
     pub row: usize,
     /// The product that the list was last scrolled to.
     pub scrolled_to: String,
-}
-
-/// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
-pub fn first_scene() -> SceneFile {
-    SceneFile {
-        room: RoomKeys {
-            width: 4.0,
-            depth: 6.0,
-            height: 3.0,
-            reflectance: ReflectanceKeys { floor: 0.2, walls: 0.5, ceiling: 0.7 },
-        },
-        aperture: vec![ApertureKeys {
-            surface: SurfaceKey::Facade,
-            origin: [0.5, 0.9],
-            size: [3.0, 1.8],
-            system: SystemKeys::Catalogue { key: String::new(), state: None },
-            reflectance: ApertureReflectance::default(),
-            structure: None,
-            control: None,
-        }],
-        site: SiteKeys {
-            azimuth: 180.0,
-            latitude: Some(48.78),
-            longitude: Some(9.18),
-            utc_offset: Some(1.0),
-            ground_reflectance: 0.2,
-        },
-        sky: SkyKeys {
-            model: SkyModelKey::Cie,
-            cie_type: Some(12),
-            diffuse_horizontal: Some(13_000.0),
-            sun: SunKeys { altitude: None, azimuth: None, direct_normal: Some(90_000.0) },
-            time: Some(TimeKey::Text("2026-03-21T12:00".to_owned())),
-            direct_horizontal_irradiance: None,
-            diffuse_horizontal_irradiance: None,
-            file: None,
-            obstruction: None,
-        },
-        sensors: SensorKeys {
-            plane: Some(PlaneKeys { z: 0.85, nx: 16, ny: 24, normal: [0.0, 0.0, 1.0] }),
-            points: Vec::new(),
-            normal: None,
-        },
-        control: None,
-        compute: ComputeKeys::default(),
-    }
-}
-
-/// The product that a scene's first aperture from the catalogue holds.
-pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
-    scene.aperture.iter().find_map(|aperture| match &aperture.system {
-        SystemKeys::Catalogue { key, state } if !key.is_empty() => {
-            Some(Selection { product: key.clone(), state: state.clone().unwrap_or_default() })
-        }
-        _ => None,
-    })
 }
 
 impl State {
@@ -349,6 +289,7 @@ impl State {
             focus_search: false,
             dataset: Shown::default(),
             product: None,
+            incident: None,
             shown_state: String::new(),
             daylight: Shown::default(),
             scene_error: None,
@@ -374,8 +315,15 @@ impl State {
 
     fn picking_rule(&self) -> Option<&ControlKeys> {
         let document = &self.document;
-        let controlled = document.selection.state == super::control::CONTROLLED;
-        super::control::rule(&document.scene, self.control_aperture()).filter(|_| controlled)
+        let controlled = document.selection.state == CONTROLLED;
+        rule(&document.scene, self.control_aperture()).filter(|_| controlled)
+    }
+
+    /// What the year of a product hangs on; `None` without place and date.
+    pub fn year_key(&self, product: &str) -> Option<YearKey> {
+        let scene = &self.document.scene;
+        let surface = surface_of(scene, self.control_aperture());
+        YearKey::new(scene, product, self.control_keys(), surface, self.base())
     }
 
     /// The aperture whose control is shown and edited, from 0: the chosen one, else the first.

@@ -1,8 +1,8 @@
 //! The window's title: what is selected, where and when, in words.
 
-use super::control::CONTROLLED;
 use super::moment;
 use super::state::State;
+use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 
 /// Cities of the short list: name, latitude, longitude \[°\], hours ahead of UTC (standard time).
@@ -101,7 +101,7 @@ pub fn title(state: &State) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::state::first_scene;
+    use crate::app::scene::first_scene;
 
     #[test]
     fn scenes_read_as_words() {

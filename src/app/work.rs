@@ -1,11 +1,15 @@
 //! What runs in jobs, and what jobs bring back.
 
-use super::control::{CONTROLLED, Year};
+use super::control::Year;
+use super::disk::{ends_in, read_bytes, write_whole};
 use super::engine::{Engine, LidFigures, RoomFigures};
+use super::error::AppError;
+use super::facing::surface_of;
 use super::goniophotometer::Finished;
 use super::jobs::JobState;
+use super::scene::{Selection, rule};
 use super::shelf::{Found, Shelf};
-use super::state::{Daylight, Import, PathUse, Selection};
+use super::state::{Daylight, Import, PathUse};
 use crate::catalogue::{Gathered, Imported, Product, SYSTEMS, SourceFile, gather};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
@@ -13,62 +17,64 @@ use crate::compute::direction::Orientation;
 use crate::compute::doctor::{Diagnosis, Repair, examine, repaired_all};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
+use crate::formats::FormatError;
 use crate::formats::control_curve::read_control_curve;
 use crate::formats::system_toml::is_system_file;
+use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
-use crate::study::files;
+use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Reads the datasets of a file: name and bytes.
-pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, String>;
+pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
 
 /// What jobs bring back.
 #[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]
 pub enum Outcome {
     /// The catalogue is open.
-    Opened(Result<Arc<dyn Shelf>, String>),
+    Opened(Result<Arc<dyn Shelf>, AppError>),
     /// A list.
-    Found(Result<Found, String>),
+    Found(Result<Found, AppError>),
     /// Product, state and dataset of the selection, and sky and sun.
-    Scene(Result<Shelved, String>, Result<Daylight, SkyKeyError>),
+    Scene(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
     /// What control does over the year.
-    Year(Result<Year, String>),
+    Year(Result<Year, StudyError>),
     /// The LID.
-    Lid(Result<LidFigures, String>),
+    Lid(Result<LidFigures, AppError>),
     /// The room.
-    Room(Result<RoomFigures, String>),
+    Room(Result<RoomFigures, AppError>),
     /// Error against run time.
-    Accuracy(Result<Accuracy, String>),
+    Accuracy(Result<Accuracy, AppError>),
     /// Files that the user chose.
-    Chosen(Result<Vec<PathBuf>, String>),
+    Chosen(Result<Vec<PathBuf>, AppError>),
     /// Where to write.
-    Target(PathUse, Result<Option<PathBuf>, String>),
+    Target(PathUse, Result<Option<PathBuf>, AppError>),
     /// Files were read.
     Read(Box<Import>),
     /// What was read, with repairs: the datasets, what is said about them, and the repairs; or why not.
-    Mended(Result<Mended, String>),
+    Mended(Result<Mended, AppError>),
     /// A system file was read: its text and folder.
-    ReadSystem(Result<(String, PathBuf), String>),
+    ReadSystem(Result<(String, PathBuf), AppError>),
     /// A state of a system was measured; the keys of all.
-    Measured(Result<Box<(Vec<String>, Finished)>, String>),
+    Measured(Result<Box<(Vec<String>, Finished)>, AppError>),
     /// A scene was read.
-    ReadScene(PathBuf, Result<Box<SceneFile>, String>),
+    ReadScene(PathBuf, Result<Box<SceneFile>, AppError>),
     /// A control curve was read.
-    ReadCurve(Result<Vec<[f64; 2]>, String>),
+    ReadCurve(Result<Vec<[f64; 2]>, AppError>),
     /// An addition is in the catalogue.
-    Added(usize, Result<String, String>),
+    Added(usize, Result<String, AppError>),
     /// A package is in the catalogue.
-    Imported(Result<Vec<Imported>, String>),
+    Imported(Result<Vec<Imported>, AppError>),
     /// Something else in the catalogue was changed.
-    Stored(Result<(), String>),
+    Stored(Result<(), AppError>),
     /// A built-in product is in the catalogue; how many are left.
-    Builtin(Result<usize, String>),
+    Builtin(Result<usize, AppError>),
     /// A file was written.
-    Written(PathUse, Result<PathBuf, String>),
+    Written(PathUse, Result<PathBuf, AppError>),
 }
 
 /// What the catalogue holds of the selection.
@@ -82,14 +88,14 @@ pub struct Shelved {
 }
 
 /// Computes and stores one built-in product; how many are left.
-pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
+pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, AppError> {
     let Some((name, missing)) = shelf.next_builtin()? else { return Ok(0) };
     progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
     // One core stays free for what the user is doing.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
-    let compute = || crate::study::builtin::compute(name, progress).map_err(|error| error.to_string());
-    let (product, datasets) = pool.map_err(|error| error.to_string())?.install(compute)?;
+    let compute = || crate::study::builtin::compute(name, progress);
+    let (product, datasets) = pool?.install(compute)?;
     shelf.put_builtin(name, product, &datasets)?;
     Ok(missing - 1)
 }
@@ -101,21 +107,21 @@ pub(super) fn take_from_shelf(
     scene: &SceneFile,
     daylight: Option<&Daylight>,
     (aperture, base): (usize, &Path),
-) -> Result<Shelved, String> {
+) -> Result<Shelved, AppError> {
     let product = shelf.product(&selection.product)?;
     let state = if selection.state == CONTROLLED {
         let fixed = ControlKeys::of(ControlMode::Fixed);
-        let keys = super::control::rule(scene, aperture).unwrap_or(&fixed);
-        let daylight = daylight.ok_or_else(|| "no state is picked until sky and sun are right".to_owned())?;
+        let keys = rule(scene, aperture).unwrap_or(&fixed);
+        let daylight = daylight.ok_or(AppError::NoDaylight)?;
         let facing = Facing {
             outside: &daylight.outside,
             sun: daylight.sun.as_ref(),
             orientation: Orientation::new(Bearing::from_degrees(scene.site.azimuth)),
-            surface: super::control::surface_of(scene, aperture),
+            surface: surface_of(scene, aperture),
         };
         let hour = super::moment::of(scene).map(|time| f64::from(time.hour()) + f64::from(time.minute()) / 60.0);
         let asked = ControlQuestion { keys, base, hour, facing };
-        shelf.controlled_state(&selection.product, &asked).map_err(|error| error.to_string())?
+        shelf.controlled_state(&selection.product, &asked)?
     } else if selection.state.is_empty() {
         product.states.first().map(|state| state.key.clone()).unwrap_or_default()
     } else {
@@ -127,10 +133,9 @@ pub(super) fn take_from_shelf(
 
 /// Reads files: one scene, system or control curve, or datasets.
 pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
-    let text_of = |path: &Path, what: &str| {
-        String::from_utf8(read_bytes(path)?).map_err(|e| {
-            format!("{}: byte {} is not UTF-8; {what} is a text file", path.display(), e.utf8_error().valid_up_to())
-        })
+    let text_of = |path: &Path, what: &'static str| {
+        let wrong = |byte| AppError::NotText(byte, what).about(path.display());
+        String::from_utf8(read_bytes(path)?).map_err(|error| wrong(error.utf8_error().valid_up_to()))
     };
     if let [path] = paths
         && is_system_file(&path.to_string_lossy())
@@ -139,27 +144,29 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
         return Outcome::ReadSystem(text_of(path, "a system").map(|text| (text, base)));
     }
     if let [path] = paths
-        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+        && ends_in(path, "toml")
     {
         let scene = text_of(path, "a scene").and_then(|text| {
-            SceneFile::parse(&text).map(Box::new).map_err(|error| format!("{}: {error}", path.display()))
+            SceneFile::parse(&text).map(Box::new).map_err(|error| AppError::from(error).about(path.display()))
         });
         return Outcome::ReadScene(path.clone(), scene);
     }
     if let [path] = paths
-        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+        && ends_in(path, "csv")
     {
-        let told = |error: &dyn std::fmt::Display| format!("{}: as a control curve: {error}", path.display());
-        let curve = read_bytes(path).and_then(|bytes| read_control_curve(&bytes).map_err(|error| told(&error)));
+        let curve = read_bytes(path)
+            .and_then(|bytes| read_control_curve(&bytes).map_err(|error| AppError::from(error).about(path.display())));
         return Outcome::ReadCurve(curve);
     }
     let mut import = Import::default();
     let mut sources = Vec::new();
     for path in paths {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
-        match read_bytes(path).and_then(|bytes| read(&name, &bytes).map_err(|error| format!("{name}: {error}"))) {
+        let source =
+            read_bytes(path).and_then(|bytes| read(&name, &bytes).map_err(|error| AppError::from(error).about(&name)));
+        match source {
             Ok(source) => sources.push(source),
-            Err(error) => import.failures.push(error),
+            Err(error) => import.failures.push(error.to_string()),
         }
         import.files.push(name);
     }
@@ -195,33 +202,23 @@ pub struct Mended {
 /// Makes repairs on all states and examines what comes of it.
 pub(super) fn mend(originals: &[Arc<Dataset>], repairs: Vec<Repair>) -> Outcome {
     let mended: Result<Vec<Dataset>, _> = originals.iter().map(|dataset| repaired_all(dataset, &repairs)).collect();
-    Outcome::Mended(mended.map_err(|error| error.to_string()).map(|datasets| Mended {
+    Outcome::Mended(mended.map_err(AppError::from).map(|datasets| Mended {
         diagnoses: datasets.iter().map(examine).collect(),
         datasets: datasets.into_iter().map(Arc::new).collect(),
         repairs,
     }))
 }
 
-pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
-    files::read(path).map_err(|error| error.to_string())
-}
-
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, String> {
-    files::write(path, bytes).map(|()| path.to_path_buf()).map_err(|error| error.to_string())
-}
-
 /// Saves the scene.
 pub fn save_scene(path: &Path, text: Result<String, toml::ser::Error>) -> Outcome {
-    let written = text
-        .map_err(|error| format!("the scene cannot be written as text: {error}"))
-        .and_then(|text| write_whole(path, text.as_bytes()));
+    let written = text.map_err(AppError::from).and_then(|text| write_whole(path, text.as_bytes()));
     Outcome::Written(PathUse::SaveScene, written)
 }
 
 /// Writes the LID as a luminaire file.
 pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine) -> Outcome {
     let written = lid
-        .ok_or_else(|| "the LID is not computed yet: wait for its tile, then export again".to_owned())
+        .ok_or(AppError::NoLid)
         .and_then(|lid| engine.luminaire(lid, path))
         .and_then(|bytes| write_whole(path, &bytes));
     Outcome::Written(PathUse::ExportLid, written)

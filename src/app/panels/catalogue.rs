@@ -1,10 +1,10 @@
 //! What is there: search field, chips, list.
 
 use crate::app::command::Command;
-use crate::app::control::CONTROLLED;
 use crate::app::shelf::{Entry, Query};
 use crate::app::state::{CatalogueState, State};
 use crate::app::theme;
+use crate::study::control::year::CONTROLLED;
 use egui::{Align2, FontId, Key, Pos2, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Draws the panel.
@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
         CatalogueState::Failed(error) => {
             ui.add_space(12.0);
             ui.colored_label(theme::palette(ui).error, error);
-            if ui.button(Command::RetryCatalogue.info().text).clicked() {
+            if ui.button("Try again").clicked() {
                 commands.push(Command::RetryCatalogue);
             }
             return;

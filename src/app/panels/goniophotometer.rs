@@ -1,13 +1,14 @@
 //! The goniophotometer's sheet: what is described as text and drawing, what is asked, what came out.
 
-use super::bench::sun_incident;
-use crate::app::App;
 use crate::app::command::{Command, SYSTEM_EDITOR};
 use crate::app::examples::EXAMPLES;
+use crate::app::facing::sun_incident;
 use crate::app::goniophotometer::{Bench, Emergence, Incidence, Run};
 use crate::app::jobs::Lane;
+use crate::app::offer;
 use crate::app::theme;
 use crate::app::views::section;
+use crate::app::window::App;
 use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
 
 /// Least height of editor and drawing. \[points\]
@@ -77,7 +78,7 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
     let palette = theme::palette(ui);
     match &bench.described {
         Some(Err(error)) => {
-            ui.add(Label::new(egui::RichText::new(error).color(palette.error)).wrap());
+            ui.add(Label::new(egui::RichText::new(error.to_string()).color(palette.error)).wrap());
         }
         Some(Ok(described)) => {
             let system = &described.file.system;
@@ -175,7 +176,8 @@ fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<
             return;
         }
         let compute = Command::MeasureSystem;
-        let keys = compute.info().shortcut.map(|keys| ui.ctx().format_shortcut(&keys)).unwrap_or_default();
+        let keys = offer::of(&compute).and_then(|offer| offer.keys);
+        let keys = keys.map(|keys| ui.ctx().format_shortcut(&keys)).unwrap_or_default();
         let button = ui.add_enabled(bench.valid().is_some(), Button::new("Compute").shortcut_text(keys));
         let button = button.on_disabled_hover_text("Describe a system first");
         if button.on_hover_text("All states, both sides, transmission and reflection").clicked() {
@@ -202,7 +204,7 @@ fn results(ui: &mut Ui, bench: &Bench, run: &Run, commands: &mut Vec<Command>) {
             commands.push(Command::AddMeasured);
         }
         let export = ui.add_enabled(run.complete(), Button::new("Export…"));
-        if export.on_hover_text(Command::ExportMeasured.info().tip).clicked() {
+        if export.on_hover_text(offer::of(&Command::ExportMeasured).map_or("", |offer| offer.tip)).clicked() {
             commands.push(Command::ExportMeasured);
         }
     });

@@ -37,13 +37,12 @@ pub(super) fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let missing = import.name.trim().is_empty();
         if !import.datasets.is_empty() {
-            let add = ui.add_enabled(!missing, egui::Button::new(Command::AddImport.info().text));
+            let add = ui.add_enabled(!missing, egui::Button::new("Add to catalogue"));
             if add.clicked() {
                 commands.push(Command::AddImport);
             }
         }
-        let discard = Command::DiscardImport.info();
-        if ui.button(discard.text).on_hover_text(discard.tip).clicked() {
+        if ui.button("Discard").on_hover_text("Forget what was read; nothing was stored").clicked() {
             commands.push(Command::DiscardImport);
         }
         if missing && !import.datasets.is_empty() {
@@ -110,8 +109,7 @@ fn recognised(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
         ui.horizontal_wrapped(|ui| {
             let words: Vec<String> = import.repairs.iter().map(|repair| repair.label()).collect();
             ui.label(format!("Repaired: {}", words.join("; ")));
-            let undo = Command::UndoRepair.info();
-            if ui.button(undo.text).on_hover_text(undo.tip).clicked() {
+            if ui.button("Undo the repair").on_hover_text("Take the last repair back").clicked() {
                 commands.push(Command::UndoRepair);
             }
         });

@@ -1,69 +1,51 @@
-//! The menu bar.
+//! The menu bar, as the table of what is offered has it.
 
+use super::fields::button;
 use crate::app::command::Command;
-use crate::app::state::{PathUse, Sheet, State, Tile};
-use crate::app::theme::ThemeChoice;
-use egui::{Button, MenuBar, Ui};
+use crate::app::offer::{MENUS, Offer, Place, offers};
+use crate::app::state::State;
+use egui::{MenuBar, Ui};
 
 /// One entry with its keys and tip.
-fn entry(ui: &mut Ui, command: Command, commands: &mut Vec<Command>) {
-    let info = command.info();
-    let mut button = Button::new(info.text);
-    if let Some(keys) = info.shortcut {
-        button = button.shortcut_text(ui.ctx().format_shortcut(&keys));
-    }
-    if ui.add(button).on_hover_text(info.tip).clicked() {
-        commands.push(command);
+fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
+    if ui.add(button(ui, offer)).on_hover_text(offer.tip).clicked() {
+        commands.push(offer.command.clone());
         ui.close();
+    }
+}
+
+/// What a menu holds, in order.
+fn entries(menu: &str) -> Vec<(Place, &'static Offer)> {
+    let placed = offers().iter().filter_map(|offer| Some((offer.place?, offer)));
+    let mut list: Vec<_> = placed.filter(|(place, _)| place.menu == menu).collect();
+    list.sort_by_key(|(place, _)| place.rank);
+    list
+}
+
+/// One menu; entries of one rank that belong within another menu are gathered there.
+fn show_menu(ui: &mut Ui, menu: &str, commands: &mut Vec<Command>) {
+    let list = entries(menu);
+    let mut section = 0;
+    for group in list.chunk_by(|a, b| a.0 == b.0) {
+        let place = group[0].0;
+        if place.rank / 10 != section {
+            section = place.rank / 10;
+            ui.separator();
+        }
+        let mut all = |ui: &mut Ui| group.iter().for_each(|(_, offer)| entry(ui, offer, commands));
+        match place.within {
+            Some(name) => drop(ui.menu_button(name, all)),
+            None => all(ui),
+        }
     }
 }
 
 /// Draws the bar.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| {
-            for command in [Command::Open, Command::Sheet(Some(Sheet::Path(PathUse::Open)))] {
-                entry(ui, command, commands);
-            }
-            ui.separator();
-            for command in [Command::SaveScene, Command::ExportLid] {
-                entry(ui, command, commands);
-            }
-            ui.menu_button("Export tile", |ui| {
-                for tile in Tile::ALL {
-                    entry(ui, Command::ExportTile(tile), commands);
-                }
-            });
-            ui.separator();
-            entry(ui, Command::Quit, commands);
-        });
-        ui.menu_button("Edit", |ui| {
-            for command in [Command::Undo, Command::Redo, Command::ResetScene] {
-                entry(ui, command, commands);
-            }
-        });
-        ui.menu_button("View", |ui| {
-            for tile in Tile::ALL {
-                entry(ui, Command::Maximise(Some(tile)), commands);
-            }
-            entry(ui, Command::Maximise(None), commands);
-            ui.separator();
-            entry(ui, Command::Sheet(Some(Sheet::Goniophotometer)), commands);
-            entry(ui, Command::Sheet(Some(Sheet::Accuracy)), commands);
-            ui.separator();
-            entry(ui, Command::ToggleCatalogue, commands);
-            entry(ui, Command::ToggleScene, commands);
-            ui.separator();
-            for choice in ThemeChoice::ALL {
-                entry(ui, Command::Theme(choice), commands);
-            }
-        });
-        ui.menu_button("Help", |ui| {
-            for command in [Command::Palette, Command::Sheet(Some(Sheet::Keys)), Command::Sheet(Some(Sheet::Findings))]
-            {
-                entry(ui, command, commands);
-            }
-        });
+        for menu in MENUS {
+            ui.menu_button(menu, |ui| show_menu(ui, menu, commands));
+        }
         ui.separator();
         // The selection in words: also where the window has no title bar.
         let words = crate::app::title::title(state);

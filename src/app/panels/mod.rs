@@ -2,6 +2,7 @@
 
 pub mod bench;
 mod catalogue;
+mod fields;
 mod goniophotometer;
 mod import;
 mod menu;
@@ -10,10 +11,10 @@ mod scene;
 mod sheets;
 mod status;
 
-use super::App;
 use super::command::Command;
 use super::state::Sheet;
 use super::theme;
+use super::window::App;
 
 /// Draws the whole window.
 pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {

@@ -1,6 +1,8 @@
 //! The command palette: words narrow the list, Enter takes the first.
 
+use super::fields::button;
 use crate::app::command::Command;
+use crate::app::offer::{Offer, listed};
 use crate::app::state::State;
 use egui::{Align2, Area, Id, Key, Order, Ui};
 
@@ -21,25 +23,20 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 field.request_focus();
             }
             let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
-            let fits = |command: &Command| {
-                let name = command.info().text.to_lowercase();
-                wanted.iter().all(|word| name.contains(word))
+            let fits = |offer: &&Offer| {
+                let name = offer.text.to_lowercase();
+                offer.command != Command::Palette && wanted.iter().all(|word| name.contains(word))
             };
-            let list: Vec<Command> =
-                Command::listed().into_iter().filter(|c| *c != Command::Palette && fits(c)).take(ROWS).collect();
+            let list: Vec<&Offer> = listed().filter(fits).take(ROWS).collect();
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if list.is_empty() {
                 ui.weak("No command has these words");
             }
-            for (row, command) in list.into_iter().enumerate() {
-                let info = command.info();
-                let mut button = egui::Button::new(info.text).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
-                if let Some(keys) = info.shortcut {
-                    button = button.shortcut_text(ui.ctx().format_shortcut(&keys));
-                }
-                if ui.add(button).on_hover_text(info.tip).clicked() || (row == 0 && entered) {
+            for (row, offer) in list.into_iter().enumerate() {
+                let button = button(ui, offer).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
+                if ui.add(button).on_hover_text(offer.tip).clicked() || (row == 0 && entered) {
                     commands.push(Command::Palette);
-                    commands.push(command);
+                    commands.push(offer.command.clone());
                 }
             }
         });

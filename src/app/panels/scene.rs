@@ -2,6 +2,7 @@
 
 mod apertures;
 
+use super::fields::{number, optional};
 use crate::app::command::Command;
 use crate::app::moment;
 use crate::app::state::State;
@@ -9,7 +10,6 @@ use crate::app::theme;
 use crate::app::title::{self, CITIES};
 use crate::study::scene_file::{ObstructionKeys, SceneFile, SkyModelKey};
 use egui::{CollapsingHeader, ComboBox, DragValue, RichText, ScrollArea, Sense, Slider, Stroke, Ui, Vec2, vec2};
-use std::ops::RangeInclusive;
 
 /// CIE general sky types in the standard's order. ISO 15469, table 1.
 const CIE: [&str; 16] = [
@@ -103,28 +103,6 @@ fn section(ui: &mut Ui, title: &str, essence: &str, wrong: Option<String>, open:
         let font = egui::FontId::proportional(13.0);
         let galley = theme::one_line(ui.painter(), essence, font, colour, right - at.x);
         ui.painter().galley(at - vec2(0.0, 0.5 * galley.size().y), galley, colour);
-    }
-}
-
-/// A labelled number with unit and range.
-fn number(ui: &mut Ui, label: &str, unit: &str, value: &mut f64, range: RangeInclusive<f64>, decimals: usize) {
-    let (low, high) = (*range.start(), *range.end());
-    let speed = ((high - low) / 400.0).max(0.1_f64.powi(decimals as i32));
-    ui.horizontal(|ui| {
-        let name = ui.label(label);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let drag = DragValue::new(value).range(range).speed(speed).fixed_decimals(decimals).suffix(unit);
-            ui.add(drag).labelled_by(name.id).on_hover_text(format!("{low} to {high}{unit}; drag, or click and type"));
-        });
-    });
-}
-
-fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, start: f64, range: RangeInclusive<f64>) {
-    let mut number_value = value.unwrap_or(start);
-    let before = number_value;
-    number(ui, label, unit, &mut number_value, range, 2);
-    if number_value != before || value.is_none() {
-        *value = Some(number_value);
     }
 }
 

@@ -1,11 +1,12 @@
 //! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
 
 use super::import;
-use crate::app::App;
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
+use crate::app::offer::listed;
 use crate::app::state::{PathUse, Sheet, State};
 use crate::app::views::accuracy;
+use crate::app::window::App;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 use std::path::PathBuf;
 
@@ -17,11 +18,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Keys => "Keys",
         Sheet::Accuracy => "Accuracy",
         Sheet::Goniophotometer => "Goniophotometer",
-        Sheet::Path(PathUse::Open) => "Open",
-        Sheet::Path(PathUse::SaveScene) => "Save the scene",
-        Sheet::Path(PathUse::ExportLid) => "Export the LID",
-        Sheet::Path(PathUse::ExportTile(_)) => "Export a tile",
-        Sheet::Path(PathUse::ExportMeasured) => "Export the computed data",
+        Sheet::Path(what) => what.title(),
     };
     ui.horizontal(|ui| {
         ui.heading(title);
@@ -73,13 +70,10 @@ fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 
 fn keys(ui: &mut Ui) {
     egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-        for command in Command::listed() {
-            let info = command.info();
-            if let Some(keys) = info.shortcut {
-                ui.label(RichText::new(ui.ctx().format_shortcut(&keys)).monospace());
-                ui.label(info.text);
-                ui.end_row();
-            }
+        for (offer, keys) in listed().filter_map(|offer| Some((offer, offer.keys?))) {
+            ui.label(RichText::new(ui.ctx().format_shortcut(&keys)).monospace());
+            ui.label(&offer.text);
+            ui.end_row();
         }
     });
 }

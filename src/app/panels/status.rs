@@ -1,9 +1,9 @@
 //! The bottom line: what runs, how exact what is shown is, what the dataset's checks say.
 
-use crate::app::App;
 use crate::app::command::Command;
 use crate::app::state::Sheet;
 use crate::app::theme;
+use crate::app::window::App;
 use crate::compute::btdf::Severity;
 use egui::{ProgressBar, RichText, Ui};
 
@@ -47,9 +47,8 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
                     ui.label(format!("{text}…"));
                 }
             }
-            let cancel = Command::Cancel(job.lane);
-            if ui.small_button("×").on_hover_text(cancel.info().text).clicked() {
-                commands.push(cancel);
+            if ui.small_button("×").on_hover_text(format!("Cancel {}", job.lane.word())).clicked() {
+                commands.push(Command::Cancel(job.lane));
             }
         }
         if app.busy() {

@@ -12,6 +12,10 @@ use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// The zones by the elevation at which light leaves, in words.
+const ZONES: &str = "Shares of the light that arrives, by the elevation at which it leaves: ceiling above +10°, \
+eye zone −10…+10°, work zone −45…−10°, floor below −45°.";
+
 /// Where the transmitted light goes, as shares of the light that arrives; their sum is τ of that situation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FluxSplit {
@@ -254,8 +258,7 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
 
 fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
     let total = split.total();
-    let response =
-        ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(crate::app::split::ZONES);
+    let response = ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(ZONES);
     tile::name(ui, &response, "Flux split", &split.sentence());
     let font = FontId::proportional(13.0);
     let sentence = ui.painter().layout(split.sentence(), font.clone(), palette.ink, rect.width() - 6.0);

@@ -1,6 +1,6 @@
 //! The openings of the scene: where they are, how large, and what their room side reflects.
 
-use super::number;
+use crate::app::panels::fields::number;
 use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, SceneFile, SurfaceKey};
 use egui::{Button, Ui};
 
@@ -138,7 +138,7 @@ fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::state::first_scene;
+    use crate::app::scene::first_scene;
 
     #[test]
     fn additions_find_free_places_until_there_are_none() {

@@ -1,0 +1,113 @@
+//! Frame by frame: takes in what jobs brought, obeys keys and dropped files, draws, does what was asked. Never waits.
+
+use super::backend::{StudyEngine, open_shelf};
+use super::command::Command;
+use super::dialogs::NativeDialogs;
+use super::offer::pressed;
+use super::window::{App, Services};
+use super::{panels, theme, title};
+use crate::catalogue::SourceFile;
+use crate::study::Library;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+impl App {
+    /// Everything before drawing: results, keys, dropped files, requests. Never waits.
+    pub fn logic(&mut self, ctx: &egui::Context) {
+        if !self.installed {
+            self.installed = true;
+            self.ctx = ctx.clone();
+            theme::install(ctx);
+            self.state.settings.theme.apply(ctx);
+            self.open_catalogue();
+        }
+        self.poll();
+        self.write_exports();
+        for command in pressed(ctx) {
+            self.apply(command);
+        }
+        let dropped: Vec<PathBuf> =
+            ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
+        if !dropped.is_empty() {
+            self.apply(Command::OpenPaths(dropped));
+        }
+        self.refresh();
+        let dragging = ctx.input(|input| input.pointer.any_down());
+        if !dragging {
+            self.undoer.feed_state(ctx.input(|input| input.time), &self.state.document);
+        }
+    }
+
+    /// Draws one frame and does what was asked in it.
+    pub fn draw(&mut self, ui: &mut egui::Ui) {
+        let commands = panels::show(ui, self);
+        for command in commands {
+            self.apply(command);
+            ui.ctx().request_repaint();
+        }
+        self.toasts.show(ui.ctx());
+        let title = title::title(&self.state);
+        if title != self.shown_title {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.shown_title = title;
+        }
+    }
+}
+
+const SETTINGS_KEY: &str = "cfs-settings";
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.logic(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.draw(ui);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        let mut settings = self.state.settings.clone();
+        settings.last_scene = toml::to_string(&self.state.document.scene).ok();
+        if let Ok(text) = serde_json::to_string(&settings) {
+            storage.set_string(SETTINGS_KEY, text);
+        }
+    }
+}
+
+/// Opens the window and returns when it is closed. `catalogue`: its file, else the user's own; `open`: files to read
+/// at once.
+pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
+    let catalogue = catalogue.map(Path::to_path_buf);
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_inner_size([1280.0, 720.0])
+            .with_min_inner_size([960.0, 600.0])
+            .with_title("cfs")
+            .with_app_id("cfs"),
+        ..Default::default()
+    };
+    eframe::run_native(
+        "cfs",
+        options,
+        Box::new(move |cc| {
+            let settings = cc
+                .storage
+                .and_then(|storage| storage.get_string(SETTINGS_KEY))
+                .and_then(|text| serde_json::from_str(&text).ok())
+                .unwrap_or_default();
+            let library = Arc::new(Library::with_catalogue(catalogue.as_deref()));
+            let services = Services {
+                open_catalogue: Arc::new(move || open_shelf(catalogue.as_deref())),
+                read: SourceFile::read,
+                dialogs: Arc::new(NativeDialogs),
+                engine: Arc::new(StudyEngine::default()),
+            };
+            let mut app = App::new(services, settings);
+            app.library = library;
+            app.logic(&cc.egui_ctx);
+            app.apply(Command::OpenPaths(open));
+            Ok(Box::new(app))
+        }),
+    )
+    .map_err(|error| anyhow::anyhow!("the window cannot be opened: {error}"))
+}

@@ -1,0 +1,248 @@
+//! What is offered: one table of the commands that menus, palette, keys sheet and keyboard know, with their words, keys
+//! and places. A new one is an entry here and its effect in [`super::apply`].
+
+use super::command::{Command, SYSTEM_EDITOR};
+use super::control;
+use super::examples::EXAMPLES;
+use super::state::{self, PathUse};
+use super::theme::ThemeChoice;
+use super::tiles::TILES;
+use crate::study::scene_file::ControlMode;
+use egui::{Key, KeyboardShortcut, Modifiers};
+use std::sync::LazyLock;
+
+const FILE: &str = "File";
+const EDIT: &str = "Edit";
+const VIEW: &str = "View";
+const HELP: &str = "Help";
+/// The menus, in the order of the bar.
+pub const MENUS: [&str; 4] = [FILE, EDIT, VIEW, HELP];
+
+/// Where the menus have a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Which of [`MENUS`].
+    pub menu: &'static str,
+    /// Order in the menu; a line separates one ten from the next.
+    pub rank: u8,
+    /// Name of the menu in the menu that gathers it with its like.
+    pub within: Option<&'static str>,
+}
+
+/// A command as it is offered.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Offer {
+    /// What is done.
+    pub command: Command,
+    /// Menu entry, sentence case; `…` when more is asked.
+    pub text: String,
+    /// One sentence.
+    pub tip: &'static str,
+    /// Keys. Those without Ctrl act only while nothing has the keyboard.
+    pub keys: Option<KeyboardShortcut>,
+    /// Where the menus have it.
+    pub place: Option<Place>,
+    /// Do palette and keys sheet list it?
+    pub listed: bool,
+}
+
+fn offer(command: Command, text: impl Into<String>, tip: &'static str) -> Offer {
+    Offer { command, text: text.into(), tip, keys: None, place: None, listed: true }
+}
+
+impl Offer {
+    fn keys(self, modifiers: Modifiers, key: Key) -> Self {
+        Self { keys: Some(KeyboardShortcut::new(modifiers, key)), ..self }
+    }
+
+    fn menu(self, menu: &'static str, rank: u8) -> Self {
+        Self { place: Some(Place { menu, rank, within: None }), ..self }
+    }
+
+    fn within(self, name: &'static str) -> Self {
+        Self { place: self.place.map(|place| Place { within: Some(name), ..place }), ..self }
+    }
+
+    fn unlisted(self) -> Self {
+        Self { listed: false, ..self }
+    }
+}
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const PLAIN: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+/// Numbers of tiles in words.
+const COUNTS: [&str; 10] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
+
+/// The table, in the order of palette and keys sheet.
+fn table() -> Vec<Offer> {
+    use Command::*;
+    let sheet = |sheet| Command::Sheet(Some(sheet));
+    let tiles = || TILES.iter().map(|entry| entry.tile);
+    let mut list = vec![
+        offer(Open, "Open…", "Read datasets, a system or a scene; or drop files on the window")
+            .keys(CTRL, Key::O)
+            .menu(FILE, 0),
+        offer(sheet(state::Sheet::Path(PathUse::Open)), "Type a path", "Give a path instead of choosing a file")
+            .menu(FILE, 1)
+            .unlisted(),
+        offer(SaveScene, "Save scene…", "Write everything this study needs as a text file")
+            .keys(CTRL, Key::S)
+            .menu(FILE, 10),
+        offer(ExportLid, "Export LID…", "Write the window as a luminaire (.ldt, .ies) for other programs")
+            .keys(CTRL, Key::E)
+            .menu(FILE, 11),
+        offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
+        offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
+        offer(Search, "Search the catalogue", "Put the cursor into the search field").keys(CTRL, Key::F),
+        offer(Palette, "Command palette", "Find a command by its words").keys(CTRL, Key::K).menu(HELP, 0),
+    ];
+    for (number, tile) in tiles().enumerate() {
+        let one = offer(Maximise(Some(tile)), format!("Maximise {}", tile.title), tile.help).menu(VIEW, 0);
+        // The first nine by their number.
+        let key = Key::from_name(&(number + 1).to_string());
+        list.push(Offer { keys: key.map(|key| KeyboardShortcut::new(PLAIN, key)), ..one });
+    }
+    let all = format!("All {} tiles", COUNTS.get(TILES.len()).unwrap_or(&"the"));
+    list.extend([
+        offer(Maximise(None), all, "Back from one tile to all").keys(PLAIN, Key::Num0).menu(VIEW, 1),
+        offer(Hour(1), "One hour later", "Move the clock").keys(PLAIN, Key::ArrowRight),
+        offer(Hour(-1), "One hour earlier", "Move the clock").keys(PLAIN, Key::ArrowLeft),
+        offer(Hour(3), "Three hours later", "Move the clock").keys(SHIFT, Key::ArrowRight),
+        offer(Hour(-3), "Three hours earlier", "Move the clock").keys(SHIFT, Key::ArrowLeft),
+        offer(Day(1), "One day later", "Move the date").keys(PLAIN, Key::ArrowUp),
+        offer(Day(-1), "One day earlier", "Move the date").keys(PLAIN, Key::ArrowDown),
+        offer(Day(30), "30 days later", "Move the date").keys(SHIFT, Key::ArrowUp),
+        offer(Day(-30), "30 days earlier", "Move the date").keys(SHIFT, Key::ArrowDown),
+        offer(NextState(1), "Next state", "The next state of the product").keys(PLAIN, Key::CloseBracket),
+        offer(NextState(-1), "Previous state", "The previous state of the product").keys(PLAIN, Key::OpenBracket),
+    ]);
+    list.extend(ControlMode::ALL.map(|mode| {
+        let words = control::words(mode);
+        offer(Control(mode), format!("State: {}", words.order), words.tip)
+    }));
+    list.extend([
+        offer(ToggleCatalogue, "Catalogue panel", "Show or hide the list of products")
+            .keys(CTRL, Key::B)
+            .menu(VIEW, 20),
+        offer(ToggleScene, "Scene panel", "Show or hide place, time, sky and room").keys(CTRL, Key::J).menu(VIEW, 21),
+    ]);
+    list.extend(tiles().map(|tile| {
+        let tip = "Write this tile as numbers (.csv) or as a picture (.png)";
+        offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(FILE, 12).within("Export tile")
+    }));
+    list.extend(tiles().map(|tile| {
+        offer(CopyTile(tile), format!("Copy tile {} as CSV", tile.title), "This tile's numbers into the clipboard")
+    }));
+    list.extend(ThemeChoice::ALL.map(|choice| {
+        offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(VIEW, 30)
+    }));
+    list.extend([
+        offer(ResetScene, "Reset the scene", "Stuttgart, south, 21 March 12:00, clear sky").menu(EDIT, 2),
+        offer(
+            sheet(state::Sheet::Findings),
+            "Findings of the dataset",
+            "What the checks say about the selected dataset",
+        )
+        .menu(HELP, 2),
+        offer(
+            sheet(state::Sheet::Accuracy),
+            "Accuracy",
+            "Error against run time of every method for this scene, and what stated errors are worth",
+        )
+        .keys(PLAIN, Key::A)
+        .menu(VIEW, 11),
+        offer(
+            MeasureAccuracy,
+            "Measure error against run time",
+            "Compute the scene with rising effort by every method: some seconds to a minute",
+        ),
+        offer(
+            sheet(state::Sheet::Goniophotometer),
+            "Goniophotometer",
+            "Compute a system's data from its geometry and material, with a drawing of its section",
+        )
+        .keys(PLAIN, Key::G)
+        .menu(VIEW, 10),
+        offer(
+            MeasureSystem,
+            "Compute the described system",
+            "All states, on as many threads as there are; a run that was stopped goes on",
+        )
+        .keys(CTRL, Key::Enter),
+        offer(
+            AddMeasured,
+            "Add the computed system to the catalogue",
+            "Store all its states as a product; undo takes it out again",
+        ),
+        offer(
+            ExportMeasured,
+            "Export the computed system…",
+            "All states as a package (.cfsp), or a file a state (.xml, .btdf.txt)",
+        ),
+    ]);
+    list.extend(EXAMPLES.iter().enumerate().map(|(number, example)| {
+        let text = format!("System example: {}", example.name);
+        offer(SystemExample(number), text, "Fill the goniophotometer's sheet with this system")
+    }));
+    list.extend([
+        offer(sheet(state::Sheet::Keys), "Keys", "All keyboard shortcuts").keys(PLAIN, Key::Questionmark).menu(HELP, 1),
+        offer(Quit, "Quit", "Close the window").keys(CTRL, Key::Q).menu(FILE, 20),
+    ]);
+    list
+}
+
+/// All that is offered.
+pub fn offers() -> &'static [Offer] {
+    static TABLE: LazyLock<Vec<Offer>> = LazyLock::new(table);
+    &TABLE
+}
+
+/// What palette and keys sheet list.
+pub fn listed() -> impl Iterator<Item = &'static Offer> {
+    offers().iter().filter(|offer| offer.listed)
+}
+
+/// How a command is offered.
+pub fn of(command: &Command) -> Option<&'static Offer> {
+    offers().iter().find(|offer| offer.command == *command)
+}
+
+/// The commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard, an open
+/// list among others: its arrow keys do not move the clock.
+pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
+    let typing = ctx.memory(|memory| memory.focused().is_some()) || egui::Popup::is_any_open(ctx);
+    // The editor of system files has a history of its own.
+    let editing = ctx.memory(|memory| memory.focused()) == Some(egui::Id::unique(SYSTEM_EDITOR));
+    let mut list: Vec<(KeyboardShortcut, &Command)> = offers()
+        .iter()
+        .filter_map(|offer| Some((offer.keys?, &offer.command)))
+        .filter(|(keys, _)| !typing || keys.modifiers.command)
+        .filter(|(_, command)| !(editing && matches!(command, Command::Undo | Command::Redo)))
+        .collect();
+    // Egui matches Ctrl+Z also while Shift is down: ask for the longer combination first.
+    list.sort_by_key(|(keys, _)| std::cmp::Reverse((keys.modifiers.command, keys.modifiers.shift)));
+    ctx.input_mut(|input| {
+        list.into_iter().filter(|(keys, _)| input.consume_shortcut(keys)).map(|(_, command)| command.clone()).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_commands_share_their_keys_or_words() {
+        let mut keys = Vec::new();
+        let mut texts = Vec::new();
+        for offer in offers() {
+            assert!(!offer.text.is_empty() && !offer.tip.is_empty());
+            assert!(!texts.contains(&&offer.text), "{}", offer.text);
+            texts.push(&offer.text);
+            if let Some(shortcut) = offer.keys {
+                assert!(!keys.contains(&shortcut), "{shortcut:?}");
+                keys.push(shortcut);
+            }
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The BTDF tile: one incidence of the selected dataset, the sun's or a chosen one.
+
+use super::drawn::{Drawn, Revision, Seen};
+use crate::app::command::Command;
+use crate::app::facing::sun_incident;
+use crate::app::state::Tile;
+use crate::app::title;
+use crate::app::views::btdf;
+use crate::compute::direction::{Dir, Incident};
+use egui::Ui;
+
+/// The tile.
+pub const TILE: Tile = Tile {
+    title: "BTDF",
+    help: "Where light from one direction leaves, as luminance per illuminance (q in 1/sr). IEA SHC Task 31, eq 2.",
+};
+
+/// Its drawing.
+#[derive(Default)]
+pub struct Drawing {
+    view: btdf::State,
+    revision: Revision,
+}
+
+impl Drawn for Drawing {
+    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+        let state = seen.state;
+        let sun = sun_incident(&state.document.scene);
+        let dataset = &state.dataset;
+        let name = title::selection(state);
+        let input = btdf::Input {
+            btdf: dataset.value.as_deref().and_then(|dataset| dataset.transmission()),
+            name: &name,
+            incident: state.incident.or(sun).unwrap_or_else(|| Incident(Dir::from_unit(glam::DVec3::Z))),
+            sun,
+            follow_sun: state.incident.is_none(),
+            range: None,
+            revision: self.revision.of(dataset.value.as_ref()),
+            status: seen.status(dataset.stale, dataset.error.as_deref()),
+        };
+        for action in btdf::show(ui, &input, &mut self.view) {
+            commands.push(Command::Incidence(match action {
+                btdf::Action::ChooseIncidence(chosen) => Some(chosen),
+                btdf::Action::FollowSun(true) => None,
+                btdf::Action::FollowSun(false) => Some(input.incident),
+            }));
+        }
+        seen.numbers.then(|| btdf::csv(&input))
+    }
+}

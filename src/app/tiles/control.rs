@@ -1,0 +1,262 @@
+//! The control tile of the bench: the picture, and under it the rule with what belongs to it.
+
+use super::drawn::{Drawn, Revision, Seen};
+use crate::app::command::Command;
+use crate::app::control as rules;
+use crate::app::facing::sun_incident;
+use crate::app::state::{State, Tile};
+use crate::app::views::{Cache, control};
+use crate::app::{moment, title};
+use crate::compute::profile_angle::profile_angle;
+use crate::study::control::DEFAULT_ELEVATION;
+use crate::study::scene_file::{ControlKeys, ControlMode};
+use egui::{ComboBox, DragValue, Ui, UiBuilder};
+use std::path::PathBuf;
+
+/// The tile.
+pub const TILE: Tile = Tile {
+    title: "Control",
+    help: "Which state control chooses against the sun's profile angle, today and over the year.",
+};
+
+/// Height of the strip of rules. \[points\]
+const RULES_HEIGHT: f32 = 26.0;
+
+/// Today's sun against the façade, and the state that each half hour of it asks for.
+fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
+    let Some(product) = state.product.as_ref() else { return Vec::new() };
+    // A rule that cannot be followed is told where the state is picked; here its trace is missing.
+    let points = rules::today(product, key, &state.document.scene).unwrap_or_default();
+    let mut last = 0;
+    points
+        .into_iter()
+        .map(|(hour, point)| {
+            last = point.map_or(last, |(_, state)| usize::from(state));
+            control::TracePoint { hour, profile_angle: point.map(|(angle, _)| angle), state: last }
+        })
+        .collect()
+}
+
+/// What the numbers of a product's states are.
+fn quantity(product: &crate::catalogue::Product) -> &'static str {
+    let numeric = product.states.iter().all(|state| state.value.is_some());
+    match (numeric, product.kind.as_str()) {
+        (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
+        (true, _) => "state / °",
+        (false, _) => "state",
+    }
+}
+
+/// A small number with unit that is 0 where the scene says nothing.
+fn setting(ui: &mut Ui, name: &str, tip: &str, unit: &str, value: &mut Option<f64>, most: f64) {
+    let mut number = value.unwrap_or(0.0);
+    let drag = DragValue::new(&mut number).range(0.0..=most).speed(most / 400.0).max_decimals(1).suffix(unit);
+    let label = ui.label(name);
+    if ui.add(drag).labelled_by(label.id).on_hover_text(tip).changed() {
+        *value = (number > 0.0).then_some(number);
+    }
+}
+
+/// The rule by which the state is picked, under the tile.
+fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let mode = state.control_mode();
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.add_space(6.0);
+        let apertures = state.document.scene.aperture.len();
+        if apertures > 1 {
+            let name = |of: Option<usize>| of.map_or("All".to_owned(), |index| format!("Aperture {}", index + 1));
+            let chosen = state.control_of.filter(|index| *index < apertures);
+            let combo = ComboBox::from_id_salt("control of").width(70.0).selected_text(name(chosen));
+            let combo = combo.show_ui(ui, |ui| {
+                for of in std::iter::once(None).chain((0..apertures).map(Some)) {
+                    if ui.selectable_label(chosen == of, name(of)).clicked() {
+                        commands.push(Command::ControlOf(of));
+                    }
+                }
+            });
+            combo.response.on_hover_text("Upper and lower parts of a window can follow rules of their own");
+        }
+        let combo =
+            ComboBox::from_id_salt("rule").width(92.0).selected_text(rules::words(mode).short).show_ui(ui, |ui| {
+                for rule in ControlMode::ALL {
+                    let words = rules::words(rule);
+                    let label = ui.selectable_label(rule == mode, words.short).on_hover_text(words.tip);
+                    if label.clicked() && rule != mode {
+                        commands.push(Command::Control(rule));
+                    }
+                }
+            });
+        combo.response.on_hover_text("The rule that picks the state");
+        if mode == ControlMode::Fixed {
+            return;
+        }
+        let before = state.control_keys();
+        let mut keys = before.clone();
+        details(ui, &mut keys, commands);
+        if keys != before {
+            commands.push(Command::ControlKeys(Box::new(keys)));
+        }
+    });
+}
+
+/// What belongs to the rule: side by side while there is room, else in a menu.
+fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
+    let fields = |ui: &mut Ui, keys: &mut ControlKeys| {
+        if keys.mode == ControlMode::Redirect {
+            let mut elevation = keys.elevation.unwrap_or(DEFAULT_ELEVATION);
+            let label = ui.label("to");
+            let drag = DragValue::new(&mut elevation).range(-90.0..=90.0).speed(0.5).max_decimals(1).suffix("°");
+            let drag = ui.add(drag).labelled_by(label.id);
+            if drag.on_hover_text("Elevation of the redirected light in the room").changed() {
+                keys.elevation = Some(elevation);
+            }
+        }
+        let tip = "How much more open the rule must be before the device opens; it closes at once";
+        setting(ui, "Hysteresis", tip, "°", &mut keys.hysteresis, 45.0);
+        let tip = "Least time between a movement and the next opening; today and the year follow it";
+        setting(ui, "Dwell", tip, " min", &mut keys.dwell, 240.0);
+    };
+    let more = |ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>| {
+        let tip = "Direct sun on the façade counts above this illuminance";
+        setting(ui, "Sun above", tip, " lx", &mut keys.threshold, 100_000.0);
+        let tip = "Above this illuminance of the façade the device closes, whatever the rule; 0: never";
+        setting(ui, "Close above", tip, " lx", &mut keys.close_above, 150_000.0);
+        ui.separator();
+        let own = !keys.curve.is_empty() || keys.curve_file.is_some();
+        if keys.mode == ControlMode::Curve
+            && ui.add_enabled(own, egui::Button::new("The product's own curve")).clicked()
+        {
+            keys.curve.clear();
+            keys.curve_file = None;
+            ui.close();
+        }
+        for (text, command) in
+            [("Load a curve (.csv)…", Command::Open), ("Export the year (.csv)…", Command::ExportTile(TILE))]
+        {
+            if ui.button(text).clicked() {
+                commands.push(command);
+                ui.close();
+            }
+        }
+    };
+    if ui.available_width() > 290.0 {
+        fields(ui, keys);
+        ui.menu_button("…", |ui| more(ui, keys, commands)).response.on_hover_text("Thresholds, curve files, export");
+    } else {
+        ui.menu_button("…", |ui| {
+            fields(ui, keys);
+            more(ui, keys, commands);
+        });
+    }
+}
+
+/// Product, rule and how its curve is drawn.
+type CurveKey = (Option<String>, ControlKeys, PathBuf);
+
+/// Its drawing.
+#[derive(Default)]
+pub struct Drawing {
+    view: control::State,
+    revision: Revision,
+    today: Cache<Option<(rules::YearKey, i16)>, Vec<control::TracePoint>>,
+    curve: Cache<CurveKey, Vec<[f64; 2]>>,
+}
+
+impl Drawn for Drawing {
+    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+        let state = seen.state;
+        let scene = &state.document.scene;
+        let product = state.product.clone();
+        let states: Vec<control::StatePoint> = product.as_deref().map_or_else(Vec::new, |product| {
+            let list = rules::ordered_states(product);
+            list.into_iter().map(|(key, value)| control::StatePoint { key, value }).collect()
+        });
+        let current = states.iter().position(|point| point.key == state.shown_state).unwrap_or(0);
+        let mode = state.control_mode();
+        let day = moment::of(scene).map_or(0, |time| time.day_of_year());
+        let key = state.year_key(&state.document.selection.product);
+        let key = key.filter(|key| product.as_deref().is_some_and(|product| product.key == key.product));
+        let today = self.today.get(key.clone().map(|key| (key, day)), || match &key {
+            Some(key) => trace(state, key),
+            None => Vec::new(),
+        });
+        let drawn = product.as_deref().filter(|product| product.key == state.document.selection.product);
+        let keys = state.control_keys();
+        let curve_key = (drawn.map(|product| product.key.clone()), keys.clone(), state.base());
+        let curve = self.curve.get(curve_key, || match drawn {
+            // By hand, the product's own curve is shown for orientation.
+            Some(product) if mode == ControlMode::Fixed => {
+                product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect()
+            }
+            Some(product) => rules::rule_curve(product, &keys, &state.base()).unwrap_or_default(),
+            None => Vec::new(),
+        });
+        let shown = &seen.results.year;
+        // A map of another product's states would be drawn with this one's: rather none.
+        let year = shown.value.as_ref().filter(|year| {
+            year.states.iter().eq(states.iter().map(|point| &point.key))
+                && key.as_ref().is_some_and(|key| key.product == year.key.product)
+        });
+        let mut name = format!("{} · {}", title::selection(state), rules::words(mode).does);
+        if let Some(year) = year.filter(|_| mode != ControlMode::Fixed) {
+            name.push_str(&format!(" · {} movements a year", year.movements));
+        }
+        let moving = states.len() > 1;
+        let sun = sun_incident(scene);
+        let input = control::Input {
+            states: &states,
+            quantity: product.as_deref().map_or("state", quantity),
+            curve,
+            editable: mode == ControlMode::Curve,
+            name: &name,
+            today,
+            profile_angle: sun.and_then(|sun| profile_angle(sun.0)).map(f64::to_degrees),
+            current,
+            year: year.map_or(&[], |year| year.hours.as_slice()),
+            moment: moment::of(scene).map(|time| {
+                (
+                    usize::try_from(time.day_of_year() - 1).unwrap_or(0),
+                    f64::from(time.hour()) + f64::from(time.minute()) / 60.0,
+                )
+            }),
+            revision: self.revision.of(year),
+            status: seen.status(
+                moving && (shown.stale || state.dataset.stale),
+                shown.error.as_deref().or(state.dataset.error.as_deref()).filter(|_| moving && year.is_none()),
+            ),
+        };
+        let (upper, strip) = {
+            let whole = ui.available_rect_before_wrap();
+            whole.split_top_bottom_at_y(whole.bottom() - if moving { RULES_HEIGHT } else { 0.0 })
+        };
+        if moving {
+            ui.scope_builder(UiBuilder::new().max_rect(strip).id_salt("rules"), |ui| rules_strip(ui, state, commands));
+        }
+        let builder = UiBuilder::new().max_rect(upper).id_salt("control");
+        let actions = ui.scope_builder(builder, |ui| control::show(ui, &input, &mut self.view)).inner;
+        for action in actions {
+            match action {
+                control::Action::ChooseState(index) => {
+                    if let Some(point) = states.get(index) {
+                        commands.push(Command::SelectState(point.key.clone()));
+                    }
+                }
+                control::Action::EditCurve(curve) => {
+                    let keys = ControlKeys { curve, curve_file: None, ..state.control_keys() };
+                    commands.push(Command::ControlKeys(Box::new(keys)));
+                }
+                control::Action::ChooseMoment { day, hour } => {
+                    let mut scene = scene.clone();
+                    if let Some(time) = moment::of(&scene) {
+                        let days = day as i32 + 1 - i32::from(time.day_of_year());
+                        let minutes = (hour * 60.0) as i32 - 60 * i32::from(time.hour()) - i32::from(time.minute());
+                        moment::step(&mut scene, days, minutes);
+                        commands.push(Command::Scene(Box::new(scene)));
+                    }
+                }
+            }
+        }
+        seen.numbers.then(|| control::csv(&input))
+    }
+}

@@ -1,0 +1,66 @@
+//! What a tile of the bench is to the bench: something that is drawn from what the window knows, and asks for commands.
+
+use crate::app::command::Command;
+use crate::app::jobs::Lane;
+use crate::app::paint::tile::Status;
+use crate::app::state::{Results, Shown, State};
+use crate::app::title;
+use egui::Ui;
+use std::sync::Arc;
+
+/// What a tile reads.
+pub struct Seen<'a> {
+    /// What the window knows.
+    pub state: &'a State,
+    /// What was computed.
+    pub results: &'a Results,
+    /// Is something being computed in a lane?
+    pub busy: &'a dyn Fn(Lane) -> bool,
+    /// Something is being dragged: scales stand still.
+    pub held: bool,
+    /// Are the tile's numbers asked for?
+    pub numbers: bool,
+}
+
+impl<'a> Seen<'a> {
+    /// How far a picture is to be trusted.
+    pub const fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
+        Status { coarse: false, stale, hold_scale: self.held, error }
+    }
+
+    /// The same of a result that a lane computes: an error counts when nothing newer is under way.
+    pub fn status_of<T>(&self, shown: &'a Shown<T>, lane: Lane) -> Status<'a> {
+        let error = shown.error.as_deref().filter(|_| shown.value.is_none() || !(self.busy)(lane));
+        self.status(shown.stale, error)
+    }
+
+    /// Product and moment in words.
+    pub fn caption(&self) -> String {
+        format!("{} · {}", title::selection(self.state), title::time(&self.state.document.scene))
+    }
+}
+
+/// The drawing of a tile, with what it remembers from frame to frame.
+pub trait Drawn {
+    /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.
+    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String>;
+}
+
+/// Counts changes of a result by the address of what is shown.
+#[derive(Default)]
+pub struct Revision {
+    seen: usize,
+    count: u64,
+}
+
+impl Revision {
+    /// The count with this value.
+    pub fn of<T>(&mut self, value: Option<&Arc<T>>) -> u64 {
+        let address = value.map_or(0, |value| Arc::as_ptr(value).addr());
+        if self.seen != address {
+            self.seen = address;
+            self.count += 1;
+        }
+        self.count
+    }
+}

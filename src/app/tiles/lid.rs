@@ -1,0 +1,37 @@
+//! The LID tile: the first aperture as a luminaire.
+
+use super::drawn::{Drawn, Revision, Seen};
+use crate::app::command::Command;
+use crate::app::jobs::Lane;
+use crate::app::state::Tile;
+use crate::app::views::lid;
+use egui::Ui;
+
+/// The tile.
+pub const TILE: Tile =
+    Tile { title: "LID", help: "The window as a luminaire: luminous intensity into the room. Task 31, eq 5." };
+
+/// Its drawing.
+#[derive(Default)]
+pub struct Drawing {
+    view: lid::State,
+    revision: Revision,
+}
+
+impl Drawn for Drawing {
+    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, _commands: &mut Vec<Command>) -> Option<String> {
+        let shown = &seen.results.lid;
+        let figures = shown.value.as_deref();
+        let name = seen.caption();
+        let input = lid::Input {
+            lid: figures.map(|figures| &figures.lid),
+            name: &name,
+            flux: figures.map(|figures| figures.flux.value - figures.lid.beam.map_or(0.0, |beam| beam.flux)),
+            max: None,
+            revision: self.revision.of(shown.value.as_ref()),
+            status: seen.status_of(shown, Lane::Lid),
+        };
+        lid::show(ui, &input, &mut self.view);
+        seen.numbers.then(|| lid::csv(&input))
+    }
+}

@@ -1,0 +1,60 @@
+//! The sky tile: the dome as the façade sees it; the sun can be dragged.
+
+use super::drawn::{Drawn, Revision, Seen};
+use crate::app::command::Command;
+use crate::app::state::Tile;
+use crate::app::views::sky;
+use crate::app::{moment, title};
+use crate::compute::angle::Bearing;
+use crate::compute::direction::Dir;
+use egui::Ui;
+
+/// The tile.
+pub const TILE: Tile =
+    Tile { title: "Sky", help: "Luminance of sky, sun and ground as the façade sees them. CIE S 011 / ISO 15469." };
+
+/// Its drawing.
+#[derive(Default)]
+pub struct Drawing {
+    view: sky::State,
+    revision: Revision,
+}
+
+impl Drawn for Drawing {
+    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+        let state = seen.state;
+        let scene = &state.document.scene;
+        let daylight = state.daylight.value.as_deref();
+        let luminance = daylight.map(|daylight| {
+            move |altitude: f64, bearing: f64| {
+                daylight.outside.luminance(Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing)))
+            }
+        });
+        let name = title::sky(scene);
+        let place = |(altitude, bearing): (f64, f64)| sky::Place { altitude, bearing: bearing.to_radians() };
+        let input = sky::Input {
+            luminance: luminance.as_ref().map(|function| function as &dyn Fn(f64, f64) -> f64),
+            name: &name,
+            sun: moment::sun(scene).map(place),
+            facade_bearing: scene.site.azimuth.to_radians(),
+            skyline: daylight.map_or(0.0, |daylight| daylight.outside.skyline_altitude()),
+            diffuse_horizontal: daylight.map(|daylight| daylight.outside.diffuse_horizontal()),
+            direct_horizontal: daylight.map(|daylight| daylight.sun.map_or(0.0, |sun| sun.horizontal())),
+            facade_vertical: seen.results.lid.value.as_ref().and_then(|lid| lid.incident),
+            revision: self.revision.of(state.daylight.value.as_ref()),
+            status: seen.status(state.daylight.stale, state.daylight.error.as_deref()),
+        };
+        for action in sky::show(ui, &input, &mut self.view) {
+            if let sky::Action::SunDragged { place, free } = action {
+                let mut scene = scene.clone();
+                if free || !moment::towards(&mut scene, place.altitude, place.bearing) {
+                    scene.sky.time = None;
+                    scene.sky.sun.altitude = Some(place.altitude.to_degrees());
+                    scene.sky.sun.azimuth = Some(place.bearing.to_degrees());
+                }
+                commands.push(Command::Scene(Box::new(scene)));
+            }
+        }
+        seen.numbers.then(|| sky::csv(&input))
+    }
+}

@@ -1,0 +1,123 @@
+//! The window itself: what it knows, what was computed, and what works for it.
+
+use super::backend;
+use super::control::YearKey;
+use super::dialogs::{FileDialogs, NoDialogs};
+use super::engine::Engine;
+use super::error::AppError;
+use super::export::Exports;
+use super::jobs::{JobState, Jobs, Lane};
+use super::shelf::Shelf;
+use super::state::{Document, Results, Settings, State};
+use super::tiles::Bench;
+use super::views::{accuracy, section};
+use super::work::{Outcome, ReadDataset};
+use crate::catalogue::SourceFile;
+use crate::study::Library;
+use egui::util::undoer::Undoer;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Opens the catalogue; runs in a job.
+pub type OpenCatalogue = Arc<dyn Fn() -> Result<Arc<dyn Shelf>, AppError> + Send + Sync>;
+
+/// What the window needs from outside; tests put their own in.
+pub struct Services {
+    /// Opens the catalogue.
+    pub open_catalogue: OpenCatalogue,
+    /// Reads dataset files.
+    pub read: ReadDataset,
+    /// Asks for paths.
+    pub dialogs: Arc<dyn FileDialogs>,
+    /// Computes.
+    pub engine: Arc<dyn Engine>,
+}
+
+/// A change to the catalogue that waits for its turn.
+pub(super) type Change = Box<dyn FnOnce(&dyn Shelf) -> Outcome + Send>;
+
+/// The window.
+pub struct App {
+    /// What it knows.
+    pub state: State,
+    /// What was computed.
+    pub results: Results,
+    pub(super) services: Services,
+    /// Files and products that system files name.
+    pub(super) library: Arc<Library>,
+    pub(super) jobs: Jobs<Outcome>,
+    pub(super) pending_changes: VecDeque<Change>,
+    pub(super) undoer: Undoer<Document>,
+    pub(super) asked: Option<Document>,
+    pub(super) asked_year: Option<YearKey>,
+    pub(super) export: Exports,
+    pub(super) toasts: egui_notify::Toasts,
+    pub(super) bench: Bench,
+    pub(super) accuracy_view: accuracy::State,
+    pub(super) section_view: section::State,
+    pub(super) ctx: egui::Context,
+    pub(super) installed: bool,
+    pub(super) shown_title: String,
+}
+
+/// A history that begins here.
+pub(super) fn fresh_undoer(document: &Document) -> Undoer<Document> {
+    let mut undoer = Undoer::default();
+    undoer.add_undo(document);
+    undoer
+}
+
+impl App {
+    /// A window that is not drawn yet.
+    pub fn new(services: Services, settings: Settings) -> Self {
+        let state = State::new(settings);
+        Self {
+            undoer: fresh_undoer(&state.document),
+            state,
+            results: Results::default(),
+            services,
+            library: Arc::default(),
+            jobs: Jobs::default(),
+            pending_changes: VecDeque::new(),
+            asked: None,
+            asked_year: None,
+            export: Exports::default(),
+            toasts: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
+            bench: Bench::default(),
+            accuracy_view: accuracy::State::default(),
+            section_view: section::State::default(),
+            ctx: egui::Context::default(),
+            installed: false,
+            shown_title: String::new(),
+        }
+    }
+
+    /// With a catalogue in memory and no file dialogs; nothing on disk is touched.
+    pub fn for_test(engine: Arc<dyn Engine>) -> Self {
+        Self::with_shelf(engine, backend::ideals_shelf)
+    }
+
+    /// With a catalogue that `open` gives, and no file dialogs.
+    pub fn with_shelf(engine: Arc<dyn Engine>, open: fn() -> Result<Arc<dyn Shelf>, AppError>) -> Self {
+        Self::new(
+            Services { open_catalogue: Arc::new(open), read: SourceFile::read, dialogs: Arc::new(NoDialogs), engine },
+            Settings::default(),
+        )
+    }
+
+    /// Starts a job that wakes the window when it ends.
+    pub(super) fn start(&mut self, lane: Lane, work: impl FnOnce(&JobState) -> Outcome + Send + 'static) {
+        let ctx = self.ctx.clone();
+        self.jobs.start(lane, move || ctx.request_repaint(), work);
+    }
+
+    /// Says an error until somebody has read it.
+    pub(super) fn tell(&mut self, error: &AppError) {
+        self.toasts.error(error.to_string()).duration(None);
+    }
+
+    /// Is something still being read or computed?
+    pub fn busy(&self) -> bool {
+        !self.jobs.views().is_empty() || !self.pending_changes.is_empty()
+    }
+}
