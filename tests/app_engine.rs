@@ -1,12 +1,14 @@
 //! The window with the real study and a catalogue in memory, without a display: what is selected and set is what is
 //! computed, and what is written can be read.
 
-use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::command::Command;
 use cfs::app::control::CONTROLLED;
+use cfs::app::dialogs::NoDialogs;
 use cfs::app::shelf::Query;
-use cfs::app::state::{PathUse, Tile};
+use cfs::app::state::{PathUse, Settings, Tile};
+use cfs::app::{App, Services};
+use cfs::catalogue::{Catalogue, SourceFile};
 use cfs::formats::{Format, eulumdat, ies, write_dataset};
 use cfs::study::scene_file::ControlMode;
 use egui::{Key, Modifiers};
@@ -17,22 +19,62 @@ use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(120);
 
-fn window() -> Harness<'static, App> {
-    let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
-    let mut harness = Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
+fn harness(app: App) -> Harness<'static, App> {
+    Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
         |ui, app: &mut App| {
             let ctx = ui.ctx().clone();
             app.logic(&ctx);
             app.draw(ui);
         },
         app,
-    );
+    )
+}
+
+fn window() -> Harness<'static, App> {
+    let mut harness = harness(App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf));
     // Coarse: what is tested is the wiring.
     let sensors = &mut harness.state_mut().state.document.scene.sensors;
     let plane = sensors.plane.as_mut().unwrap();
     (plane.nx, plane.ny) = (2, 4);
     settle(&mut harness);
     harness
+}
+
+#[test]
+fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("catalogue.sqlite");
+    let file = path.clone();
+    let services = Services {
+        open_catalogue: Arc::new(move || open_shelf(Some(&file))),
+        read: |name, bytes| SourceFile::read(name, bytes).map_err(|error| error.to_string()),
+        dialogs: Arc::new(NoDialogs),
+        engine: Arc::new(StudyEngine::default()),
+    };
+    let mut harness = harness(App::new(services, Settings::default()));
+    let start = Instant::now();
+    let live = |app: &App| {
+        let results = &app.results;
+        let shown = app.state.dataset.value.is_some() && app.state.daylight.value.is_some();
+        shown && results.lid.value.is_some() && results.room.value.is_some() && results.year.value.is_some()
+    };
+    while !live(harness.state()) && start.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    let app = harness.state();
+    assert!(live(app), "{:?} {:?}", app.results.lid.error, app.results.room.error);
+    assert_eq!(app.state.document.selection.product, "venetian-80-72");
+    assert_eq!(app.state.found.total, 3, "nothing that is not in sight came before");
+    // Then the list fills up by itself.
+    while harness.state().state.found.total < 5 && start.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    assert!(harness.state().state.found.total >= 5);
+    // What was done stays for the next start.
+    drop(harness);
+    assert!(Catalogue::open_to_fill(&path).unwrap().search(&Default::default()).unwrap().len() >= 5);
 }
 
 /// Steps until no job is left, then a few frames more.

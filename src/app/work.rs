@@ -87,12 +87,14 @@ pub struct Shelved {
 pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
     let Some((name, missing)) = shelf.next_builtin()? else { return Ok(0) };
     progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
-    // One core stays free for what the user is doing.
+    // Threads of its own, so that what is in sight never waits behind this; one core stays free for the window.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
-    let compute = || crate::study::builtin::compute(name, progress).map_err(|error| error.to_string());
-    let (product, datasets) = pool.map_err(|error| error.to_string())?.install(compute)?;
-    shelf.put_builtin(name, product, &datasets)?;
+    pool.map_err(|error| error.to_string())?.install(|| {
+        let computed = crate::study::builtin::compute(name, progress);
+        let (product, datasets) = computed.map_err(|error| error.to_string())?;
+        shelf.put_builtin(name, product, &datasets)
+    })?;
     Ok(missing - 1)
 }
 
