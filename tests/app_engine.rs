@@ -1,12 +1,13 @@
 //! The window with the real study and a catalogue in memory, without a display: what is selected and set is what is
 //! computed, and what is written can be read.
 
+use cfs::app::apply::fill;
 use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::command::Command;
 use cfs::app::control::CONTROLLED;
 use cfs::app::dialogs::NoDialogs;
 use cfs::app::shelf::Query;
-use cfs::app::state::{PathUse, Settings, Tile};
+use cfs::app::state::{PathUse, Selection, Settings, Tile, first_scene};
 use cfs::app::{App, Services};
 use cfs::catalogue::{Catalogue, SourceFile};
 use cfs::formats::{Format, eulumdat, ies, write_dataset};
@@ -40,41 +41,57 @@ fn window() -> Harness<'static, App> {
     harness
 }
 
+/// A window on a catalogue's file, with the real study.
+fn window_on(path: &Path, settings: Settings) -> Harness<'static, App> {
+    let path = path.to_owned();
+    harness(App::new(
+        Services {
+            open_catalogue: Arc::new(move || open_shelf(Some(&path))),
+            read: |name, bytes| SourceFile::read(name, bytes).map_err(|error| error.to_string()),
+            dialogs: Arc::new(NoDialogs),
+            engine: Arc::new(StudyEngine::default()),
+        },
+        settings,
+    ))
+}
+
+/// Steps until something holds.
+fn step_until(harness: &mut Harness<'_, App>, what: &str, holds: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !holds(harness.state()) {
+        assert!(start.elapsed() < PATIENCE, "{what}: {:?}", harness.state().state.dataset.error);
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+}
+
 #[test]
 fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("catalogue.sqlite");
-    let file = path.clone();
-    let services = Services {
-        open_catalogue: Arc::new(move || open_shelf(Some(&file))),
-        read: |name, bytes| SourceFile::read(name, bytes).map_err(|error| error.to_string()),
-        dialogs: Arc::new(NoDialogs),
-        engine: Arc::new(StudyEngine::default()),
-    };
-    let mut harness = harness(App::new(services, Settings::default()));
-    let start = Instant::now();
-    let live = |app: &App| {
+    let mut harness = window_on(&path, Settings::default());
+    step_until(&mut harness, "six tiles", |app| {
         let results = &app.results;
         let shown = app.state.dataset.value.is_some() && app.state.daylight.value.is_some();
         shown && results.lid.value.is_some() && results.room.value.is_some() && results.year.value.is_some()
-    };
-    while !live(harness.state()) && start.elapsed() < PATIENCE {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    let app = harness.state();
-    assert!(live(app), "{:?} {:?}", app.results.lid.error, app.results.room.error);
-    assert_eq!(app.state.document.selection.product, "venetian-80-72");
-    assert_eq!(app.state.found.total, 3, "nothing that is not in sight came before");
-    // Then the list fills up by itself.
-    while harness.state().state.found.total < 5 && start.elapsed() < PATIENCE {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(harness.state().state.found.total >= 5);
+    });
+    assert_eq!(harness.state().state.document.selection.product, "venetian-80-72");
+    assert_eq!(harness.state().state.found.total, 3, "nothing that is not in sight came before");
+    step_until(&mut harness, "the list fills up", |app| app.state.found.total >= 5);
     // What was done stays for the next start.
     drop(harness);
-    assert!(Catalogue::open_to_fill(&path).unwrap().search(&Default::default()).unwrap().len() >= 5);
+    assert!(Catalogue::open_to_fill(&path).unwrap().facets().unwrap().all >= 5);
+}
+
+#[test]
+fn a_scene_whose_product_is_still_to_come_is_shown_when_it_has_come() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = first_scene();
+    fill(&mut scene, &Selection { product: "clear-double".to_owned(), state: String::new() });
+    let settings = Settings { last_scene: toml::to_string(&scene).ok(), ..Settings::default() };
+    let mut harness = window_on(&folder.path().join("catalogue.sqlite"), settings);
+    let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
+    step_until(&mut harness, "clear-double", |app| shown(app) && app.results.room.value.is_some());
 }
 
 /// Steps until no job is left, then a few frames more.

@@ -102,6 +102,10 @@ impl App {
             }
             Outcome::Builtin(Ok(left)) => {
                 self.search();
+                if self.state.dataset.error.is_some() {
+                    // It may be what the scene was waiting for.
+                    self.asked = None;
+                }
                 if left > 0 {
                     self.fill_catalogue();
                 }
