@@ -6,7 +6,7 @@ use super::engine::Question;
 use super::jobs::{JobState, Lane};
 use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Selection, Sheet};
-use super::work::{Outcome, Shelved, fill_one, read_bytes, take_from_shelf};
+use super::work::{Outcome, Shelved, fill_some, read_bytes, take_from_shelf};
 use crate::catalogue::Imported;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
@@ -28,11 +28,11 @@ impl App {
         }
     }
 
-    /// Computes the next built-in product that is not stored yet, beside everything else. Stopped, it goes on when the
-    /// catalogue is opened next.
+    /// Computes built-in products that are not stored yet, behind everything else. Stopped, it goes on when the catalogue
+    /// is opened next.
     pub(super) fn fill_catalogue(&mut self) {
         let Some(shelf) = self.state.shelf() else { return };
-        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_one(&*shelf, progress)));
+        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, progress)));
     }
 
     /// Changes the catalogue, one change after the other.

@@ -21,12 +21,16 @@ use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Reads the datasets of a file: name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, String>;
 
 /// Files beyond this are refused before they are read. \[bytes\]
 const LARGEST_FILE: u64 = 1 << 30;
+
+/// How long built-in products are put in before the list is looked up anew.
+const FILLING: Duration = Duration::from_millis(500);
 
 /// What jobs bring back.
 #[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]
@@ -67,7 +71,7 @@ pub enum Outcome {
     Imported(Result<Vec<Imported>, String>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), String>),
-    /// A built-in product is in the catalogue; how many are left.
+    /// Built-in products are in the catalogue; how many are left.
     Builtin(Result<usize, String>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, String>),
@@ -83,19 +87,25 @@ pub struct Shelved {
     pub dataset: Arc<Dataset>,
 }
 
-/// Computes and stores one built-in product; how many are left.
-pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
-    let Some((name, missing)) = shelf.next_builtin()? else { return Ok(0) };
-    progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
+/// Computes and stores built-in products one after the other, until the list is worth looking up anew; how many are left.
+pub(super) fn fill_some(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, String> {
     // Threads of its own, so that what is in sight never waits behind this; one core stays free for the window.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
-    pool.map_err(|error| error.to_string())?.install(|| {
-        let computed = crate::study::builtin::compute(name, progress);
-        let (product, datasets) = computed.map_err(|error| error.to_string())?;
-        shelf.put_builtin(name, product, &datasets)
-    })?;
-    Ok(missing - 1)
+    let pool = pool.map_err(|error| error.to_string())?;
+    let start = Instant::now();
+    while let Some((name, missing)) = shelf.next_builtin()? {
+        progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
+        pool.install(|| {
+            let computed = crate::study::builtin::compute(name, progress);
+            let (product, datasets) = computed.map_err(|error| error.to_string())?;
+            shelf.put_builtin(name, product, &datasets)
+        })?;
+        if start.elapsed() > FILLING {
+            return Ok(missing - 1);
+        }
+    }
+    Ok(0)
 }
 
 /// The selection's product, state and dataset.
