@@ -1,12 +1,15 @@
 //! The window with the real study and a catalogue in memory, without a display: what is selected and set is what is
 //! computed, and what is written can be read.
 
-use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::command::Command;
+use cfs::app::dialogs::NoDialogs;
+use cfs::app::scene::{Selection, fill, first_scene};
 use cfs::app::shelf::Query;
-use cfs::app::state::PathUse;
+use cfs::app::state::{PathUse, Settings};
 use cfs::app::tiles::TILES;
+use cfs::app::{App, Services};
+use cfs::catalogue::{Catalogue, SourceFile};
 use cfs::formats::{Format, eulumdat, ies, write_dataset};
 use cfs::study::control::year::CONTROLLED;
 use cfs::study::scene_file::ControlMode;
@@ -18,22 +21,78 @@ use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(120);
 
-fn window() -> Harness<'static, App> {
-    let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
-    let mut harness = Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
+fn harness(app: App) -> Harness<'static, App> {
+    Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
         |ui, app: &mut App| {
             let ctx = ui.ctx().clone();
             app.logic(&ctx);
             app.draw(ui);
         },
         app,
-    );
+    )
+}
+
+fn window() -> Harness<'static, App> {
+    let mut harness = harness(App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf));
     // Coarse: what is tested is the wiring.
     let sensors = &mut harness.state_mut().state.document.scene.sensors;
     let plane = sensors.plane.as_mut().unwrap();
     (plane.nx, plane.ny) = (2, 4);
     settle(&mut harness);
     harness
+}
+
+/// A window on a catalogue's file, with the real study.
+fn window_on(path: &Path, settings: Settings) -> Harness<'static, App> {
+    let path = path.to_owned();
+    harness(App::new(
+        Services {
+            open_catalogue: Arc::new(move || open_shelf(Some(&path))),
+            read: |name, bytes| SourceFile::read(name, bytes).map_err(|error| error.to_string()),
+            dialogs: Arc::new(NoDialogs),
+            engine: Arc::new(StudyEngine::default()),
+        },
+        settings,
+    ))
+}
+
+/// Steps until something holds.
+fn step_until(harness: &mut Harness<'_, App>, what: &str, holds: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !holds(harness.state()) {
+        assert!(start.elapsed() < PATIENCE, "{what}: {:?}", harness.state().state.dataset.error);
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+}
+
+#[test]
+fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("catalogue.sqlite");
+    let mut harness = window_on(&path, Settings::default());
+    step_until(&mut harness, "six tiles", |app| {
+        let results = &app.results;
+        let shown = app.state.dataset.value.is_some() && app.state.daylight.value.is_some();
+        shown && results.lid.value.is_some() && results.room.value.is_some() && results.year.value.is_some()
+    });
+    assert_eq!(harness.state().state.document.selection.product, "venetian-80-72");
+    assert_eq!(harness.state().state.found.total, 3, "nothing that is not in sight came before");
+    step_until(&mut harness, "the list fills up", |app| app.state.found.total >= 5);
+    // What was done stays for the next start.
+    drop(harness);
+    assert!(Catalogue::open_to_fill(&path).unwrap().facets().unwrap().all >= 5);
+}
+
+#[test]
+fn a_scene_whose_product_is_still_to_come_is_shown_when_it_has_come() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = first_scene();
+    fill(&mut scene, &Selection { product: "clear-double".to_owned(), state: String::new() });
+    let settings = Settings { last_scene: toml::to_string(&scene).ok(), ..Settings::default() };
+    let mut harness = window_on(&folder.path().join("catalogue.sqlite"), settings);
+    let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
+    step_until(&mut harness, "clear-double", |app| shown(app) && app.results.room.value.is_some());
 }
 
 /// Steps until no job is left, then a few frames more.

@@ -110,6 +110,28 @@ fn a_file_is_made_once_and_opened_as_it_is() {
 }
 
 #[test]
+fn a_file_to_be_filled_holds_what_a_window_shows_first_and_gets_the_same_products_in_the_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.sqlite");
+    let mut catalogue = Catalogue::open_to_fill(&path).unwrap();
+    let keys: Vec<String> = catalogue.search(&Query::default()).unwrap().into_iter().map(|row| row.key).collect();
+    assert_eq!(keys, ["open-aperture", "ideal-diffuser", "venetian-80-72"]);
+    // One filled in, as the window does it; the others by a program that wants them all at once.
+    let name = "clear-double.system.toml";
+    assert!(catalogue.missing_builtin().unwrap().contains(&name));
+    let (product, datasets) = cfs::study::builtin::compute(name, &cfs::compute::estimate::Silent).unwrap();
+    catalogue.put_builtin(name, product, &datasets).unwrap();
+    drop(Catalogue::open(&path).unwrap());
+    let whole = Catalogue::in_memory().unwrap();
+    assert_eq!(catalogue.missing_builtin().unwrap(), whole.missing_builtin().unwrap());
+    let rows = whole.search(&Query::default()).unwrap();
+    assert_eq!(catalogue.search(&Query::default()).unwrap(), rows);
+    for row in rows {
+        assert_eq!(catalogue.product(&row.key).unwrap(), whole.product(&row.key).unwrap());
+    }
+}
+
+#[test]
 fn newer_foreign_and_broken_files_are_refused_untouched() {
     let folder = tempfile::tempdir().unwrap();
     let newer = folder.path().join("newer.sqlite");

@@ -3,7 +3,7 @@
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::error::AppError;
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, Imported, NewProduct, Product};
+use crate::catalogue::{self, Catalogue, Imported, NewProduct, Product, default_path};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::formats::ies::IesEdition;
@@ -20,26 +20,28 @@ use std::time::Instant;
 /// The catalogue's file, one request at a time.
 struct CatalogueShelf {
     catalogue: Mutex<Catalogue>,
-    /// Is it to be filled with the built-in products that take longer?
-    fills: bool,
+    /// A connection of its own for putting in missing built-in products, if that is to be done: packing and writing
+    /// them keeps nobody from reading.
+    filler: Option<Mutex<Catalogue>>,
 }
 
 /// Opens a catalogue's file, or the user's own.
 pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, AppError> {
-    let catalogue = path.map_or_else(Catalogue::open_default, Catalogue::open)?;
-    Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), fills: true }))
+    let path = path.map_or_else(default_path, |path| Ok(path.to_owned()))?;
+    let open = || Catalogue::open_to_fill(&path).map(Mutex::new);
+    Ok(Arc::new(CatalogueShelf { catalogue: open()?, filler: Some(open()?) }))
 }
 
 /// A new catalogue in memory with the built-in products.
 pub fn memory_shelf() -> Result<Arc<dyn Shelf>, AppError> {
     let catalogue = Catalogue::in_memory()?;
-    Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), fills: false }))
+    Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), filler: None }))
 }
 
 /// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
 pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
     let catalogue = Catalogue::empty_in_memory()?;
-    let shelf = CatalogueShelf { catalogue: Mutex::new(catalogue), fills: false };
+    let shelf = CatalogueShelf { catalogue: Mutex::new(catalogue), filler: None };
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
     {
         let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
@@ -54,9 +56,13 @@ pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
 
 impl CatalogueShelf {
     fn lock(&self) -> MutexGuard<'_, Catalogue> {
-        // Every change is a transaction: what a panic left behind is whole.
-        self.catalogue.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.catalogue)
     }
+}
+
+fn lock(catalogue: &Mutex<Catalogue>) -> MutexGuard<'_, Catalogue> {
+    // Every change is a transaction: what a panic left behind is whole.
+    catalogue.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Shelf for CatalogueShelf {
@@ -112,15 +118,13 @@ impl Shelf for CatalogueShelf {
     }
 
     fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, AppError> {
-        if !self.fills {
-            return Ok(None);
-        }
-        let missing = self.lock().missing_builtin()?;
+        let Some(filler) = &self.filler else { return Ok(None) };
+        let missing = lock(filler).missing_builtin()?;
         Ok(missing.first().map(|&name| (name, missing.len())))
     }
 
     fn put_builtin(&self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), AppError> {
-        Ok(self.lock().put_builtin(name, product, datasets)?)
+        Ok(lock(self.filler.as_ref().unwrap_or(&self.catalogue)).put_builtin(name, product, datasets)?)
     }
 
     fn add(&self, addition: &Addition) -> Result<String, AppError> {

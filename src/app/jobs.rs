@@ -3,6 +3,9 @@
 //! Each [`Lane`] runs one job at a time. A newer job of the same lane withdraws the older one: its progress then says
 //! "cancelled", and what it still returns is thrown away. Results come back through a channel that the window polls.
 //! A panic inside a job is caught and told as a failure; the window lives on.
+//!
+//! Work in the background gives way: wherever it reports progress or asks whether it is still wanted, it rests until
+//! nothing is under way that somebody looks at ([`Priority`]).
 
 use super::error::JobError;
 use crate::compute::estimate::Progress;
@@ -11,7 +14,7 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// What a job works on. Later requests of a lane replace earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -57,11 +60,77 @@ impl Lane {
             Self::Export => "writing file",
         }
     }
+
+    /// Who goes first.
+    pub const fn priority(self) -> Priority {
+        match self {
+            Self::Builtin => Priority::Background,
+            // These ask for paths.
+            Self::Import | Self::Export => Priority::Asking,
+            _ => Priority::InSight,
+        }
+    }
+}
+
+/// Who goes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Priority {
+    /// What is in sight hangs on it.
+    InSight,
+    /// May stand waiting for an answer of the user: neither gives way nor is given way to.
+    Asking,
+    /// Nobody looks at it: rests while anything in sight is under way.
+    Background,
+}
+
+/// Counts the jobs whose results are still to come into sight.
+#[derive(Default)]
+struct Sight {
+    awaited: Mutex<usize>,
+    fewer: Condvar,
+}
+
+impl Sight {
+    /// The count is right whatever happened to a thread that held it.
+    fn lock(&self) -> MutexGuard<'_, usize> {
+        self.awaited.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Returns when nothing is awaited or the caller is no longer wanted.
+    fn rest(&self, cancelled: &AtomicBool) {
+        let in_the_way = |awaited: &mut usize| *awaited > 0 && !cancelled.load(Ordering::Relaxed);
+        drop(self.fewer.wait_while(self.lock(), in_the_way));
+    }
+
+    /// Those who rest look again.
+    fn wake(&self) {
+        drop(self.lock());
+        self.fewer.notify_all();
+    }
+}
+
+/// Keeps the background resting as long as it lives.
+struct Awaited(Arc<Sight>);
+
+impl Awaited {
+    fn new(sight: &Arc<Sight>) -> Self {
+        *sight.lock() += 1;
+        Self(sight.clone())
+    }
+}
+
+impl Drop for Awaited {
+    fn drop(&mut self) {
+        *self.0.lock() -= 1;
+        self.0.wake();
+    }
 }
 
 /// The side of a job that both the worker and the window see.
 #[derive(Default)]
 pub struct JobState {
+    /// What the job gives way to, if it does.
+    gives_way: Option<Arc<Sight>>,
     cancelled: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
@@ -79,6 +148,19 @@ impl JobState {
     pub fn stage(&self) -> &'static str {
         self.stage.lock().map_or("", |stage| *stage)
     }
+
+    fn rest(&self) {
+        if let Some(sight) = &self.gives_way {
+            sight.rest(&self.cancelled);
+        }
+    }
+
+    fn withdraw(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+        if let Some(sight) = &self.gives_way {
+            sight.wake();
+        }
+    }
 }
 
 impl Progress for JobState {
@@ -88,9 +170,11 @@ impl Progress for JobState {
         if let Ok(mut place) = self.stage.lock() {
             *place = stage;
         }
+        self.rest();
     }
 
     fn cancelled(&self) -> bool {
+        self.rest();
         self.cancelled.load(Ordering::Relaxed)
     }
 }
@@ -107,6 +191,8 @@ pub struct Finished<M> {
     pub lane: Lane,
     /// What the job returned, or why it did not.
     pub outcome: Result<M, JobError>,
+    /// Dropped with this, when the outcome has been taken in and what it asks for is started.
+    _awaited: Option<Awaited>,
 }
 
 /// The job under way in a lane, as the status line shows it.
@@ -121,14 +207,15 @@ pub struct JobView {
 pub struct Jobs<M> {
     running: BTreeMap<Lane, Running>,
     next: u64,
-    sender: Sender<(Lane, u64, Result<M, JobError>)>,
-    receiver: Receiver<(Lane, u64, Result<M, JobError>)>,
+    sight: Arc<Sight>,
+    sender: Sender<(u64, Finished<M>)>,
+    receiver: Receiver<(u64, Finished<M>)>,
 }
 
 impl<M: Send + 'static> Default for Jobs<M> {
     fn default() -> Self {
         let (sender, receiver) = channel();
-        Self { running: BTreeMap::new(), next: 0, sender, receiver }
+        Self { running: BTreeMap::new(), next: 0, sight: Arc::default(), sender, receiver }
     }
 }
 
@@ -143,20 +230,23 @@ impl<M: Send + 'static> Jobs<M> {
         self.cancel(lane);
         self.next += 1;
         let generation = self.next;
-        let state = Arc::new(JobState::default());
+        let gives_way = (lane.priority() == Priority::Background).then(|| self.sight.clone());
+        let awaited = (lane.priority() == Priority::InSight).then(|| Awaited::new(&self.sight));
+        let state = Arc::new(JobState { gives_way, ..JobState::default() });
         self.running.insert(lane, Running { generation, state: state.clone() });
         let sender = self.sender.clone();
         let job = move || {
+            state.rest();
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&state))).map_err(|panic| fault(&*panic));
             // The window may be gone by now; nobody is left to tell.
-            if sender.send((lane, generation, outcome)).is_ok() {
+            if sender.send((generation, Finished { lane, outcome, _awaited: awaited })).is_ok() {
                 wake();
             }
         };
         if let Err(error) = std::thread::Builder::new().name(format!("cfs {}", lane.word())).spawn(job) {
             let error = JobError::NoThread(error.to_string());
             // Sent to ourselves: the receiver lives as long as we do.
-            if self.sender.send((lane, generation, Err(error))).is_err() {
+            if self.sender.send((generation, Finished { lane, outcome: Err(error), _awaited: None })).is_err() {
                 self.running.remove(&lane);
             }
         }
@@ -165,17 +255,17 @@ impl<M: Send + 'static> Jobs<M> {
     /// Withdraws what a lane is doing; its result will not arrive. True if there was something.
     pub fn cancel(&mut self, lane: Lane) -> bool {
         let Some(job) = self.running.remove(&lane) else { return false };
-        job.state.cancelled.store(true, Ordering::Relaxed);
+        job.state.withdraw();
         true
     }
 
     /// What has ended since the last call. Never waits.
     pub fn poll(&mut self) -> Vec<Finished<M>> {
         let mut list = Vec::new();
-        while let Ok((lane, generation, outcome)) = self.receiver.try_recv() {
-            if self.running.get(&lane).is_some_and(|job| job.generation == generation) {
-                self.running.remove(&lane);
-                list.push(Finished { lane, outcome });
+        while let Ok((generation, finished)) = self.receiver.try_recv() {
+            if self.running.get(&finished.lane).is_some_and(|job| job.generation == generation) {
+                self.running.remove(&finished.lane);
+                list.push(finished);
             }
         }
         list
@@ -195,7 +285,7 @@ impl<M: Send + 'static> Jobs<M> {
 impl<M> Drop for Jobs<M> {
     fn drop(&mut self) {
         for job in self.running.values() {
-            job.state.cancelled.store(true, Ordering::Relaxed);
+            job.state.withdraw();
         }
     }
 }
@@ -278,5 +368,50 @@ mod tests {
         assert_eq!(jobs.views()[0].state.stage(), "direct");
         go.send(()).unwrap();
         assert_eq!(wait(&mut jobs)[0].outcome, Ok("room"));
+    }
+
+    #[test]
+    fn the_background_rests_while_anything_in_sight_is_under_way() {
+        let mut jobs = Jobs::default();
+        let (step, steps) = channel();
+        let background = move |state: &JobState| {
+            while !state.cancelled() {
+                _ = step.send(());
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            "background"
+        };
+        let next = |patience| steps.recv_timeout(Duration::from_millis(patience)).is_ok();
+        jobs.start(Lane::Builtin, || {}, background);
+        assert!(next(10_000), "nothing is in its way yet");
+        let (go, gate) = channel::<()>();
+        let in_sight = move |_: &JobState| {
+            gate.recv().unwrap();
+            "in sight"
+        };
+        jobs.start(Lane::Room, || {}, in_sight);
+        // The step that was under way may still end.
+        while steps.try_recv().is_ok() {}
+        next(100);
+        assert!(!next(100), "it rests");
+        go.send(()).unwrap();
+        let list = wait(&mut jobs);
+        assert_eq!(list[0].outcome, Ok("in sight"));
+        assert!(!next(100), "what came is not taken in yet");
+        drop(list);
+        assert!(next(10_000), "it goes on");
+    }
+
+    #[test]
+    fn resting_work_is_withdrawn_at_once() {
+        let mut jobs = Jobs::default();
+        let (go, gate) = channel::<()>();
+        jobs.start(Lane::Lid, || {}, move |_| gate.recv().unwrap());
+        let (told, stopped) = channel();
+        jobs.start(Lane::Builtin, || {}, move |state| told.send(state.cancelled()).unwrap());
+        assert!(stopped.recv_timeout(Duration::from_millis(50)).is_err(), "it rests before it begins");
+        jobs.cancel(Lane::Builtin);
+        assert_eq!(stopped.recv_timeout(Duration::from_secs(10)), Ok(true));
+        go.send(()).unwrap();
     }
 }

@@ -9,7 +9,7 @@ use super::scene::{Selection, fill, selection_of};
 use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::window::{App, fresh_undoer};
-use super::work::{Outcome, Shelved, fill_one, take_from_shelf};
+use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
 use crate::catalogue::Imported;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
@@ -32,11 +32,11 @@ impl App {
         }
     }
 
-    /// Computes the next built-in product that is not stored yet, beside everything else. Stopped, it goes on when the
-    /// catalogue is opened next.
+    /// Computes built-in products that are not stored yet, behind everything else. Stopped, it goes on when the catalogue
+    /// is opened next.
     pub(super) fn fill_catalogue(&mut self) {
         let Some(shelf) = self.state.shelf() else { return };
-        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_one(&*shelf, progress)));
+        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, progress)));
     }
 
     /// Changes the catalogue, one change after the other.
@@ -106,6 +106,10 @@ impl App {
             }
             Outcome::Builtin(Ok(left)) => {
                 self.search();
+                if self.state.dataset.error.is_some() {
+                    // It may be what the scene was waiting for.
+                    self.asked = None;
+                }
                 if left > 0 {
                     self.fill_catalogue();
                 }

@@ -28,9 +28,13 @@ use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Reads the datasets of a file: name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
+
+/// How long built-in products are put in before the list is looked up anew.
+const FILLING: Duration = Duration::from_millis(500);
 
 /// What jobs bring back.
 #[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]
@@ -71,7 +75,7 @@ pub enum Outcome {
     Imported(Result<Vec<Imported>, AppError>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), AppError>),
-    /// A built-in product is in the catalogue; how many are left.
+    /// Built-in products are in the catalogue; how many are left.
     Builtin(Result<usize, AppError>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
@@ -87,17 +91,23 @@ pub struct Shelved {
     pub dataset: Arc<Dataset>,
 }
 
-/// Computes and stores one built-in product; how many are left.
-pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, AppError> {
-    let Some((name, missing)) = shelf.next_builtin()? else { return Ok(0) };
-    progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
-    // One core stays free for what the user is doing.
+/// Computes and stores built-in products one after the other, until the list is worth looking up anew; how many are left.
+pub(super) fn fill_some(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, AppError> {
+    // Threads of its own, so that what is in sight never waits behind this; one core stays free for the window.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
-    let compute = || crate::study::builtin::compute(name, progress);
-    let (product, datasets) = pool?.install(compute)?;
-    shelf.put_builtin(name, product, &datasets)?;
-    Ok(missing - 1)
+    let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build()?;
+    let start = Instant::now();
+    while let Some((name, missing)) = shelf.next_builtin()? {
+        progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
+        pool.install(|| -> Result<(), AppError> {
+            let (product, datasets) = crate::study::builtin::compute(name, progress)?;
+            shelf.put_builtin(name, product, &datasets)
+        })?;
+        if start.elapsed() > FILLING {
+            return Ok(missing - 1);
+        }
+    }
+    Ok(0)
 }
 
 /// The selection's product, state and dataset.

@@ -1,12 +1,13 @@
 //! The products that come with the program, computed from their descriptions under `assets/systems`.
 //!
-//! A file gets the quick ones when it is opened ([`builtin_products`], some tenths of a second); the others take longer
-//! and are put in by whoever can wait: [`Catalogue::missing_builtin`] says which, [`Catalogue::put_builtin`] stores them.
+//! A file gets the quick ones when it is opened, a file that a window opens only [`FIRST`], which it shows at once. The
+//! others are put in by whoever can wait: [`Catalogue::missing_builtin`] says which, [`Catalogue::put_builtin`] stores
+//! them.
 
 mod texts;
 
 use super::described::{described_dataset, method, product_of};
-use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance, store};
+use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance, Removed, store};
 use crate::compute::btdf::{Band, Btdf, Dataset};
 use crate::compute::estimate::Silent;
 use crate::compute::system::SystemKind;
@@ -17,7 +18,8 @@ use crate::compute::system::slats::Venetian;
 use crate::compute::system::stack::LayerSource;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile};
 use rayon::prelude::*;
-use rusqlite::OptionalExtension;
+use rusqlite::{Connection, OptionalExtension, Transaction};
+use std::collections::HashSet;
 pub use texts::SYSTEMS;
 
 /// Raised whenever the built-in products change otherwise than by their descriptions; a file with a lower number gets
@@ -25,8 +27,8 @@ pub use texts::SYSTEMS;
 pub const BUILTIN_VERSION: i64 = 4;
 /// Error target of the built-in products, absolute in τ and ρ.
 pub const BUILTIN_ERROR: f64 = 0.003;
-/// Others that are there at once, among them the one that a new window shows.
-const QUICK: [&str; 2] = ["venetian-80-72", "laser-cut-panel"];
+/// Key of the product that a new window shows.
+const FIRST: &str = "venetian-80-72";
 
 /// A built-in description by the name of its file.
 ///
@@ -52,9 +54,18 @@ pub fn blind_of(system: &str) -> Option<Venetian> {
     }
 }
 
-/// Computed fast enough to be there at once?
-fn is_quick(file: &SystemFile) -> bool {
-    matches!(file.system.kind, SystemKind::Pane(_) | SystemKind::Diffuser(_)) || QUICK.contains(&file.key.as_str())
+/// Which descriptions are computed when a file is opened.
+pub(super) type AtOnce = fn(&SystemFile) -> bool;
+
+/// Those that take some tenths of a second together.
+pub(super) fn quick(file: &SystemFile) -> bool {
+    matches!(file.system.kind, SystemKind::Pane(_) | SystemKind::Diffuser(_))
+        || [FIRST, "laser-cut-panel"].contains(&file.key.as_str())
+}
+
+/// The one that a new window shows.
+pub(super) fn first(file: &SystemFile) -> bool {
+    file.key == FIRST
 }
 
 /// Systems that are defined by a sentence.
@@ -104,35 +115,41 @@ fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
     ]
 }
 
-/// Rank of a built-in description; the ideal systems come before all.
-fn rank(position: usize) -> i64 {
-    100 + position as i64
+/// Rank of a built-in description, by its place in the list; the ideal systems come before all.
+fn rank(name: &str) -> i64 {
+    100 + SYSTEMS.iter().position(|(file, _)| *file == name).unwrap_or(SYSTEMS.len()) as i64
 }
 
-/// The built-in products that are there at once, with their datasets and their ranks.
-pub fn builtin_products() -> Vec<(i64, NewProduct, Vec<Dataset>)> {
-    let mut list: Vec<_> = (0..).zip(ideals()).map(|(rank, (product, datasets))| (rank, product, datasets)).collect();
-    let quick: Vec<_> = SYSTEMS
-        .par_iter()
-        .enumerate()
-        .filter_map(|(position, (name, _))| {
-            let (file, text) = builtin_system(name)?;
-            is_quick(&file).then(|| {
-                let cells = front_basis();
-                let setting = Setting { incident: &cells, emergent: &cells, error: BUILTIN_ERROR, seed: 1 };
-                let dataset = |state: String| {
-                    let specimen =
-                        file.system.specimen(&state).expect("built-in descriptions are computed by the tests");
-                    let (visible, quality) = specimen.examine(&setting, &Silent).expect("nobody cancels");
-                    described_dataset(&file, state, visible, &quality, BUILTIN_ERROR)
-                };
-                let datasets: Vec<Dataset> = file.system.states().into_par_iter().map(dataset).collect();
-                (rank(position), product_of(&file, text, builtin_method(&file), &datasets), datasets)
-            })
-        })
-        .collect();
-    list.extend(quick);
-    list
+/// Stores a product in place of its older self and of another process's copy.
+fn put(tx: &Transaction<'_>, mut record: Removed, rank: i64) -> Result<(), CatalogueError> {
+    tx.execute(
+        "DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1 AND key = ?)",
+        [&record.product.key],
+    )?;
+    tx.execute("DELETE FROM product WHERE builtin = 1 AND key = ?", [&record.product.key])?;
+    record.product.builtin = true;
+    record.product.key = store::free_key(tx, &record.product.key)?;
+    store::insert(tx, &record, rank)?;
+    tx.execute("DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state)", [])?;
+    Ok(())
+}
+
+/// Computes those of the named descriptions that are wanted, ready to be stored.
+fn computed(names: &[&'static str], wanted: AtOnce) -> Result<Vec<(&'static str, Removed)>, CatalogueError> {
+    let one = |&name: &&'static str| {
+        let (file, text) = builtin_system(name).filter(|(file, _)| wanted(file))?;
+        let cells = front_basis();
+        let setting = Setting { incident: &cells, emergent: &cells, error: BUILTIN_ERROR, seed: 1 };
+        let dataset = |state: String| {
+            let specimen = file.system.specimen(&state).expect("built-in descriptions are computed by the tests");
+            let (visible, quality) = specimen.examine(&setting, &Silent).expect("nobody cancels");
+            described_dataset(&file, state, visible, &quality, BUILTIN_ERROR)
+        };
+        let datasets: Vec<Dataset> = file.system.states().into_par_iter().map(dataset).collect();
+        let product = product_of(&file, text, builtin_method(&file), &datasets);
+        Some(store::prepare_unasked(&datasets, product).map(|record| (name, record)))
+    };
+    names.par_iter().filter_map(one).collect()
 }
 
 /// How built-in products are computed.
@@ -143,84 +160,81 @@ pub fn builtin_method(file: &SystemFile) -> String {
 impl Catalogue {
     /// Names of the built-in descriptions whose products are not in the file as they are now.
     pub fn missing_builtin(&self) -> Result<Vec<&'static str>, CatalogueError> {
-        let mut ask = self.db.prepare_cached("SELECT 1 FROM product WHERE builtin = 1 AND source_hash = ?")?;
-        let mut missing = Vec::new();
-        for (name, text) in SYSTEMS {
-            if !ask.exists([blake3::hash(text.as_bytes()).to_hex().as_str()])? {
-                missing.push(*name);
-            }
-        }
-        Ok(missing)
+        missing(&self.db)
     }
 
     /// Stores the product of a built-in description in place of an older one. Favourites stay.
     pub fn put_builtin(&mut self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), CatalogueError> {
-        let position = SYSTEMS.iter().position(|(file, _)| *file == name).unwrap_or(SYSTEMS.len());
-        let mut record = store::prepare_unasked(datasets, product)?;
+        let record = store::prepare_unasked(datasets, product)?;
         let tx = self.change()?;
-        // Its older self and another process's copy.
-        tx.execute(
-            "DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1 AND key = ?)",
-            [&record.product.key],
-        )?;
-        tx.execute("DELETE FROM product WHERE builtin = 1 AND key = ?", [&record.product.key])?;
-        record.product.builtin = true;
-        record.product.key = store::free_key(&tx, &record.product.key)?;
-        store::insert(&tx, &record, rank(position))?;
-        tx.execute("DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state)", [])?;
+        put(&tx, record, rank(name))?;
         tx.commit()?;
         Ok(())
     }
 }
 
-/// Puts this program's quick built-in products into a file that has none or older ones, in one transaction. Rows of
-/// the user's and favourites stay. A file that a newer program filled is left as it is.
-pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
-    if version(&catalogue.db)? >= BUILTIN_VERSION {
+fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
+    let mut ask = db.prepare_cached("SELECT source_hash FROM product WHERE builtin = 1")?;
+    let there: HashSet<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
+    let is_there = |text: &str| there.contains(blake3::hash(text.as_bytes()).to_hex().as_str());
+    Ok(SYSTEMS.iter().filter(|(_, text)| !is_there(text)).map(|(name, _)| *name).collect())
+}
+
+/// Puts those of this program's built-in products that are wanted at once into a file that lacks them, in one
+/// transaction; the products of an older program go. Rows of the user's and favourites stay. A file that a newer program
+/// filled is left as it is.
+pub(super) fn renew(catalogue: &mut Catalogue, wanted: AtOnce) -> Result<(), CatalogueError> {
+    let found = version(&catalogue.db)?;
+    if found > BUILTIN_VERSION {
         return Ok(());
     }
+    let all = || SYSTEMS.iter().map(|(name, _)| *name).collect();
+    let names = if found < BUILTIN_VERSION { all() } else { missing(&catalogue.db)? };
     // Computed before the lock is taken, so that other connections do not wait for it.
-    let records = builtin_products()
-        .into_par_iter()
-        .map(|(rank, meta, datasets)| Ok((rank, store::prepare_unasked(&datasets, meta)?)))
-        .collect::<Result<Vec<_>, CatalogueError>>()?;
-    let tx = catalogue.change()?;
-    if version(&tx)? >= BUILTIN_VERSION {
+    let records = computed(&names, wanted)?;
+    if records.is_empty() && found == BUILTIN_VERSION {
         return Ok(());
     }
-    tx.execute("DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1)", [])?;
-    tx.execute("DELETE FROM product WHERE builtin = 1", [])?;
-    for (rank, mut record) in records {
-        record.product.builtin = true;
-        record.product.key = store::free_key(&tx, &record.product.key)?;
-        store::insert(&tx, &record, rank)?;
+    let tx = catalogue.change()?;
+    // Another program may have been faster, even a newer one.
+    let found = version(&tx)?;
+    if found > BUILTIN_VERSION {
+        return Ok(());
     }
-    tx.execute("DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state)", [])?;
-    tx.execute("INSERT OR REPLACE INTO meta VALUES ('builtin_version', ?)", [BUILTIN_VERSION.to_string()])?;
+    if found < BUILTIN_VERSION {
+        tx.execute("DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1)", [])?;
+        tx.execute("DELETE FROM product WHERE builtin = 1", [])?;
+        for (rank, (product, datasets)) in (0..).zip(ideals()) {
+            put(&tx, store::prepare_unasked(&datasets, product)?, rank)?;
+        }
+        tx.execute("INSERT OR REPLACE INTO meta VALUES ('builtin_version', ?)", [BUILTIN_VERSION.to_string()])?;
+    }
+    let missing = missing(&tx)?;
+    for (name, record) in records.into_iter().filter(|(name, _)| missing.contains(name)) {
+        put(&tx, record, rank(name))?;
+    }
     tx.commit()?;
     Ok(())
 }
 
 /// Rank of the built-in product that a computed product is, by its description's text, where the file is still to get
 /// it.
-pub(super) fn rank_of(db: &rusqlite::Connection, product: &super::Product) -> Result<Option<i64>, CatalogueError> {
-    let position = SYSTEMS.iter().position(|(_, text)| *text == product.system);
-    let Some((position, (file, _))) = position.and_then(|at| Some((at, builtin_system(SYSTEMS[at].0)?))) else {
-        return Ok(None);
-    };
+pub(super) fn rank_of(db: &Connection, product: &super::Product) -> Result<Option<i64>, CatalogueError> {
+    let name = SYSTEMS.iter().find(|(_, text)| *text == product.system).map(|(name, _)| *name);
+    let Some((name, (file, _))) = name.and_then(|name| Some((name, builtin_system(name)?))) else { return Ok(None) };
     let same = product.key == file.key && product.provenance.method == builtin_method(&file);
     let wanted = same && version(db)? > 0 && store::free_key(db, &product.key)? == product.key;
-    Ok(wanted.then(|| rank(position)))
+    Ok(wanted.then(|| rank(name)))
 }
 
 /// The key, or another one where it belongs to a built-in product that this file is still to get.
-pub(super) fn unreserved(db: &rusqlite::Connection, key: &str) -> Result<String, CatalogueError> {
+pub(super) fn unreserved(db: &Connection, key: &str) -> Result<String, CatalogueError> {
     let reserved = || SYSTEMS.iter().any(|(name, _)| builtin_system(name).is_some_and(|(file, _)| file.key == key));
     Ok(if version(db)? > 0 && reserved() { format!("{key}-2") } else { key.to_owned() })
 }
 
 /// Version of the built-in products in the file; 0 without any.
-fn version(db: &rusqlite::Connection) -> Result<i64, CatalogueError> {
+fn version(db: &Connection) -> Result<i64, CatalogueError> {
     let text: Option<String> =
         db.query_row("SELECT value FROM meta WHERE key = 'builtin_version'", [], |row| row.get(0)).optional()?;
     Ok(text.and_then(|text| text.parse().ok()).unwrap_or(0))

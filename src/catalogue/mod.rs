@@ -24,7 +24,7 @@ mod search;
 mod store;
 mod validate;
 
-pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, SYSTEMS, blind_of, builtin_products, builtin_system};
+pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, SYSTEMS, blind_of, builtin_system};
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;

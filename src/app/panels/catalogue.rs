@@ -13,10 +13,8 @@ pub fn show(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
     match &state.catalogue {
         CatalogueState::Opening => {
             ui.add_space(20.0);
-            ui.vertical_centered(|ui| {
-                ui.spinner();
-                ui.label("Opening the catalogue…");
-            });
+            // Without anything that turns: to draw that takes the computer from the work that is waited for.
+            ui.vertical_centered(|ui| ui.label("Opening the catalogue…"));
             return;
         }
         CatalogueState::Failed(error) => {

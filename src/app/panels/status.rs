@@ -52,8 +52,8 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             }
         }
         if app.busy() {
-            // Progress bars move on.
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
+            // Progress bars move on. Not more often: without a graphics card every frame is taken from the work.
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             // As the doctor found on import: examining anew takes too long for every frame.
