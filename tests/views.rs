@@ -12,7 +12,7 @@ use cfs::compute::direction::{Dir, Emergent, Facade, Incident, Surface};
 use cfs::compute::lid::{Beam, EmergentLuminance, Lid};
 use egui::accesskit::Toggled;
 use egui::{Theme, Ui, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, SnapshotResults};
 use glam::DVec3;
 use std::f64::consts::PI;

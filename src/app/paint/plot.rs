@@ -17,8 +17,13 @@ use egui_plot::{
 
 /// Space left of the plotting area. \[points\]
 pub const LEFT: f32 = 44.0;
+/// Space right of the plotting area, for the half of the last tick. \[points\]
+pub const RIGHT: f32 = 10.0;
 /// Space under the plotting area for ticks, and for a title under them. \[points\]
 const BELOW: [f32; 2] = [15.0, 34.0];
+
+/// Height of a line above it. \[points\]
+const LINE: f32 = 18.0;
 
 /// How a plot looks and what the pointer does to it.
 #[derive(Debug, Clone, Copy)]
@@ -107,7 +112,8 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
     let mut hidden: Vec<String> = ui.data(|data| data.get_temp(hidden_id)).unwrap_or_default();
     let (head, lit) = head(ui, rect, plot, look, &palette, &mut hidden);
     ui.data_mut(|data| data.insert_temp(hidden_id, hidden.clone()));
-    let body = Rect::from_min_max(pos2(rect.left(), (head + 2.0).min(rect.bottom() - 1.0)), rect.max);
+    let top = (head + 2.0).min(rect.bottom() - 1.0);
+    let body = Rect::from_min_max(pos2(rect.left(), top), pos2(rect.right() - RIGHT, rect.bottom()));
     let mut child = ui.new_child(UiBuilder::new().max_rect(body).id_salt(look.id));
     let ([left, right], [low, high]) = (plot.x.ends(), plot.y.ends());
     let first = PlotMemory::load(ui.ctx(), look.id).is_none();
@@ -123,7 +129,11 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
             hints(AxisHints::new_x(), &plot.x, &palette, BELOW[usize::from(titled)])
                 .label(RichText::new(plot.x.title()).size(13.0).color(palette.weak)),
         ])
-        .custom_y_axes(vec![hints(AxisHints::new_y(), &plot.y, &palette, look.left)])
+        .custom_y_axes(vec![hints(AxisHints::new_y(), &plot.y, &palette, look.left).formatter(|mark, range| {
+            // Wide words in the corner would run into those of x.
+            let corner = look.on_page && mark.value < range.start() + 0.02 * (range.end() - range.start());
+            if corner { String::new() } else { plot.y.tick(mark.value, mark.step_size) }
+        })])
         .x_grid_spacer(|input| marks(&plot.x, &input, 48.0))
         .y_grid_spacer(|input| marks(&plot.y, &input, 26.0))
         .grid_color(palette.grid)
@@ -185,9 +195,10 @@ fn head(
         return (rect.top() + 4.0, None);
     }
     let layout = Layout::left_to_right(Align::Center).with_main_wrap(true);
-    let mut head = ui.new_child(UiBuilder::new().max_rect(rect).layout(layout).id_salt(look.id.with("legend")));
+    let line = rect.with_max_y(rect.top() + LINE);
+    let mut head = ui.new_child(UiBuilder::new().max_rect(line).layout(layout).id_salt(look.id.with("legend")));
     head.spacing_mut().item_spacing = vec2(9.0, 1.0);
-    head.spacing_mut().interact_size.y = 18.0;
+    head.spacing_mut().interact_size.y = LINE;
     head.add_space(4.0);
     head.label(RichText::new(plot.y.title()).size(13.0).color(palette.weak));
     let mut lit = None;
@@ -211,7 +222,7 @@ fn head(
 fn entry(ui: &mut Ui, name: &str, colour: Color32, palette: &Palette) -> Response {
     const SWATCH: f32 = 16.0;
     let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(11.0), palette.ink);
-    let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + galley.size().x, 18.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + galley.size().x, LINE), Sense::click());
     let y = rect.center().y;
     ui.painter().hline(rect.left()..=rect.left() + SWATCH - 4.0, y, Stroke::new(3.0, colour));
     let ink = if response.hovered() || response.has_focus() { palette.first } else { palette.ink };

@@ -90,7 +90,8 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         "A square for each effort: further left is faster, further down more exact.",
         "A dot for each sensor: above the diagonal the stated error holds.",
     ];
-    let (above, below) = rect.split_top_bottom_at_fraction(0.53);
+    // Half of "100 %" stands beyond the last tick.
+    let (above, below) = rect.with_max_x(rect.right() - 8.0).split_top_bottom_at_fraction(0.53);
     for (((place, plot), look), tip) in [above, below]
         .into_iter()
         .zip(state.plots.get(input.revision, || plots(accuracy)))

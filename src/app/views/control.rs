@@ -288,9 +288,8 @@ fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
         guides: vec![],
     };
     let look = Look::tile(ui.scope_id().with("year"), &[], palette.sun);
-    let place = above.with_max_x(rect.right() - 10.0);
     let (middle, size) = (PlotPoint::new(0.5 * days as f64, 12.0), [days as f32, 24.0]);
-    let shown = plot::show(ui, place, &plot, &look, |plot_ui| {
+    let shown = plot::show(ui, above, &plot, &look, |plot_ui| {
         plot_ui.image(PlotImage::new("", picture.0.id(), middle, size).allow_hover(false));
     });
     if let Some((day, hour)) = input.moment {

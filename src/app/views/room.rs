@@ -6,7 +6,7 @@ use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::contour::{IsoLine, iso_lines};
 use crate::app::paint::palette::{ColourMap, Palette, contrast};
-use crate::app::paint::plot::{self, LEFT, Look};
+use crate::app::paint::plot::{self, LEFT, Look, RIGHT};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::direction::Surface;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
@@ -162,7 +162,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     let section_height = if with_section { (0.38 * rect.height()).clamp(110.0, 230.0) } else { 0.0 };
     let plan_rect = Rect::from_min_max(
         pos2(rect.left() + LEFT, rect.top() + 2.0),
-        pos2(rect.right() - 10.0, rect.bottom() - section_height - LEGEND_HEIGHT - 6.0),
+        pos2(rect.right() - RIGHT, rect.bottom() - section_height - LEGEND_HEIGHT - 6.0),
     );
     let plan = Plan::within(plan_rect, input.room);
     let response = ui.interact(plan.area, ui.scope_id().with("plan"), Sense::click());
@@ -186,7 +186,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     if with_section {
         let place = Rect::from_min_max(
             pos2(rect.left(), rect.bottom() - section_height),
-            pos2(plan.area.right(), rect.bottom()),
+            pos2(plan.area.right() + RIGHT, rect.bottom()),
         );
         text = section_ui(ui, place, input, row, &scale, cell.map(|(_, j)| j), &palette);
     }
