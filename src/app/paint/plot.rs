@@ -5,7 +5,7 @@
 //! egui_plot's does: a click hides a series, the pointer on a name brings it out.
 
 use super::palette::Palette;
-use crate::drawing::plot::{Axis, Form, Plot, Series};
+use crate::drawing::plot::{Axis, Form, Plot, Series, Unit};
 use egui::{
     Align, Align2, Color32, FontId, Id, Layout, Pos2, Rangef, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui,
     UiBuilder, Vec2, pos2, vec2,
@@ -130,8 +130,9 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
                 .label(RichText::new(plot.x.title()).size(13.0).color(palette.weak)),
         ])
         .custom_y_axes(vec![hints(AxisHints::new_y(), &plot.y, &palette, look.left).formatter(|mark, range| {
-            // Wide words in the corner would run into those of x.
-            let corner = look.on_page && mark.value < range.start() + 0.02 * (range.end() - range.start());
+            // Words in the corner would run into those of x.
+            let words = !matches!(plot.y.unit, Unit::Named(_) | Unit::Degrees);
+            let corner = words && mark.value < range.start() + 0.02 * (range.end() - range.start());
             if corner { String::new() } else { plot.y.tick(mark.value, mark.step_size) }
         })])
         .x_grid_spacer(|input| marks(&plot.x, &input, 48.0))
@@ -272,18 +273,17 @@ fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, colour: Color32, 
     }
 }
 
-/// Names of the guides at their right ends, as far as there is room.
+/// Names of the guides at their right ends, as far as no other guide runs through them.
 fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
-    let mut used: Vec<Rect> = Vec::new();
-    for guide in plot.guides.iter().filter(|guide| !guide.name.is_empty()) {
-        let Some(end) = plot.place(guide.ends[1]) else { continue };
-        let at = shown.screen(end);
-        let at = pos2(at.x.min(shown.area().right()) - 4.0, at.y);
+    let area = shown.area();
+    let ends = || plot.guides.iter().filter_map(|guide| Some((guide, shown.screen(plot.place(guide.ends[1])?))));
+    for (guide, end) in ends().filter(|(guide, _)| !guide.name.is_empty()) {
         let galley = ui.painter().layout_no_wrap(guide.name.clone(), FontId::proportional(11.0), look.guide);
+        let at = pos2(end.x.min(area.right()) - 4.0, end.y.max(area.top() + galley.size().y));
         let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
-        if shown.area().contains_rect(place) && used.iter().all(|other| !other.intersects(place)) {
+        let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
+        if area.contains_rect(place) && !crossed {
             ui.painter().galley(place.min, galley, look.guide);
-            used.push(place);
         }
     }
 }
@@ -291,7 +291,6 @@ fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::plot::Unit;
 
     #[test]
     fn ticks_lie_inside_and_apart_at_every_zoom() {

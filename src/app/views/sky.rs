@@ -341,7 +341,7 @@ fn section_ui(
     });
     let sun = input.sun.filter(|sun| sun.altitude >= 0.0).map(|sun| 90.0 - sun.altitude.to_degrees());
     let plot = Plot {
-        x: Axis::linear([-90.0, 90.0], "from the zenith towards the sun", Unit::Degrees),
+        x: Axis::linear([-90.0, 90.0], "zenith angle", Unit::Degrees),
         y: Axis::log([scale.lo, scale.hi], "L", Unit::Named("cd/m²")),
         series: vec![Series::line("sky", points.iter().copied())],
         guides: sun
