@@ -110,7 +110,7 @@ impl Axis {
             Unit::Degrees => &[5.0, 15.0, 30.0, 45.0, 90.0],
             Unit::Hours => &[1.0, 3.0, 6.0, 12.0],
             Unit::Days => {
-                let months = MONTHS.iter().map(|(_, first)| *first).filter(|first| (lo..=hi).contains(first));
+                let months = FIRST.into_iter().filter(|first| (lo..=hi).contains(first));
                 let every = (least / 31.0).ceil().max(1.0) as usize;
                 let marks: Vec<f64> = months.step_by(every).collect();
                 return if marks.len() > 1 { marks } else { ticks::linear(lo, hi, count) };
@@ -163,28 +163,15 @@ impl Axis {
     }
 }
 
-/// The months and their first days, from 0.
-const MONTHS: [(&str, f64); 12] = [
-    ("Jan", 0.0),
-    ("Feb", 31.0),
-    ("Mar", 59.0),
-    ("Apr", 90.0),
-    ("May", 120.0),
-    ("Jun", 151.0),
-    ("Jul", 181.0),
-    ("Aug", 212.0),
-    ("Sep", 243.0),
-    ("Oct", 273.0),
-    ("Nov", 304.0),
-    ("Dec", 334.0),
-];
+const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
+/// First days of the months, from 0.
+const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
 
 /// A day of the year in words: the month alone on its first day.
 fn date(day: f64) -> String {
-    let past = MONTHS.iter().rev().find(|(_, first)| *first <= day);
-    let Some((month, first)) = past.filter(|_| day < 365.0) else { return String::new() };
-    let day = 1.0 + (day - first).floor();
-    if day > 1.0 { format!("{day} {month}") } else { (*month).to_owned() }
+    let Some(month) = FIRST.iter().rposition(|first| *first <= day && day < 365.0) else { return String::new() };
+    let past = (day - FIRST[month]).floor();
+    if past > 0.0 { format!("{} {}", past + 1.0, MONTHS[month]) } else { MONTHS[month].to_owned() }
 }
 
 /// How the points of a series are drawn.
