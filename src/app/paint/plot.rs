@@ -5,7 +5,7 @@
 //! egui_plot's does: a click hides a series, the pointer on a name brings it out.
 
 use super::palette::Palette;
-use crate::drawing::plot::{Axis, Form, Plot, Series, Unit};
+use crate::drawing::plot::{Axis, Form, Plot, Series};
 use egui::{
     Align, Align2, Color32, FontId, Id, Layout, Pos2, Rangef, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui,
     UiBuilder, Vec2, pos2, vec2,
@@ -130,10 +130,10 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
                 .label(RichText::new(plot.x.title()).size(13.0).color(palette.weak)),
         ])
         .custom_y_axes(vec![hints(AxisHints::new_y(), &plot.y, &palette, look.left).formatter(|mark, range| {
-            // Words in the corner would run into those of x.
-            let words = !matches!(plot.y.unit, Unit::Named(_) | Unit::Degrees);
-            let corner = words && mark.value < range.start() + 0.02 * (range.end() - range.start());
-            if corner { String::new() } else { plot.y.tick(mark.value, mark.step_size) }
+            let text = plot.y.tick(mark.value, mark.step_size);
+            let corner = mark.value < range.start() + 0.02 * (range.end() - range.start());
+            // A long word in the corner would run into that of x.
+            if corner && text.chars().count() > 2 { String::new() } else { text }
         })])
         .x_grid_spacer(|input| marks(&plot.x, &input, 48.0))
         .y_grid_spacer(|input| marks(&plot.y, &input, 26.0))
@@ -291,6 +291,7 @@ fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::plot::Unit;
 
     #[test]
     fn ticks_lie_inside_and_apart_at_every_zoom() {
