@@ -64,6 +64,8 @@ pub struct Shown {
     pub response: Response,
     /// Between its coordinates and the screen.
     pub transform: PlotTransform,
+    /// Names of the series that the legend hides.
+    pub hidden: Vec<String>,
 }
 
 impl Shown {
@@ -153,6 +155,7 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
     if look.on_page {
         chart = chart.coordinates_formatter(Corner::LeftBottom, CoordinatesFormatter::new(|point, _| words(point)));
     }
+    let gone = &hidden;
     let drawn = chart.show(&mut child, |plot_ui| {
         if first {
             // From the start as after a double click: the view follows the axes until it is moved.
@@ -170,12 +173,12 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
         }
         // The first is the most important: on top.
         for (k, series) in plot.series.iter().enumerate().rev() {
-            if !hidden.contains(&series.name) {
+            if !gone.contains(&series.name) {
                 add(plot_ui, plot, series, look.colour(k), lit == Some(k));
             }
         }
     });
-    let shown = Shown { response: drawn.response, transform: drawn.transform };
+    let shown = Shown { response: drawn.response, transform: drawn.transform, hidden };
     ui.painter().rect_stroke(shown.area(), 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
     name_guides(ui, plot, look, &shown);
     shown

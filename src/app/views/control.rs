@@ -202,7 +202,13 @@ fn curve_ui(
         let distance = |k: &usize| (input.states[*k].value - v).abs();
         (0..input.states.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
-    let chosen = shown.clicked().filter(|_| !taken).and_then(|[_, v]| nearest(v));
+    // A click on the ground beside the states is the view's.
+    let on_state = |[psi, v]: [f64; 2]| {
+        let index = nearest(v)?;
+        let aside = shown.screen([psi, v]).y - shown.screen([psi, value(index)]).y;
+        (aside.abs() <= 8.0).then_some(index)
+    };
+    let chosen = shown.clicked().filter(|_| !taken).and_then(on_state);
     out.extend(chosen.map(Action::ChooseState));
     out.extend(edited.map(Action::EditCurve));
     if let Some(k) = editing.chosen.filter(|_| shown.response.has_focus() && input.editable)
@@ -230,7 +236,8 @@ fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing
         painter.circle(at, radius, palette.face, Stroke::new(2.0, edge));
     }
     let mut used: Vec<Rect> = vec![];
-    for p in input.today.iter().filter(|p| (p.hour - p.hour.round()).abs() < 1e-6) {
+    let today = !shown.hidden.iter().any(|name| name == "today");
+    for p in input.today.iter().filter(|p| today && (p.hour - p.hour.round()).abs() < 1e-6) {
         let Some(at) = p.profile_angle.and_then(|psi| place([psi, value(p.state)])) else { continue };
         painter.circle(at, 3.0, palette.sun, Stroke::new(1.0, palette.ink));
         let text = Rect::from_center_size(at - vec2(0.0, 12.0), vec2(26.0, 13.0));

@@ -91,7 +91,7 @@ fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
 /// What the pointer and the keys make of the curve: the new one if it changed, and whether the click was meant for it.
 pub fn edit(
     ui: &Ui,
-    Shown { response, transform }: &Shown,
+    Shown { response, transform, .. }: &Shown,
     input: &Input<'_>,
     editing: &mut Editing,
 ) -> (Option<Vec<[f64; 2]>>, bool) {
