@@ -21,15 +21,17 @@
 //! ```
 //!
 //! A study made in the window is a scene file; the command line runs the same file to the same numbers.
+//! An ordinary plot is data first ([`drawing::plot`]): window and picture files draw the same series.
 //!
 //! # Layers
 //!
-//! Imports go one way: [`compute`] ← [`formats`] ← [`catalogue`] ← [`study`] ← {[`cli`], [`app`]} ← `main`.
+//! Imports go one way: [`compute`] ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← {[`cli`], [`app`]} ← `main`.
 //! `tests/tidy.rs` enforces it.
 //!
 //! | module | owns | must not touch |
 //! | --- | --- | --- |
 //! | [`compute`] | physics and numerics: numbers in, numbers out | files, clocks, serde, SQL, egui, output |
+//! | [`drawing`] | pictures without a window: plots as data, line drawings as SVG and PNG | files and paths, serde, egui |
 //! | [`formats`] | every byte layout of data, as `&[u8]` ↔ values | files and paths, SQL, egui |
 //! | [`catalogue`] | the SQLite file: schema, search, exchange of products | egui, scene files |
 //! | [`study`] | scene → what is needed → result, with progress and cancelling | SQL, egui, terminal |
@@ -68,6 +70,7 @@
 //! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
 //! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
 //! | add a tile to the bench | a picture, a file in [`app::tiles`] that feeds it, its entry in [`app::tiles::TILES`] |
+//! | add a plot, in the window or in a file | its numbers as a [`drawing::plot::Plot`]; [`app::paint::plot`] and [`drawing::chart`] draw it |
 //! | store something new | the next `migrations/NNNN_*.sql`, then [`catalogue`] |
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
@@ -76,5 +79,6 @@ pub mod app;
 pub mod catalogue;
 pub mod cli;
 pub mod compute;
+pub mod drawing;
 pub mod formats;
 pub mod study;

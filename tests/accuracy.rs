@@ -4,9 +4,9 @@
 mod rooms;
 
 use cfs::compute::estimate::{Progress, Silent};
-use cfs::formats::drawing::Shape;
+use cfs::drawing::{Shape, chart};
 use cfs::study::accuracy::{Accuracy, Quantity, Series, ladder};
-use cfs::study::accuracy_plot::{Colours, plot};
+use cfs::study::accuracy_plot::plots;
 use cfs::study::{Scene, Session, StudyError};
 use rooms::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -115,7 +115,7 @@ fn the_picture_holds_every_series() {
     let accuracy = ladder(&scene, &Silent).unwrap();
     assert_eq!(accuracy.series.len(), 5);
     assert!(accuracy.series.iter().any(|series| series.quantity == Quantity::Total));
-    let drawing = plot(&accuracy, 1000, 500, &Colours::PAPER);
+    let drawing = chart::draw(&plots(&accuracy), [1000, 500]);
     for name in ["solid-angle", "subdivision", "monte-carlo", "profile-table", "with interreflection"] {
         assert!(drawing.shapes.iter().any(|shape| matches!(shape, Shape::Text { text, .. } if text == name)), "{name}");
     }

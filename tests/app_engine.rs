@@ -48,7 +48,7 @@ fn window_on(path: &Path, settings: Settings) -> Harness<'static, App> {
     harness(App::new(
         Services {
             open_catalogue: Arc::new(move || open_shelf(Some(&path))),
-            read: |name, bytes| SourceFile::read(name, bytes).map_err(|error| error.to_string()),
+            read: SourceFile::read,
             dialogs: Arc::new(NoDialogs),
             engine: Arc::new(StudyEngine::default()),
         },

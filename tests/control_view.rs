@@ -83,6 +83,62 @@ fn points_are_dragged_to_states_and_added_and_taken_out() {
     assert_eq!(curve(&h), [[0.0, 60.0], [90.0, 0.0]]);
 }
 
+/// Two clicks, quicker than a frame of these tests.
+fn double_click(h: &mut Harness<'_, (control::State, Curve)>, at: egui::Pos2) {
+    h.hover_at(at);
+    h.run();
+    for pressed in [true, false, true, false] {
+        let (button, modifiers) = (PointerButton::Primary, egui::Modifiers::NONE);
+        h.input_mut().events.push(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+    }
+    h.run();
+}
+
+#[test]
+fn the_wheel_zooms_and_a_double_click_beside_the_line_shows_all_again() {
+    let mut h = tile();
+    h.run();
+    let (corner, on_line) = (place(&h, [2.0, 4.0]), place(&h, [60.0, 26.7]));
+    let reads = |h: &mut Harness<'_, _>, text: &str| {
+        h.hover_at(on_line);
+        h.run();
+        assert!(h.query_by_label_contains(text).is_some(), "{text}");
+    };
+    reads(&mut h, "profile angle 60°");
+    h.hover_at(corner);
+    h.run();
+    h.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: egui::vec2(0.0, 140.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: egui::Modifiers::NONE,
+    });
+    h.run();
+    // Twice as large about the corner: 2° + 58° / 2.01.
+    reads(&mut h, "profile angle 31°");
+    double_click(&mut h, corner);
+    reads(&mut h, "profile angle 60°");
+    assert_eq!(curve(&h).len(), 3);
+    // On the line it adds a point.
+    double_click(&mut h, on_line);
+    assert_eq!(curve(&h).len(), 4);
+    // A drag of the ground moves the view and nothing else.
+    let before = curve(&h);
+    h.hover_at(corner);
+    h.run();
+    h.drag_at(corner);
+    h.run();
+    h.hover_at(corner + egui::vec2(60.0, 0.0));
+    h.run();
+    h.drop_at(corner + egui::vec2(60.0, 0.0));
+    h.run();
+    assert!(place(&h, [60.0, 26.7]) == on_line && curve(&h) == before);
+    h.hover_at(on_line);
+    h.run();
+    assert!(h.query_by_label_contains("profile angle 60°").is_none());
+}
+
 #[test]
 fn the_keyboard_alone_makes_a_curve() {
     let mut h = tile();

@@ -10,8 +10,9 @@ use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix};
 use cfs::compute::direction::{Dir, Emergent, Facade, Incident, Surface};
 use cfs::compute::lid::{Beam, EmergentLuminance, Lid};
+use egui::accesskit::Toggled;
 use egui::{Theme, Ui, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, SnapshotResults};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -488,6 +489,27 @@ fn a_state_is_chosen_in_the_control_curve() {
     h.drop_at(at);
     h.run();
     assert_eq!(h.state().control.1, vec![control::Action::ChooseState(0)]);
+}
+
+#[test]
+fn a_legend_hides_and_shows_a_series() {
+    let mut h = bench([1350.0, 860.0], Theme::Light);
+    h.run();
+    for name in ["total", "direct", "rule", "today"] {
+        let shown = |h: &Harness<'_, Bench>| h.get_by_label(name).accesskit_node().toggled();
+        let rect = h.get_by_label(name).rect();
+        // Above its plot, not on it.
+        for plot in ["Room section", "Control curve"] {
+            assert!(!h.get_by_label(plot).rect().intersects(rect), "{name}");
+        }
+        assert_eq!(shown(&h), Some(Toggled::True), "{name}");
+        h.get_by_label(name).click();
+        h.run();
+        assert_eq!(shown(&h), Some(Toggled::False), "{name}");
+        h.get_by_label(name).click();
+        h.run();
+        assert_eq!(shown(&h), Some(Toggled::True), "{name}");
+    }
 }
 
 /// Pictures are compared where a software Vulkan driver was asked for: other drivers draw other pixels.

@@ -2,7 +2,7 @@
 
 use cfs::compute::direction::Dir;
 use cfs::compute::direction::Facade;
-use cfs::formats::drawing::{Drawing, Rgb, Shape};
+use cfs::drawing::{Drawing, Rgb, Shape};
 use glam::DVec3;
 use image::RgbImage;
 

@@ -2,8 +2,9 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use crate::drawing::chart;
 use crate::study::accuracy::{Accuracy, Coverage, Quantity, Rung, Series, ladder};
-use crate::study::accuracy_plot::{Colours, name, plot};
+use crate::study::accuracy_plot::{name, plots};
 use crate::study::{files, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
@@ -51,7 +52,7 @@ pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<(
         files::write(path, csv(&accuracy).as_bytes())?;
     }
     if let Some((path, png)) = picture {
-        let drawing = plot(&accuracy, SIZE[0], SIZE[1], &Colours::PAPER);
+        let drawing = chart::draw(&plots(&accuracy), SIZE);
         let bytes = if png { drawing.to_png()? } else { drawing.to_svg().into_bytes() };
         files::write(path, &bytes)?;
     }

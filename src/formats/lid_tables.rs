@@ -1,7 +1,7 @@
 //! A luminaire's distribution as a picture and as a table: the polar diagram and the C-γ values as CSV.
 
-use super::drawing::{Drawing, Rgb, Shape};
 use super::luminaire::{Luminaire, number};
+use crate::drawing::{Drawing, Rgb, Shape};
 
 const GRID: Rgb = [205, 205, 205];
 const INK: Rgb = [60, 60, 60];

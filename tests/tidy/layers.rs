@@ -10,7 +10,7 @@ struct Layer {
     silent: bool,
 }
 
-const LAYERS: [Layer; 6] = [
+const LAYERS: [Layer; 7] = [
     Layer {
         name: "compute",
         below: &[],
@@ -39,8 +39,32 @@ const LAYERS: [Layer; 6] = [
         silent: true,
     },
     Layer {
-        name: "formats",
+        name: "drawing",
         below: &["compute"],
+        forbidden: &[
+            "std::fs",
+            "std::net",
+            "std::env",
+            "std::time",
+            "std::path",
+            "std::process",
+            "serde",
+            "serde_json",
+            "toml",
+            "rusqlite",
+            "egui",
+            "eframe",
+            "egui_plot",
+            "csv",
+            "zip",
+            "clap",
+            "anyhow",
+        ],
+        silent: true,
+    },
+    Layer {
+        name: "formats",
+        below: &["compute", "drawing"],
         forbidden: &[
             "std::fs",
             "std::net",
@@ -59,25 +83,25 @@ const LAYERS: [Layer; 6] = [
     },
     Layer {
         name: "catalogue",
-        below: &["compute", "formats"],
+        below: &["compute", "drawing", "formats"],
         forbidden: &["std::net", "std::process", "toml", "egui", "eframe", "egui_plot", "clap", "anyhow", "roxmltree"],
         silent: true,
     },
     Layer {
         name: "study",
-        below: &["compute", "formats", "catalogue"],
+        below: &["compute", "drawing", "formats", "catalogue"],
         forbidden: &["std::net", "std::process", "rusqlite", "egui", "eframe", "egui_plot", "clap", "roxmltree"],
         silent: true,
     },
     Layer {
         name: "cli",
-        below: &["compute", "formats", "catalogue", "study"],
+        below: &["compute", "drawing", "formats", "catalogue", "study"],
         forbidden: &["rusqlite", "egui", "eframe", "egui_plot", "rfd", "roxmltree", "quick_xml"],
         silent: false,
     },
     Layer {
         name: "app",
-        below: &["compute", "formats", "catalogue", "study"],
+        below: &["compute", "drawing", "formats", "catalogue", "study"],
         forbidden: &["rusqlite", "clap", "roxmltree", "quick_xml", "csv", "zip", "zstd"],
         silent: true,
     },

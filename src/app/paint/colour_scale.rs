@@ -1,7 +1,7 @@
 //! From a value to a colour and back to a legend that can be read: linear or logarithmic, with unit.
 
 use super::palette::{ColourMap, Palette};
-use super::ticks;
+use crate::drawing::ticks;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 /// Height that a legend needs. \[points\]

@@ -1,13 +1,11 @@
-//! Drawing that several tiles share: colour scales, hemispheres, polar axes, charts, iso-lines, ticks.
+//! Drawing that several tiles share: colour scales, hemispheres, polar axes, plots, iso-lines.
 //! Nothing here knows photometry beyond the projections of a hemisphere.
 
-pub mod chart;
 pub mod colour_scale;
 pub mod contour;
-pub mod drawing;
 pub mod hemisphere;
 pub mod palette;
+pub mod plot;
 pub mod polar;
 pub mod polygon;
-pub mod ticks;
 pub mod tile;

@@ -1,5 +1,6 @@
 //! Colours of the pictures: the two data maps and the neutral greys, for light and dark windows.
 
+use crate::drawing::{Rgb, chart::SERIES};
 use colorgrad::Gradient;
 use egui::{Color32, Visuals};
 use std::sync::LazyLock;
@@ -65,12 +66,15 @@ pub struct Palette {
     pub sun: Color32,
     /// Unscattered light.
     pub beam: Color32,
+    /// Series of a plot with many.
+    pub series: [Color32; 5],
 }
 
 impl Palette {
     /// The colours that go with a theme.
     pub fn of(visuals: &Visuals) -> Self {
         let grey = Color32::from_gray;
+        let rgb = |colours: [Rgb; 5]| colours.map(|[r, g, b]| Color32::from_rgb(r, g, b));
         if visuals.dark_mode {
             Self {
                 ink: grey(225),
@@ -83,6 +87,7 @@ impl Palette {
                 second: Color32::from_rgb(230, 159, 0),
                 sun: Color32::from_rgb(255, 205, 60),
                 beam: Color32::from_rgb(255, 95, 85),
+                series: rgb([[86, 180, 233], [230, 159, 0], [0, 190, 140], [225, 150, 195], [240, 120, 60]]),
             }
         } else {
             Self {
@@ -96,6 +101,7 @@ impl Palette {
                 second: Color32::from_rgb(200, 90, 0),
                 sun: Color32::from_rgb(245, 170, 0),
                 beam: Color32::from_rgb(215, 40, 40),
+                series: rgb(SERIES),
             }
         }
     }

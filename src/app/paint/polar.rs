@@ -1,7 +1,7 @@
 //! Polar diagrams as lighting designers draw them: nadir down, rings of equal value, angles at the rim.
 
 use super::palette::Palette;
-use super::ticks;
+use crate::drawing::ticks;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{PI, TAU};
 

@@ -2,16 +2,18 @@
 //! are worth.
 
 use super::Cache;
-use crate::app::paint::drawing;
-use crate::formats::drawing::Drawing;
+use crate::app::paint::palette::Palette;
+use crate::app::paint::plot::{self, Look};
+use crate::app::paint::tile;
+use crate::drawing::plot::Plot;
 use crate::study::accuracy::{Accuracy, Quantity};
-use crate::study::accuracy_plot::{Colours, plot};
+use crate::study::accuracy_plot::plots;
 use egui::{Button, Label, ProgressBar, Sense, Ui, vec2};
 
 /// What only this view knows.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    picture: Cache<(u64, [u32; 2], bool), Drawing>,
+    plots: Cache<u64, [Plot; 2]>,
 }
 
 /// What is shown.
@@ -75,25 +77,30 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         }
         return actions;
     };
-    let width = ui.available_width().clamp(280.0, 900.0);
-    let size = [width as u32, (1.7 * width) as u32];
-    let dark = ui.visuals().dark_mode;
-    let picture = state.picture.get((input.revision, size, dark), || {
-        plot(accuracy, size[0], size[1], if dark { &Colours::DARK } else { &Colours::PAPER })
-    });
-    let (rect, response) = ui.allocate_exact_size(vec2(size[0] as f32, size[1] as f32), Sense::hover());
-    let painter = ui.painter_at(rect);
-    drawing::paint(&painter, rect.min, picture);
+    let width = ui.available_width().min(900.0);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, 1.5 * width), Sense::hover());
     let sentence = sentence(accuracy);
-    response.widget_info(|| {
-        let mut info = egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "Error against run time");
-        info.current_text_value = Some(sentence.clone());
-        info
-    });
-    response.on_hover_text(
-        "Above: a square for each effort; further left is faster, further down more exact. Below: a dot for each \
-         sensor; above the diagonal the stated error holds.",
-    );
+    tile::name(ui, &response, "Error against run time", &sentence);
+    let palette = Palette::of(ui.visuals());
+    let id = ui.scope_id();
+    // Zooming in one leaves the other, of other errors, alone; the series are the same.
+    let first = Look { left: 60.0, on_page: true, ..Look::tile(id.with("front"), &palette.series, palette.weak) };
+    let second = Look { id: id.with("honesty"), legend_of: Some(first.id), ..first };
+    let tips = [
+        "A square for each effort: further left is faster, further down more exact.",
+        "A dot for each sensor: above the diagonal the stated error holds.",
+    ];
+    // Half of "100 %" stands beyond the last tick.
+    let (above, below) = rect.with_max_x(rect.right() - 8.0).split_top_bottom_at_fraction(0.53);
+    for (((place, plot), look), tip) in [above, below]
+        .into_iter()
+        .zip(state.plots.get(input.revision, || plots(accuracy)))
+        .zip([first, second])
+        .zip(tips)
+    {
+        let shown = plot::show(ui, place, plot, &look, |_| {});
+        tile::name(ui, &shown.response, &format!("{} against {}", plot.y.name, plot.x.name), tip);
+    }
     ui.add(Label::new(sentence).wrap());
     actions
 }

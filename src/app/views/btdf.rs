@@ -4,12 +4,12 @@ use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::ticks::{degrees, number};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::angle::wrap_two_pi;
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use crate::drawing::ticks::{degrees, number};
 use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use std::sync::Arc;
 

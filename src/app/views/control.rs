@@ -3,13 +3,16 @@
 mod edit;
 
 use super::Cache;
-use crate::app::paint::chart::{Axis, Chart, LEFT};
 use crate::app::paint::hemisphere::on_halo;
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::ticks::{number, tick};
+use crate::app::paint::plot::{self, LEFT, Look, Shown};
 use crate::app::paint::tile::{self, Status, Words};
-use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
-use std::sync::Arc;
+use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
+use crate::drawing::ticks::{number, tick};
+use egui::{
+    Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, pos2, vec2,
+};
+use egui_plot::{HLine, PlotImage, PlotPoint};
 
 /// A state of a moving product.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,22 +79,30 @@ pub enum Action {
     },
 }
 
+/// A texture, kept as long as this.
+#[derive(Clone)]
+struct Picture(TextureHandle);
+
+impl std::fmt::Debug for Picture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Picture({:?})", self.0.size())
+    }
+}
+
 /// The tile's own settings and pictures.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    year: Cache<(u64, Rect, bool), Arc<Mesh>>,
+    year: Cache<(u64, bool), Picture>,
     editing: edit::Editing,
 }
 
 const HELP: &str = "Which state the control takes at which profile angle (the sun's angle in the vertical section \
 across the façade): the rule as a curve, the product's states as dots, today's way of the sun as a trace; under it the \
 state of every hour of the year. Click a state to set it, an hour to go there. With the rule “Curve” its points can be \
-dragged; a double click adds one, a right click takes one out; keys: , and . choose a point, arrows move it, + adds one, \
+dragged; a double click on the line adds one, a right click takes one out; keys: , and . choose a point, arrows move it, + adds one, \
 Delete takes it out.\nSource: IEA SHC Task 31 report (2005); \
 profile angle tan ψ = tan h / cos Δaz.";
 const DAYS: usize = 365;
-/// First days of the months, from 0, in a year of 365 days.
-const FIRST: [usize; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
@@ -149,13 +160,6 @@ fn state_colour(input: &Input<'_>, index: usize) -> Color32 {
     ColourMap::Sequential.at(index as f32 / (input.states.len().max(2) - 1) as f32)
 }
 
-/// Ticks at the states, thinned to what the height holds.
-fn state_marks(input: &Input<'_>, height: f32) -> Vec<(f64, String)> {
-    let room = ((height - 60.0) / 16.0).max(2.0) as usize;
-    let stride = input.states.len().div_ceil(room).max(1);
-    input.states.iter().step_by(stride).map(|s| (s.value, tick(s.value))).collect()
-}
-
 fn curve_ui(
     ui: &mut Ui,
     rect: Rect,
@@ -165,82 +169,94 @@ fn curve_ui(
 ) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let (lo, hi) = extent(input);
-    let x = Axis::linear(0.0, 90.0, "profile angle / °")
-        .with_marks((0..=6).map(|k| (15.0 * f64::from(k), format!("{}", 15 * k))).collect());
-    let y = Axis::linear(lo, hi, input.quantity).with_marks(state_marks(input, rect.height()));
-    let chart = Chart::within(rect, x, y);
-    let response = ui.interact(chart.area, ui.scope_id().with("curve"), Sense::click_and_drag());
-    let (edited, taken) =
-        if input.editable { edit::edit(ui, &response, &chart, input, editing) } else { (None, false) };
-    let curve = edited.as_deref().unwrap_or(input.curve);
-    let painter = ui.painter();
-    chart.paint(painter, &palette);
-    for (k, s) in input.states.iter().enumerate() {
-        let y = chart.screen(0.0, s.value).y;
-        let stroke = if k == input.current { Stroke::new(1.5, palette.ink) } else { Stroke::new(0.5, palette.outline) };
-        painter.hline(chart.area.x_range(), y, stroke);
+    let (name, unit) = input.quantity.split_once(" / ").unwrap_or((input.quantity, ""));
+    let unit = if unit == "°" { Unit::Degrees } else { Unit::Named("") };
+    let value = |index: usize| input.states.get(index).map_or(f64::NAN, |s| s.value);
+    let today = input.today.iter().map(|p| [p.profile_angle.unwrap_or(f64::NAN), value(p.state)]);
+    let mut series = vec![Series::line("rule", input.curve.iter().copied())];
+    if !input.today.is_empty() {
+        series.push(Series::line("today", today));
     }
-    chart.line(painter, curve.iter().map(|p| (p[0], p[1])), Stroke::new(2.2, palette.first));
-    for (k, p) in curve.iter().enumerate().filter(|_| input.editable) {
-        let at = chart.screen(p[0], p[1]);
+    let now = input.profile_angle.filter(|psi| (0.0..=90.0).contains(psi));
+    let plot = Plot {
+        x: Axis::linear([0.0, 90.0], "profile angle", Unit::Degrees),
+        y: Axis::linear([lo, hi], name, unit),
+        series,
+        guides: now.map(|psi| Guide { name: String::new(), ends: [[psi, lo], [psi, hi]] }).into_iter().collect(),
+    };
+    let id = ui.scope_id().with("curve");
+    let held = edit::held(ui, id, input, editing);
+    let colours = [palette.first, palette.sun];
+    let look = Look { held, focusable: true, ..Look::tile(id, &colours, palette.sun) };
+    let shown = plot::show(ui, rect, &plot, &look, |plot_ui| {
+        for (k, s) in input.states.iter().enumerate() {
+            let now = k == input.current;
+            let stroke = if now { Stroke::new(1.5, palette.ink) } else { Stroke::new(0.5, palette.outline) };
+            plot_ui.hline(HLine::new("", s.value).stroke(stroke).allow_hover(false));
+        }
+    });
+    let (edited, taken) = if input.editable { edit::edit(ui, &shown, input, editing) } else { (None, false) };
+    marks_ui(ui, &shown, input, now, editing, &palette);
+    tile::name(ui, &shown.response, "Control curve", &state_text(input, input.current));
+    let nearest = |v: f64| {
+        let distance = |k: &usize| (input.states[*k].value - v).abs();
+        (0..input.states.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    // A click on the ground beside the states is the view's.
+    let on_state = |[psi, v]: [f64; 2]| {
+        let index = nearest(v)?;
+        let aside = shown.screen([psi, v]).y - shown.screen([psi, value(index)]).y;
+        (aside.abs() <= 8.0).then_some(index)
+    };
+    let chosen = shown.clicked().filter(|_| !taken).and_then(on_state);
+    out.extend(chosen.map(Action::ChooseState));
+    out.extend(edited.map(Action::EditCurve));
+    if let Some(k) = editing.chosen.filter(|_| shown.response.has_focus() && input.editable)
+        && let Some([angle, value]) = input.curve.get(k)
+    {
+        return Some(format!("point {} of {}: {angle:.0}°, rule {}", k + 1, input.curve.len(), number(*value, 3)));
+    }
+    let [psi, v] = shown.pointed()?;
+    let rule = curve_at(input.curve, psi).map_or_else(String::new, |v| format!(" · rule {}", number(v, 3)));
+    Some(format!("profile angle {psi:.0}°{rule} · nearest {}", state_text(input, nearest(v)?)))
+}
+
+/// What lies on the curve: its points to be dragged, the hours of today, the states, the sun.
+fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing: &edit::Editing, palette: &Palette) {
+    let area = shown.area();
+    let painter = &ui.painter().with_clip_rect(area.expand(7.0).intersect(ui.clip_rect()));
+    // Whatever the view was moved to: marks outside it are left out.
+    let place = |point: [f64; 2]| Some(shown.screen(point)).filter(|at| area.expand(0.5).contains(*at));
+    let value = |index: usize| input.states.get(index).map_or(f64::NAN, |s| s.value);
+    for (k, p) in input.curve.iter().enumerate().filter(|_| input.editable) {
+        let Some(at) = place(*p) else { continue };
         let chosen = editing.chosen == Some(k);
         let radius = if chosen { 5.5 } else { 3.5 };
         let edge = if chosen { palette.ink } else { palette.first };
         painter.circle(at, radius, palette.face, Stroke::new(2.0, edge));
     }
-    let value = |index: usize| input.states.get(index).map_or(f64::NAN, |s| s.value);
-    let trace = input.today.iter().map(|p| (p.profile_angle.unwrap_or(f64::NAN), value(p.state)));
-    chart.line(painter, trace, Stroke::new(1.4, palette.sun));
     let mut used: Vec<Rect> = vec![];
-    for p in input.today.iter().filter(|p| (p.hour - p.hour.round()).abs() < 1e-6) {
-        let Some(psi) = p.profile_angle.filter(|psi| (0.0..=90.0).contains(psi)) else { continue };
-        let at = chart.screen(psi, value(p.state));
-        if !at.any_nan() {
-            painter.circle(at, 3.0, palette.sun, Stroke::new(1.0, palette.ink));
-            let place = Rect::from_center_size(at - vec2(0.0, 12.0), vec2(26.0, 13.0));
-            if used.iter().all(|r| !r.intersects(place)) && chart.area.contains_rect(place) {
-                used.push(on_halo(painter, place.center(), &format!("{:.0}h", p.hour), &palette));
-            }
+    let today = !shown.hidden.iter().any(|name| name == "today");
+    for p in input.today.iter().filter(|p| today && (p.hour - p.hour.round()).abs() < 1e-6) {
+        let Some(at) = p.profile_angle.and_then(|psi| place([psi, value(p.state)])) else { continue };
+        painter.circle(at, 3.0, palette.sun, Stroke::new(1.0, palette.ink));
+        let text = Rect::from_center_size(at - vec2(0.0, 12.0), vec2(26.0, 13.0));
+        if used.iter().all(|r| !r.intersects(text)) && area.contains_rect(text) {
+            used.push(on_halo(painter, text.center(), &format!("{:.0}h", p.hour), palette));
         }
     }
+    let spacing = area.height() / input.states.len().max(1) as f32;
     for (k, s) in input.states.iter().enumerate() {
-        // The states as dots on the far axis, where no numbers stand; the current one larger.
-        let at = chart.screen(90.0, s.value);
-        let spacing = chart.area.height() / input.states.len() as f32;
-        let radius = if k == input.current { 6.0 } else { (0.45 * spacing).clamp(1.5, 4.0) };
-        painter.circle(at, radius, state_colour(input, k), Stroke::new(1.5, palette.ink));
-    }
-    if let Some(psi) = input.profile_angle.filter(|psi| (0.0..=90.0).contains(psi)) {
-        let at = chart.screen(psi, value(input.current));
-        painter.vline(at.x, chart.area.y_range(), Stroke::new(1.5, palette.sun));
-        if !at.any_nan() {
-            painter.circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
+        // The states as dots on the far side, where no numbers stand; the current one larger.
+        let at = pos2(area.right(), shown.screen([0.0, s.value]).y);
+        if area.y_range().contains(at.y) {
+            let radius = if k == input.current { 6.0 } else { (0.45 * spacing).clamp(1.5, 4.0) };
+            painter.circle(at, radius, state_colour(input, k), Stroke::new(1.5, palette.ink));
         }
     }
-    tile::name(ui, &response, "Control curve", &state_text(input, input.current));
-    let nearest = |at| {
-        let (_, v) = chart.value(at)?;
-        let distance = |k: &usize| (input.states[*k].value - v).abs();
-        (0..input.states.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    };
-    if response.clicked()
-        && !taken
-        && let Some(index) = response.interact_pointer_pos().and_then(nearest)
-    {
-        out.push(Action::ChooseState(index));
+    if let Some(at) = now.and_then(|psi| place([psi, value(input.current)])) {
+        painter.circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
-    if let Some(k) = editing.chosen.filter(|_| response.has_focus() && input.editable)
-        && let Some([angle, value]) = curve.get(k)
-    {
-        let text = format!("point {} of {}: {angle:.0}°, rule {}", k + 1, curve.len(), number(*value, 3));
-        out.extend(edited.map(Action::EditCurve));
-        return Some(text);
-    }
-    out.extend(edited.map(Action::EditCurve));
-    let at = response.hover_pos()?;
-    let (psi, _) = chart.value(at)?;
-    let rule = curve_at(input.curve, psi).map_or_else(String::new, |v| format!(" · rule {}", number(v, 3)));
-    Some(format!("profile angle {psi:.0}°{rule} · nearest {}", state_text(input, nearest(at)?)))
 }
 
 /// The rule at a profile angle, piecewise linear; held beyond its ends.
@@ -256,81 +272,49 @@ fn curve_at(curve: &[[f64; 2]], psi: f64) -> Option<f64> {
     }))
 }
 
+/// A column a day, noon in the middle, the colour of its state for every hour.
+fn year_picture(ui: &Ui, input: &Input<'_>, days: usize, night: Color32) -> Picture {
+    let hours = (0..24).rev().flat_map(|hour| (0..days).map(move |day| day * 24 + hour));
+    let state = |k: usize| input.year.get(k).copied().flatten();
+    let pixels = hours.map(|k| state(k).map_or(night, |index| state_colour(input, usize::from(index))));
+    let image = ColorImage::new([days, 24], pixels.collect());
+    Picture(ui.ctx().load_texture("year of states", image, TextureOptions::NEAREST))
+}
+
 fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Option<String> {
     let palette = Palette::of(ui.visuals());
-    let legend = Rect::from_min_max(pos2(rect.left() + LEFT, rect.bottom() - 18.0), rect.max);
-    let area = Rect::from_min_max(
-        pos2(rect.left() + LEFT, rect.top() + 6.0),
-        pos2(rect.right() - 10.0, (legend.top() - 18.0).max(rect.top() + 20.0)),
-    );
+    let (above, legend) = rect.split_top_bottom_at_y(rect.bottom() - 18.0);
+    states_legend(ui, legend.with_min_x(rect.left() + LEFT), input, &palette);
     let days = input.year.len().div_ceil(24).max(DAYS);
-    let response = ui.interact(area, ui.scope_id().with("year"), Sense::click());
-    let size = vec2(area.width() / days as f32, area.height() / 24.0);
-    let mesh = state.year.get((input.revision, area, ui.visuals().dark_mode), || {
-        let mut mesh = Mesh::default();
-        // Equal hours of neighbouring days are one rectangle: a year has a few hundred, not 8760.
-        for hour in 0..24 {
-            let at = |day: usize| input.year.get(day * 24 + hour).copied().flatten();
-            let mut day = 0;
-            while day < days {
-                let (from, here) = (day, at(day));
-                while day < days && at(day) == here {
-                    day += 1;
-                }
-                if let Some(index) = here {
-                    let min = pos2(area.left() + from as f32 * size.x, area.bottom() - (hour + 1) as f32 * size.y);
-                    let place = Rect::from_min_size(min, vec2((day - from) as f32 * size.x, size.y));
-                    mesh.add_colored_rect(place, state_colour(input, usize::from(index)));
-                }
-            }
-        }
-        Arc::new(mesh)
+    let picture =
+        state.year.get((input.revision, ui.visuals().dark_mode), || year_picture(ui, input, days, palette.face));
+    let plot = Plot {
+        x: Axis::linear([0.0, days as f64], "", Unit::Days),
+        y: Axis::linear([0.0, 24.0], "", Unit::Hours),
+        series: vec![],
+        guides: vec![],
+    };
+    let look = Look::tile(ui.scope_id().with("year"), &[], palette.sun);
+    let (middle, size) = (PlotPoint::new(0.5 * days as f64, 12.0), [days as f32, 24.0]);
+    let shown = plot::show(ui, above, &plot, &look, |plot_ui| {
+        plot_ui.image(PlotImage::new("", picture.0.id(), middle, size).allow_hover(false));
     });
-    let painter = ui.painter();
-    painter.rect_filled(area, 0, palette.face);
-    painter.add(Shape::Mesh(mesh.clone()));
-    painter.rect_stroke(area, 0, Stroke::new(1.0, palette.outline), StrokeKind::Outside);
-    let small = FontId::proportional(11.0);
-    let wide = area.width() > 300.0;
-    for (month, day) in FIRST.iter().enumerate() {
-        let x = area.left() + *day as f32 * size.x;
-        painter.vline(x, area.bottom()..=area.bottom() + 3.0, Stroke::new(1.0, palette.weak));
-        if wide || month % 3 == 0 {
-            let name = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"][month];
-            painter.text(pos2(x + 1.0, area.bottom() + 2.0), Align2::LEFT_TOP, name, small.clone(), palette.weak);
-        }
-    }
-    for hour in [0, 6, 12, 18, 24] {
-        let y = area.bottom() - hour as f32 * size.y;
-        painter.text(
-            pos2(area.left() - 5.0, y),
-            Align2::RIGHT_CENTER,
-            format!("{hour} h"),
-            small.clone(),
-            palette.weak,
-        );
-    }
     if let Some((day, hour)) = input.moment {
-        let at = pos2(area.left() + (day as f32 + 0.5) * size.x, area.bottom() - hour as f32 * size.y);
+        let at = shown.screen([day as f64 + 0.5, hour]);
+        let painter = ui.painter().with_clip_rect(shown.area().expand(5.0));
         painter.circle(at, 4.5, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
-    states_legend(ui, legend, input, &palette);
-    tile::name(ui, &response, "Year map of states", "hour against day");
-    let moment = |at: egui::Pos2| {
-        let day = (((at.x - area.left()) / size.x).max(0.0) as usize).min(days - 1);
-        (day, f64::from(((area.bottom() - at.y) / size.y).clamp(0.0, 23.99)))
-    };
-    if response.clicked()
-        && let Some((day, hour)) = response.interact_pointer_pos().map(moment)
-    {
-        out.push(Action::ChooseMoment { day, hour: hour.floor() });
+    tile::name(ui, &shown.response, "Year map of states", "hour against day");
+    let moment = |[day, hour]: [f64; 2]| ((day.max(0.0) as usize).min(days - 1), hour.clamp(0.0, 23.99).floor());
+    if let Some((day, hour)) = shown.clicked().map(moment) {
+        out.push(Action::ChooseMoment { day, hour });
     }
-    let (day, hour) = response.hover_pos().map(moment)?;
+    let (day, hour) = shown.pointed().map(moment)?;
     let what = match input.year.get(day * 24 + hour as usize).copied().flatten() {
         Some(index) => state_text(input, usize::from(index)),
         None => "night".to_owned(),
     };
-    Some(format!("day {} of {days}, {:.0} h · {what}", day + 1, hour.floor()))
+    Some(format!("day {} of {days}, {hour:.0} h · {what}", day + 1))
 }
 
 fn states_legend(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {

@@ -3,10 +3,10 @@
 use super::Cache;
 use crate::app::paint::palette::Palette;
 use crate::app::paint::polar::PolarAxes;
-use crate::app::paint::ticks::{number, si};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::direction::{Dir, Emergent, Room, Surface};
 use crate::compute::lid::Lid;
+use crate::drawing::ticks::{number, si};
 use egui::{FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};

@@ -3,13 +3,14 @@
 //! The plan is seen from above with the façade at the left, so that its depth axis is the section's.
 
 use super::Cache;
-use crate::app::paint::chart::{Axis, Chart, LEFT};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::contour::{IsoLine, iso_lines};
 use crate::app::paint::palette::{ColourMap, Palette, contrast};
-use crate::app::paint::ticks::{logarithmic, number, si, tick};
+use crate::app::paint::plot::{self, LEFT, Look, RIGHT};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::direction::Surface;
+use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
+use crate::drawing::ticks::{logarithmic, number, si, tick};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
@@ -161,7 +162,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     let section_height = if with_section { (0.38 * rect.height()).clamp(110.0, 230.0) } else { 0.0 };
     let plan_rect = Rect::from_min_max(
         pos2(rect.left() + LEFT, rect.top() + 2.0),
-        pos2(rect.right() - 10.0, rect.bottom() - section_height - LEGEND_HEIGHT - 6.0),
+        pos2(rect.right() - RIGHT, rect.bottom() - section_height - LEGEND_HEIGHT - 6.0),
     );
     let plan = Plan::within(plan_rect, input.room);
     let response = ui.interact(plan.area, ui.scope_id().with("plan"), Sense::click());
@@ -185,7 +186,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     if with_section {
         let place = Rect::from_min_max(
             pos2(rect.left(), rect.bottom() - section_height),
-            pos2(plan.area.right() + 10.0, rect.bottom()),
+            pos2(plan.area.right() + RIGHT, rect.bottom()),
         );
         text = section_ui(ui, place, input, row, &scale, cell.map(|(_, j)| j), &palette);
     }
@@ -327,71 +328,37 @@ fn section_ui(
     pointed: Option<usize>,
     palette: &Palette,
 ) -> Option<String> {
-    let (nx, ny) = (input.nx, input.ny);
-    let top = scale.hi;
-    let (unit, y) = if scale.log {
-        ("E / lx (log)", Axis::log(scale.lo, top, "E / lx (log)"))
-    } else {
-        ("E / lx", Axis::linear(0.0, top, "E / lx"))
-    };
-    let depth = Axis::linear(0.0, input.room[1], "distance from the façade / m");
-    let chart = Chart::within(rect, depth, Axis { label: format!("{unit}, row {} of {nx}", row + 1), ..y });
-    let response = ui.interact(chart.area, ui.scope_id().with("section"), Sense::hover());
-    let at_depth = |j: usize| (j as f64 + 0.5) / ny as f64 * input.room[1];
+    let (nx, ny, depth) = (input.nx, input.ny, input.room[1]);
+    let at_depth = |j: usize| (j as f64 + 0.5) / ny as f64 * depth;
     let value = |i: usize, j: usize| input.cells[j * nx + i];
-    chart.paint(ui.painter(), palette);
-    let band = (0..ny).map(|j| {
-        let of_row = || (0..nx).map(|i| value(i, j).total);
-        (at_depth(j), of_row().fold(f64::INFINITY, f64::min), of_row().fold(0.0, f64::max))
-    });
-    let mut mesh = Mesh::default();
-    for (j, (y, lo, hi)) in band.enumerate() {
-        for v in [lo, hi] {
-            let p = chart.screen(y, v);
-            let p = pos2(p.x, p.y.clamp(chart.area.top(), chart.area.bottom()));
-            mesh.colored_vertex(p, palette.first.gamma_multiply(0.18));
-        }
-        if j > 0 {
-            let v = 2 * j as u32;
-            mesh.add_triangle(v - 2, v - 1, v);
-            mesh.add_triangle(v - 1, v, v + 1);
-        }
-    }
-    ui.painter().add(Shape::mesh(mesh));
-    let apart = chart.screen(0.0, 300.0).y - chart.screen(0.0, 500.0).y;
-    let high = chart.area.bottom() - chart.screen(0.0, 300.0).y;
-    for level in [300.0, 500.0] {
-        let y = chart.screen(0.0, level).y;
-        if chart.area.y_range().contains(y) {
-            let ends = [pos2(chart.area.left(), y), pos2(chart.area.right(), y)];
-            ui.painter().extend(Shape::dashed_line(&ends, Stroke::new(1.0, palette.second), 4.0, 3.0));
-            // On a scale that squeezes both lines on to the axis their names would only be in the way.
-            if apart > 13.0 && high > 8.0 {
-                let x = chart.area.right() - if level == 300.0 { 4.0 } else { 52.0 };
-                let font = FontId::proportional(11.0);
-                ui.painter().text(pos2(x, y), Align2::RIGHT_BOTTOM, format!("{level:.0} lx"), font, palette.second);
-            }
-        }
-    }
-    chart.line(ui.painter(), (0..ny).map(|j| (at_depth(j), value(row, j).direct)), Stroke::new(1.2, palette.weak));
-    chart.line(ui.painter(), (0..ny).map(|j| (at_depth(j), value(row, j).total)), Stroke::new(2.2, palette.first));
-    let font = FontId::proportional(11.0);
-    let total = ui.painter().text(
-        chart.area.right_top() + vec2(-5.0, 4.0),
-        Align2::RIGHT_TOP,
-        "total",
-        font.clone(),
-        palette.first,
-    );
-    ui.painter().text(total.left_top() - vec2(8.0, 0.0), Align2::RIGHT_TOP, "direct", font, palette.weak);
-    tile::name(ui, &response, "Room section", "illuminance against depth");
-    let hovered = response
-        .hover_pos()
-        .and_then(|at| chart.value(at))
-        .map(|(y, _)| ((y / input.room[1] * ny as f64) as usize).min(ny - 1));
+    // Between the darkest and the brightest row.
+    let band = |j: usize| {
+        let of_rows = || (0..nx).map(|i| value(i, j).total);
+        [of_rows().fold(f64::INFINITY, f64::min), of_rows().fold(0.0, f64::max)]
+    };
+    let line =
+        |name: &str, of: fn(CellValue) -> f64| Series::line(name, (0..ny).map(|j| [at_depth(j), of(value(row, j))]));
+    let axis = if scale.log { Axis::log } else { Axis::linear };
+    let plot = Plot {
+        x: Axis::linear([0.0, depth], "distance from the façade", Unit::Named("m")),
+        y: axis([scale.lo, scale.hi], format!("E in row {} of {nx}", row + 1), Unit::Named("lx")),
+        series: vec![
+            Series { band: (0..ny).map(band).collect(), ..line("total", |v| v.total) },
+            line("direct", |v| v.direct),
+        ],
+        guides: [300.0, 500.0]
+            .map(|level| Guide { name: format!("{level:.0} lx"), ends: [[0.0, level], [depth, level]] })
+            .into(),
+    };
+    let colours = [palette.first, palette.weak];
+    let look = Look::tile(ui.scope_id().with("section"), &colours, palette.second);
+    let shown = plot::show(ui, rect, &plot, &look, |_| {});
+    tile::name(ui, &shown.response, "Room section", "illuminance against depth");
+    let hovered = shown.pointed().map(|[y, _]| ((y / depth * ny as f64).max(0.0) as usize).min(ny - 1));
     let j = hovered.or(pointed)?;
     let v = value(row, j);
-    ui.painter().circle_filled(chart.screen(at_depth(j), v.total), 4.0, palette.first);
+    let at = shown.screen(plot.place([at_depth(j), v.total])?);
+    ui.painter().with_clip_rect(shown.area()).circle_filled(at, 4.0, palette.first);
     Some(format!("{} m deep · {}", number(at_depth(j), 3), value_text(&v)))
 }
 

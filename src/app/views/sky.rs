@@ -1,13 +1,14 @@
 //! The sky from below, the sun that can be dragged, and the illuminances it gives.
 
 use super::Cache;
-use crate::app::paint::chart::{Axis, Chart};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::ticks::si;
+use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile::{self, Status, Words};
 use crate::compute::angle::wrap_two_pi;
+use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
+use crate::drawing::ticks::si;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
@@ -76,7 +77,7 @@ pub struct State {
     scale: Option<ColourScale>,
     extent: Cache<u64, [f64; 2]>,
     dome: Cache<(u64, Disk, ColourScale, u64, bool), Arc<Mesh>>,
-    section: Cache<(u64, u64), Vec<(f64, f64)>>,
+    section: Cache<(u64, u64), Vec<[f64; 2]>>,
     dragging: bool,
 }
 
@@ -156,10 +157,7 @@ fn picture(
         .unwrap_or_else(|| ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential));
     state.scale = Some(scale.clone());
     let text = dome(ui, map, luminance, input, state, &scale, out);
-    if let Some(place) = section {
-        section_ui(ui, place, luminance, input, state, &scale);
-    }
-    text
+    section.and_then(|place| section_ui(ui, place, luminance, input, state, &scale)).unwrap_or(text)
 }
 
 fn extent(luminance: Luminance<'_>) -> [f64; 2] {
@@ -328,7 +326,7 @@ fn section_ui(
     input: &Input<'_>,
     state: &mut State,
     scale: &ColourScale,
-) {
+) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let bearing = input.sun.map_or(input.facade_bearing, |sun| sun.bearing);
     let points = state.section.get((input.revision, bearing.to_bits()), || {
@@ -337,31 +335,28 @@ fn section_ui(
                 // Negative: the side away from the sun.
                 let side = if deg < 0 { bearing + 0.5 * TAU } else { bearing };
                 let altitude = FRAC_PI_2 - f64::from(deg.abs()).to_radians();
-                (f64::from(deg), luminance(altitude, wrap_two_pi(side)))
+                [f64::from(deg), luminance(altitude, wrap_two_pi(side))]
             })
             .collect()
     });
-    let marks = [(-90.0, "horizon"), (0.0, "zenith"), (90.0, "sun's side")];
-    let x = Axis::linear(-90.0, 90.0, "along the sun's vertical circle")
-        .with_marks(marks.map(|(v, t)| (v, t.to_owned())).to_vec());
-    let chart = Chart::within(rect.shrink2(vec2(12.0, 0.0)), x, Axis::log(scale.lo, scale.hi, "L / (cd/m²), log"));
-    let response = ui.interact(chart.area, ui.scope_id().with("section"), Sense::hover());
-    chart.paint(ui.painter(), &palette);
-    chart.line(ui.painter(), points.iter().copied(), Stroke::new(2.0, palette.first));
-    if let Some(sun) = input.sun.filter(|sun| sun.altitude >= 0.0) {
-        let x = chart.screen(90.0 - sun.altitude.to_degrees(), scale.lo).x;
-        ui.painter().vline(x, chart.area.y_range(), Stroke::new(1.5, palette.sun));
-        ui.painter().circle_filled(pos2(x, chart.area.top() + 6.0), 4.0, palette.sun);
-    }
-    tile::name(ui, &response, "Sky section", "luminance along the sun's vertical circle");
-    let pointed = response.hover_pos().and_then(|at| chart.value(at));
-    if let Some((deg, _)) = pointed {
-        let index = (deg.round() as i64 + 90).clamp(0, 180) as usize;
-        let (x, value) = points[index];
-        let at = chart.screen(x, value);
-        ui.painter().circle_filled(at, 3.5, palette.first);
-        on_halo(ui.painter(), pos2(at.x, chart.area.top() + 9.0), &si(value, "cd/m²"), &palette);
-    }
+    let sun = input.sun.filter(|sun| sun.altitude >= 0.0).map(|sun| 90.0 - sun.altitude.to_degrees());
+    let plot = Plot {
+        x: Axis::linear([-90.0, 90.0], "zenith angle", Unit::Degrees),
+        y: Axis::log([scale.lo, scale.hi], "L", Unit::Named("cd/m²")),
+        series: vec![Series::line("sky", points.iter().copied())],
+        guides: sun
+            .map(|x| Guide { name: "sun".to_owned(), ends: [[x, scale.lo], [x, scale.hi]] })
+            .into_iter()
+            .collect(),
+    };
+    let colours = [palette.first];
+    let look = Look::tile(ui.scope_id().with("section"), &colours, palette.sun);
+    let shown = plot::show(ui, rect.shrink2(vec2(12.0, 0.0)), &plot, &look, |_| {});
+    tile::name(ui, &shown.response, "Sky section", "luminance along the sun's vertical circle");
+    let [angle, _] = shown.pointed()?;
+    let [x, value] = points[(angle.round() as i64 + 90).clamp(0, 180) as usize];
+    ui.painter().circle_filled(shown.screen(plot.place([x, value])?), 3.5, palette.first);
+    Some(format!("{x:.0}° from the zenith · {}", si(value, "cd/m²")))
 }
 
 /// The dome every 5° of altitude and 10° of bearing.

@@ -1,12 +1,14 @@
 //! Editing the points of a control curve: dragged with the pointer, or with the keys while the chart has the keyboard.
 //!
 //! Profile angles snap to whole degrees and stay between their neighbours; values snap to the states' (with Shift held:
-//! to whole numbers). A double click adds a point on the line, a right click takes one out. Keys: `,` and `.` choose a
+//! to whole numbers). A double click on the line adds a point, a right click takes one out; beside the line drags and
+//! double clicks are the view's. Keys: `,` and `.` choose a
 //! point, arrows move it, Insert or + adds one after it, Delete takes it out.
 
-use super::{Input, curve_at};
-use crate::app::paint::chart::Chart;
-use egui::{EventFilter, Key, Modifiers, Pos2, Response, Ui};
+use super::{Input, curve_at, extent};
+use crate::app::paint::plot::{Shown, screen};
+use egui::{EventFilter, Id, Key, Modifiers, Pos2, Ui};
+use egui_plot::PlotTransform;
 
 /// Pointers this near to a point mean it. \[points\]
 const REACH: f32 = 10.0;
@@ -22,9 +24,31 @@ pub struct Editing {
 }
 
 /// Index of the curve's point near a place on the screen.
-fn near(chart: &Chart, curve: &[[f64; 2]], at: Pos2) -> Option<usize> {
-    let distance = |k: usize| chart.screen(curve[k][0], curve[k][1]).distance(at);
+fn near(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> Option<usize> {
+    let distance = |k: usize| screen(transform, curve[k]).distance(at);
     (0..curve.len()).filter(|&k| distance(k) <= REACH).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+}
+
+/// Whether a place on the screen is on the curve or its ends' continuation.
+fn on_line(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> bool {
+    // On a steep part the line is far above or below a place right beside it.
+    let heights = [-0.5, 0.0, 0.5].map(|aside| {
+        let angle = transform.value_from_position(at + egui::vec2(aside * REACH, 0.0)).x;
+        curve_at(curve, angle).map_or(f32::NAN, |value| screen(transform, [angle, value]).y)
+    });
+    let top = heights.into_iter().fold(f32::INFINITY, f32::min);
+    let bottom = heights.into_iter().fold(f32::NEG_INFINITY, f32::max);
+    (top - REACH..=bottom + REACH).contains(&at.y)
+}
+
+/// Whether the pointer is on something of the curve, so that the view must stay where it is.
+pub fn held(ui: &Ui, id: Id, input: &Input<'_>, editing: &Editing) -> bool {
+    let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
+    let before = Shown::transform_before(ui, id);
+    let on_curve = before.zip(pointer).is_some_and(|(transform, at)| {
+        near(&transform, input.curve, at).is_some() || on_line(&transform, input.curve, at)
+    });
+    input.editable && (editing.dragged || on_curve)
 }
 
 /// The value of the nearest state.
@@ -67,8 +91,7 @@ fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
 /// What the pointer and the keys make of the curve: the new one if it changed, and whether the click was meant for it.
 pub fn edit(
     ui: &Ui,
-    response: &Response,
-    chart: &Chart,
+    Shown { response, transform, .. }: &Shown,
     input: &Input<'_>,
     editing: &mut Editing,
 ) -> (Option<Vec<[f64; 2]>>, bool) {
@@ -79,7 +102,7 @@ pub fn edit(
     let mut new = None;
     if response.drag_started() {
         let origin = ui.input(|i| i.pointer.press_origin()).or(pointer);
-        let found = origin.and_then(|at| near(chart, curve, at));
+        let found = origin.and_then(|at| near(transform, curve, at));
         editing.dragged = found.is_some();
         editing.chosen = found.or(editing.chosen);
     }
@@ -87,23 +110,22 @@ pub fn edit(
         && let (Some(index), Some(at)) = (editing.chosen, pointer)
     {
         taken = true;
-        let inside = chart.area.clamp(at);
-        if let Some((angle, value)) = chart.value(inside) {
-            let free = ui.input(|i| i.modifiers.shift);
-            let value = if free { value.round() } else { snapped(input, value) };
-            new = Some(moved(curve, index, [angle, value]));
-        }
+        let place = transform.value_from_position(transform.frame().clamp(at));
+        let (lo, hi) = extent(input);
+        let free = ui.input(|i| i.modifiers.shift);
+        let value = if free { place.y.round().clamp(lo, hi) } else { snapped(input, place.y) };
+        new = Some(moved(curve, index, [place.x, value]));
     }
     if response.drag_stopped() {
         editing.dragged = false;
     }
-    let here = pointer.and_then(|at| near(chart, curve, at));
+    let here = pointer.and_then(|at| near(transform, curve, at));
     if response.clicked() && here.is_some() {
         (editing.chosen, taken) = (here, true);
     }
     if response.double_clicked() && here.is_none() {
-        let added = pointer.and_then(|at| chart.value(at)).and_then(|(angle, _)| with_point(curve, angle));
-        if let Some((curve, at)) = added {
+        let on_line = pointer.filter(|at| on_line(transform, curve, *at));
+        if let Some((curve, at)) = on_line.and_then(|at| with_point(curve, transform.value_from_position(at).x)) {
             (new, editing.chosen, taken) = (Some(curve), Some(at), true);
         }
     }

@@ -16,7 +16,11 @@ pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     if !(hi > lo && (hi - lo).is_finite()) || count == 0 {
         return vec![];
     }
-    let step = nice_ceil((hi - lo) / count as f64);
+    multiples(lo, hi, nice_ceil((hi - lo) / count as f64))
+}
+
+/// Multiples of a step within lo … hi.
+pub fn multiples(lo: f64, hi: f64, step: f64) -> Vec<f64> {
     let first = (lo / step - 1e-9).ceil() as i64;
     let last = (hi / step + 1e-9).floor() as i64;
     (first..=last).map(|k| k as f64 * step).collect()
@@ -109,21 +113,21 @@ pub fn si(value: f64, unit: &str) -> String {
 
 /// A tick's text: few digits, no trailing zeros, thousands as "k".
 pub fn tick(value: f64) -> String {
+    fine_tick(value, value)
+}
+
+/// A tick's text with the digits that tell it from its neighbour, a step further.
+pub fn fine_tick(value: f64, step: f64) -> String {
     let size = value.abs();
-    let trimmed = |text: String| {
-        if text.contains('.') && !text.contains('e') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
+    let (scale, unit, least) = match size {
+        1e6.. => (1e-6, "M", 3),
+        1e4.. => (1e-3, "k", 3),
+        _ => (1.0, "", 4),
     };
-    if size >= 1e6 {
-        format!("{}M", trimmed(number(value * 1e-6, 3)))
-    } else if size >= 1e4 {
-        format!("{}k", trimmed(number(value * 1e-3, 3)))
-    } else {
-        trimmed(number(value, 4))
-    }
+    let digits = (1.0 + (size / step.abs()).log10().ceil()).clamp(0.0, 12.0) as usize;
+    let text = number(value * scale, digits.max(least));
+    let plain = text.contains('.') && !text.contains('e');
+    format!("{}{unit}", if plain { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
 }
 
 /// An angle in radians as whole degrees: "40°".

@@ -1,9 +1,15 @@
-//! Line drawings with a little text, written as SVG or as PNG. Enough for diagrams that need no window.
+//! Pictures that need no window: line drawings with a little text, written as SVG or as PNG, and what an ordinary plot
+//! shows, for these drawings ([`chart`]) as for the window. Pure: numbers in, shapes, text and bytes out.
 //!
 //! Coordinates are pixels, x right, y down. The PNG is drawn without a font library, with the letters of
 //! `dot_font`; other characters leave a gap.
 
-use super::dot_font::glyph;
+pub mod chart;
+mod dot_font;
+pub mod plot;
+pub mod ticks;
+
+use dot_font::glyph;
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::fmt::Write as _;
 

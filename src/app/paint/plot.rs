@@ -1,0 +1,318 @@
+//! Ordinary plots in the window, by egui_plot: a drag moves the view, the wheel zooms, a drag with the right button zooms
+//! to a box, a double click shows all again. Points near the pointer tell their values.
+//!
+//! The legend stands above the plot instead of in it, since in a small tile it would cover the data; it works as
+//! egui_plot's does: a click hides a series, the pointer on a name brings it out.
+
+use super::palette::Palette;
+use crate::drawing::plot::{Axis, Form, Plot, Series};
+use egui::{
+    Align, Align2, Color32, FontId, Id, Layout, Pos2, Rangef, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, Vec2, pos2, vec2,
+};
+use egui_plot::{
+    AxisHints, CoordinatesFormatter, Corner, FilledArea, GridInput, GridMark, HoverPosition, Line, LineStyle,
+    MarkerShape, PlotMemory, PlotPoint, PlotTransform, PlotUi, Points,
+};
+
+/// Space left of the plotting area. \[points\]
+pub const LEFT: f32 = 44.0;
+/// Space right of the plotting area, for the half of the last tick. \[points\]
+pub const RIGHT: f32 = 10.0;
+/// Space under the plotting area for ticks, and for a title under them. \[points\]
+const BELOW: [f32; 2] = [15.0, 34.0];
+
+/// Height of a line above it. \[points\]
+const LINE: f32 = 18.0;
+
+/// How a plot looks and what the pointer does to it.
+#[derive(Debug, Clone, Copy)]
+pub struct Look<'a> {
+    /// Unique; also where the view is kept.
+    pub id: Id,
+    /// One for each series.
+    pub colours: &'a [Color32],
+    /// Of the lines to compare with.
+    pub guide: Color32,
+    /// Space for the numbers left of the plot. \[points\]
+    pub left: f32,
+    /// Another plot's [`id`](Self::id), whose legend rules here too; `None`: a legend of its own.
+    pub legend_of: Option<Id>,
+    /// Part of a page: the wheel moves the page, zooming takes Ctrl as well; values under the pointer stand in a corner.
+    pub on_page: bool,
+    /// Takes the keyboard when clicked.
+    pub focusable: bool,
+    /// What is under the pointer is dragged and clicked by the caller: the view stays.
+    pub held: bool,
+}
+
+impl<'a> Look<'a> {
+    /// A plot in a tile.
+    pub fn tile(id: Id, colours: &'a [Color32], guide: Color32) -> Self {
+        Self { id, colours, guide, left: LEFT, legend_of: None, on_page: false, focusable: false, held: false }
+    }
+
+    fn colour(&self, series: usize) -> Color32 {
+        self.colours.get(series % self.colours.len().max(1)).copied().unwrap_or(self.guide)
+    }
+}
+
+/// A plot as it was drawn.
+#[derive(Debug, Clone)]
+pub struct Shown {
+    /// The plotting area.
+    pub response: Response,
+    /// Between its coordinates and the screen.
+    pub transform: PlotTransform,
+    /// Names of the series that the legend hides.
+    pub hidden: Vec<String>,
+}
+
+impl Shown {
+    /// As the plot was in the last frame.
+    pub fn transform_before(ui: &Ui, id: Id) -> Option<PlotTransform> {
+        PlotMemory::load(ui.ctx(), id).map(|memory| memory.transform())
+    }
+
+    /// The plotting area.
+    pub fn area(&self) -> Rect {
+        *self.transform.frame()
+    }
+
+    /// Where a point lies on the screen, given in coordinates of the axes.
+    pub fn screen(&self, point: [f64; 2]) -> Pos2 {
+        screen(&self.transform, point)
+    }
+
+    /// Coordinates of the axes at a place on the screen.
+    pub fn coordinates(&self, at: Pos2) -> [f64; 2] {
+        let point = self.transform.value_from_position(at);
+        [point.x, point.y]
+    }
+
+    /// Coordinates of a click.
+    pub fn clicked(&self) -> Option<[f64; 2]> {
+        let at = self.response.interact_pointer_pos().filter(|_| self.response.clicked());
+        at.map(|at| self.coordinates(at))
+    }
+
+    /// Coordinates under the pointer.
+    pub fn pointed(&self) -> Option<[f64; 2]> {
+        self.response.hover_pos().map(|at| self.coordinates(at))
+    }
+}
+
+/// Where a point lies on the screen, given in coordinates of the axes.
+pub fn screen(transform: &PlotTransform, [x, y]: [f64; 2]) -> Pos2 {
+    transform.position_from_point(&PlotPoint::new(x, y))
+}
+
+/// Draws a plot into a rectangle that also holds ticks, labels and legend; `under` adds what lies behind the series.
+pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl FnOnce(&mut PlotUi<'_>)) -> Shown {
+    let palette = Palette::of(ui.visuals());
+    let hidden_id = look.legend_of.unwrap_or(look.id).with("hidden");
+    let mut hidden: Vec<String> = ui.data(|data| data.get_temp(hidden_id)).unwrap_or_default();
+    let (head, lit) = head(ui, rect, plot, look, &palette, &mut hidden);
+    ui.data_mut(|data| data.insert_temp(hidden_id, hidden.clone()));
+    let top = (head + 2.0).min(rect.bottom() - 1.0);
+    let body = Rect::from_min_max(pos2(rect.left(), top), pos2(rect.right() - RIGHT, rect.bottom()));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(body).id_salt(look.id));
+    let ([left, right], [low, high]) = (plot.x.ends(), plot.y.ends());
+    let first = PlotMemory::load(ui.ctx(), look.id).is_none();
+    let words =
+        |point: &PlotPoint| format!("{} · {}", plot.x.text(plot.x.value(point.x)), plot.y.text(plot.y.value(point.y)));
+    let sense = if look.focusable { Sense::click_and_drag() } else { Sense::CLICK | Sense::DRAG };
+    let titled = !plot.x.title().is_empty();
+    let mut chart = egui_plot::Plot::new("plot")
+        .id(look.id)
+        .default_x_bounds(left, right)
+        .default_y_bounds(low, high)
+        .custom_x_axes(vec![
+            hints(AxisHints::new_x(), &plot.x, &palette, BELOW[usize::from(titled)])
+                .label(RichText::new(plot.x.title()).size(13.0).color(palette.weak)),
+        ])
+        .custom_y_axes(vec![hints(AxisHints::new_y(), &plot.y, &palette, look.left).formatter(|mark, range| {
+            let text = plot.y.tick(mark.value, mark.step_size);
+            let corner = mark.value < range.start() + 0.02 * (range.end() - range.start());
+            // A long word in the corner would run into that of x.
+            if corner && text.chars().count() > 2 { String::new() } else { text }
+        })])
+        .x_grid_spacer(|input| marks(&plot.x, &input, 48.0))
+        .y_grid_spacer(|input| marks(&plot.y, &input, 26.0))
+        .grid_color(palette.grid)
+        .grid_fade(0.0)
+        .label_formatter(|hover| match hover {
+            HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                Some(format!("{plot_name}\n{}", words(position)))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show_background(false)
+        .sense(sense)
+        .allow_scroll(false)
+        .allow_drag(!look.held)
+        .allow_double_click_reset(!look.held);
+    if look.on_page {
+        chart = chart.coordinates_formatter(Corner::LeftBottom, CoordinatesFormatter::new(|point, _| words(point)));
+    }
+    let gone = &hidden;
+    let drawn = chart.show(&mut child, |plot_ui| {
+        if first {
+            // From the start as after a double click: the view follows the axes until it is moved.
+            plot_ui.set_auto_bounds(true);
+        }
+        let wheel = plot_ui.ctx().input(|input| input.smooth_scroll_delta.y);
+        if plot_ui.response().hovered() && !look.on_page && wheel != 0.0 {
+            plot_ui.zoom_bounds_around_hovered(Vec2::splat((wheel / 200.0).exp()));
+        }
+        under(plot_ui);
+        for guide in &plot.guides {
+            let ends: Vec<[f64; 2]> = guide.ends.iter().filter_map(|end| plot.place(*end)).collect();
+            let line = Line::new("", ends).color(look.guide).width(1.0).style(LineStyle::dashed_dense());
+            plot_ui.line(line.allow_hover(false));
+        }
+        // The first is the most important: on top.
+        for (k, series) in plot.series.iter().enumerate().rev() {
+            if !gone.contains(&series.name) {
+                add(plot_ui, plot, series, look.colour(k), lit == Some(k));
+            }
+        }
+    });
+    let shown = Shown { response: drawn.response, transform: drawn.transform, hidden };
+    ui.painter().rect_stroke(shown.area(), 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
+    name_guides(ui, plot, look, &shown);
+    shown
+}
+
+/// The title of y and, for more than one series, the legend, in as many lines as the width asks for. Returns where
+/// they end, and the series whose name is under the pointer.
+fn head(
+    ui: &mut Ui,
+    rect: Rect,
+    plot: &Plot,
+    look: &Look<'_>,
+    palette: &Palette,
+    hidden: &mut Vec<String>,
+) -> (f32, Option<usize>) {
+    let own = look.legend_of.is_none() && plot.series.len() > 1;
+    if !own && plot.y.title().is_empty() {
+        return (rect.top() + 4.0, None);
+    }
+    let layout = Layout::left_to_right(Align::Center).with_main_wrap(true);
+    let line = rect.with_max_y(rect.top() + LINE);
+    let mut head = ui.new_child(UiBuilder::new().max_rect(line).layout(layout).id_salt(look.id.with("legend")));
+    head.spacing_mut().item_spacing = vec2(9.0, 1.0);
+    head.spacing_mut().interact_size.y = LINE;
+    head.add_space(4.0);
+    head.label(RichText::new(plot.y.title()).size(13.0).color(palette.weak));
+    let mut lit = None;
+    for (k, series) in plot.series.iter().enumerate().filter(|_| own) {
+        let shown = !hidden.contains(&series.name);
+        let response = entry(&mut head, &series.name, if shown { look.colour(k) } else { palette.grid }, palette);
+        response.widget_info(|| {
+            egui::WidgetInfo::selected(egui::accesskit::Role::CheckBox, true, shown, series.name.as_str())
+        });
+        if response.clicked() && shown {
+            hidden.push(series.name.clone());
+        } else if response.clicked() {
+            hidden.retain(|name| *name != series.name);
+        }
+        lit = response.hovered().then_some(k).or(lit);
+    }
+    (head.min_rect().bottom(), lit)
+}
+
+/// A name of the legend with its colour.
+fn entry(ui: &mut Ui, name: &str, colour: Color32, palette: &Palette) -> Response {
+    const SWATCH: f32 = 16.0;
+    let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(11.0), palette.ink);
+    let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + galley.size().x, LINE), Sense::click());
+    let y = rect.center().y;
+    ui.painter().hline(rect.left()..=rect.left() + SWATCH - 4.0, y, Stroke::new(3.0, colour));
+    let ink = if response.hovered() || response.has_focus() { palette.first } else { palette.ink };
+    ui.painter().galley_with_override_text_color(pos2(rect.left() + SWATCH, y - 0.5 * galley.size().y), galley, ink);
+    response
+}
+
+/// Type, colour and room of an axis.
+fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32) -> AxisHints<'a> {
+    // The spacers thin the ticks already.
+    hints
+        .formatter(move |mark, _| axis.tick(mark.value, mark.step_size))
+        .label_spacing(Rangef::new(8.0, 9.0))
+        .min_thickness(room)
+        .tick_label_color(palette.weak)
+        .tick_label_font(FontId::proportional(11.0))
+}
+
+/// Ticks at least about `apart` points from one another.
+fn marks(axis: &Axis, input: &GridInput, apart: f64) -> Vec<GridMark> {
+    let (lo, hi) = input.bounds;
+    // The base step is eight points.
+    let count = ((hi - lo) / input.base_step_size * 8.0 / apart).clamp(1.0, 100.0);
+    let places = axis.marks([lo, hi], count as usize);
+    let step = places.windows(2).map(|pair| pair[1] - pair[0]).fold(hi - lo, f64::min);
+    let inside = places.into_iter().filter(|value| (lo..=hi).contains(value));
+    inside.map(|value| GridMark { value, step_size: step }).collect()
+}
+
+/// Hands a series to egui_plot, its gaps as gaps: what is not finite must not reach it.
+fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, colour: Color32, lit: bool) {
+    for band in plot.bands(series) {
+        let column = |k: usize| -> Vec<f64> { band.iter().map(|point| point[k]).collect() };
+        let area = FilledArea::new(&series.name, &column(0), &column(1), &column(2));
+        plot_ui.add(area.fill_color(colour.gamma_multiply(0.18)).allow_hover(false));
+    }
+    for run in plot.runs(series) {
+        let points = |radius: f32| Points::new(&series.name, run.clone()).color(colour).radius(radius).highlight(lit);
+        match series.form {
+            Form::Line => {}
+            Form::Marked => plot_ui.points(points(3.5).shape(MarkerShape::Square)),
+            Form::Dots => plot_ui.points(points(1.5)),
+        }
+        if series.form != Form::Dots {
+            plot_ui.line(Line::new(&series.name, run).color(colour).width(2.0).highlight(lit));
+        }
+    }
+}
+
+/// Names of the guides at their right ends, as far as no other guide runs through them.
+fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
+    let area = shown.area();
+    let ends = || plot.guides.iter().filter_map(|guide| Some((guide, shown.screen(plot.place(guide.ends[1])?))));
+    for (guide, end) in ends().filter(|(guide, _)| !guide.name.is_empty()) {
+        let galley = ui.painter().layout_no_wrap(guide.name.clone(), FontId::proportional(11.0), look.guide);
+        let at = pos2(end.x.min(area.right()) - 4.0, end.y.max(area.top() + galley.size().y));
+        let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
+        let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
+        if area.contains_rect(place) && !crossed {
+            ui.painter().galley(place.min, galley, look.guide);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::plot::Unit;
+
+    #[test]
+    fn ticks_lie_inside_and_apart_at_every_zoom() {
+        let axes = [
+            Axis::linear([0.0, 1.0], "", Unit::Named("m")),
+            Axis::linear([0.0, 1.0], "", Unit::Degrees),
+            Axis::log([0.1, 10.0], "", Unit::Share),
+        ];
+        for axis in &axes {
+            for zoom in -12..5 {
+                for from in [-3.3, 0.0, 0.123] {
+                    let width = 10_f64.powi(zoom);
+                    let bounds = (from, from + width);
+                    let ticks = marks(axis, &GridInput { bounds, base_step_size: width / 300.0 * 8.0 }, 48.0);
+                    assert!(ticks.len() < 14, "{axis:?} {bounds:?}: {}", ticks.len());
+                    assert!(ticks.iter().all(|tick| (bounds.0..=bounds.1).contains(&tick.value)));
+                }
+            }
+        }
+    }
+}

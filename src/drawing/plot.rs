@@ -1,0 +1,308 @@
+//! What an ordinary plot shows, as data only: axes with units, series of points, lines to compare them with.
+//!
+//! The window draws it by egui_plot (`app::paint::plot`), files by [`chart`](super::chart): one set of numbers, whoever
+//! draws. Both work in an axis' *coordinate*, the value itself or, on a logarithmic axis, its decimal logarithm.
+
+use super::ticks;
+
+/// What the numbers of an axis are counted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Written behind the axis' name; empty for plain numbers.
+    Named(&'static str),
+    /// Ticks at angles that people know.
+    Degrees,
+    /// Hours of a day.
+    Hours,
+    /// Days of a year of 365, from 0; ticks at the months.
+    Days,
+    /// Seconds, each tick in the multiple that suits it.
+    Seconds,
+    /// Shares of one, as per cent.
+    Share,
+}
+
+/// One axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// What it counts.
+    pub name: String,
+    /// In which unit.
+    pub unit: Unit,
+    /// Logarithmic.
+    pub log: bool,
+    /// First and last value at first sight; positive when `log`.
+    pub range: [f64; 2],
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn linear([lo, hi]: [f64; 2], name: impl Into<String>, unit: Unit) -> Self {
+        Self { name: name.into(), unit, log: false, range: [lo, if hi > lo { hi } else { lo + 1.0 }] }
+    }
+
+    /// A logarithmic axis.
+    pub fn log([lo, hi]: [f64; 2], name: impl Into<String>, unit: Unit) -> Self {
+        let lo = if lo > 0.0 { lo } else { 1e-6 };
+        Self { name: name.into(), unit, log: true, range: [lo, if hi > lo { hi } else { 10.0 * lo }] }
+    }
+
+    /// A logarithmic axis over the powers of ten that enclose the finite numbers above 0; at most `most` decades, the
+    /// upper ones.
+    pub fn decades(values: impl IntoIterator<Item = f64>, most: i32, name: &str, unit: Unit) -> Self {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values {
+            if value > 0.0 && value.is_finite() {
+                (low, high) = (low.min(value), high.max(value));
+            }
+        }
+        if low > high {
+            return Self::log([1.0, 10.0], name, unit);
+        }
+        let last = (high.log10() - 1e-9).ceil() as i32;
+        let first = ((low.log10() + 1e-9).floor() as i32).min(last - 1);
+        Self::log([first.max(last - most.max(1)), last].map(|power| 10_f64.powi(power)), name, unit)
+    }
+
+    /// Name and unit; units that stand at the ticks are not repeated.
+    pub fn title(&self) -> String {
+        let unit = match self.unit {
+            Unit::Named(unit) if unit.contains('/') => format!(" / ({unit})"),
+            Unit::Named(unit) if !unit.is_empty() => format!(" / {unit}"),
+            Unit::Degrees => " / °".to_owned(),
+            _ => String::new(),
+        };
+        format!("{}{unit}", self.name)
+    }
+
+    /// Where a value lies, `None` for what is no number. What a logarithm cannot take lies at the end of the range.
+    pub fn coordinate(&self, value: f64) -> Option<f64> {
+        let [lo, hi] = self.range;
+        match (self.log, value) {
+            (false, value) => value.is_finite().then_some(value),
+            (true, value) if value.is_nan() => None,
+            (true, value) if value <= 0.0 => Some(lo.log10()),
+            (true, value) => Some(if value.is_infinite() { hi } else { value }.log10()),
+        }
+    }
+
+    /// The value at a coordinate.
+    pub fn value(&self, coordinate: f64) -> f64 {
+        if self.log { 10_f64.powf(coordinate) } else { coordinate }
+    }
+
+    /// Coordinates of the range.
+    pub fn ends(&self) -> [f64; 2] {
+        self.range.map(|end| if self.log { end.log10() } else { end })
+    }
+
+    /// Coordinates of round values between two others, about `count` and rising.
+    pub fn marks(&self, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
+        let [lo, hi] = [from, to].map(|end| self.value(end));
+        if self.log {
+            let marks = ticks::logarithmic(lo, hi, count);
+            // Within a decade there may be none of 1, 2, 5.
+            let marks = if marks.len() > 1 { marks } else { ticks::linear(lo, hi, count) };
+            return marks.into_iter().map(f64::log10).collect();
+        }
+        let least = (hi - lo) / count.max(1) as f64;
+        let steps: &[f64] = match self.unit {
+            Unit::Degrees => &[5.0, 15.0, 30.0, 45.0, 90.0],
+            Unit::Hours => &[1.0, 3.0, 6.0, 12.0],
+            Unit::Days => {
+                let months = FIRST.into_iter().filter(|first| (lo..=hi).contains(first));
+                let every = (least / 31.0).ceil().max(1.0) as usize;
+                let marks: Vec<f64> = months.step_by(every).collect();
+                return if marks.len() > 1 { marks } else { ticks::linear(lo, hi, count) };
+            }
+            _ => &[],
+        };
+        match steps.iter().find(|step| **step >= least && least > 0.4 * steps[0]) {
+            Some(step) => ticks::multiples(lo, hi, *step),
+            None => ticks::linear(lo, hi, count),
+        }
+    }
+
+    /// Text of a tick whose neighbour is `step` away, both coordinates.
+    pub fn tick(&self, coordinate: f64, step: f64) -> String {
+        let value = self.value(coordinate);
+        let step = if self.log { self.value(coordinate + step) - value } else { step };
+        self.words(value, |number| ticks::fine_tick(number, step * (number / value)))
+    }
+
+    /// A value with its unit.
+    pub fn text(&self, value: f64) -> String {
+        match self.unit {
+            Unit::Named(unit) => ticks::si(value, unit).trim_end().to_owned(),
+            Unit::Degrees => format!("{}°", ticks::number(value, 3)),
+            _ => self.words(value, |number| ticks::number(number, 3)),
+        }
+    }
+
+    /// A number, with the unit where it belongs to the tick.
+    fn words(&self, value: f64, number: impl Fn(f64) -> String) -> String {
+        // Powers of ten must not fall short of their unit by rounding.
+        let reaches = |least: f64| value.abs() >= least * (1.0 - 1e-9);
+        let (scale, unit) = match self.unit {
+            Unit::Named(_) | Unit::Degrees => return number(value),
+            Unit::Hours => return format!("{} h", number(value)),
+            Unit::Days => return date(value),
+            Unit::Share => (100.0, "%"),
+            Unit::Seconds if reaches(1.0) => (1.0, "s"),
+            Unit::Seconds if reaches(1e-3) => (1e3, "ms"),
+            Unit::Seconds if reaches(1e-6) => (1e6, "µs"),
+            Unit::Seconds => (1e9, "ns"),
+        };
+        let power = (value.abs() * scale).log10() + 1e-9;
+        if value == 0.0 || (-3.0..4.0).contains(&power) {
+            return format!("{} {unit}", number(value * scale));
+        }
+        let power = power.floor() as i32;
+        let mantissa = ticks::tick(value * scale / 10_f64.powi(power));
+        if mantissa == "1" { format!("10^{power} {unit}") } else { format!("{mantissa}·10^{power} {unit}") }
+    }
+}
+
+const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
+/// First days of the months, from 0.
+const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
+
+/// A day of the year in words: the month alone on its first day.
+fn date(day: f64) -> String {
+    let Some(month) = FIRST.iter().rposition(|first| *first <= day && day < 365.0) else { return String::new() };
+    let past = (day - FIRST[month]).floor();
+    if past > 0.0 { format!("{} {}", past + 1.0, MONTHS[month]) } else { MONTHS[month].to_owned() }
+}
+
+/// How the points of a series are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// A line through them.
+    Line,
+    /// A line and a mark at each.
+    Marked,
+    /// A dot each.
+    Dots,
+}
+
+/// Points that belong together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// For the legend.
+    pub name: String,
+    /// Values on x and y; one that is no number parts the line.
+    pub points: Vec<[f64; 2]>,
+    /// Lowest and highest y at each point; empty: no band.
+    pub band: Vec<[f64; 2]>,
+    /// Line or dots.
+    pub form: Form,
+}
+
+impl Series {
+    /// A line without a band.
+    pub fn line(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        Self { name: name.into(), points: points.into_iter().collect(), band: Vec::new(), form: Form::Line }
+    }
+}
+
+/// A line to compare with: a limit, the present.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guide {
+    /// Written at its end; may be empty.
+    pub name: String,
+    /// Values on x and y.
+    pub ends: [[f64; 2]; 2],
+}
+
+/// A plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    /// To the right.
+    pub x: Axis,
+    /// Up.
+    pub y: Axis,
+    /// The first is the most important.
+    pub series: Vec<Series>,
+    /// Behind the series.
+    pub guides: Vec<Guide>,
+}
+
+impl Plot {
+    /// Coordinates of a point.
+    pub fn place(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        Some([self.x.coordinate(x)?, self.y.coordinate(y)?])
+    }
+
+    /// The lines of a series in coordinates, parted where a value is missing.
+    pub fn runs(&self, series: &Series) -> Vec<Vec<[f64; 2]>> {
+        parted(series.points.iter().map(|point| self.place(*point)))
+    }
+
+    /// The same of its band: x, lowest and highest y.
+    pub fn bands(&self, series: &Series) -> Vec<Vec<[f64; 3]>> {
+        parted(series.points.iter().zip(&series.band).map(|([x, _], [low, high])| {
+            Some([self.x.coordinate(*x)?, self.y.coordinate(*low)?, self.y.coordinate(*high)?])
+        }))
+    }
+}
+
+fn parted<T>(items: impl Iterator<Item = Option<T>>) -> Vec<Vec<T>> {
+    let mut runs = vec![Vec::new()];
+    for item in items {
+        match (item, runs.last_mut()) {
+            (Some(item), Some(run)) => run.push(item),
+            (None, Some(run)) if !run.is_empty() => runs.push(Vec::new()),
+            _ => {}
+        }
+    }
+    runs.retain(|run| !run.is_empty());
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decades_enclose() {
+        let of = |values: &[f64], most| Axis::decades(values.iter().copied(), most, "", Unit::Seconds).ends();
+        assert_eq!(of(&[0.002, 0.5], 12), [-3.0, 0.0]);
+        assert_eq!(of(&[1.0, 10.0, 0.0, f64::NAN], 12), [0.0, 1.0]);
+        assert_eq!(of(&[1e-15, 1.0], 6), [-6.0, 0.0]);
+        assert_eq!(of(&[], 6), [0.0, 1.0]);
+        assert_eq!(of(&[1.0], 6), [-1.0, 0.0]);
+    }
+
+    #[test]
+    fn ticks_carry_units_and_tell_neighbours_apart() {
+        let axis = |unit| Axis::log([1e-12, 10.0], "error", unit);
+        let powers = |unit, powers: [i32; 4]| powers.map(|power| axis(unit).tick(f64::from(power), 1.0));
+        assert_eq!(powers(Unit::Share, [-6, -3, -2, 0]), ["10^-4 %", "0.1 %", "1 %", "100 %"]);
+        assert_eq!(powers(Unit::Seconds, [-10, -5, -2, 1]), ["0.1 ns", "10 µs", "10 ms", "10 s"]);
+        assert_eq!(axis(Unit::Seconds).text(0.0123), "12.3 ms");
+        let lux = Axis::linear([0.0, 2e4], "E", Unit::Named("lx"));
+        assert_eq!((lux.title(), lux.text(12_345.0)), ("E / lx".to_owned(), "12.3 klx".to_owned()));
+        assert_eq!([10_010.0, 10_020.0].map(|value| lux.tick(value, 10.0)), ["10.01k", "10.02k"]);
+        let angle = Axis::linear([0.0, 90.0], "profile angle", Unit::Degrees);
+        assert_eq!(angle.marks([0.0, 90.0], 6), [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0]);
+        assert_eq!(angle.title(), "profile angle / °");
+        let year = Axis::linear([0.0, 365.0], "", Unit::Days);
+        assert_eq!(year.marks([0.0, 365.0], 4), [0.0, 90.0, 181.0, 273.0]);
+        assert_eq!([0.0, 44.0, 334.0, 365.0].map(|day| year.tick(day, 1.0)), ["Jan", "14 Feb", "Dec", ""]);
+        assert_eq!(Axis::linear([0.0, 24.0], "", Unit::Hours).marks([0.0, 24.0], 4), [0.0, 6.0, 12.0, 18.0, 24.0]);
+        // Within a decade, where there is no power of ten.
+        assert_eq!(axis(Unit::Share).marks([6.0_f64.log10(), 9.0_f64.log10()], 4).len(), 4);
+    }
+
+    #[test]
+    fn what_is_no_number_parts_a_line_and_zero_lies_at_the_end_of_a_logarithm() {
+        let mut series = Series::line("", [[0.0, 1.0], [1.0, f64::NAN], [2.0, 0.0], [3.0, 100.0], [f64::NAN, 1.0]]);
+        series.band = vec![[1.0, 10.0]; 5];
+        let (x, y) = (Axis::linear([0.0, 3.0], "", Unit::Named("m")), Axis::log([0.1, 100.0], "", Unit::Share));
+        let plot = Plot { x, y, series: vec![series], guides: vec![] };
+        assert_eq!(plot.runs(&plot.series[0]), [vec![[0.0, 0.0]], vec![[2.0, -1.0], [3.0, 2.0]]]);
+        let bands = plot.bands(&plot.series[0]);
+        assert_eq!((bands.len(), bands[0].len(), bands[0][1]), (1, 4, [1.0, 0.0, 1.0]));
+        assert!(plot.x.coordinate(f64::INFINITY).is_none() && plot.y.coordinate(f64::INFINITY) == Some(2.0));
+    }
+}
