@@ -1,7 +1,7 @@
 //! Tables of clear bodies: panes, laser-cut and prismatic panels, profiles between panes.
 
-use super::checks::{absorption, extent, index, length, share, within, wrong};
-use super::{keys, outline};
+use super::checks::{absorption, extent, index, length, outline, share, within, wrong};
+use super::keys;
 use crate::compute::dielectric::Material;
 use crate::compute::dielectric::prism::Prisms;
 use crate::compute::goniophotometer::panels::CutPanel;
