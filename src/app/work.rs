@@ -15,6 +15,7 @@ use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::control_curve::read_control_curve;
 use crate::formats::system_toml::is_system_file;
+use crate::study::Library;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -90,7 +91,8 @@ pub(super) fn fill_one(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, 
     // One core stays free for what the user is doing.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
-    let compute = || crate::study::builtin::compute(name, progress).map_err(|error| error.to_string());
+    let compute =
+        || crate::study::builtin::compute(name, &Library::default(), progress).map_err(|error| error.to_string());
     let (product, datasets) = pool.map_err(|error| error.to_string())?.install(compute)?;
     shelf.put_builtin(name, product, &datasets)?;
     Ok(missing - 1)

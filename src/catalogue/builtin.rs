@@ -3,20 +3,18 @@
 //! A file gets the quick ones when it is opened ([`builtin_products`], some tenths of a second); the others take longer
 //! and are put in by whoever can wait: [`Catalogue::missing_builtin`] says which, [`Catalogue::put_builtin`] stores them.
 
-mod texts;
-
 use super::described::{described_dataset, method, product_of};
+use super::systems::{SYSTEMS, builtin_system};
 use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance, store};
 use crate::compute::btdf::{Band, Btdf, Dataset};
 use crate::compute::estimate::Silent;
 use crate::compute::goniophotometer::Setting;
 use crate::compute::goniophotometer::specimen::specimen;
-use crate::compute::system::description::{LayerSource, SystemKind, Venetian};
+use crate::compute::system::description::SystemKind;
 use crate::compute::system::{diffuser::lambertian, front_basis};
-use crate::formats::system_toml::{self, EACH_STATE, SystemFile};
+use crate::formats::system_toml::SystemFile;
 use rayon::prelude::*;
 use rusqlite::OptionalExtension;
-pub use texts::SYSTEMS;
 
 /// Raised whenever the built-in products change otherwise than by their descriptions; a file with a lower number gets
 /// all of them anew.
@@ -25,30 +23,6 @@ pub const BUILTIN_VERSION: i64 = 4;
 pub const BUILTIN_ERROR: f64 = 0.003;
 /// Others that are there at once, among them the one that a new window shows.
 const QUICK: [&str; 2] = ["venetian-80-72", "laser-cut-panel"];
-
-/// A built-in description by the name of its file.
-///
-/// # Panics
-/// Never: the tests read every built-in description.
-pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
-    let (_, text) = SYSTEMS.iter().find(|(file, _)| *file == name)?;
-    Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
-}
-
-/// The slats of a description, also of a moving layer of a built-in stack.
-pub fn blind_of(system: &str) -> Option<Venetian> {
-    match system_toml::read(system.as_bytes()).ok()?.system.kind {
-        SystemKind::Venetian(blind) => Some(blind),
-        SystemKind::Stack(layers) => {
-            let moving = layers.into_iter().find(|layer| layer.state == EACH_STATE)?;
-            match moving.source {
-                LayerSource::File(name) => builtin_system(&name).and_then(|(_, text)| blind_of(text)),
-                LayerSource::Catalogue(_) => None,
-            }
-        }
-        _ => None,
-    }
-}
 
 /// Computed fast enough to be there at once?
 fn is_quick(file: &SystemFile) -> bool {

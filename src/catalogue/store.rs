@@ -9,7 +9,7 @@ use super::{
 use crate::compute::btdf::{Dataset, Finding, Severity};
 use crate::formats::dataset_blob::{content_hash, decode, encode};
 use rayon::prelude::*;
-use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior, params};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -337,11 +337,6 @@ pub(super) fn read_record(db: &Connection, key: &str) -> Result<Removed, Catalog
 }
 
 impl Catalogue {
-    /// Begins a change. Immediate: it waits for another writer at the start, not in the middle.
-    pub(super) fn change(&mut self) -> Result<Transaction<'_>, CatalogueError> {
-        Ok(self.db.transaction_with_behavior(TransactionBehavior::Immediate)?)
-    }
-
     /// The product of a key.
     pub fn product(&self, key: &str) -> Result<Product, CatalogueError> {
         // One snapshot for all the reads.

@@ -1,141 +1,130 @@
-//! The descriptions that come with the program, in the order of the catalogue: files under `assets/systems`.
+//! The descriptions that come with the program: files under `assets/systems`.
 
-/// Name and text of every built-in description.
-pub const SYSTEMS: &[(&str, &str)] = &[
-    ("venetian-80-72.system.toml", include_str!("../../../assets/systems/venetian-80-72.system.toml")),
-    ("bronze-single.system.toml", include_str!("../../../assets/systems/bronze-single.system.toml")),
-    ("clear-double.system.toml", include_str!("../../../assets/systems/clear-double.system.toml")),
-    ("clear-single.system.toml", include_str!("../../../assets/systems/clear-single.system.toml")),
-    ("clear-triple.system.toml", include_str!("../../../assets/systems/clear-triple.system.toml")),
-    ("electrochromic-clear.system.toml", include_str!("../../../assets/systems/electrochromic-clear.system.toml")),
-    ("electrochromic-dark.system.toml", include_str!("../../../assets/systems/electrochromic-dark.system.toml")),
-    ("electrochromic-light.system.toml", include_str!("../../../assets/systems/electrochromic-light.system.toml")),
-    ("electrochromic-medium.system.toml", include_str!("../../../assets/systems/electrochromic-medium.system.toml")),
-    ("green-single.system.toml", include_str!("../../../assets/systems/green-single.system.toml")),
-    ("grey-single.system.toml", include_str!("../../../assets/systems/grey-single.system.toml")),
-    ("low-e-pane.system.toml", include_str!("../../../assets/systems/low-e-pane.system.toml")),
-    ("low-iron-single.system.toml", include_str!("../../../assets/systems/low-iron-single.system.toml")),
-    ("reflective-single.system.toml", include_str!("../../../assets/systems/reflective-single.system.toml")),
-    ("solar-control-pane.system.toml", include_str!("../../../assets/systems/solar-control-pane.system.toml")),
-    ("acrylic-diffuser-clear.system.toml", include_str!("../../../assets/systems/acrylic-diffuser-clear.system.toml")),
-    ("acrylic-diffuser-haze.system.toml", include_str!("../../../assets/systems/acrylic-diffuser-haze.system.toml")),
-    (
-        "laminated-white-translucent.system.toml",
-        include_str!("../../../assets/systems/laminated-white-translucent.system.toml"),
-    ),
-    ("membrane-glass-fibre.system.toml", include_str!("../../../assets/systems/membrane-glass-fibre.system.toml")),
-    (
-        "multiwall-polycarbonate-clear.system.toml",
-        include_str!("../../../assets/systems/multiwall-polycarbonate-clear.system.toml"),
-    ),
-    (
-        "multiwall-polycarbonate-opal.system.toml",
-        include_str!("../../../assets/systems/multiwall-polycarbonate-opal.system.toml"),
-    ),
-    ("opal-dense.system.toml", include_str!("../../../assets/systems/opal-dense.system.toml")),
-    ("opal-light.system.toml", include_str!("../../../assets/systems/opal-light.system.toml")),
-    ("patterned-glass.system.toml", include_str!("../../../assets/systems/patterned-glass.system.toml")),
-    ("roller-blind-beige.system.toml", include_str!("../../../assets/systems/roller-blind-beige.system.toml")),
-    ("roller-blind-white.system.toml", include_str!("../../../assets/systems/roller-blind-white.system.toml")),
-    ("sandblasted-glass.system.toml", include_str!("../../../assets/systems/sandblasted-glass.system.toml")),
-    ("satinated-glass.system.toml", include_str!("../../../assets/systems/satinated-glass.system.toml")),
-    (
-        "translucent-insulation-aerogel.system.toml",
-        include_str!("../../../assets/systems/translucent-insulation-aerogel.system.toml"),
-    ),
-    (
-        "translucent-insulation-fleece.system.toml",
-        include_str!("../../../assets/systems/translucent-insulation-fleece.system.toml"),
-    ),
-    ("screen-charcoal-1.system.toml", include_str!("../../../assets/systems/screen-charcoal-1.system.toml")),
-    ("screen-charcoal-10.system.toml", include_str!("../../../assets/systems/screen-charcoal-10.system.toml")),
-    ("screen-charcoal-3.system.toml", include_str!("../../../assets/systems/screen-charcoal-3.system.toml")),
-    ("screen-grey-3.system.toml", include_str!("../../../assets/systems/screen-grey-3.system.toml")),
-    ("screen-grey-5.system.toml", include_str!("../../../assets/systems/screen-grey-5.system.toml")),
-    ("screen-white-10.system.toml", include_str!("../../../assets/systems/screen-white-10.system.toml")),
-    ("screen-white-3.system.toml", include_str!("../../../assets/systems/screen-white-3.system.toml")),
-    ("laser-cut-panel-050.system.toml", include_str!("../../../assets/systems/laser-cut-panel-050.system.toml")),
-    ("laser-cut-panel-100.system.toml", include_str!("../../../assets/systems/laser-cut-panel-100.system.toml")),
-    ("laser-cut-panel-150.system.toml", include_str!("../../../assets/systems/laser-cut-panel-150.system.toml")),
-    ("laser-cut-panel.system.toml", include_str!("../../../assets/systems/laser-cut-panel.system.toml")),
-    ("exterior-60-50-silver.system.toml", include_str!("../../../assets/systems/exterior-60-50-silver.system.toml")),
-    (
-        "exterior-80-72-anthracite.system.toml",
-        include_str!("../../../assets/systems/exterior-80-72-anthracite.system.toml"),
-    ),
-    ("exterior-80-72-silver.system.toml", include_str!("../../../assets/systems/exterior-80-72-silver.system.toml")),
-    ("exterior-80-72-white.system.toml", include_str!("../../../assets/systems/exterior-80-72-white.system.toml")),
-    ("exterior-z-90-75.system.toml", include_str!("../../../assets/systems/exterior-z-90-75.system.toml")),
-    ("fixed-louvre-150-45.system.toml", include_str!("../../../assets/systems/fixed-louvre-150-45.system.toml")),
-    ("interior-25-21-silver.system.toml", include_str!("../../../assets/systems/interior-25-21-silver.system.toml")),
-    ("interior-25-21-white.system.toml", include_str!("../../../assets/systems/interior-25-21-white.system.toml")),
-    ("interior-50-42-white.system.toml", include_str!("../../../assets/systems/interior-50-42-white.system.toml")),
-    ("louvre-200-wood.system.toml", include_str!("../../../assets/systems/louvre-200-wood.system.toml")),
-    ("louvre-300-aluminium.system.toml", include_str!("../../../assets/systems/louvre-300-aluminium.system.toml")),
-    ("louvre-400-mirror.system.toml", include_str!("../../../assets/systems/louvre-400-mirror.system.toml")),
-    ("micro-16-12-silver.system.toml", include_str!("../../../assets/systems/micro-16-12-silver.system.toml")),
-    ("micro-louvre-17.system.toml", include_str!("../../../assets/systems/micro-louvre-17.system.toml")),
-    ("mirror-80-72-convex.system.toml", include_str!("../../../assets/systems/mirror-80-72-convex.system.toml")),
-    (
-        "redirecting-50-42-mirror.system.toml",
-        include_str!("../../../assets/systems/redirecting-50-42-mirror.system.toml"),
-    ),
-    (
-        "redirecting-80-72-mirror.system.toml",
-        include_str!("../../../assets/systems/redirecting-80-72-mirror.system.toml"),
-    ),
-    ("retro-stepped-45-36.system.toml", include_str!("../../../assets/systems/retro-stepped-45-36.system.toml")),
-    ("retro-v-60-50.system.toml", include_str!("../../../assets/systems/retro-v-60-50.system.toml")),
-    ("vertical-blind-127.system.toml", include_str!("../../../assets/systems/vertical-blind-127.system.toml")),
-    ("vertical-louvre-400.system.toml", include_str!("../../../assets/systems/vertical-louvre-400.system.toml")),
-    (
-        "vertical-louvre-terracotta.system.toml",
-        include_str!("../../../assets/systems/vertical-louvre-terracotta.system.toml"),
-    ),
-    ("wood-50-43.system.toml", include_str!("../../../assets/systems/wood-50-43.system.toml")),
-    ("prismatic-42-5-outside.system.toml", include_str!("../../../assets/systems/prismatic-42-5-outside.system.toml")),
-    ("prismatic-42-5.system.toml", include_str!("../../../assets/systems/prismatic-42-5.system.toml")),
-    (
-        "prismatic-45-45-outside.system.toml",
-        include_str!("../../../assets/systems/prismatic-45-45-outside.system.toml"),
-    ),
-    ("prismatic-45-45.system.toml", include_str!("../../../assets/systems/prismatic-45-45.system.toml")),
-    ("prismatic-63-27.system.toml", include_str!("../../../assets/systems/prismatic-63-27.system.toml")),
-    ("prismatic-film-40-90.system.toml", include_str!("../../../assets/systems/prismatic-film-40-90.system.toml")),
-    ("egg-crate-facade.system.toml", include_str!("../../../assets/systems/egg-crate-facade.system.toml")),
-    ("egg-crate-white.system.toml", include_str!("../../../assets/systems/egg-crate-white.system.toml")),
-    ("expanded-metal-fine.system.toml", include_str!("../../../assets/systems/expanded-metal-fine.system.toml")),
-    ("expanded-metal-medium.system.toml", include_str!("../../../assets/systems/expanded-metal-medium.system.toml")),
-    ("perforated-round-33.system.toml", include_str!("../../../assets/systems/perforated-round-33.system.toml")),
-    ("perforated-round-51.system.toml", include_str!("../../../assets/systems/perforated-round-51.system.toml")),
-    ("perforated-square-44.system.toml", include_str!("../../../assets/systems/perforated-square-44.system.toml")),
-    (
-        "double-integral-micro-blind.system.toml",
-        include_str!("../../../assets/systems/double-integral-micro-blind.system.toml"),
-    ),
-    ("double-laser-cut-panel.system.toml", include_str!("../../../assets/systems/double-laser-cut-panel.system.toml")),
-    (
-        "low-e-double-exterior-blind.system.toml",
-        include_str!("../../../assets/systems/low-e-double-exterior-blind.system.toml"),
-    ),
-    (
-        "low-e-double-exterior-screen.system.toml",
-        include_str!("../../../assets/systems/low-e-double-exterior-screen.system.toml"),
-    ),
-    (
-        "low-e-double-interior-blind.system.toml",
-        include_str!("../../../assets/systems/low-e-double-interior-blind.system.toml"),
-    ),
-    (
-        "low-e-double-interior-screen.system.toml",
-        include_str!("../../../assets/systems/low-e-double-interior-screen.system.toml"),
-    ),
-    ("low-e-double-opal.system.toml", include_str!("../../../assets/systems/low-e-double-opal.system.toml")),
-    (
-        "low-e-double-redirecting-blind.system.toml",
-        include_str!("../../../assets/systems/low-e-double-redirecting-blind.system.toml"),
-    ),
-    ("low-e-double.system.toml", include_str!("../../../assets/systems/low-e-double.system.toml")),
-    ("low-e-triple.system.toml", include_str!("../../../assets/systems/low-e-triple.system.toml")),
-    ("solar-control-double.system.toml", include_str!("../../../assets/systems/solar-control-double.system.toml")),
+use crate::compute::system::description::{LayerSource, SystemKind, Venetian};
+use crate::formats::system_toml::{self, EACH_STATE, SystemFile};
+
+/// Name and text of the descriptions with the given names.
+macro_rules! described {
+    ($($name:literal,)*) => {
+        &[$((
+            concat!($name, ".system.toml"),
+            include_str!(concat!("../../assets/systems/", $name, ".system.toml")),
+        ),)*]
+    };
+}
+
+/// File name and text of every built-in description, in the order of the catalogue.
+pub const SYSTEMS: &[(&str, &str)] = described![
+    "venetian-80-72",
+    "bronze-single",
+    "clear-double",
+    "clear-single",
+    "clear-triple",
+    "electrochromic-clear",
+    "electrochromic-dark",
+    "electrochromic-light",
+    "electrochromic-medium",
+    "green-single",
+    "grey-single",
+    "low-e-pane",
+    "low-iron-single",
+    "reflective-single",
+    "solar-control-pane",
+    "acrylic-diffuser-clear",
+    "acrylic-diffuser-haze",
+    "laminated-white-translucent",
+    "membrane-glass-fibre",
+    "multiwall-polycarbonate-clear",
+    "multiwall-polycarbonate-opal",
+    "opal-dense",
+    "opal-light",
+    "patterned-glass",
+    "roller-blind-beige",
+    "roller-blind-white",
+    "sandblasted-glass",
+    "satinated-glass",
+    "translucent-insulation-aerogel",
+    "translucent-insulation-fleece",
+    "screen-charcoal-1",
+    "screen-charcoal-10",
+    "screen-charcoal-3",
+    "screen-grey-3",
+    "screen-grey-5",
+    "screen-white-10",
+    "screen-white-3",
+    "laser-cut-panel-050",
+    "laser-cut-panel-100",
+    "laser-cut-panel-150",
+    "laser-cut-panel",
+    "exterior-60-50-silver",
+    "exterior-80-72-anthracite",
+    "exterior-80-72-silver",
+    "exterior-80-72-white",
+    "exterior-z-90-75",
+    "fixed-louvre-150-45",
+    "interior-25-21-silver",
+    "interior-25-21-white",
+    "interior-50-42-white",
+    "louvre-200-wood",
+    "louvre-300-aluminium",
+    "louvre-400-mirror",
+    "micro-16-12-silver",
+    "micro-louvre-17",
+    "mirror-80-72-convex",
+    "redirecting-50-42-mirror",
+    "redirecting-80-72-mirror",
+    "retro-stepped-45-36",
+    "retro-v-60-50",
+    "vertical-blind-127",
+    "vertical-louvre-400",
+    "vertical-louvre-terracotta",
+    "wood-50-43",
+    "prismatic-42-5-outside",
+    "prismatic-42-5",
+    "prismatic-45-45-outside",
+    "prismatic-45-45",
+    "prismatic-63-27",
+    "prismatic-film-40-90",
+    "egg-crate-facade",
+    "egg-crate-white",
+    "expanded-metal-fine",
+    "expanded-metal-medium",
+    "perforated-round-33",
+    "perforated-round-51",
+    "perforated-square-44",
+    "double-integral-micro-blind",
+    "double-laser-cut-panel",
+    "low-e-double-exterior-blind",
+    "low-e-double-exterior-screen",
+    "low-e-double-interior-blind",
+    "low-e-double-interior-screen",
+    "low-e-double-opal",
+    "low-e-double-redirecting-blind",
+    "low-e-double",
+    "low-e-triple",
+    "solar-control-double",
 ];
+
+/// A built-in description by the name of its file.
+///
+/// # Panics
+/// Never: the tests read every built-in description.
+pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
+    let (_, text) = SYSTEMS.iter().find(|(file, _)| *file == name)?;
+    Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
+}
+
+/// The slats of a description, also of a moving layer of a built-in stack.
+pub fn blind_of(system: &str) -> Option<Venetian> {
+    match system_toml::read(system.as_bytes()).ok()?.system.kind {
+        SystemKind::Venetian(blind) => Some(blind),
+        SystemKind::Stack(layers) => {
+            let moving = layers.into_iter().find(|layer| layer.state == EACH_STATE)?;
+            match moving.source {
+                LayerSource::File(name) => builtin_system(&name).and_then(|(_, text)| blind_of(text)),
+                LayerSource::Catalogue(_) => None,
+            }
+        }
+        _ => None,
+    }
+}
