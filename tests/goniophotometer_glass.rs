@@ -160,7 +160,7 @@ fn bars_that_touch_are_a_laser_cut_panel() {
             let fits = |b: &&Beam| b.transmitted == transmitted && (b.y - sign * y).abs() < 1e-9;
             shares.beams.iter().filter(fits).map(|b| b.share).sum()
         };
-        let exact = cut_panel().panel.shares(name);
+        let exact = cut_panel().panel.shares(name, 0.0);
         let expected = [
             (true, 1.0, exact.straight),
             (true, -1.0, exact.deflected),

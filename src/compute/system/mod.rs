@@ -1,5 +1,5 @@
 //! Systems whose BTDF follows from a closed form or from an exact small computation: panes, diffusers, laser-cut
-//! panels, flat Lambertian slats.
+//! panels.
 //!
 //! Every function here averages incidence over the incident cell and the result over the emergent cell, conserves
 //! energy and is reciprocal: q_front(ω_e, ω′) = q_back(ω′, ω_e) in through-names.
@@ -10,7 +10,6 @@ pub mod diffuser;
 pub mod glazing;
 pub mod laser_cut;
 pub mod slat_profile;
-pub mod slats;
 pub mod woven;
 
 use crate::compute::basis::{AzimuthMap, Cell, RingBasis};

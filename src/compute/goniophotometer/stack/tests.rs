@@ -4,17 +4,27 @@ use super::*;
 use crate::compute::btdf::Btdf;
 use crate::compute::direction::Dir;
 use crate::compute::estimate::Silent;
-use crate::compute::system::{diffuser, front_basis, glazing, slats::FlatSlats};
+use crate::compute::goniophotometer::panes::Panes;
+use crate::compute::section::{SlatArray, Surface};
+use crate::compute::system::slat_profile::SlatProfile;
+use crate::compute::system::{coated, diffuser, front_basis, glazing};
 
 const CLEAR: glazing::Pane = glazing::Pane { index: 1.52, thickness: 0.004, absorption: 10.0 };
 
+/// A layer known by its data alone.
+fn as_data(specimen: &dyn Specimen) -> Box<dyn Specimen> {
+    let cells = front_basis();
+    let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
+    Box::new(DataLayer(specimen.examine(&setting, &Silent).unwrap().0))
+}
+
 fn pane() -> Box<dyn Specimen> {
-    Box::new(DataLayer(glazing::band(&[CLEAR])))
+    as_data(&Panes::equal(coated::Layer::Clear(CLEAR), 1))
 }
 
 fn blind(tilt: f64) -> Box<dyn Specimen> {
-    let slats = FlatSlats { width: 0.08, spacing: 0.072, tilt: tilt.to_radians(), upper: 0.8, lower: 0.3 };
-    Box::new(DataLayer(slats.band().unwrap()))
+    let sides = [0.8, 0.3].map(Surface::matt);
+    as_data(&SlatArray::new(SlatProfile::Flat { width: 0.08 }, 0.0, 0.072, tilt.to_radians(), sides).unwrap())
 }
 
 fn measure(layers: Vec<Box<dyn Specimen>>, error: f64) -> Measured {
@@ -69,8 +79,8 @@ fn order_and_up_and_down_matter() {
         reflection_front: Some(Btdf::ideal_transparent(1.0)),
         reflection_back: Some(Btdf::ideal_transparent(1.0)),
     })) as Box<dyn Specimen>;
-    let open = FlatSlats { width: 0.02, spacing: 0.1, tilt: 0.0, upper: 0.0, lower: 0.0 };
-    let made = measure(vec![Box::new(DataLayer(open.band().unwrap())), mirror], 0.05);
+    let open = SlatArray::new(SlatProfile::Flat { width: 0.02 }, 0.0, 0.1, 0.0, [Surface::matt(0.0); 2]).unwrap();
+    let made = measure(vec![as_data(&open), mirror], 0.05);
     let cells = front_basis();
     let above = cells.index(Dir::from_theta_phi(0.7, PI / 2.0)).unwrap();
     let below = cells.index(Dir::from_theta_phi(0.7, -PI / 2.0)).unwrap();
