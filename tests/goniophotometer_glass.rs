@@ -1,12 +1,14 @@
 //! Clear systems under the numerical goniophotometer: panes, laser-cut and prismatic panels, profiles between panes,
 //! against closed forms, conservation laws and the reference kit.
 
+#[path = "glass/bar.rs"]
+mod bar;
 #[path = "glass/kit.rs"]
 mod kit;
 
+use bar::bar;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::dielectric::prism::Prisms;
-use cfs::compute::dielectric::profile::bar;
 use cfs::compute::dielectric::{Body, Effort, Material, Outline, OutlineError, Section};
 use cfs::compute::direction::{Dir, Facade};
 use cfs::compute::estimate::Silent;

@@ -136,7 +136,7 @@ impl Shelf for CatalogueShelf {
     }
 
     fn remove(&self, product: &str) -> Result<(), String> {
-        self.lock().remove_product(product).map(drop).map_err(told)
+        self.lock().remove_product(product).map_err(told)
     }
 
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), String> {

@@ -111,18 +111,6 @@ pub fn palette(ui: &egui::Ui) -> &'static Palette {
 pub const TILE_GAP: f32 = 6.0;
 /// Height of a row of the catalogue. \[points\]
 pub const ROW_HEIGHT: f32 = 52.0;
-/// Opacity of what is out of date.
-pub const STALE_OPACITY: f32 = 0.45;
-
-/// A tile of the bench.
-pub fn tile_frame(ui: &egui::Ui) -> egui::Frame {
-    let palette = palette(ui);
-    egui::Frame::new()
-        .fill(palette.surface)
-        .stroke(Stroke::new(1.0, palette.line))
-        .corner_radius(CornerRadius::same(6))
-        .inner_margin(Margin::symmetric(8, 6))
-}
 
 /// A side panel or bar.
 pub fn panel_frame(ui: &egui::Ui) -> egui::Frame {

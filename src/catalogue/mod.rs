@@ -38,6 +38,5 @@ pub use product::{
     profile_transmittances,
 };
 pub use search::{Facet, Facets, ProductRow, Query};
-pub use store::Removed;
 pub use systems::{SYSTEMS, blind_of, builtin_system};
 pub use validate::check;

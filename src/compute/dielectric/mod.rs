@@ -15,7 +15,6 @@ mod hit;
 mod outline;
 mod polarised;
 pub mod prism;
-pub mod profile;
 mod section;
 mod trace;
 

@@ -31,7 +31,7 @@ pub use incident::{incident_illuminances, incident_illuminances_within};
 pub use region::{Frame, irradiance};
 pub use samples::SkySamples;
 pub use scan::Scan;
-pub use sun::{SUN_HALF_ANGLE, Sun, sun_solid_angle};
+pub use sun::{SUN_HALF_ANGLE, Sun};
 
 use crate::compute::direction::{Dir, World};
 use distribution::Model;
@@ -209,15 +209,6 @@ impl Outside {
             Model::Overcast | Model::Scan(_) => false,
         } || self.scale == 0.0;
         uniform_sky && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
-    }
-
-    /// Luminance depends on the altitude alone.
-    pub fn is_rotationally_symmetric(&self) -> bool {
-        match &self.distribution.model {
-            Model::Uniform | Model::Overcast => true,
-            Model::Gradated(sky, sun) => sky.symmetric() || sun.truncate().length() < 1e-12,
-            Model::Scan(_) => self.scale == 0.0,
-        }
     }
 
     /// Luminance is constant over the band cells of Tregenza's lattice of the dome (measured skies), with jumps at
