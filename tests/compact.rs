@@ -78,9 +78,10 @@ proptest! {
             let error = criterion.error(&weights, given, &back);
             prop_assert!(error <= criterion.threshold(), "{criterion:?}: {error}");
         }
-        // What the bytes give back is what was there before them.
+        // What the bytes give back is what was there before them, row by row and all together.
         let bytes = write(&rows);
         let file = RowFile::open(basis.clone(), 2, &bytes).unwrap();
+        prop_assert_eq!(file.row(1).unwrap(), rows.row(1));
         prop_assert_eq!(&file.into_rows().unwrap(), &rows);
     }
 

@@ -152,6 +152,16 @@ impl<'a> RowFile<'a> {
         Ok((order, QuantisedRow { tau: head.tau, step: head.step, levels }))
     }
 
+    /// One indicatrix. \[1/sr\]
+    ///
+    /// # Errors
+    /// As [`Self::quantised`].
+    pub fn row(&self, row: usize) -> Result<Vec<f64>, String> {
+        let (order, quantised) = self.quantised(row)?;
+        let made = self.decoder.row(order, &quantised);
+        made.ok_or_else(|| format!("compact row {row} holds numbers that no writer writes"))
+    }
+
     /// All rows, still compact.
     ///
     /// # Errors

@@ -77,6 +77,12 @@ impl RowDecoder {
         self.prepared[order as usize].as_ref().map(|prepared| &prepared.transform)
     }
 
+    /// The indicatrix of quantised coefficients. \[1/sr\] `None` when they are not of these cells and orders, or beyond
+    /// what is ever written.
+    pub fn row(&self, order: Order, row: &QuantisedRow) -> Option<Vec<f64>> {
+        self.fits(order, row).then(|| self.restore(order, row).0)
+    }
+
     fn fits(&self, order: Order, row: &QuantisedRow) -> bool {
         row.levels.len() == self.basis.len()
             && row.levels.first() == Some(&0)

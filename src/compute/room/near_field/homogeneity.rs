@@ -14,26 +14,26 @@ pub fn distance(period: f64) -> f64 {
     PERIODS * period
 }
 
+/// Relative deviation of horizontal Lambertian lines from a homogeneous area of the same flux and height, at a horizontal
+/// sensor at sill height, `distance` before the area. The lines lie at (k + `phase`) · `period` up to the height; phase
+/// 0.5 centres them. \[m\] `None` without room for a single line or for lengths that are not above 0.
+///
+/// In the vertical section, from points on the lines opposite the sensor (nearer to it than the rest, so that the whole
+/// lines deviate less): E of one at height y goes with y d/(y² + d²)², of the area with h²/(2 d (h² + d²)).
+pub fn deviation(period: f64, height: f64, distance: f64, phase: f64) -> Option<f64> {
+    let lines = (height / period).round();
+    if !(period > 0.0 && distance > 0.0 && (1.0..1e6).contains(&lines) && (0.0..=1.0).contains(&phase)) {
+        return None;
+    }
+    let line = |y: f64| y * distance / (y * y + distance * distance).powi(2);
+    let mean = (0..lines as usize).map(|k| line((k as f64 + phase) * period)).sum::<f64>() / lines;
+    let area = height / (2.0 * distance * (height * height + distance * distance));
+    Some(mean / area - 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Relative deviation of horizontal Lambertian lines from a homogeneous area of the same flux and height, at a horizontal
-    /// sensor at sill height, `distance` before the area. The lines lie at (k + `phase`) · `period` up to the height; phase
-    /// 0.5 centres them. \[m\] `None` without room for a single line or for lengths that are not above 0.
-    ///
-    /// In the vertical section, from points on the lines opposite the sensor (nearer to it than the rest, so that the whole
-    /// lines deviate less): E of one at height y goes with y d/(y² + d²)², of the area with h²/(2 d (h² + d²)).
-    fn deviation(period: f64, height: f64, distance: f64, phase: f64) -> Option<f64> {
-        let lines = (height / period).round();
-        if !(period > 0.0 && distance > 0.0 && (1.0..1e6).contains(&lines) && (0.0..=1.0).contains(&phase)) {
-            return None;
-        }
-        let line = |y: f64| y * distance / (y * y + distance * distance).powi(2);
-        let mean = (0..lines as usize).map(|k| line((k as f64 + phase) * period)).sum::<f64>() / lines;
-        let area = height / (2.0 * distance * (height * height + distance * distance));
-        Some(mean / area - 1.0)
-    }
 
     /// Deviation of centred lines on an area 1 m high. [%]
     fn centred(period: f64, at: f64) -> f64 {
