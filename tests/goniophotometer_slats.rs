@@ -89,7 +89,7 @@ fn flat_matt_slats_are_those_of_a_second_model() {
             let (a, b) = (measured.shares(&a), measured.shares(&b));
             let totals = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             println!("{tilt:5}° {upper} {lower} {component:?}: patches {off:.5}, totals {totals:.5}");
-            assert!(off < 0.03 && totals < 0.01, "{tilt}° {component:?}: {off} {totals}");
+            assert!(off < 0.005 && totals < 0.005, "{tilt}° {component:?}: {off} {totals}");
         }
     }
 }
