@@ -152,19 +152,21 @@ impl FlatSlats {
             [p * cos, lift - p * sin]
         };
         let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let mut factors = [[0.0; 2 * STRIPS]; 2 * STRIPS];
-        for i in 0..STRIPS {
-            for j in 0..STRIPS {
-                let (a, b) = (edge(i, 0.0), edge(i + 1, 0.0));
-                let (c, d) = (edge(j, self.spacing), edge(j + 1, self.spacing));
-                let crossed = distance(a, d) + distance(b, c);
-                let along = distance(a, c) + distance(b, d);
-                let factor = ((crossed - along) / (2.0 * step)).max(0.0);
-                factors[i][STRIPS + j] = factor;
-                factors[STRIPS + j][i] = factor;
-            }
-        }
-        factors
+        // Of two strips of equal length the factors are the same both ways.
+        let factor = |i: usize, j: usize| {
+            let (a, b) = (edge(i, 0.0), edge(i + 1, 0.0));
+            let (c, d) = (edge(j, self.spacing), edge(j + 1, self.spacing));
+            let crossed = distance(a, d) + distance(b, c);
+            let along = distance(a, c) + distance(b, d);
+            ((crossed - along) / (2.0 * step)).max(0.0)
+        };
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| match (i < STRIPS, j < STRIPS) {
+                (true, false) => factor(i, j - STRIPS),
+                (false, true) => factor(j, i - STRIPS),
+                _ => 0.0,
+            })
+        })
     }
 }
 
@@ -249,7 +251,7 @@ fn one_bounce_matches_a_direct_quadrature() {
     let weights = basis.projected_solid_angles();
     let step = slats.width / STRIPS as f64;
     for strip in 0..STRIPS {
-        let seen: f64 = (0..basis.len()).map(|c| inside[c][strip] * weights[c]).sum::<f64>() / PI;
+        let seen = inside.iter().zip(&weights).map(|(lit, weight)| lit[strip] * weight).sum::<f64>() / PI;
         let (a, b) = (strip as f64 * step, (strip + 1) as f64 * step);
         // Strip from a to b away from the inner edge, opening of height s standing on that edge.
         let s = slats.spacing;
