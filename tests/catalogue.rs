@@ -182,7 +182,7 @@ fn a_failing_import_changes_nothing() {
 }
 
 #[test]
-fn removing_and_restoring_is_the_identity() {
+fn what_is_removed_leaves_nothing_behind() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.sqlite");
     let mut catalogue = Catalogue::open(&path).unwrap();
