@@ -7,7 +7,7 @@ fn main() -> ExitCode {
     let arguments = cfs::cli::Arguments::parse();
     let result = match &arguments.command {
         Some(command) => cfs::cli::run(command, arguments.catalogue.as_deref()),
-        None => cfs::app::run(arguments.catalogue.as_deref(), Vec::new()),
+        None => cfs::app::run(arguments.catalogue.as_deref(), arguments.open),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,14 +1,16 @@
 //! Clear systems under the numerical goniophotometer: panes, laser-cut and prismatic panels, profiles between panes,
 //! against closed forms, conservation laws and the reference kit.
 
+#[path = "glass/bar.rs"]
+mod bar;
 #[path = "glass/kit.rs"]
 mod kit;
 
+use bar::bar;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::direction::{Dir, Facade};
 use cfs::compute::estimate::Silent;
 use cfs::compute::system::clear::prism::Prisms;
-use cfs::compute::system::clear::profile::bar;
 use cfs::compute::system::clear::{Body, Material, Outline, OutlineError, Section};
 use cfs::compute::system::laser_cut::CutPanel;
 use cfs::compute::system::laser_cut::LaserCutPanel;
@@ -161,7 +163,7 @@ fn bars_that_touch_are_a_laser_cut_panel() {
             let fits = |b: &&Beam| b.transmitted == transmitted && (b.y - sign * y).abs() < 1e-9;
             shares.beams.iter().filter(fits).map(|b| b.share).sum()
         };
-        let exact = cut_panel().panel.shares(name);
+        let exact = cut_panel().panel.shares(name, 0.0);
         let expected = [
             (true, 1.0, exact.straight),
             (true, -1.0, exact.deflected),

@@ -1,5 +1,7 @@
 //! Slats of the numerical goniophotometer: against published reference cases, closed forms, conservation laws.
 
+#[path = "oracles/flat_slats.rs"]
+mod flat_slats;
 #[path = "goniophotometer/kit.rs"]
 mod kit;
 
@@ -8,8 +10,8 @@ use cfs::compute::btdf::Component;
 use cfs::compute::direction::Dir;
 use cfs::compute::estimate::Silent;
 use cfs::compute::system::measure::{Measured, Setting, Side, Specimen};
-use cfs::compute::system::slats::SlatProfile;
-use cfs::compute::system::slats::{SlatArray, Surface};
+use cfs::compute::system::slats::{SlatArray, SlatProfile, Surface};
+use flat_slats::FlatSlats;
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -68,6 +70,27 @@ fn blinds_are_those_of_the_reference_cases() {
         }
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong[..wrong.len().min(30)].join("\n"));
+}
+
+/// τ, ρ and every value against a second model: strips of slats that are flat and matt, on averaged directions.
+#[test]
+fn flat_matt_slats_are_those_of_a_second_model() {
+    for (tilt, upper, lower) in [(0.0, 0.5, 0.5), (40.0, 0.8, 0.3), (-25.0, 0.2, 0.7), (70.0, 0.9, 0.9)] {
+        let profile = SlatProfile::Flat { width: 0.080 };
+        let sides = [upper, lower].map(Surface::matt);
+        let array = SlatArray::new(profile, 0.0, 0.072, f64::to_radians(tilt), sides).unwrap();
+        let second = FlatSlats { width: 0.080, spacing: 0.072, tilt: f64::to_radians(tilt), upper, lower };
+        let measured = measure(&array);
+        let (ours, theirs) = (measured.band(), second.band().unwrap());
+        for component in Component::ALL {
+            let (a, b) = (kit::matrix(&ours, component), kit::matrix(&theirs, component));
+            let off = kit::patch_error(&a, &b);
+            let (a, b) = (measured.shares(&a), measured.shares(&b));
+            let totals = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            println!("{tilt:5}° {upper} {lower} {component:?}: patches {off:.5}, totals {totals:.5}");
+            assert!(off < 0.005 && totals < 0.005, "{tilt}° {component:?}: {off} {totals}");
+        }
+    }
 }
 
 /// τ and ρ of single directions against the tables' centre values, and against pywincalc's uniform mode.

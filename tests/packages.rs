@@ -151,7 +151,8 @@ fn a_package_of_what_is_there_changes_nothing_and_built_in_ones_find_their_place
     assert_eq!(to.search(&Query::default()).unwrap().len(), before);
     // Another file has computed a built-in product that this one is still to get.
     let name = *from.missing_builtin().unwrap().iter().find(|name| name.starts_with("screen-grey-5")).unwrap();
-    let (product, datasets) = cfs::study::builtin::compute(name, &cfs::compute::estimate::Silent).unwrap();
+    let library = cfs::study::Library::default();
+    let (product, datasets) = cfs::study::builtin::compute(name, &library, &cfs::compute::estimate::Silent).unwrap();
     let key = product.key.clone().unwrap();
     from.put_builtin(name, product.clone(), &datasets).unwrap();
     let package = from.export_package(std::slice::from_ref(&key)).unwrap();

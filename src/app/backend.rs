@@ -137,7 +137,7 @@ impl Shelf for CatalogueShelf {
     }
 
     fn remove(&self, product: &str) -> Result<(), AppError> {
-        Ok(self.lock().remove_product(product).map(drop)?)
+        Ok(self.lock().remove_product(product)?)
     }
 
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), AppError> {

@@ -20,12 +20,12 @@ use crate::compute::lid::Facing;
 use crate::formats::FormatError;
 use crate::formats::control_curve::read_control_curve;
 use crate::formats::system_toml::is_system_file;
-use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
+use crate::study::{Library, StudyError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -100,7 +100,7 @@ pub(super) fn fill_some(shelf: &dyn Shelf, progress: &JobState) -> Result<usize,
     while let Some((name, missing)) = shelf.next_builtin()? {
         progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
         pool.install(|| -> Result<(), AppError> {
-            let (product, datasets) = crate::study::builtin::compute(name, progress)?;
+            let (product, datasets) = crate::study::builtin::compute(name, &Library::default(), progress)?;
             shelf.put_builtin(name, product, &datasets)
         })?;
         if start.elapsed() > FILLING {

@@ -4,23 +4,19 @@
 //! others are put in by whoever can wait: [`Catalogue::missing_builtin`] says which, [`Catalogue::put_builtin`] stores
 //! them.
 
-mod texts;
-
 use super::described::{described_dataset, method, product_of};
-use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance, Removed, store};
+use super::store::{self, Record};
+use super::systems::{SYSTEMS, builtin_system};
+use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance};
 use crate::compute::btdf::{Band, Btdf, Dataset};
 use crate::compute::estimate::Silent;
 use crate::compute::system::SystemKind;
-use crate::compute::system::measure::Setting;
-use crate::compute::system::measure::front_basis;
+use crate::compute::system::measure::{Setting, front_basis};
 use crate::compute::system::sheets::diffuser::lambertian;
-use crate::compute::system::slats::Venetian;
-use crate::compute::system::stack::LayerSource;
-use crate::formats::system_toml::{self, EACH_STATE, SystemFile};
+use crate::formats::system_toml::SystemFile;
 use rayon::prelude::*;
 use rusqlite::{Connection, OptionalExtension, Transaction};
 use std::collections::HashSet;
-pub use texts::SYSTEMS;
 
 /// Raised whenever the built-in products change otherwise than by their descriptions; a file with a lower number gets
 /// all of them anew.
@@ -29,30 +25,6 @@ pub const BUILTIN_VERSION: i64 = 4;
 pub const BUILTIN_ERROR: f64 = 0.003;
 /// Key of the product that a new window shows.
 const FIRST: &str = "venetian-80-72";
-
-/// A built-in description by the name of its file.
-///
-/// # Panics
-/// Never: the tests read every built-in description.
-pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
-    let (_, text) = SYSTEMS.iter().find(|(file, _)| *file == name)?;
-    Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
-}
-
-/// The slats of a description, also of a moving layer of a built-in stack.
-pub fn blind_of(system: &str) -> Option<Venetian> {
-    match system_toml::read(system.as_bytes()).ok()?.system.kind {
-        SystemKind::Venetian(blind) => Some(blind),
-        SystemKind::Stack(layers) => {
-            let moving = layers.into_iter().find(|layer| layer.state == EACH_STATE)?;
-            match moving.source {
-                LayerSource::File(name) => builtin_system(&name).and_then(|(_, text)| blind_of(text)),
-                LayerSource::Catalogue(_) => None,
-            }
-        }
-        _ => None,
-    }
-}
 
 /// Which descriptions are computed when a file is opened.
 pub(super) type AtOnce = fn(&SystemFile) -> bool;
@@ -121,7 +93,7 @@ fn rank(name: &str) -> i64 {
 }
 
 /// Stores a product in place of its older self and of another process's copy.
-fn put(tx: &Transaction<'_>, mut record: Removed, rank: i64) -> Result<(), CatalogueError> {
+fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), CatalogueError> {
     tx.execute(
         "DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1 AND key = ?)",
         [&record.product.key],
@@ -135,7 +107,7 @@ fn put(tx: &Transaction<'_>, mut record: Removed, rank: i64) -> Result<(), Catal
 }
 
 /// Computes those of the named descriptions that are wanted, ready to be stored.
-fn computed(names: &[&'static str], wanted: AtOnce) -> Result<Vec<(&'static str, Removed)>, CatalogueError> {
+fn computed(names: &[&'static str], wanted: AtOnce) -> Result<Vec<(&'static str, Record)>, CatalogueError> {
     let one = |&name: &&'static str| {
         let (file, text) = builtin_system(name).filter(|(file, _)| wanted(file))?;
         let cells = front_basis();

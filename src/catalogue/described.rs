@@ -1,6 +1,6 @@
 //! A described system as a product: where its data come from, how its states are named, its control curve.
 
-use super::builtin::blind_of;
+use super::systems::blind_of;
 use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
 use crate::compute::btdf::{Band, Dataset, Finding};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};

@@ -56,9 +56,6 @@ pub enum CatalogueError {
     /// Built-in products stay.
     #[error("product \"{0}\" is built in and cannot be removed")]
     BuiltIn(String),
-    /// A key that is taken.
-    #[error("there is a product \"{0}\" already")]
-    Taken(String),
     /// A stored or packed dataset cannot be read.
     #[error("dataset {hash}: {source}")]
     Dataset {

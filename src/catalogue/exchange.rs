@@ -1,7 +1,7 @@
 //! Products into the catalogue, and packages of them in and out.
 
 use super::builtin::{rank_of, unreserved};
-use super::store::{Removed, USER_RANK, free_key, insert, prepare, read_record};
+use super::store::{Record, USER_RANK, free_key, insert, prepare, read_record};
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
 use crate::compute::btdf::Dataset;
 use crate::formats::dataset_blob::decode;
@@ -23,7 +23,7 @@ impl Catalogue {
         let snapshot = self.db.unchecked_transaction()?;
         let mut package = Package::default();
         for key in keys {
-            let Removed { product, datasets } = read_record(&snapshot, key)?;
+            let Record { product, datasets } = read_record(&snapshot, key)?;
             package.products.push(packed(product));
             package.datasets.extend(datasets);
         }
@@ -72,7 +72,7 @@ impl Catalogue {
 }
 
 /// Stores a prepared product of the user's under a free key and tells which others share its content.
-fn add(tx: &Transaction, mut record: Removed) -> Result<Imported, CatalogueError> {
+fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError> {
     let mut same_content_as = Vec::new();
     for (hash, _) in &record.datasets {
         let mut statement = tx.prepare_cached(

@@ -14,6 +14,7 @@
 
 mod builtin;
 mod compare;
+mod connection;
 mod described;
 mod error;
 mod exchange;
@@ -22,18 +23,20 @@ mod open;
 mod product;
 mod search;
 mod store;
+mod systems;
 mod validate;
 
-pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, SYSTEMS, blind_of, builtin_system};
+pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION};
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
+pub use connection::Catalogue;
 pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
-pub use open::{Catalogue, default_path};
+pub use open::default_path;
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,
     profile_transmittances,
 };
 pub use search::{Facet, Facets, ProductRow, Query};
-pub use store::Removed;
+pub use systems::{SYSTEMS, blind_of, builtin_system};
 pub use validate::check;

@@ -1,12 +1,10 @@
 //! Opening the file: settings of the connection, numbered migrations, built-in products.
 
+use super::connection::Catalogue;
 use super::{CatalogueError, builtin};
-use crate::compute::btdf::Dataset;
 use rusqlite::{Connection, OpenFlags, TransactionBehavior};
 use std::cell::RefCell;
-use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Duration;
 
 /// The steps from an empty file to the present layout; `PRAGMA user_version` counts those done.
@@ -18,14 +16,6 @@ const APPLICATION: i64 = 0x4346_5358;
 
 /// How long a connection waits for another one to finish writing.
 const PATIENCE: Duration = Duration::from_secs(10);
-
-/// One connection to a catalogue. May move between threads; for use from several threads open one each.
-#[derive(Debug)]
-pub struct Catalogue {
-    pub(super) db: Connection,
-    /// The datasets used last, decoded, newest at the end.
-    pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
-}
 
 /// The user's catalogue: `CFS_CATALOGUE` when set, else `catalogue.sqlite` in the user's folder for data.
 pub fn default_path() -> Result<PathBuf, CatalogueError> {

@@ -9,7 +9,7 @@ use super::{
 use crate::compute::btdf::{Dataset, Finding, Severity};
 use crate::formats::dataset_blob::{content_hash, decode, encode};
 use rayon::prelude::*;
-use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior, params};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -18,28 +18,20 @@ const RECENT: usize = 32;
 /// Rank of products that users add: behind the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;
 
-/// A product taken out of the catalogue, with all that is needed to put it back.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Removed {
+/// A product with the bytes of its datasets, as the tables hold it.
+pub(super) struct Record {
     pub(super) product: Product,
     /// Hash and bytes of every dataset the product refers to.
     pub(super) datasets: Vec<(String, Vec<u8>)>,
 }
 
-impl Removed {
-    /// The product as it was.
-    pub const fn product(&self) -> &Product {
-        &self.product
-    }
-}
-
 /// Everything of a product that is to be stored, checked; nothing is written yet.
-pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Removed, CatalogueError> {
+pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
     prepared(datasets, meta, check)
 }
 
 /// The same for what the program computed itself, and said what it found: checks of foreign data have nothing to add.
-pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Removed, CatalogueError> {
+pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
     prepared(datasets, meta, |_| Vec::new())
 }
 
@@ -47,7 +39,7 @@ fn prepared(
     datasets: &[Dataset],
     meta: NewProduct,
     ask: fn(&Dataset) -> Vec<Finding>,
-) -> Result<Removed, CatalogueError> {
+) -> Result<Record, CatalogueError> {
     let refuse = |what: String| Err(CatalogueError::Import(what));
     let Some(first) = datasets.first() else {
         return refuse("there is no dataset".to_owned());
@@ -116,7 +108,7 @@ fn prepared(
         favourite: false,
         builtin: false,
     };
-    Ok(Removed { product, datasets: blobs })
+    Ok(Record { product, datasets: blobs })
 }
 
 /// Hash, bytes, and what is read back from them with its checks: all figures are those of what is stored (values
@@ -147,7 +139,7 @@ pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, Catalogu
 }
 
 /// Writes a product under the key it has.
-pub(super) fn insert(tx: &Transaction, record: &Removed, rank: i64) -> Result<(), CatalogueError> {
+pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(), CatalogueError> {
     let (p, from) = (&record.product, &record.product.provenance);
     tx.prepare_cached(
         "INSERT INTO product (key, name, manufacturer, kind, description, origin, author, method, date, source_file,
@@ -322,7 +314,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
 }
 
 /// A product with its datasets.
-pub(super) fn read_record(db: &Connection, key: &str) -> Result<Removed, CatalogueError> {
+pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, CatalogueError> {
     let product = read_product(db, key)?;
     let mut datasets: Vec<(String, Vec<u8>)> = Vec::new();
     for state in &product.states {
@@ -333,15 +325,10 @@ pub(super) fn read_record(db: &Connection, key: &str) -> Result<Removed, Catalog
             datasets.push((state.dataset.clone(), blob));
         }
     }
-    Ok(Removed { product, datasets })
+    Ok(Record { product, datasets })
 }
 
 impl Catalogue {
-    /// Begins a change. Immediate: it waits for another writer at the start, not in the middle.
-    pub(super) fn change(&mut self) -> Result<Transaction<'_>, CatalogueError> {
-        Ok(self.db.transaction_with_behavior(TransactionBehavior::Immediate)?)
-    }
-
     /// The product of a key.
     pub fn product(&self, key: &str) -> Result<Product, CatalogueError> {
         // One snapshot for all the reads.
@@ -388,26 +375,14 @@ impl Catalogue {
         Ok(dataset)
     }
 
-    /// Takes a product of the user's out; [`Self::restore`] puts it back.
-    pub fn remove_product(&mut self, key: &str) -> Result<Removed, CatalogueError> {
+    /// Takes a product of the user's out.
+    pub fn remove_product(&mut self, key: &str) -> Result<(), CatalogueError> {
         let tx = self.change()?;
-        let record = read_record(&tx, key)?;
-        if record.product.builtin {
+        if read_product(&tx, key)?.builtin {
             return Err(CatalogueError::BuiltIn(key.to_owned()));
         }
         tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
         delete(&tx, key)?;
-        tx.commit()?;
-        Ok(record)
-    }
-
-    /// Puts a removed product back under its key.
-    pub fn restore(&mut self, removed: &Removed) -> Result<(), CatalogueError> {
-        let tx = self.change()?;
-        if free_key(&tx, &removed.product.key)? != removed.product.key {
-            return Err(CatalogueError::Taken(removed.product.key.clone()));
-        }
-        insert(&tx, removed, USER_RANK)?;
         tx.commit()?;
         Ok(())
     }

@@ -1,12 +1,20 @@
 //! Built-in products on the command line: listed at once, computed when they are asked for.
 
-use super::catalogue::{BuildArgs, ListArgs};
 use super::output;
 use super::progress::TerminalProgress;
 use crate::catalogue::{Catalogue, Origin, ProductRow, Query};
 use crate::compute::estimate::Progress;
 use crate::study::goniophotometer::Described;
 use crate::study::{Library, files};
+use std::path::PathBuf;
+
+/// Arguments of `cfs catalogue build`.
+#[derive(Debug, clap::Args)]
+pub struct BuildArgs {
+    /// Write all built-in products as a package, too.
+    #[arg(long, value_name = "FILE.cfsp")]
+    pub out: Option<PathBuf>,
+}
 
 /// Computes those wanted of the built-in products that the catalogue does not hold yet.
 pub(super) fn complete(catalogue: &mut Catalogue, wanted: impl Fn(&str) -> bool) -> anyhow::Result<()> {
@@ -18,7 +26,7 @@ pub(super) fn complete(catalogue: &mut Catalogue, wanted: impl Fn(&str) -> bool)
     let progress = TerminalProgress::new();
     for (done, name) in missing.iter().enumerate() {
         progress.advance("built-in products", done, missing.len());
-        let (product, datasets) = crate::study::builtin::compute(name, &progress)?;
+        let (product, datasets) = crate::study::builtin::compute(name, &Library::default(), &progress)?;
         catalogue.put_builtin(name, product, &datasets)?;
     }
     Ok(())
@@ -30,15 +38,15 @@ pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Res
 }
 
 /// Built-in products that are not computed yet, without figures, as far as words and kind ask for them.
-pub(super) fn not_computed(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<Vec<ProductRow>> {
+pub(super) fn not_computed(catalogue: &Catalogue, search: &str, kind: Option<&str>) -> anyhow::Result<Vec<ProductRow>> {
     let library = Library::default();
-    let words: Vec<String> = args.search.split_whitespace().map(str::to_lowercase).collect();
+    let words: Vec<String> = search.split_whitespace().map(str::to_lowercase).collect();
     let mut list = Vec::new();
     for name in catalogue.missing_builtin()? {
         let Some(described) = Described::builtin(name) else { continue };
         let system = &described.file.system;
         let text = format!("{} {} {}", system.name, system.description, described.file.tags.join(" ")).to_lowercase();
-        let asked = args.kind.as_ref().is_none_or(|kind| kind == system.family().word());
+        let asked = kind.is_none_or(|kind| kind == system.family().word());
         if asked && words.iter().all(|word| text.contains(word)) {
             list.push(ProductRow {
                 key: described.file.key.clone(),

@@ -1,12 +1,11 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
-use crate::catalogue::{Catalogue, Gathered, Imported, Product, ProductFinding, Query, SourceFile, gather};
-use crate::cli::builtin::{build, complete, not_computed, provide};
+use crate::catalogue::{Catalogue, Gathered, Imported, Product, Query, SourceFile, gather};
+use crate::cli::builtin::{BuildArgs, build, complete, not_computed, provide};
 use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
-use crate::cli::validate::{ValidateArgs, validate};
+use crate::cli::validate::{ValidateArgs, finding_json, validate};
 use crate::compute::btdf::Dataset;
-use crate::compute::doctor::meaning;
 use crate::compute::wavelet::Criterion;
 use crate::formats::package::looks_like_package;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
@@ -115,14 +114,6 @@ pub struct ExportArgs {
     pub out: PathBuf,
 }
 
-/// Arguments of `cfs catalogue build`.
-#[derive(Debug, clap::Args)]
-pub struct BuildArgs {
-    /// Write all built-in products as a package, too.
-    #[arg(long, value_name = "FILE.cfsp")]
-    pub out: Option<PathBuf>,
-}
-
 /// Does what the arguments say with the catalogue of a file, or with the user's own.
 ///
 /// # Errors
@@ -161,7 +152,7 @@ fn figure(value: Option<f64>) -> String {
 fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     let kinds = args.kind.iter().cloned().collect();
     let mut rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
-    let waiting = not_computed(catalogue, args)?;
+    let waiting = not_computed(catalogue, &args.search, args.kind.as_deref())?;
     if !waiting.is_empty() {
         eprintln!(
             "{} built-in products have no figures yet: they are computed when first used, all by `cfs catalogue build`",
@@ -196,13 +187,6 @@ fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
         )?;
     }
     print(&text)
-}
-
-pub(super) fn finding_json(finding: &ProductFinding) -> Value {
-    json!({
-        "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,
-        "meaning": meaning(&finding.code),
-    })
 }
 
 fn product_json(product: &Product) -> Value {

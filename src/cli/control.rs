@@ -3,6 +3,7 @@
 use super::output::print;
 use super::progress::TerminalProgress;
 use crate::study::control::year::{ClearSky, Moment, Moving, Situation, Summary, moving, summary, year};
+use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::{Library, files, read_scene_file};
 use anyhow::anyhow;
 use std::fmt::Write as _;

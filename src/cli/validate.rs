@@ -1,13 +1,12 @@
 //! `cfs catalogue validate`: the data doctor for makers' pipelines.
 
-use super::catalogue::finding_json;
 use super::dataset_file;
 use super::output::print;
 use crate::catalogue::{Catalogue, ProductFinding, Query};
 use crate::compute::btdf::Severity;
-use crate::compute::doctor::examine;
+use crate::compute::doctor::{examine, meaning};
 use anyhow::bail;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -84,6 +83,14 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
 pub struct NotFit {
     bad: usize,
     of: usize,
+}
+
+/// A finding of the catalogue as JSON.
+pub(super) fn finding_json(finding: &ProductFinding) -> Value {
+    json!({
+        "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,
+        "meaning": meaning(&finding.code),
+    })
 }
 
 /// What reader and doctor say about a file.

@@ -26,16 +26,6 @@ impl Angle {
     pub fn degrees(self) -> f64 {
         self.0.to_degrees()
     }
-
-    /// Sine of the angle.
-    pub fn sin(self) -> f64 {
-        self.0.sin()
-    }
-
-    /// Cosine of the angle.
-    pub fn cos(self) -> f64 {
-        self.0.cos()
-    }
 }
 
 /// A compass bearing: clockwise from north, seen from above. A type of its own, because a bearing taken for a

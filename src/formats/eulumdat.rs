@@ -70,10 +70,7 @@ fn even_step(angles: &[f64], closes_the_turn: bool) -> f64 {
     if even && closed { step } else { 0.0 }
 }
 
-/// Room indices k of the ten direct ratios.
-pub const ROOM_INDICES: [f64; 10] = [0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0];
-
-/// Share of the downward flux that reaches the work plane without reflection, for each room index: the regular array
+/// Share of the downward flux that reaches the work plane without reflection, for the room indices 0.6, 0.8, 1, 1.25, 1.5, 2, 2.5, 3, 4, 5: the regular array
 /// of a ceiling, from the fluxes within 41.4°, 60°, 75.5° and 90° (zonal method of LiTG publication 3.5).
 /// For one aperture in a wall this is no more than a number that the format asks for.
 pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {

@@ -17,12 +17,14 @@ pub mod luminaire;
 pub mod package;
 pub mod scan;
 pub mod system_toml;
+mod written;
 
 pub use btdf_text::CatalogueFields;
 pub use family::{is_one_function, merge_sides};
 pub use location::{FormatError, Location};
+pub use written::Written;
 
-use crate::compute::btdf::{Dataset, Finding};
+use crate::compute::btdf::Dataset;
 
 /// The dataset formats that are read and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -139,15 +141,6 @@ pub fn catalogue_fields(name: &str, bytes: &[u8]) -> Result<CatalogueFields, For
         Some(Format::BtdfText) => btdf_text::catalogue_fields(bytes),
         Some(Format::BsdfXml) | None => Ok(CatalogueFields::default()),
     }
-}
-
-/// A written file, and what got lost or changed on the way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Written {
-    /// The file.
-    pub bytes: Vec<u8>,
-    /// Resampling, derived blocks: whatever a reader of the new file would not see.
-    pub findings: Vec<Finding>,
 }
 
 /// The datasets as a file of the given format.

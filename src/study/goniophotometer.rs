@@ -3,10 +3,9 @@
 
 use super::error::StudyError;
 use super::files;
-use super::library::Library;
 use super::scene_file::SystemKeys;
-use super::system::SystemLibrary;
-use crate::catalogue::{NewProduct, builtin_system, described_dataset, method, product_of};
+use super::system::{System, SystemLibrary};
+use crate::catalogue::{NewProduct, Product, builtin_system, described_dataset, method, product_of};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
@@ -21,6 +20,7 @@ use crate::formats::dataset_blob;
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Layers of a stack with all stacks in it, at most.
@@ -72,6 +72,15 @@ pub struct Computed {
     pub quality: Option<Quality>,
     /// Time it took; 0 for a kept state. \[s\]
     pub seconds: f64,
+}
+
+/// Where a stack's layers come from.
+pub trait LayerLibrary: SystemLibrary {
+    /// A product of the catalogue without its datasets.
+    fn product(&self, key: &str) -> Result<Product, StudyError>;
+
+    /// All states of a dataset file.
+    fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError>;
 }
 
 /// A layer of a stack. Panes next to each other stay panes: light keeps its polarisation between them, which matrices
@@ -144,11 +153,11 @@ impl Described {
     }
 
     /// Keys of its states. For a stack with a moving layer, those of the layer.
-    pub fn states(&self, library: &Library) -> Result<Vec<String>, StudyError> {
+    pub fn states(&self, library: &dyn LayerLibrary) -> Result<Vec<String>, StudyError> {
         self.states_within(library, 0)
     }
 
-    fn states_within(&self, library: &Library, depth: usize) -> Result<Vec<String>, StudyError> {
+    fn states_within(&self, library: &dyn LayerLibrary, depth: usize) -> Result<Vec<String>, StudyError> {
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.system.states()) };
         let Some(layer) = layers.iter().find(|layer| layer.state == EACH_STATE) else { return Ok(vec![String::new()]) };
         match &layer.source {
@@ -167,7 +176,7 @@ impl Described {
     }
 
     /// One state, ready to be measured.
-    pub fn specimen(&self, state: &str, library: &Library) -> Result<Box<dyn Specimen>, StudyError> {
+    pub fn specimen(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn Specimen>, StudyError> {
         let mut layers = Vec::new();
         self.layers_into(&mut layers, state, library, 0)?;
         let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(Part::into_specimen).collect();
@@ -183,7 +192,7 @@ impl Described {
         &self,
         list: &mut Vec<Part>,
         state: &str,
-        library: &Library,
+        library: &dyn LayerLibrary,
         depth: usize,
     ) -> Result<(), StudyError> {
         let system = &self.file.system;
@@ -219,7 +228,7 @@ impl Described {
         list: &mut Vec<Part>,
         layer: &Layer,
         state: &str,
-        library: &Library,
+        library: &dyn LayerLibrary,
         depth: usize,
     ) -> Result<(), StudyError> {
         let state = if layer.state == EACH_STATE { state } else { &layer.state };
@@ -241,7 +250,7 @@ impl Described {
         &self,
         state: &str,
         request: &Request,
-        library: &Library,
+        library: &dyn LayerLibrary,
         keep: Option<&Path>,
         progress: &dyn Progress,
     ) -> Result<Computed, StudyError> {
@@ -271,7 +280,7 @@ impl Described {
         &self,
         states: &[String],
         request: &Request,
-        library: &Library,
+        library: &dyn LayerLibrary,
         keep: Option<&Path>,
         progress: &dyn Progress,
     ) -> Result<Vec<Computed>, StudyError> {
@@ -300,7 +309,7 @@ impl Described {
     }
 
     /// Name of a kept state: by everything that decides its values.
-    fn kept_name(&self, state: &str, request: &Request, library: &Library) -> Result<String, StudyError> {
+    fn kept_name(&self, state: &str, request: &Request, library: &dyn LayerLibrary) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
         for part in [state, request.incident.name(), request.emergent.name()] {
             hash.update(part.as_bytes()).update(b"\0");
@@ -311,7 +320,12 @@ impl Described {
     }
 
     /// Hashes the text and what its layers are made of.
-    fn sources_into(&self, hash: &mut blake3::Hasher, library: &Library, depth: usize) -> Result<(), StudyError> {
+    fn sources_into(
+        &self,
+        hash: &mut blake3::Hasher,
+        library: &dyn LayerLibrary,
+        depth: usize,
+    ) -> Result<(), StudyError> {
         hash.update(self.text.as_bytes()).update(b"\0");
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(()) };
         // Deeper ones are refused when they are measured.

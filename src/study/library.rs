@@ -3,6 +3,7 @@
 use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
+use super::goniophotometer::LayerLibrary;
 use super::scene_file::SystemKeys;
 use super::system::{System, SystemLibrary, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
@@ -58,18 +59,18 @@ impl Library {
         if !self.in_catalogue(missing)? {
             return Ok(());
         }
-        let (product, datasets) = super::builtin::compute(&name, &Silent)?;
+        let (product, datasets) = super::builtin::compute(&name, self, &Silent)?;
         self.in_catalogue(|catalogue| catalogue.put_builtin(&name, product, &datasets))
     }
+}
 
-    /// A product of the catalogue without its datasets.
-    pub fn product(&self, key: &str) -> Result<Product, StudyError> {
+impl LayerLibrary for Library {
+    fn product(&self, key: &str) -> Result<Product, StudyError> {
         self.provide_builtin(key)?;
         self.in_catalogue(|catalogue| catalogue.product(key))
     }
 
-    /// All states of a dataset file.
-    pub fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError> {
+    fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let meta = std::fs::metadata(path).map_err(|e| error(format!("cannot be read: {e}")))?;
         let stamp = (meta.modified().unwrap_or(SystemTime::UNIX_EPOCH), meta.len());

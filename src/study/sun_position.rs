@@ -4,7 +4,6 @@
 //! are those of calendars (upper limb, standard refraction).
 
 use crate::compute::angle::Bearing;
-use crate::compute::direction::{Dir, World};
 use jiff::civil::{Date, DateTime};
 use solar_positioning::time::JulianDate;
 use solar_positioning::{Horizon, Location, SolarEvents, SolarPositions, delta_t};
@@ -105,11 +104,6 @@ pub fn sun_position(place: &Place, time: DateTime) -> Result<(f64, Bearing), Sun
         + f64::from(time.minute()) / 60.0
         + (f64::from(time.second()) + f64::from(time.subsec_nanosecond()) * 1e-9) / 3600.0;
     position_at(place, time.date(), hour)
-}
-
-/// Direction of the sun at a local standard time.
-pub fn sun_direction(place: &Place, time: DateTime) -> Result<Dir<World>, SunPositionError> {
-    sun_position(place, time).map(|(altitude, bearing)| Dir::from_altitude_bearing(altitude, bearing))
 }
 
 /// The sun every `step` hours (at least one minute) from 0 to 24 h of a day, above and below the horizon.

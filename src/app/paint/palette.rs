@@ -10,8 +10,6 @@ use std::sync::LazyLock;
 pub enum ColourMap {
     /// Viridis: luminance, illuminance, luminance coefficient.
     Sequential,
-    /// Blue – white – red, 0.5 is "no difference".
-    Diverging,
     /// Greys, dark to light: transmittance where viridis means something else beside it.
     Grey,
 }
@@ -24,11 +22,6 @@ fn table(gradient: &dyn Gradient) -> [Color32; 256] {
 }
 
 static VIRIDIS: LazyLock<[Color32; 256]> = LazyLock::new(|| table(&colorgrad::preset::viridis()));
-static BLUE_RED: LazyLock<[Color32; 256]> = LazyLock::new(|| {
-    let mut colours = table(&colorgrad::preset::rd_bu());
-    colours.reverse();
-    colours
-});
 
 impl ColourMap {
     /// Colour of a fraction; values outside 0 … 1 get the end colours, NaN the lower one.
@@ -37,7 +30,6 @@ impl ColourMap {
         let index = (fraction.clamp(0.0, 1.0) * 255.0).round() as usize;
         match self {
             Self::Sequential => VIRIDIS[index],
-            Self::Diverging => BLUE_RED[index],
             Self::Grey => Color32::from_gray((45.0 + 195.0 * index as f32 / 255.0) as u8),
         }
     }
@@ -121,8 +113,6 @@ mod tests {
     fn maps_run_from_end_to_end() {
         assert_eq!(ColourMap::Sequential.at(-1.0), ColourMap::Sequential.at(0.0));
         assert_eq!(ColourMap::Sequential.at(f32::NAN), ColourMap::Sequential.at(0.0));
-        let (cold, warm) = (ColourMap::Diverging.at(0.0), ColourMap::Diverging.at(1.0));
-        assert!(cold.b() > cold.r() && warm.r() > warm.b());
         // Viridis gets lighter all the way: it can be read in grey.
         let light = |c: Color32| 0.2126 * f32::from(c.r()) + 0.7152 * f32::from(c.g()) + 0.0722 * f32::from(c.b());
         for k in 1..16 {

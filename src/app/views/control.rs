@@ -1,67 +1,22 @@
 //! Control: which state for which profile angle, today's way of the sun over that curve, and the year.
 
 mod edit;
+mod input;
+
+pub use input::{Input, StatePoint, TracePoint};
 
 use super::Cache;
 use crate::app::paint::hemisphere::on_halo;
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, LEFT, Look, Shown};
-use crate::app::paint::tile::{self, Status, Words};
+use crate::app::paint::tile::{self, Words};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{number, tick};
 use egui::{
     Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
 use egui_plot::{HLine, PlotImage, PlotPoint};
-
-/// A state of a moving product.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StatePoint {
-    /// Key in the dataset.
-    pub key: String,
-    /// What is set, e.g. a slat angle in degrees.
-    pub value: f64,
-}
-
-/// The sun and the control at one time of today.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TracePoint {
-    /// Hour of the day.
-    pub hour: f64,
-    /// Profile angle on the façade \[°\]; `None` while the sun is not before it.
-    pub profile_angle: Option<f64>,
-    /// Index of the state that control chose.
-    pub state: usize,
-}
-
-/// What the tile draws.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
-    /// The product's states, by rising value; fewer than two: nothing moves.
-    pub states: &'a [StatePoint],
-    /// What a state sets, with unit, e.g. "slat angle / °".
-    pub quantity: &'a str,
-    /// The rule: value [unit of the states] over profile angle \[°\], rising angle.
-    pub curve: &'a [[f64; 2]],
-    /// May its points be moved?
-    pub editable: bool,
-    /// Product and rule in words.
-    pub name: &'a str,
-    /// Today.
-    pub today: &'a [TracePoint],
-    /// The profile angle now. \[°\]
-    pub profile_angle: Option<f64>,
-    /// The state now, index into `states`.
-    pub current: usize,
-    /// State of every hour of the year (365 × 24, day by day), `None` at night; empty while not computed.
-    pub year: &'a [Option<u16>],
-    /// Day of the year now, from 0, and hour, for the mark on the map.
-    pub moment: Option<(usize, f64)>,
-    /// Changes with states, curve, trace and year.
-    pub revision: u64,
-    /// How far the content is to be trusted.
-    pub status: Status<'a>,
-}
+use input::{curve_at, extent};
 
 /// What the user did.
 #[derive(Debug, Clone, PartialEq)]
@@ -145,15 +100,6 @@ fn state_text(input: &Input<'_>, index: usize) -> String {
             format!("state {} ({quantity} {}{unit})", s.key, tick(s.value))
         },
     )
-}
-
-/// Lowest and highest value of the states and the curve.
-fn extent(input: &Input<'_>) -> (f64, f64) {
-    let values = input.states.iter().map(|s| s.value).chain(input.curve.iter().map(|p| p[1]));
-    let (lo, hi) =
-        values.filter(|v| v.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-    let margin = 0.08 * (hi - lo).max(1.0);
-    (lo - margin, hi + margin)
 }
 
 fn state_colour(input: &Input<'_>, index: usize) -> Color32 {
@@ -257,19 +203,6 @@ fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing
     if let Some(at) = now.and_then(|psi| place([psi, value(input.current)])) {
         painter.circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
-}
-
-/// The rule at a profile angle, piecewise linear; held beyond its ends.
-fn curve_at(curve: &[[f64; 2]], psi: f64) -> Option<f64> {
-    let (first, last) = (curve.first()?, curve.last()?);
-    if psi <= first[0] {
-        return Some(first[1]);
-    }
-    let next = curve.iter().position(|p| p[0] >= psi);
-    Some(next.map_or(last[1], |k| {
-        let (a, b) = (curve[k - 1], curve[k]);
-        if b[0] > a[0] { a[1] + (b[1] - a[1]) * (psi - a[0]) / (b[0] - a[0]) } else { b[1] }
-    }))
 }
 
 /// A column a day, noon in the middle, the colour of its state for every hour.

@@ -369,11 +369,6 @@ impl RingBasis {
         let sector = ((turned / width) as usize).min(ring.sectors - 1);
         Some(self.first_cell[ring_index] + sector)
     }
-
-    /// Rings from the normal outwards?
-    pub fn runs_outwards(&self) -> bool {
-        self.outwards
-    }
 }
 
 #[cfg(test)]

@@ -202,11 +202,6 @@ impl SquareCell {
         ([self.ix as f64 * side, self.iy as f64 * side], side)
     }
 
-    /// ∫cosθ dω of the cell. \[sr\]
-    pub fn projected_solid_angle(self) -> f64 {
-        PI / (self.resolution * self.resolution) as f64
-    }
-
     /// The direction at a point of the cell, coordinates 0 … 1 inside it (façade frame, through-name).
     pub fn direction(self, at: [f64; 2]) -> Dir<Facade> {
         let ([x, y], side) = self.bounds();

@@ -70,13 +70,6 @@ pub struct Indicatrix {
     pub q: Vec<f64>,
 }
 
-impl Indicatrix {
-    /// ∫ q cosθ dω.
-    pub fn tau(&self) -> f64 {
-        self.basis.cells().zip(&self.q).map(|(cell, q)| cell.projected_solid_angle() * q).sum()
-    }
-}
-
 impl Btdf {
     /// A purely scattering function on cells.
     pub fn from_cells(matrix: CellMatrix) -> Self {

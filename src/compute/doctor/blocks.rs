@@ -21,8 +21,6 @@ pub struct Block {
 /// A turn or mirror image of the hemisphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turn {
-    /// As it is.
-    None,
     /// Up and down exchanged.
     UpDown,
     /// Left and right exchanged.
@@ -91,7 +89,6 @@ impl Blocks {
     /// The cell that a cell becomes.
     pub fn turned(&self, turn: Turn, cell: usize) -> usize {
         match turn {
-            Turn::None => cell,
             Turn::UpDown => self.turns[0][cell],
             Turn::LeftRight => self.turns[1][cell],
             Turn::HalfRound => self.turns[2][cell],

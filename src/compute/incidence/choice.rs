@@ -61,8 +61,7 @@ pub struct Choice {
 /// Errors and choices over a whole lattice.
 #[derive(Debug, Clone)]
 pub struct Choices {
-    judged: Vec<Option<Judged>>,
-    /// The same, at least the mean of the neighbours.
+    /// What leaving each vertex out has shown, at least the mean of its neighbours.
     around: Vec<Option<Judged>>,
     vertex: Vec<SunScheme>,
     triangles: Vec<Choice>,
@@ -108,7 +107,7 @@ impl Choices {
         let triangles = all.iter().map(|t| Choice::new(&sum(&mut std::iter::once(*t)), *t, &judged)).collect();
         let vertex = (0..count).map(|v| best(&sum(&mut all.iter().copied().filter(|t| t.contains(&v)))).0).collect();
         let around = (0..count).map(|v| at_least_around(&model.lattice, &judged, v)).collect();
-        Self { judged, around, vertex, triangles }
+        Self { around, vertex, triangles }
     }
 
     /// The scheme that a vertex contributes.
@@ -116,37 +115,24 @@ impl Choices {
         self.vertex[vertex]
     }
 
-    /// What leaving a vertex out has shown; `None` where nothing gets through or no ring is left.
-    pub fn judged(&self, vertex: usize) -> Option<&Judged> {
-        self.judged[vertex].as_ref()
-    }
-
     /// The choices for the lattice's triangles, in its order.
     pub fn triangles(&self) -> &[Choice] {
         &self.triangles
     }
 
-    /// Share of flux expected to be misplaced at a place of the lattice, at the data's own spacing. Beyond the border the
-    /// spacing's advantage is lost step by step, up to the full error of doubled spacing at θ = 90°.
-    pub fn expected_error(&self, scheme: SunScheme, place: &Place) -> f64 {
-        self.mean_error(scheme, place, &self.judged)
-    }
-
-    fn mean_error(&self, scheme: SunScheme, place: &Place, judged: &[Option<Judged>]) -> f64 {
+    /// Share of flux stated to be misplaced at a place of the lattice, at the data's own spacing: twice what is expected at
+    /// the vertices around, or at their neighbours where that is more (a vertex may be foretold well by chance), at least
+    /// 0.3 %. Beyond the border the spacing's advantage is lost step by step, up to the full error of doubled spacing at
+    /// θ = 90°.
+    pub fn predicted_error(&self, scheme: SunScheme, place: &Place) -> f64 {
         let mut sum = 0.0;
         for (&v, w) in place.vertices.iter().zip(place.weights).filter(|(_, w)| *w > 0.0) {
             let own = if scheme == SunScheme::Auto { self.vertex[v] } else { scheme };
-            if let (Some(judged), Some(k)) = (&judged[v], number(own)) {
+            if let (Some(judged), Some(k)) = (&self.around[v], number(own)) {
                 sum += w * (judged.expected[k] + (judged.left_out[k] - judged.expected[k]).max(0.0) * place.beyond);
             }
         }
-        sum
-    }
-
-    /// Share of flux stated to be misplaced at a place: twice what is expected at the vertices around, or at their
-    /// neighbours where that is more (a vertex may be foretold well by chance), at least 0.3 %.
-    pub fn predicted_error(&self, scheme: SunScheme, place: &Place) -> f64 {
-        (STATED * self.mean_error(scheme, place, &self.around)).max(STATED_AT_LEAST)
+        (STATED * sum).max(STATED_AT_LEAST)
     }
 }
 
@@ -386,7 +372,7 @@ mod tests {
         }
         // The nearest direction is 12° off: nothing of a 3° lobe is where it should be, whatever the cells' blur.
         let inner = schemes.model.lattice.points().iter().position(|p| p.z > 0.999_999).unwrap();
-        let errors = choices.judged(inner).unwrap().left_out;
+        let errors = left_out(&schemes, &Silhouettes::new(&schemes.model), inner).unwrap().left_out;
         assert!(errors[0] > 0.5 && errors[4] < 0.05, "{errors:?}");
     }
 
@@ -396,10 +382,10 @@ mod tests {
         let choices = Choices::new(&schemes);
         let superposed = choices.triangles().iter().filter(|c| c.scheme == SunScheme::Superposed).count();
         assert!(superposed < 52, "{superposed} of 258");
-        let mean = |k: usize| {
-            let known: Vec<f64> = (0..145).filter_map(|v| choices.judged(v)).map(|judged| judged.left_out[k]).collect();
-            known.iter().sum::<f64>() / known.len() as f64
-        };
+        let silhouettes = Silhouettes::new(&schemes.model);
+        let judged: Vec<Judged> =
+            (0..145).into_par_iter().filter_map(|v| left_out(&schemes, &silhouettes, v)).collect();
+        let mean = |k: usize| judged.iter().map(|judged| judged.left_out[k]).sum::<f64>() / judged.len() as f64;
         assert!(mean(4) < 0.5 * mean(2), "responses {} against superposed {}", mean(4), mean(2));
     }
 

@@ -9,8 +9,7 @@
 
 use super::grid::Grid;
 use super::model::Model;
-use crate::compute::basis::{AzimuthMap, Cell, Resampling, Ring, RingBasis};
-use crate::compute::direction::Dir;
+use crate::compute::basis::{Cell, Resampling, RingBasis};
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -22,8 +21,6 @@ pub enum Kernel {
     None,
     /// Constant luminance within this angle. \[rad\]
     Cone(f64),
-    /// A round Gaussian of this standard deviation. \[rad\]
-    Gaussian(f64),
     /// The cell of the incident lattice that a direction stands for.
     Patch,
 }
@@ -44,20 +41,6 @@ pub struct Filter {
     pub kernel: Kernel,
     /// Lobes alone, as is better; false: the whole indicatrix, as in the report.
     pub sharp_only: bool,
-}
-
-/// The report's 529 directions as cells: rows at every 6° of altitude above the aperture's plane, on even rows twice as
-/// many as Tregenza has, between them as on the row with fewer. The report gives the count and the step; the layout is
-/// the one halving of Tregenza's that has this count. The lowest row reaches down to the plane.
-pub fn report_grid() -> RingBasis {
-    const SECTORS: [usize; 15] = [60, 60, 60, 48, 48, 48, 48, 36, 36, 24, 24, 12, 12, 12, 1];
-    let theta = |altitude: f64| (90.0 - altitude).to_radians();
-    let rings = SECTORS.iter().enumerate().map(|(row, &sectors)| {
-        let altitude = 6.0 * (row + 1) as f64;
-        let theta_max = if row == 0 { theta(0.0) } else { theta(altitude - 3.0) };
-        Ring { theta_min: theta((altitude + 3.0).min(90.0)), theta_max, sectors, first_phi: 0.0 }
-    });
-    RingBasis::new("529 directions", rings.collect(), AzimuthMap::FACADE).expect("rows rise from 0 to 90°")
 }
 
 /// Luminance on the cells of `target` from the illuminance \[lx\] through the patches of the data's lattice. \[cd/m²\]
@@ -232,7 +215,6 @@ impl Footprint {
         let chord = |angle: f64| 2.0 * (0.5 * angle.min(PI)).sin();
         let reach = match kernel {
             Kernel::Cone(angle) => chord(angle),
-            Kernel::Gaussian(sigma) => chord(6.0 * sigma),
             _ if patch.is_cap() => outer,
             _ => corners[0].max(corners[1]).max((own.length() - inner).abs()).max((outer - own.length()).abs()),
         };
@@ -253,7 +235,6 @@ impl Footprint {
     fn at(&self, d: DVec3, p: DVec3, back: DMat2) -> f64 {
         match self.kernel {
             Kernel::Cone(_) => f64::from(u8::from(d.dot(p) >= self.cos_reach)),
-            Kernel::Gaussian(sigma) => ((d.dot(p) - 1.0) / (sigma * sigma)).exp(),
             Kernel::Patch | Kernel::None => {
                 let moved = self.own + back * (d - p).truncate();
                 let square = moved.length_squared();
@@ -283,17 +264,8 @@ fn offsets(kernel: Kernel, patch: &Cell) -> Vec<Offset> {
                 Offset::Cosines((low + (high - low) * s).sqrt() * DVec2::from_angle(phi) - own)
             }
             Kernel::Cone(angle) => Offset::Angle(angle * s.sqrt() * DVec2::from_angle(2.0 * PI * (t + 0.3 * s))),
-            Kernel::Gaussian(sigma) => {
-                let radius = sigma * (-2.0 * (1.0 - s).ln()).sqrt();
-                Offset::Angle(radius * DVec2::from_angle(2.0 * PI * (t + 0.3 * s)))
-            }
         })
         .collect()
-}
-
-/// Cell of `grid` that holds a direction, for lookups of what was filtered.
-pub fn value(grid: &Grid, luminance: &[f64], d: DVec3) -> f64 {
-    grid.basis().index(Dir::from_unit(d)).and_then(|k| luminance.get(k).copied()).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -212,16 +212,6 @@ impl Model {
         &self.lattice
     }
 
-    /// Lobes of every incident direction.
-    pub fn lobes(&self) -> &[Vec<Lobe>] {
-        &self.lobes
-    }
-
-    /// How the lobes move.
-    pub fn responses(&self) -> &Responses {
-        &self.responses
-    }
-
     /// The indicatrix for an incident direction, every lobe moved by its own response.
     pub fn recipe(&self, incident: Dir<Facade>) -> Recipe {
         let place = self.lattice.locate(incident);

@@ -212,16 +212,6 @@ impl CGammaTable {
             })
             .sum()
     }
-
-    /// Is the distribution the same on both sides of the C0–C180 plane, within `tolerance` of its maximum?
-    pub fn is_symmetric_about_c0(&self, tolerance: f64) -> bool {
-        let planes = self.planes();
-        let limit = tolerance * self.intensity.iter().fold(0.0_f64, |max, i| max.max(i.abs()));
-        (1..planes / 2).all(|plane| {
-            let mirrored = self.plane(planes - plane);
-            self.plane(plane).iter().zip(mirrored).all(|(a, b)| (a - b).abs() <= limit)
-        })
-    }
 }
 
 /// What the quadrature may assume inside a cell.

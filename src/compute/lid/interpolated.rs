@@ -50,11 +50,6 @@ impl Interpolator {
         Self { sun_grid: sun_grid(&model), schemes: Schemes::new(model) }
     }
 
-    /// The schemes between incident directions.
-    pub fn schemes(&self) -> &Schemes {
-        &self.schemes
-    }
-
     /// The cells that the sun's light is put on.
     pub fn sun_grid(&self) -> &Grid {
         &self.sun_grid

@@ -41,21 +41,6 @@ impl Aperture {
         DVec3::new(beyond(to_corner.x, self.size[0]), beyond(to_corner.y, self.size[1]), to_corner.z).length()
     }
 
-    /// `m` × `n` equal parts, along x_F first.
-    ///
-    /// One luminance for the whole area presumes that the outside is far away. Near an obstruction (a neighbour's wall,
-    /// an overhang, a light shelf) the lower part of a window sees another skyline than its upper part: the aperture is
-    /// then split, every part gets the outside as seen from its own middle, an emission of its own, and sensors add up
-    /// the parts. A scene has only a skyline of equal altitude all round, the same for every part, and needs no split.
-    pub fn split(&self, m: usize, n: usize) -> Vec<Self> {
-        let part = [self.size[0] / m as f64, self.size[1] / n as f64];
-        let (u, v) = (self.surface.room_from_facade(DVec3::X), self.surface.room_from_facade(DVec3::Y));
-        (0..n)
-            .flat_map(|j| (0..m).map(move |i| (i as f64, j as f64)))
-            .map(|(i, j)| Self { corner: self.corner + u * (i * part[0]) + v * (j * part[1]), size: part, ..*self })
-            .collect()
-    }
-
     /// The four corners, counter-clockwise seen from outside, room frame. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         let u = self.surface.room_from_facade(DVec3::X) * self.size[0];

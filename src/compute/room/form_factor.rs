@@ -31,35 +31,35 @@ pub fn perpendicular_corner(u: f64, x: f64, y: f64) -> f64 {
     (angular + 0.25 * (u * u - c2) * s.ln()) / (2.0 * PI)
 }
 
-/// A·F between two parallel rectangles `x` × `y` a distance z apart. \[m²\]
-pub fn parallel(x: [[f64; 2]; 2], y: [[f64; 2]; 2], z: f64) -> f64 {
-    fourth_difference(|i, k, j, l| parallel_corner(x[0][i] - x[1][k], y[0][j] - y[1][l], z))
-}
-
-/// A·F between two perpendicular rectangles: `u` their extents along the common direction, `x` of the first and `y`
-/// of the second away from the line in which their planes meet. \[m²\]
-pub fn perpendicular(u: [[f64; 2]; 2], x: [f64; 2], y: [f64; 2]) -> f64 {
-    fourth_difference(|i, k, j, l| perpendicular_corner(u[0][i] - u[1][k], x[j], y[l]))
-}
-
-fn fourth_difference(corner: impl Fn(usize, usize, usize, usize) -> f64) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..2 {
-        for k in 0..2 {
-            for j in 0..2 {
-                for l in 0..2 {
-                    let sign = if (i + j + k + l) % 2 == 0 { 1.0 } else { -1.0 };
-                    sum += sign * corner(i, k, j, l);
-                }
-            }
-        }
-    }
-    sum.abs()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A·F between two parallel rectangles `x` × `y` a distance z apart. \[m²\]
+    fn parallel(x: [[f64; 2]; 2], y: [[f64; 2]; 2], z: f64) -> f64 {
+        fourth_difference(|i, k, j, l| parallel_corner(x[0][i] - x[1][k], y[0][j] - y[1][l], z))
+    }
+
+    /// A·F between two perpendicular rectangles: `u` their extents along the common direction, `x` of the first and `y`
+    /// of the second away from the line in which their planes meet. \[m²\]
+    fn perpendicular(u: [[f64; 2]; 2], x: [f64; 2], y: [f64; 2]) -> f64 {
+        fourth_difference(|i, k, j, l| perpendicular_corner(u[0][i] - u[1][k], x[j], y[l]))
+    }
+
+    fn fourth_difference(corner: impl Fn(usize, usize, usize, usize) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for i in 0..2 {
+            for k in 0..2 {
+                for j in 0..2 {
+                    for l in 0..2 {
+                        let sign = if (i + j + k + l) % 2 == 0 { 1.0 } else { -1.0 };
+                        sum += sign * corner(i, k, j, l);
+                    }
+                }
+            }
+        }
+        sum.abs()
+    }
 
     #[test]
     fn unit_cube() {

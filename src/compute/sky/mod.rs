@@ -39,4 +39,4 @@ pub use outside::{Outside, SkyError};
 pub use region::Frame;
 pub use samples::SkySamples;
 pub use scan::Scan;
-pub use sun::{SUN_HALF_ANGLE, Sun, sun_solid_angle};
+pub use sun::{SUN_HALF_ANGLE, Sun};

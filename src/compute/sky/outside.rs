@@ -180,15 +180,6 @@ impl Outside {
         uniform_sky && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
     }
 
-    /// Luminance depends on the altitude alone.
-    pub fn is_rotationally_symmetric(&self) -> bool {
-        match &self.distribution.model {
-            Model::Uniform | Model::Overcast => true,
-            Model::Gradated(sky, sun) => sky.symmetric() || sun.truncate().length() < 1e-12,
-            Model::Scan(_) => self.scale == 0.0,
-        }
-    }
-
     /// Luminance is constant over the band cells of Tregenza's lattice of the dome (measured skies), with jumps at
     /// their borders.
     pub fn is_piecewise_constant(&self) -> bool {

@@ -6,11 +6,6 @@ use std::f64::consts::PI;
 /// Mean angular radius of the sun's disc: 0.2665°. \[rad\]
 pub const SUN_HALF_ANGLE: f64 = 0.2665 * PI / 180.0;
 
-/// Solid angle of the disc: 2π(1 − cos ρ) = 4π sin²(ρ/2) = 6.797e-5. \[sr\]
-pub fn sun_solid_angle() -> f64 {
-    4.0 * PI * (0.5 * SUN_HALF_ANGLE).sin().powi(2)
-}
-
 /// A uniform disc of angular radius [`SUN_HALF_ANGLE`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sun {
@@ -21,11 +16,6 @@ pub struct Sun {
 }
 
 impl Sun {
-    /// Mean luminance of the disc: E_dn over its projected solid angle π sin²ρ. \[cd/m²\]
-    pub fn luminance(&self) -> f64 {
-        self.direct_normal / (PI * SUN_HALF_ANGLE.sin().powi(2))
-    }
-
     /// Illuminance on the open horizontal plane; 0 with the centre below the horizon. \[lx\]
     pub fn horizontal(&self) -> f64 {
         self.direct_normal * self.direction.vector().z.max(0.0)

@@ -4,7 +4,6 @@
 //! taken as √(1 − cosθ), so that equal areas are equal solid angles: groups of cells stay about as wide as high, and
 //! their borders follow the rings.
 
-use super::triangles::TriangleTree;
 use crate::compute::basis::{RingBasis, square_from_disk};
 use glam::DVec3;
 
@@ -50,19 +49,6 @@ impl Hierarchy {
         let mut all: Vec<u32> = (0..cells.len() as u32).collect();
         let root = halve(&mut all, &places, most.max(1));
         Self { cells, root }
-    }
-
-    /// Over the leaves of a triangle quadtree; groups are its triangles.
-    pub fn of_triangles(tree: &TriangleTree) -> Self {
-        fn group(first: u32, count: u32) -> Group {
-            if count == 4 {
-                return Group::Cells((first..first + 4).collect());
-            }
-            let quarter = count / 4;
-            Group::Groups((0..4).map(|k| group(first + k * quarter, quarter)).collect())
-        }
-        let cells = tree.leaves().iter().map(|leaf| CellPoint { weight: leaf.weight, centre: leaf.centre }).collect();
-        Self { cells, root: group(0, tree.leaves().len() as u32) }
     }
 }
 

@@ -23,7 +23,7 @@
 //! | a lobe of 2° | 109 (86) | 59 (46) | **138 (111)** | 98 (74) | 69 (56) |
 //!
 //! So the tree matters little and the order much: smooth parts are what Haar is bad at, single peaks what it is best
-//! at. [`TriangleTree`] with [`Order::Constant`] remains for comparison with the report.
+//! at.
 //!
 //! Steps may follow the support W of a wavelet as (W/W_all)^−β. For a square norm β = 0 is best; for misplaced flux,
 //! which forgives large errors on small places, β = 0.3 saves up to a tenth of the bytes.
@@ -36,11 +36,9 @@ mod hierarchy;
 mod quantise;
 mod report;
 mod transform;
-mod triangles;
 
 pub use compact::{CompactError, CompactRows, MOST_CELLS, ORDERS, RowDecoder};
 pub use hierarchy::{CellPoint, Group, Hierarchy};
 pub use quantise::{Criterion, QuantisedRow};
 pub use report::CompactReport;
 pub use transform::{Order, Transform};
-pub use triangles::{Overlap, Triangle, TriangleTree};

@@ -426,7 +426,6 @@ fn independent(mut vector: Vec<f64>, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::TriangleTree;
     use super::*;
     use crate::compute::basis::{AzimuthMap, RingBasis};
 
@@ -441,8 +440,6 @@ mod tests {
             ] {
                 all.push((Hierarchy::of_rings(&basis, 2 * order.functions()), order));
             }
-            let tree = TriangleTree::new(3).unwrap();
-            all.push((Hierarchy::of_triangles(&tree), order));
         }
         all
     }

@@ -1,6 +1,10 @@
 //! Ranges that values of system files may have; every wrong value is told by its key and by what would be right.
 
+use super::keys::Pair;
 use crate::formats::location::{FormatError, Location};
+
+/// Most points of an outline.
+const MOST_POINTS: usize = 2000;
 
 pub(super) fn wrong<T>(key: &str, found: impl Into<String>, expected: impl Into<String>) -> Result<T, FormatError> {
     Err(FormatError::new(Location::file().in_element(key), found, expected))
@@ -35,4 +39,16 @@ pub(super) fn index(key: &str, value: f64) -> Result<f64, FormatError> {
 
 pub(super) fn absorption(key: &str, value: f64) -> Result<f64, FormatError> {
     within(key, value, (0.0, 1e6))
+}
+
+/// Points in metres.
+pub(super) fn outline(key: &str, points: &[Pair], fewest: usize) -> Result<Vec<[f64; 2]>, FormatError> {
+    let points: Vec<[f64; 2]> = points.iter().map(|point| point.0).collect();
+    if points.len() < fewest || points.len() > MOST_POINTS {
+        return wrong(key, format!("{} points", points.len()), format!("{fewest} to {MOST_POINTS}"));
+    }
+    match points.iter().find(|point| !point.iter().all(|c| c.abs() <= 1000.0)) {
+        Some(point) => wrong(key, format!("the point {point:?}"), "metres"),
+        None => Ok(points),
+    }
 }

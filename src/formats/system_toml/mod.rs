@@ -8,12 +8,11 @@ mod sheets;
 mod transparent;
 
 use super::location::{FormatError, Location, excerpt};
-use crate::compute::system::slats::SlatProfile;
-use crate::compute::system::slats::{Surface, Venetian};
+use crate::compute::system::slats::{SlatProfile, Surface, Venetian};
 use crate::compute::system::stack::{Layer, LayerSource};
 use crate::compute::system::{SystemDescription, SystemKind};
-use checks::{length, share, within, wrong};
-use keys::{Angles, Keys, Kind, Pair};
+use checks::{length, outline, share, within, wrong};
+use keys::{Angles, Keys, Kind};
 use sheets::{diffuser, perforated, woven};
 use transparent::{laser_cut, pane, prismatic, redirecting};
 
@@ -21,8 +20,6 @@ use transparent::{laser_cut, pane, prismatic, redirecting};
 const MOST_BYTES: usize = 1 << 20;
 /// Most states of a family.
 const MOST_STATES: usize = 361;
-/// Most points of an outline.
-const MOST_POINTS: usize = 2000;
 /// Word of a layer's state that stands for all states of the layer.
 pub const EACH_STATE: &str = "each";
 
@@ -119,17 +116,6 @@ fn face(key: &str, face: keys::Face) -> Result<Surface, FormatError> {
     }
     let spread = within(&format!("{key}.roughness"), face.roughness, (0.0, 45.0))?.to_radians();
     Ok(Surface { diffuse, mirror, spread })
-}
-
-fn outline(key: &str, points: &[Pair], fewest: usize) -> Result<Vec<[f64; 2]>, FormatError> {
-    let points: Vec<[f64; 2]> = points.iter().map(|point| point.0).collect();
-    if points.len() < fewest || points.len() > MOST_POINTS {
-        return wrong(key, format!("{} points", points.len()), format!("{fewest} to {MOST_POINTS}"));
-    }
-    match points.iter().find(|point| !point.iter().all(|c| c.abs() <= 1000.0)) {
-        Some(point) => wrong(key, format!("the point {point:?}"), "metres"),
-        None => Ok(points),
-    }
 }
 
 fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {

@@ -1,7 +1,7 @@
 //! Tables of clear bodies: panes, laser-cut and prismatic panels, profiles between panes.
 
-use super::checks::{absorption, extent, index, length, share, within, wrong};
-use super::{keys, outline};
+use super::checks::{absorption, extent, index, length, outline, share, within, wrong};
+use super::keys;
 use crate::compute::system::clear::Material;
 use crate::compute::system::clear::prism::Prisms;
 use crate::compute::system::clear::redirecting::RedirectingGlass;

@@ -10,60 +10,63 @@ use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
 use std::f64::consts::PI;
 
-/// Light of the sun at every sensor. \[lx\]
-pub(super) fn sun(all: &Coefficients, sun: &Sun) -> Vec<f64> {
-    let sensors = all.scene.sensors.len();
-    let mut sums = vec![0.0; sensors];
-    let mut first = dark(all);
-    for (index, part) in all.parts.iter().enumerate() {
-        let facing = Facing { sun: Some(sun), ..all.scene.facing(index) };
-        let illuminance = facing.sun_illuminance();
-        let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
-        part.transport.sun(direction, sensors, &mut sums, illuminance);
-        add_beam(all, index, &facing, illuminance, &mut first, &mut sums);
-    }
-    if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
-        let (mesh, sensors) = (&room.radiosity.nested.fine, &all.scene.sensors);
-        for (s, response) in room.sensors.iter().enumerate() {
-            sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam)
-                + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
+impl Coefficients {
+    /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
+    pub fn sun(&self, sun: &Sun) -> Vec<f64> {
+        let sensors = self.scene.sensors.len();
+        let mut sums = vec![0.0; sensors];
+        let mut first = dark(self);
+        for (index, part) in self.parts.iter().enumerate() {
+            let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
+            let illuminance = facing.sun_illuminance();
+            let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
+            part.transport.sun(direction, sensors, &mut sums, illuminance);
+            add_beam(self, index, &facing, illuminance, &mut first, &mut sums);
         }
+        if let (Some(room), Some(first)) = (&self.room, first.filter(|first| !first.outlines.is_empty())) {
+            let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
+            for (s, response) in room.sensors.iter().enumerate() {
+                sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam)
+                    + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
+            }
+        }
+        sums.iter_mut().for_each(|e| *e = e.max(0.0));
+        sums
     }
-    sums.iter_mut().for_each(|e| *e = e.max(0.0));
-    sums
-}
 
-/// The same with its error.
-pub(super) fn sun_estimate(all: &Coefficients, light: &Sun) -> Vec<Estimate> {
-    let sensors = all.scene.sensors.len();
-    let mut estimates: Vec<Estimate> = sun(all, light).into_iter().map(Estimate::exact).collect();
-    let mut first = dark(all);
-    for (index, part) in all.parts.iter().enumerate() {
-        let facing = Facing { sun: Some(light), ..all.scene.facing(index) };
-        let illuminance = facing.sun_illuminance();
-        let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
-        let column = part.transport.for_direction(direction, sensors);
-        let mut own = vec![0.0; sensors];
-        part.transport.sun(direction, sensors, &mut own, illuminance);
-        for (s, sum) in estimates.iter_mut().enumerate() {
-            let reflected = column.light[sensors + s].abs() * illuminance;
-            let doubt = column.light[2 * sensors + s] * illuminance;
-            // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
-            let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
-            sum.error += doubt.hypot(all.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s];
+    /// The same with its error.
+    pub fn sun_estimate(&self, light: &Sun) -> Vec<Estimate> {
+        let sensors = self.scene.sensors.len();
+        let mut estimates: Vec<Estimate> = self.sun(light).into_iter().map(Estimate::exact).collect();
+        let mut first = dark(self);
+        for (index, part) in self.parts.iter().enumerate() {
+            let facing = Facing { sun: Some(light), ..self.scene.facing(index) };
+            let illuminance = facing.sun_illuminance();
+            let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
+            let column = part.transport.for_direction(direction, sensors);
+            let mut own = vec![0.0; sensors];
+            part.transport.sun(direction, sensors, &mut own, illuminance);
+            for (s, sum) in estimates.iter_mut().enumerate() {
+                let reflected = column.light[sensors + s].abs() * illuminance;
+                let doubt = column.light[2 * sensors + s] * illuminance;
+                // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
+                let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
+                sum.error +=
+                    doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s];
+            }
+            add_beam(self, index, &facing, illuminance, &mut first, &mut own);
         }
-        add_beam(all, index, &facing, illuminance, &mut first, &mut own);
-    }
-    if let (Some(room), Some(first)) = (&all.room, first.filter(|first| !first.outlines.is_empty())) {
-        let (mesh, sensors) = (&room.radiosity.nested.fine, &all.scene.sensors);
-        for (s, response) in room.sensors.iter().enumerate() {
-            let (value, difference, thrown_back) = response.of(&first.beam, &first.beam);
-            let value = value + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
-            estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(all.rest() * value) + UNEVEN * thrown_back;
+        if let (Some(room), Some(first)) = (&self.room, first.filter(|first| !first.outlines.is_empty())) {
+            let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
+            for (s, response) in room.sensors.iter().enumerate() {
+                let (value, difference, thrown_back) = response.of(&first.beam, &first.beam);
+                let value = value + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
+                estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(self.rest() * value) + UNEVEN * thrown_back;
+            }
         }
+        estimates.iter_mut().for_each(|e| e.error += 1e-6 * e.value);
+        estimates
     }
-    estimates.iter_mut().for_each(|e| e.error += 1e-6 * e.value);
-    estimates
 }
 
 fn dark(all: &Coefficients) -> Option<FirstLight> {

@@ -26,7 +26,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::Dir;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
-use crate::compute::sky::{Distribution, Outside, Sun};
+use crate::compute::sky::{Distribution, Outside};
 use part::{Part, Sums};
 
 /// A prepared scene.
@@ -152,16 +152,6 @@ impl Coefficients {
             }
         }
         estimates
-    }
-
-    /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
-    pub fn sun(&self, sun: &Sun) -> Vec<f64> {
-        beam::sun(self, sun)
-    }
-
-    /// The same with its error.
-    pub fn sun_estimate(&self, sun: &Sun) -> Vec<Estimate> {
-        beam::sun_estimate(self, sun)
     }
 
     /// What the fixed directions cost, relative, at the sensor where they cost most: twice the difference to integrals

@@ -5,7 +5,7 @@
 //! double clicks are the view's. Keys: `,` and `.` choose a
 //! point, arrows move it, Insert or + adds one after it, Delete takes it out.
 
-use super::{Input, curve_at, extent};
+use super::input::{Input, curve_at, extent};
 use crate::app::paint::plot::{Shown, screen};
 use egui::{EventFilter, Id, Key, Modifiers, Pos2, Ui};
 use egui_plot::PlotTransform;

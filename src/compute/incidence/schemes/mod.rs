@@ -69,12 +69,6 @@ impl Schemes {
         self.blend(scheme, incident).coefficient(self.model(), target, points)
     }
 
-    /// Interpolated τ of an incident direction, the same for all schemes.
-    pub fn tau(&self, incident: Dir<Facade>) -> f64 {
-        let place = self.model().lattice.locate(incident);
-        Between::new(self.model(), &place, self.model().recipe(incident), incident.vector()).tau
-    }
-
     /// Share of the transmitted flux that a scheme is stated to misplace for an incident direction; continuous in it.
     pub fn predicted_error(&self, scheme: SunScheme, incident: Dir<Facade>) -> f64 {
         self.choices().predicted_error(scheme, &self.model().lattice.locate(incident))

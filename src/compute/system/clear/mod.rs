@@ -19,7 +19,6 @@ mod hit;
 mod outline;
 mod polarised;
 pub mod prism;
-pub mod profile;
 pub mod redirecting;
 mod section;
 mod specimen;

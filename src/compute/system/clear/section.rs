@@ -140,16 +140,6 @@ impl Section {
         Ok(Self { bodies, period, panes, regions, depth })
     }
 
-    /// Vertical period. \[m\]
-    pub fn period(&self) -> f64 {
-        self.period
-    }
-
-    /// The bodies of one period.
-    pub fn bodies(&self) -> &[Body] {
-        &self.bodies
-    }
-
     /// Closed polygons of one period as (outward, upward), for drawings: the bodies, a sheet as the piece of one
     /// period, and the panes at a small distance. \[m\]
     pub fn outline(&self) -> Vec<Vec<[f64; 2]>> {

@@ -44,7 +44,7 @@ impl Family for CutPanel {
 impl Beams for CutPanel {
     fn beams(&self, name: Dir<Facade>, _: Side, _: Effort, out: &mut Shares) {
         out.beams.clear();
-        let shares = self.panel.shares_with_loss(name, self.cut_loss);
+        let shares = self.panel.shares(name, self.cut_loss);
         let y = name.vector().y;
         // The panel is the same from both sides; a turned beam has its vertical component turned round.
         for (share, transmitted, sign) in [

@@ -3,9 +3,6 @@
 //! Each polarisation is followed through the whole stack and averaged at the end; averaging at every surface would lose
 //! 6.6 % of the transmittance of a double pane at 60°.
 
-use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
-use std::f64::consts::PI;
-
 /// One pane of a homogeneous material in air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pane {
@@ -102,23 +99,6 @@ pub fn behind(outer: Share, inner: Share) -> Share {
         transmitted: outer.transmitted * inner.transmitted / between,
         reflected_front: outer.reflected_front + outer.transmitted.powi(2) * inner.reflected_front / between,
         reflected_back: inner.reflected_back + inner.transmitted.powi(2) * outer.reflected_back / between,
-    }
-}
-
-/// Steps of the tables of τ(θ) and ρ(θ): half a degree.
-const STEPS: usize = 180;
-
-/// The four functions of a stack of panes, all of them regular: light passes straight on or is mirrored.
-pub fn band(panes: &[Pane]) -> Band {
-    let shares: Vec<Share> = (0..=STEPS).map(|k| stack(panes, 0.5 * PI * k as f64 / STEPS as f64)).collect();
-    let table = |part: fn(&Share) -> f64| {
-        Some(Btdf { regular: Some(AngularTransmittance::Table(shares.iter().map(part).collect())), scattered: None })
-    };
-    Band {
-        transmission_front: table(|share| share.transmitted),
-        transmission_back: table(|share| share.transmitted),
-        reflection_front: table(|share| share.reflected_front),
-        reflection_back: table(|share| share.reflected_back),
     }
 }
 

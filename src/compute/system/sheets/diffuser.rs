@@ -6,9 +6,8 @@
 
 use super::sheet::{Sheet, Spread};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
-use crate::compute::estimate::Silent;
 use crate::compute::system::family::{Family, NoSpecimen, PIECE, Polygons, rectangle};
-use crate::compute::system::measure::{Setting, Specimen, front_basis};
+use crate::compute::system::measure::Specimen;
 use crate::compute::system::panes::glazing::{self, fresnel};
 
 /// A sheet that scatters.
@@ -105,13 +104,6 @@ fn table(f: impl Fn(f64) -> f64) -> AngularTransmittance {
     AngularTransmittance::sample(180, f)
 }
 
-/// A band measured on Klems cells, its regular part apart.
-fn on_klems(sheet: &Sheet) -> Band {
-    let cells = front_basis();
-    let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 0 };
-    sheet.examine(&setting, &Silent).expect("nobody cancels").0
-}
-
 impl Opal {
     /// Shares of the light that has entered: passed on, and thrown back by the volume. `None` when the parameters are not
     /// those of a passive sheet.
@@ -133,11 +125,6 @@ impl Opal {
         };
         let transmission = Spread { regular: AngularTransmittance::Constant(0.0), diffuse: enters(passed), lobe: None };
         Some(Sheet { transmission, reflection: [reflection.clone(), reflection] })
-    }
-
-    /// The four functions on Klems cells, or `None` when the parameters are not those of a passive sheet.
-    pub fn band(&self) -> Option<Band> {
-        Some(on_klems(&self.sheet()?))
     }
 }
 
@@ -175,11 +162,6 @@ impl Spreading {
         };
         Some(Sheet { transmission, reflection: [reflection.clone(), reflection] })
     }
-
-    /// The four functions on Klems cells, or `None` when the parameters are not those of a passive sheet.
-    pub fn band(&self) -> Option<Band> {
-        Some(on_klems(&self.sheet()?))
-    }
 }
 
 /// Lambertian in transmission and reflection for every incidence: the ideal diffuser with a stated reflectance.
@@ -192,17 +174,20 @@ pub fn lambertian(transmittance: f64, reflectance: f64) -> Band {
     }
 }
 
-/// Hemispherical mean of F, F̄ = 2∫F sinθ cosθ dθ.
-pub fn surface_mean(index: f64) -> f64 {
-    table(|theta| surface_transmittance(index, theta)).hemispherical()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::compute::basis::cell_mean;
     use crate::compute::btdf::{Scattered, reciprocity_error};
     use crate::compute::direction::{Dir, Facade, Incident};
+    use crate::compute::estimate::Silent;
+    use crate::compute::system::measure::{Setting, front_basis};
+
+    fn measured(sheet: &Sheet) -> Band {
+        let cells = front_basis();
+        let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 0 };
+        sheet.examine(&setting, &Silent).unwrap().0
+    }
 
     fn check(band: &Band) {
         let [t, r] = [&band.transmission_front, &band.reflection_front].map(|b| b.as_ref().unwrap());
@@ -219,15 +204,16 @@ mod tests {
     #[test]
     fn internal_diffuse_reflection_of_a_surface_is_the_known_one() {
         // External diffuse reflectance of a surface, n = 1.5 (Duntley 1942; Judd 1942): 0.0919.
-        assert!((1.0 - surface_mean(1.5) - 0.0919).abs() < 3e-3, "{}", 1.0 - surface_mean(1.5));
+        let reflectance = 1.0 - table(|theta| surface_transmittance(1.5, theta)).hemispherical();
+        assert!((reflectance - 0.0919).abs() < 3e-3, "{reflectance}");
     }
 
     #[test]
     fn opal_keeps_energy_and_its_transmittance() {
-        let band = Opal { index: 1.49, transmittance: 0.5, reflectance: 0.35 }.band().unwrap();
+        let band = measured(&Opal { index: 1.49, transmittance: 0.5, reflectance: 0.35 }.sheet().unwrap());
         check(&band);
         assert!((band.transmission_front.unwrap().tau_normal() - 0.5).abs() < 1e-4);
-        assert!(Opal { index: 1.49, transmittance: 0.7, reflectance: 0.35 }.band().is_none());
+        assert!(Opal { index: 1.49, transmittance: 0.7, reflectance: 0.35 }.sheet().is_none());
     }
 
     #[test]
@@ -240,7 +226,7 @@ mod tests {
             transmittance: 0.8,
             absorbed: 0.2,
         };
-        let band = sheet.band().unwrap();
+        let band = measured(&sheet.sheet().unwrap());
         check(&band);
         let t = band.transmission_front.unwrap();
         assert!((t.tau_normal() - 0.8).abs() < 1e-4, "{}", t.tau_normal());

@@ -44,11 +44,6 @@ impl Spread {
             lobe: None,
         }
     }
-
-    /// Straight or mirrored light alone.
-    pub const fn regular(share: AngularTransmittance) -> Self {
-        Self { regular: share, diffuse: AngularTransmittance::Constant(0.0), lobe: None }
-    }
 }
 
 impl Specimen for Sheet {

@@ -149,15 +149,6 @@ impl SlatArray {
         self.lower
     }
 
-    /// The same slats at another tilt.
-    ///
-    /// # Errors
-    /// A tilt beyond ±90°.
-    pub fn turned(&self, tilt: f64) -> Result<Self, SlatError> {
-        check("angle", tilt.to_degrees(), tilt.abs() <= FRAC_PI_2 + 1e-9, "-90 to 90 degrees")?;
-        Ok(Self { tilt, ..self.clone() })
-    }
-
     /// Finish of the edges of solid slats.
     pub(super) fn edge(&self) -> Surface {
         let all = |side: Surface| side.diffuse + side.mirror;

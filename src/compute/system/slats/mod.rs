@@ -27,7 +27,7 @@ mod balance;
 mod chain;
 mod deposit;
 mod direct;
-pub mod flat;
+
 mod flows;
 mod measure;
 mod outline;

@@ -5,19 +5,26 @@ use crate::compute::btdf::Btdf;
 use crate::compute::direction::Dir;
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
-use crate::compute::system::panes::glazing;
+use crate::compute::system::panes::{Panes, coated, glazing};
 use crate::compute::system::sheets::diffuser;
-use crate::compute::system::slats::flat::FlatSlats;
+use crate::compute::system::slats::{SlatArray, SlatProfile, Surface};
 
 const CLEAR: glazing::Pane = glazing::Pane { index: 1.52, thickness: 0.004, absorption: 10.0 };
 
+/// A layer known by its data alone.
+fn as_data(specimen: &dyn Specimen) -> Box<dyn Specimen> {
+    let cells = front_basis();
+    let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
+    Box::new(DataLayer(specimen.examine(&setting, &Silent).unwrap().0))
+}
+
 fn pane() -> Box<dyn Specimen> {
-    Box::new(DataLayer(glazing::band(&[CLEAR])))
+    as_data(&Panes::equal(coated::Layer::Clear(CLEAR), 1))
 }
 
 fn blind(tilt: f64) -> Box<dyn Specimen> {
-    let slats = FlatSlats { width: 0.08, spacing: 0.072, tilt: tilt.to_radians(), upper: 0.8, lower: 0.3 };
-    Box::new(DataLayer(slats.band().unwrap()))
+    let sides = [0.8, 0.3].map(Surface::matt);
+    as_data(&SlatArray::new(SlatProfile::Flat { width: 0.08 }, 0.0, 0.072, tilt.to_radians(), sides).unwrap())
 }
 
 fn measure(layers: Vec<Box<dyn Specimen>>, error: f64) -> Measured {
@@ -72,8 +79,8 @@ fn order_and_up_and_down_matter() {
         reflection_front: Some(Btdf::ideal_transparent(1.0)),
         reflection_back: Some(Btdf::ideal_transparent(1.0)),
     })) as Box<dyn Specimen>;
-    let open = FlatSlats { width: 0.02, spacing: 0.1, tilt: 0.0, upper: 0.0, lower: 0.0 };
-    let made = measure(vec![Box::new(DataLayer(open.band().unwrap())), mirror], 0.05);
+    let open = SlatArray::new(SlatProfile::Flat { width: 0.02 }, 0.0, 0.1, 0.0, [Surface::matt(0.0); 2]).unwrap();
+    let made = measure(vec![as_data(&open), mirror], 0.05);
     let cells = front_basis();
     let above = cells.index(Dir::from_theta_phi(0.7, PI / 2.0)).unwrap();
     let below = cells.index(Dir::from_theta_phi(0.7, -PI / 2.0)).unwrap();

@@ -50,22 +50,17 @@ pub fn bar(width: f64, thickness: f64, rises: [f64; 2], step: f64) -> Vec<[f64; 
     points
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arcs_lie_on_their_circle() {
-        for rise in [0.002, -0.003, 0.005] {
-            let points = arc([0.0, 0.0], [0.01, 0.0], rise, 0.02);
-            let radius = (0.005_f64.powi(2) + rise * rise) / (2.0 * rise.abs());
-            let centre = [0.005, rise - radius * rise.signum()];
-            for p in &points {
-                assert!(((p[0] - centre[0]).hypot(p[1] - centre[1]) - radius).abs() < 1e-12, "{rise} {p:?}");
-            }
-            let top = points.iter().map(|p| p[1] * rise.signum()).fold(0.0, f64::max);
-            assert!((top - rise.abs()).abs() < 1e-5);
+#[test]
+fn arcs_lie_on_their_circle() {
+    for rise in [0.002, -0.003, 0.005] {
+        let points = arc([0.0, 0.0], [0.01, 0.0], rise, 0.02);
+        let radius = (0.005_f64.powi(2) + rise * rise) / (2.0 * rise.abs());
+        let centre = [0.005, rise - radius * rise.signum()];
+        for p in &points {
+            assert!(((p[0] - centre[0]).hypot(p[1] - centre[1]) - radius).abs() < 1e-12, "{rise} {p:?}");
         }
-        assert_eq!(arc([0.0, 0.0], [1.0, 0.0], 0.0, 0.1).len(), 2);
+        let top = points.iter().map(|p| p[1] * rise.signum()).fold(0.0, f64::max);
+        assert!((top - rise.abs()).abs() < 1e-5);
     }
+    assert_eq!(arc([0.0, 0.0], [1.0, 0.0], 0.0, 0.1).len(), 2);
 }
