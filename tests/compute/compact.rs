@@ -12,7 +12,6 @@ use cfs::formats::compact_rows::{RowFile, write};
 use cfs::formats::dataset_blob::{content_hash, decode, encode};
 use cfs::study::compact::{LOSSLESS_BELOW, Storage, compact, stored_as, stored_by_default};
 use proptest::prelude::*;
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 fn rows_of(basis: &RingBasis, values: &[f64], criterion: Criterion) -> CompactRows {

@@ -10,7 +10,6 @@ use cfs::formats::btdf_text::{read, write, write_component};
 use cfs::formats::{Format, merge_sides, read_dataset, write_dataset};
 use glam::DVec3;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
 
 #[test]
 fn light_from_above_right_to_below_left_stays_so() {

@@ -8,7 +8,7 @@ use cfs::compute::btdf::{Btdf, Scattered};
 use cfs::compute::direction::{Dir, Incident};
 use cfs::formats::read_dataset;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 fn rows(path: &Path) -> Vec<HashMap<String, String>> {

@@ -7,7 +7,7 @@ use cfs::compute::btdf::{
 };
 use cfs::compute::direction::{Dir, Incident};
 use cfs::formats::bsdf_xml::{TreeForm, rank_of, read, write, write_tree};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 fn tree(btdf: &Btdf) -> &TensorTree {
     let (None, Some(Scattered::Tree(tree))) = (&btdf.regular, &btdf.scattered) else { panic!("a tree") };

@@ -9,7 +9,7 @@ use cfs::formats::luminaire::{Description, Luminaire, Photometry};
 use cfs::formats::{FormatError, Location, eulumdat, ies};
 use proptest::prelude::*;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 fn lid(parts: Vec<EmergentLuminance>) -> Lid {
