@@ -28,7 +28,7 @@ fn sum(notes: &str) -> String {
         reasons.entry(why).or_default().insert(test);
     }
     let tests: BTreeSet<&&str> = reasons.values().flatten().collect();
-    let parts: Vec<String> = reasons.iter().map(|(why, tests)| format!("{}: {why}", tests.len())).collect();
+    let parts: Vec<String> = reasons.iter().map(|(why, tests)| format!("{why}: {}", tests.len())).collect();
     match tests.len() {
         0 => "not looked at: nothing; no test went without its data or driver".to_owned(),
         1 => format!("not looked at: 1 test; {}", parts.join(", ")),
