@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench compact`. Printed first: sizes and errors of the datasets that are timed.
 
-#[path = "../tests/compact/analytic.rs"]
+#[path = "../tests/compute/compact/analytic.rs"]
 mod analytic;
 
 use cfs::compute::wavelet::Criterion;

@@ -26,7 +26,7 @@
 //! # Layers
 //!
 //! Imports go one way: [`compute`] ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← {[`cli`], [`app`]} ← `main`.
-//! `tests/tidy.rs` enforces it.
+//! `tests/tidy` enforces it.
 //!
 //! | module | owns | must not touch |
 //! | --- | --- | --- |

@@ -35,7 +35,7 @@ const HEAD: &str = "# The report's figures, computed\n\n\
     Written by `cargo run --release --example figures`; every number comes from that run. Figures are numbered as in the \
     IEA SHC Task 31 report of 2005. Systems are closed forms, sampled where data are asked for. *Misplaced flux* is half \
     the flux of the difference of two distributions over the flux of one. The tables (`.csv`) hold the numbers behind each \
-    picture. Claims are held by `tests/figures.rs`.\n\n\
+    picture. Claims are held by `tests/compute/figures.rs`.\n\n\
     | figure | what it shows | key numbers | files |\n| --- | --- | --- | --- |\n";
 
 fn main() -> Result<()> {

@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "the pictures and the test each use their own part")]
 
-use crate::systems::{self, CLEAR, OVERCAST, Place};
+use super::systems::{self, CLEAR, OVERCAST, Place};
 use anyhow::Result;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::Dataset;

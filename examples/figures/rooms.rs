@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "the pictures and the test each use their own part")]
 
-use crate::systems::{self, Place, along, totals};
+use super::systems::{self, Place, along, totals};
 use anyhow::Result;
 use cfs::compute::basis::RingBasis;
 use cfs::compute::btdf::Dataset;

@@ -2,7 +2,7 @@
 //!
 //! # Rooms, foundations first
 //!
-//! Each room uses only those before it, and inside a room no two files use each other; `tests/tidy.rs` reads this list.
+//! Each room uses only those before it, and inside a room no two files use each other; `tests/tidy` reads this list.
 //!
 //! - `angle`: angles and bearings as types
 //! - `direction`: directions, frames and what points where

@@ -1,0 +1,6 @@
+//! The catalogue's file, its exchange, and the products built in.
+
+mod assets;
+mod catalogue;
+mod datasets;
+mod packages;

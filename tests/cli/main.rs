@@ -1,0 +1,12 @@
+//! The command line from outside, as scripts see it.
+
+mod catalogue_cli;
+mod cli;
+#[path = "../common/mod.rs"]
+mod common;
+mod control_cli;
+mod doctor_cli;
+mod examples;
+mod goniophotometer_cli;
+#[path = "../scenes/rooms.rs"]
+mod rooms;

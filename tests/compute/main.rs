@@ -1,0 +1,12 @@
+//! Parts of the computation by themselves: skies, systems measured numerically, the compact form, ways between
+//! incident directions, the report's figures.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod compact;
+mod compact_tree;
+mod figures;
+mod goniophotometer_glass;
+mod goniophotometer_slats;
+mod incidence_schemes;
+mod sky;

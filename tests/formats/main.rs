@@ -1,0 +1,13 @@
+//! Readers and writers of datasets and luminaires, and the data doctor.
+
+mod btdf_text;
+#[path = "../common/mod.rs"]
+mod common;
+mod doctor;
+mod doctor_made;
+mod formats_bsdf_xml;
+mod formats_btdf_text;
+mod formats_files;
+mod formats_material;
+mod formats_tensor_xml;
+mod luminaire;

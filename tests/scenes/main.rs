@@ -1,0 +1,16 @@
+//! Whole scenes: closed forms, reference cases, what the plan leaves out, extreme input, years of control.
+
+mod accuracy;
+mod coefficients;
+#[path = "../common/mod.rs"]
+mod common;
+mod control;
+mod luminaire_daylight;
+mod method;
+mod near_field;
+mod plan;
+mod reference_kit;
+mod rooms;
+mod stability;
+mod stability_measured;
+mod validation;

@@ -1,0 +1,326 @@
+//! The window with the real study and a catalogue in memory, without a display: what is selected and set is what is
+//! computed, and what is written can be read.
+
+use crate::common::data;
+use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
+use cfs::app::command::Command;
+use cfs::app::dialogs::NoDialogs;
+use cfs::app::scene::{Selection, fill, first_scene};
+use cfs::app::shelf::Query;
+use cfs::app::state::{PathUse, Settings};
+use cfs::app::tiles::TILES;
+use cfs::app::{App, Services};
+use cfs::catalogue::{Catalogue, SourceFile};
+use cfs::formats::{Format, eulumdat, ies, write_dataset};
+use cfs::study::control::year::CONTROLLED;
+use cfs::study::scene_file::ControlMode;
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const PATIENCE: Duration = Duration::from_secs(120);
+
+fn harness(app: App) -> Harness<'static, App> {
+    Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
+        |ui, app: &mut App| {
+            let ctx = ui.ctx().clone();
+            app.logic(&ctx);
+            app.draw(ui);
+        },
+        app,
+    )
+}
+
+fn window() -> Harness<'static, App> {
+    let mut harness = harness(App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf));
+    // Coarse: what is tested is the wiring.
+    let sensors = &mut harness.state_mut().state.document.scene.sensors;
+    let plane = sensors.plane.as_mut().unwrap();
+    (plane.nx, plane.ny) = (2, 4);
+    settle(&mut harness);
+    harness
+}
+
+/// A window on a catalogue's file, with the real study.
+fn window_on(path: &Path, settings: Settings) -> Harness<'static, App> {
+    let path = path.to_owned();
+    harness(App::new(
+        Services {
+            open_catalogue: Arc::new(move || open_shelf(Some(&path))),
+            read: SourceFile::read,
+            dialogs: Arc::new(NoDialogs),
+            engine: Arc::new(StudyEngine::default()),
+        },
+        settings,
+    ))
+}
+
+/// Steps until something holds.
+fn step_until(harness: &mut Harness<'_, App>, what: &str, holds: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !holds(harness.state()) {
+        assert!(start.elapsed() < PATIENCE, "{what}: {:?}", harness.state().state.dataset.error);
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+}
+
+#[test]
+fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("catalogue.sqlite");
+    let mut harness = window_on(&path, Settings::default());
+    step_until(&mut harness, "six tiles", |app| {
+        let results = &app.results;
+        let shown = app.state.dataset.value.is_some() && app.state.daylight.value.is_some();
+        shown && results.lid.value.is_some() && results.room.value.is_some() && results.year.value.is_some()
+    });
+    assert_eq!(harness.state().state.document.selection.product, "venetian-80-72");
+    assert_eq!(harness.state().state.found.total, 3, "nothing that is not in sight came before");
+    step_until(&mut harness, "the list fills up", |app| app.state.found.total >= 5);
+    // What was done stays for the next start.
+    drop(harness);
+    assert!(Catalogue::open_to_fill(&path).unwrap().facets().unwrap().all >= 5);
+}
+
+#[test]
+fn a_scene_whose_product_is_still_to_come_is_shown_when_it_has_come() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = first_scene();
+    fill(&mut scene, &Selection { product: "clear-double".to_owned(), state: String::new() });
+    let settings = Settings { last_scene: toml::to_string(&scene).ok(), ..Settings::default() };
+    let mut harness = window_on(&folder.path().join("catalogue.sqlite"), settings);
+    let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
+    step_until(&mut harness, "clear-double", |app| shown(app) && app.results.room.value.is_some());
+}
+
+/// Steps until no job is left, then a few frames more.
+fn settle(harness: &mut Harness<'_, App>) {
+    let start = Instant::now();
+    harness.run_steps(3);
+    while harness.state().busy() && start.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    assert!(!harness.state().busy(), "jobs end");
+    harness.run_steps(3);
+    assert!(!harness.state().busy(), "nothing is asked again and again");
+}
+
+fn apply(harness: &mut Harness<'_, App>, command: Command) {
+    harness.state_mut().apply(command);
+    settle(harness);
+}
+
+/// Mean illuminance over the sensors: total and direct. [lx]
+fn means(harness: &Harness<'_, App>) -> (f64, f64) {
+    let results = &harness.state().results.room;
+    assert!(!results.stale && results.error.is_none(), "{:?}", results.error);
+    let room = results.value.as_ref().unwrap();
+    let count = room.positions.len() as f64;
+    let sum = |f: &dyn Fn(usize) -> f64| (0..room.positions.len()).map(f).sum::<f64>() / count;
+    (sum(&|i| room.total(i).value), sum(&|i| room.direct[i].value))
+}
+
+/// A product that moves and has a control curve.
+fn select_blind(harness: &mut Harness<'_, App>) -> Arc<cfs::catalogue::Product> {
+    let shelf = harness.state().state.shelf().unwrap();
+    let entries = shelf.search(&Query::default()).unwrap().entries;
+    let blind = entries
+        .iter()
+        .find(|entry| entry.states.len() > 2 && !shelf.product(&entry.key).unwrap().control_curve.is_empty())
+        .expect("a built-in blind with a control curve");
+    apply(harness, Command::Select(blind.key.clone()));
+    harness.state().state.product.clone().unwrap()
+}
+
+#[test]
+fn a_product_lights_the_room_and_a_later_hour_lights_it_otherwise() {
+    let mut harness = window();
+    select_blind(&mut harness);
+    let (total, direct) = means(&harness);
+    assert!(total > direct && direct > 0.0, "{total} {direct}");
+    apply(&mut harness, Command::Hour(4));
+    let (later, _) = means(&harness);
+    assert!((later - total).abs() > 0.02 * total, "{later} {total}");
+}
+
+#[test]
+fn control_closes_the_blind_against_the_sun_and_the_room_follows() {
+    let mut harness = window();
+    let product = select_blind(&mut harness);
+    let values = |key: &str| product.states.iter().find(|state| state.key == key).unwrap().value.unwrap();
+    let most_open = product.states.iter().min_by(|a, b| a.value.unwrap().abs().total_cmp(&b.value.unwrap().abs()));
+    apply(&mut harness, Command::SelectState(most_open.unwrap().key.clone()));
+    let open = means(&harness).0;
+    apply(&mut harness, Command::Control(ControlMode::Din5034));
+    let closed = harness.state().state.shown_state.clone();
+    let greatest = product.states.iter().map(|state| state.value.unwrap()).fold(f64::MIN, f64::max);
+    assert_eq!(values(&closed), greatest, "the noon sun stands before a south façade");
+    assert!(means(&harness).0 < 0.7 * open, "{} {open}", means(&harness).0);
+    assert!(cfs::app::title::title(&harness.state().state).contains(&format!(", {closed} ·")));
+    // The dataset shown is that of the picked state.
+    let shelf = harness.state().state.shelf().unwrap();
+    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    assert_eq!(*dataset, *shelf.load(&product.key, Some(&closed)).unwrap());
+    // The scene that is saved says so itself.
+    let scene = &harness.state().state.document.scene;
+    assert_eq!(scene.control.as_ref().unwrap().mode, ControlMode::Din5034);
+    assert_eq!(harness.state().state.document.selection.state, CONTROLLED);
+
+    // The curve of a cut-off blind asks for less than closing it.
+    apply(&mut harness, Command::Control(ControlMode::Curve));
+    let picked = harness.state().state.shown_state.clone();
+    assert!(values(&picked) < greatest, "{picked}");
+    // By night it opens.
+    apply(&mut harness, Command::Hour(11));
+    assert_eq!(harness.state().state.shown_state, most_open.unwrap().key);
+    // A key takes over by hand, from where control stood.
+    harness.key_press(Key::CloseBracket);
+    settle(&mut harness);
+    assert_eq!(harness.state().state.control_mode(), ControlMode::Fixed);
+    assert!(harness.state().state.document.scene.control.is_none());
+    assert_ne!(harness.state().state.document.selection.state, CONTROLLED);
+}
+
+#[test]
+fn the_year_of_control_knows_nights_and_the_suns_half_of_the_day() {
+    let mut harness = window();
+    let product = select_blind(&mut harness);
+    apply(&mut harness, Command::Control(ControlMode::Curve));
+    let year = harness.state().results.year.value.clone().expect("a year");
+    assert_eq!(year.hours.len(), 365 * 24);
+    assert_eq!(year.states.len(), product.states.len());
+    // Midnight never has sun, noon of a south façade always.
+    assert!((0..365).all(|day| year.hours[24 * day].is_none() && year.hours[24 * day + 12].is_some()));
+    // The high noon sun of June is cut off by an opener blind than the low one of December.
+    let noon = |day: usize| year.hours[24 * day + 12].unwrap();
+    assert!(noon(171) < noon(354), "{} {}", noon(171), noon(354));
+    // A north façade has no sun in December at all, but early and late in June.
+    let mut scene = harness.state().state.document.scene.clone();
+    scene.site.azimuth = 0.0;
+    apply(&mut harness, Command::Scene(Box::new(scene)));
+    let north = harness.state().results.year.value.clone().unwrap();
+    assert!(north.hours[24 * 354..24 * 355].iter().all(Option::is_none));
+    assert!(north.hours[24 * 171 + 6].is_some() && north.hours[24 * 171 + 12].is_none());
+}
+
+#[test]
+fn a_product_without_states_cannot_be_controlled_and_says_so() {
+    let mut harness = window();
+    let found = harness.state().state.found.clone();
+    let still = found.entries.iter().find(|entry| entry.states.len() == 1).unwrap();
+    apply(&mut harness, Command::Select(still.key.clone()));
+    apply(&mut harness, Command::Control(ControlMode::Din5034));
+    assert_eq!(harness.state().state.control_mode(), ControlMode::Fixed);
+    assert!(harness.state().results.year.value.is_none());
+}
+
+#[test]
+fn the_lid_is_written_as_luminaire_files_that_hold_its_flux() {
+    let mut harness = window();
+    select_blind(&mut harness);
+    let lid = harness.state().results.lid.value.clone().expect("a LID");
+    let flux = lid.flux.value;
+    assert!(flux > 0.0);
+    let folder = tempfile::tempdir().unwrap();
+    let write = |harness: &mut Harness<'_, App>, name: &str| {
+        let path = folder.path().join(name);
+        apply(harness, Command::Write(PathUse::ExportLid, path.clone()));
+        std::fs::read(path).unwrap()
+    };
+    let ldt = eulumdat::read(&write(&mut harness, "window.ldt")).unwrap();
+    let lm63 = ies::read(&write(&mut harness, "window.ies")).unwrap();
+    for read in [ldt, lm63] {
+        assert!((read.flux() / flux - 1.0).abs() < 2e-3, "{} {flux}", read.flux());
+    }
+    assert!(write(&mut harness, "window.png").starts_with(b"\x89PNG"));
+    assert!(String::from_utf8(write(&mut harness, "window.svg")).unwrap().contains("<svg"));
+    assert!(String::from_utf8(write(&mut harness, "window.csv")).unwrap().lines().count() > 100);
+    // A format that is none leaves nothing behind.
+    let wrong = folder.path().join("window.doc");
+    apply(&mut harness, Command::Write(PathUse::ExportLid, wrong.clone()));
+    assert!(!wrong.exists());
+}
+
+#[test]
+fn every_tile_is_written_as_numbers() {
+    let mut harness = window();
+    select_blind(&mut harness);
+    let folder = tempfile::tempdir().unwrap();
+    for tile in TILES.iter().map(|entry| entry.tile) {
+        let path = folder.path().join(format!("{}.csv", tile.title));
+        apply(&mut harness, Command::Write(PathUse::ExportTile(tile), path.clone()));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{tile:?}: {error}"));
+        let rows: Vec<&str> = text.lines().collect();
+        assert!(rows.len() > 5, "{tile:?}: {text}");
+        assert!(rows[0].contains(','), "{tile:?}: {}", rows[0]);
+    }
+    let room = std::fs::read_to_string(folder.path().join("Room.csv")).unwrap();
+    assert_eq!(room.lines().count(), 1 + 8, "one row a sensor");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), TILES.len(), "no part files stay");
+}
+
+fn import(harness: &mut Harness<'_, App>, path: PathBuf) {
+    apply(harness, Command::OpenPaths(vec![path]));
+    let import = harness.state().state.import.as_ref().expect("an import sheet");
+    assert!(import.failures.is_empty(), "{:?}", import.failures);
+    apply(harness, Command::AddImport);
+}
+
+#[test]
+fn a_klems_file_of_our_own_comes_in_is_found_and_goes_out_again() {
+    let mut harness = window();
+    let product = select_blind(&mut harness);
+    let shelf = harness.state().state.shelf().unwrap();
+    let mut dataset = (*shelf.load(&product.key, Some(&product.states[0].key)).unwrap()).clone();
+    dataset.name = "Quux lamella".to_owned();
+    dataset.state = String::new();
+    let tau = dataset.transmission().unwrap().tau_hemispherical();
+    let bytes = write_dataset(Format::BsdfXml, &[dataset]).unwrap().bytes;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("quux.xml");
+    std::fs::write(&path, bytes).unwrap();
+    let before = harness.state().state.found.total;
+    import(&mut harness, path);
+    assert_eq!(harness.state().state.found.total, before + 1);
+    apply(&mut harness, Command::Find(Query { text: "quux".to_owned(), ..Query::default() }));
+    let found = harness.state().state.found.clone();
+    assert_eq!(found.entries.len(), 1);
+    assert!((found.entries[0].tau_hemispherical.unwrap() - tau).abs() < 0.01, "{tau}");
+    assert!(means(&harness).0 > 0.0);
+    for _ in 0..3 {
+        if harness.state().state.found.total > before {
+            harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+            settle(&mut harness);
+        }
+    }
+    assert_eq!(harness.state().state.found.total, before);
+    assert!(shelf.search(&Query { text: "quux".to_owned(), ..Query::default() }).unwrap().entries.is_empty());
+}
+
+#[test]
+fn a_makers_file_lights_the_room() {
+    let Some(folder) = data("data/bsdf/clear_and_venetian_w7") else { return };
+    let file = walk(&folder).into_iter().next().unwrap();
+    let mut harness = window();
+    let before = harness.state().state.found.total;
+    import(&mut harness, file);
+    assert_eq!(harness.state().state.found.total, before + 1);
+    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    let tau = dataset.transmission().unwrap().tau_hemispherical();
+    assert!(tau > 0.0 && tau < 1.0, "{tau}");
+    let (total, direct) = means(&harness);
+    assert!(total > direct && direct > 0.0, "{total} {direct}");
+}
+
+fn walk(folder: &Path) -> Vec<PathBuf> {
+    let mut list: Vec<PathBuf> = std::fs::read_dir(folder)
+        .map(|entries| entries.flatten().map(|entry| entry.path()).collect())
+        .unwrap_or_default();
+    list.retain(|path| path.extension().is_some_and(|extension| extension == "xml"));
+    list.sort();
+    list
+}

@@ -1,0 +1,10 @@
+//! The window without a display: found by name, operated by mouse and keyboard, looked at.
+
+mod accuracy_view;
+mod app;
+mod app_engine;
+#[path = "../common/mod.rs"]
+mod common;
+mod control_view;
+mod goniophotometer_view;
+mod views;
