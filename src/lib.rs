@@ -59,8 +59,8 @@
 //! | add a dataset format | a file in [`formats`], an arm of [`formats::Format`] and of its dispatch |
 //! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], its extension in [`study::luminaire_file`] |
 //! | add a sky model | a file in [`compute::sky`], its key in [`study::scene_file`] |
-//! | add a computed system | a `Specimen` in [`compute::system::measure`], its keys in [`formats::system_toml`], its arm in [`compute::system::measure::specimen`] |
-//! | add a built-in product | a description under `assets/systems`, its line in [`catalogue::SYSTEMS`] |
+//! | add a family of systems | a room in [`compute::system`] that answers [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
+//! | add a built-in product | a description under `assets/systems`: all of them are [`catalogue::SYSTEMS`] |
 //! | add a check or a repair of data | [`compute::doctor`] |
 //! | add a control rule | [`compute::control`], its key in [`study::scene_file`] |
 //! | change an angle convention | [`compute::direction`], nowhere else |

@@ -4,7 +4,7 @@
 #![allow(dead_code, reason = "the picture and the test each use their own part")]
 
 use cfs::compute::control::controller::{Controller, Inputs, Rounding, Rule, Settings, SunAt};
-use cfs::compute::control::cut_off::Section;
+use cfs::compute::control::cut_off::SlatRow;
 use cfs::compute::sky::SUN_HALF_ANGLE;
 use cfs::compute::system::slats::SlatProfile;
 
@@ -21,17 +21,17 @@ pub struct Characteristic {
     /// The same in the device's states, for the sun's disc about the angle.
     pub steps: Vec<[f64; 2]>,
     /// Slats, for rules that need them.
-    pub section: Option<Section>,
+    pub section: Option<SlatRow>,
 }
 
 /// Flat slats, 80 mm every 72 mm.
-pub fn flat() -> Option<Section> {
-    Section::new(SlatProfile::Flat { width: 0.080 }, 0.072)
+pub fn flat() -> Option<SlatRow> {
+    SlatRow::new(SlatProfile::Flat { width: 0.080 }, 0.072)
 }
 
 /// Slats on an arc, the same chord and pitch, crown 16 mm over the chord.
-pub fn curved() -> Option<Section> {
-    Section::new(SlatProfile::Arc { width: 0.080, rise: 0.016 }, 0.072)
+pub fn curved() -> Option<SlatRow> {
+    SlatRow::new(SlatProfile::Arc { width: 0.080, rise: 0.016 }, 0.072)
 }
 
 /// Profile angles of the picture. \[°\]

@@ -4,7 +4,7 @@ use super::systems::blind_of;
 use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
 use crate::compute::btdf::{Band, Dataset, Finding};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
-use crate::compute::control::cut_off::Section;
+use crate::compute::control::cut_off::SlatRow;
 use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::system::SystemDescription;
 use crate::compute::system::measure::Quality;
@@ -91,7 +91,7 @@ fn state_name(dataset: &Dataset) -> StateName {
 /// sends it to the ceiling; none for other words. Values are held within the states' range.
 pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
     let range = blind.angles.iter().fold([FRAC_PI_2, -FRAC_PI_2], |[low, high], &a| [low.min(a), high.max(a)]);
-    let Some(section) = Section::of(blind) else { return Vec::new() };
+    let Some(section) = SlatRow::of(blind) else { return Vec::new() };
     let tilt = |psi: f64| match rule {
         "cut-off" => {
             let most_open = [range[0].max(0.0), range[1]];

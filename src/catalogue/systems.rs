@@ -3,109 +3,33 @@
 use crate::compute::system::SystemKind;
 use crate::compute::system::slats::Venetian;
 use crate::compute::system::stack::LayerSource;
-use crate::formats::system_toml::{self, EACH_STATE, SystemFile};
+use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
+use include_dir::{Dir, File, include_dir};
+use std::sync::LazyLock;
 
-/// Name and text of the descriptions with the given names.
-macro_rules! described {
-    ($($name:literal,)*) => {
-        &[$((
-            concat!($name, ".system.toml"),
-            include_str!(concat!("../../assets/systems/", $name, ".system.toml")),
-        ),)*]
-    };
-}
+/// All files of the folder; a new one is taken in when this file is compiled anew.
+static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/systems");
+/// Kinds in the order of the catalogue; others follow, stacks come last.
+const ORDER: [&str; 7] = ["pane", "diffuser", "woven", "laser-cut-panel", "venetian", "prismatic", "perforated"];
+/// The product that a new window shows comes before all.
+const FIRST: &str = "venetian-80-72.system.toml";
 
 /// File name and text of every built-in description, in the order of the catalogue.
-pub const SYSTEMS: &[(&str, &str)] = described![
-    "venetian-80-72",
-    "bronze-single",
-    "clear-double",
-    "clear-single",
-    "clear-triple",
-    "electrochromic-clear",
-    "electrochromic-dark",
-    "electrochromic-light",
-    "electrochromic-medium",
-    "green-single",
-    "grey-single",
-    "low-e-pane",
-    "low-iron-single",
-    "reflective-single",
-    "solar-control-pane",
-    "acrylic-diffuser-clear",
-    "acrylic-diffuser-haze",
-    "laminated-white-translucent",
-    "membrane-glass-fibre",
-    "multiwall-polycarbonate-clear",
-    "multiwall-polycarbonate-opal",
-    "opal-dense",
-    "opal-light",
-    "patterned-glass",
-    "roller-blind-beige",
-    "roller-blind-white",
-    "sandblasted-glass",
-    "satinated-glass",
-    "translucent-insulation-aerogel",
-    "translucent-insulation-fleece",
-    "screen-charcoal-1",
-    "screen-charcoal-10",
-    "screen-charcoal-3",
-    "screen-grey-3",
-    "screen-grey-5",
-    "screen-white-10",
-    "screen-white-3",
-    "laser-cut-panel-050",
-    "laser-cut-panel-100",
-    "laser-cut-panel-150",
-    "laser-cut-panel",
-    "exterior-60-50-silver",
-    "exterior-80-72-anthracite",
-    "exterior-80-72-silver",
-    "exterior-80-72-white",
-    "exterior-z-90-75",
-    "fixed-louvre-150-45",
-    "interior-25-21-silver",
-    "interior-25-21-white",
-    "interior-50-42-white",
-    "louvre-200-wood",
-    "louvre-300-aluminium",
-    "louvre-400-mirror",
-    "micro-16-12-silver",
-    "micro-louvre-17",
-    "mirror-80-72-convex",
-    "redirecting-50-42-mirror",
-    "redirecting-80-72-mirror",
-    "retro-stepped-45-36",
-    "retro-v-60-50",
-    "vertical-blind-127",
-    "vertical-louvre-400",
-    "vertical-louvre-terracotta",
-    "wood-50-43",
-    "prismatic-42-5-outside",
-    "prismatic-42-5",
-    "prismatic-45-45-outside",
-    "prismatic-45-45",
-    "prismatic-63-27",
-    "prismatic-film-40-90",
-    "egg-crate-facade",
-    "egg-crate-white",
-    "expanded-metal-fine",
-    "expanded-metal-medium",
-    "perforated-round-33",
-    "perforated-round-51",
-    "perforated-square-44",
-    "double-integral-micro-blind",
-    "double-laser-cut-panel",
-    "low-e-double-exterior-blind",
-    "low-e-double-exterior-screen",
-    "low-e-double-interior-blind",
-    "low-e-double-interior-screen",
-    "low-e-double-opal",
-    "low-e-double-redirecting-blind",
-    "low-e-double",
-    "low-e-triple",
-    "solar-control-double",
-];
+///
+/// # Panics
+/// Never: the tests read every built-in description.
+pub static SYSTEMS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
+    let text = |file: &'static File<'_>| Some((file.path().to_str()?, file.contents_utf8()?));
+    let mut list: Vec<(&str, &str)> =
+        FOLDER.files().filter_map(text).filter(|(name, _)| is_system_file(name)).collect();
+    list.sort_by_cached_key(|(name, text)| {
+        let read = system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests");
+        let word = read.system.family().word();
+        let place = ORDER.iter().position(|kind| *kind == word).unwrap_or(ORDER.len() + usize::from(word == "stack"));
+        (*name != FIRST, place, *name)
+    });
+    list
+});
 
 /// A built-in description by the name of its file.
 ///
@@ -128,5 +52,22 @@ pub fn blind_of(system: &str) -> Option<Venetian> {
             }
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_files_of_the_folder_are_known_and_in_order() {
+        let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/systems")).unwrap();
+        let mut there: Vec<String> = folder.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        there.retain(|name| is_system_file(name));
+        there.sort();
+        let mut known: Vec<&str> = SYSTEMS.iter().map(|(name, _)| *name).collect();
+        assert_eq!((known[0], known.last().copied()), (FIRST, Some("solar-control-double.system.toml")));
+        known.sort_unstable();
+        assert_eq!(known, there, "a file came or went since src/catalogue/systems.rs was compiled: touch it");
     }
 }

@@ -85,12 +85,12 @@ pub trait LayerLibrary: SystemLibrary {
 
 /// A layer of a stack. Panes next to each other stay panes: light keeps its polarisation between them, which matrices
 /// do not know.
-enum Part {
+enum LayerRun {
     Panes(Vec<Pane>),
     Other(Box<dyn Specimen>),
 }
 
-impl Part {
+impl LayerRun {
     fn into_specimen(self) -> Box<dyn Specimen> {
         match self {
             Self::Panes(layers) => Box::new(Panes { layers }),
@@ -179,7 +179,7 @@ impl Described {
     pub fn specimen(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn Specimen>, StudyError> {
         let mut layers = Vec::new();
         self.layers_into(&mut layers, state, library, 0)?;
-        let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(Part::into_specimen).collect();
+        let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(LayerRun::into_specimen).collect();
         Ok(match ready.len() {
             1 => ready.pop().expect("counted"),
             _ => Box::new(Stack(ready)),
@@ -190,7 +190,7 @@ impl Described {
     /// cells.
     fn layers_into(
         &self,
-        list: &mut Vec<Part>,
+        list: &mut Vec<LayerRun>,
         state: &str,
         library: &dyn LayerLibrary,
         depth: usize,
@@ -199,9 +199,9 @@ impl Described {
         let SystemKind::Stack(layers) = &system.kind else {
             let made = system.specimen(state).map_err(|error| StudyError::key("state", error.to_string()))?;
             match (&system.kind, list.last_mut()) {
-                (SystemKind::Pane(pane), Some(Part::Panes(before))) => before.extend(pane.layers()),
-                (SystemKind::Pane(pane), _) => list.push(Part::Panes(pane.layers())),
-                _ => list.push(Part::Other(made)),
+                (SystemKind::Pane(pane), Some(LayerRun::Panes(before))) => before.extend(pane.layers()),
+                (SystemKind::Pane(pane), _) => list.push(LayerRun::Panes(pane.layers())),
+                _ => list.push(LayerRun::Other(made)),
             }
             return Ok(());
         };
@@ -218,14 +218,14 @@ impl Described {
             }
         }
         if system.upright {
-            list[first..].iter_mut().for_each(Part::turn);
+            list[first..].iter_mut().for_each(LayerRun::turn);
         }
         Ok(())
     }
 
     fn layer_into(
         &self,
-        list: &mut Vec<Part>,
+        list: &mut Vec<LayerRun>,
         layer: &Layer,
         state: &str,
         library: &dyn LayerLibrary,
@@ -241,7 +241,7 @@ impl Described {
             LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
         };
         let system = library.load(&keys, self.folder())?;
-        list.push(Part::Other(Box::new(DataLayer(system.dataset.visible.clone()))));
+        list.push(LayerRun::Other(Box::new(DataLayer(system.dataset.visible.clone()))));
         Ok(())
     }
 

@@ -9,11 +9,11 @@ use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::direction::{Dir, Facade};
 use cfs::compute::estimate::Silent;
 use cfs::compute::system::clear::prism::Prisms;
-use cfs::compute::system::clear::{Body, Material, Outline, OutlineError, Section};
+use cfs::compute::system::clear::{Body, ClearSection, Material, Outline, OutlineError};
 use cfs::compute::system::laser_cut::CutPanel;
 use cfs::compute::system::laser_cut::LaserCutPanel;
 use cfs::compute::system::measure::beams::Effort;
-use cfs::compute::system::measure::beams::{Beam, Beams, Shares, SharpBeams};
+use cfs::compute::system::measure::beams::{Beams, Shares, SharpBeam, SharpBeams};
 use cfs::compute::system::measure::{Measured, Setting, Side, Specimen};
 use cfs::compute::system::panes::Panes;
 use cfs::compute::system::panes::coated::{Layer, stack};
@@ -102,10 +102,10 @@ fn beams_turn_as_their_slopes_say() {
     assert!(compared > 30, "{compared}");
 }
 
-fn sheet(index: f64, absorption: f64) -> Section {
+fn sheet(index: f64, absorption: f64) -> ClearSection {
     let face = |z: f64| vec![[z, 0.0], [z, 0.01]];
     let outline = Outline::Sheet { outer: face(0.0), inner: face(-0.004) };
-    Section::new(0.01, vec![Body { outline, material: Material { index, absorption } }], [None, None]).unwrap()
+    ClearSection::new(0.01, vec![Body { outline, material: Material { index, absorption } }], [None, None]).unwrap()
 }
 
 fn totals(system: &impl Beams, name: Dir<Facade>, side: Side) -> [f64; 3] {
@@ -151,14 +151,14 @@ fn bars_that_touch_are_a_laser_cut_panel() {
     // elsewhere total reflection at the cuts turns the polarisation, which the closed form leaves out (some 0.1 %).
     let bar = Outline::Closed(vec![[0.0, 0.0], [0.0, 0.004], [-0.006, 0.004], [-0.006, 0.0]]);
     let body = Body { outline: bar, material: Material { index: 1.49, absorption: 0.0 } };
-    let section = Section::new(0.004, vec![body], [None, None]).unwrap();
+    let section = ClearSection::new(0.004, vec![body], [None, None]).unwrap();
     let mut shares = Shares::default();
     for (theta, phi) in [(0.3, 0.5 * PI), (0.8, 1.5 * PI), (1.1, 0.5 * PI)] {
         let name = Dir::from_theta_phi(theta, phi);
         section.beams(name, Side::Front, Effort { share: 1e-7, seed: 5, surfaces: u32::MAX }, &mut shares);
         let y = name.vector().y;
         let sum = |transmitted: bool, sign: f64| -> f64 {
-            let fits = |b: &&Beam| b.transmitted == transmitted && (b.y - sign * y).abs() < 1e-9;
+            let fits = |b: &&SharpBeam| b.transmitted == transmitted && (b.y - sign * y).abs() < 1e-9;
             shares.beams.iter().filter(fits).map(|b| b.share).sum()
         };
         let exact = cut_panel().panel.shares(name, 0.0);
@@ -208,7 +208,7 @@ fn deviation_is_least_where_light_crosses_symmetrically() {
     let half = 0.5 * apex;
     let outline = Outline::Closed(vec![[0.0, 0.002], [-0.002 * half.tan(), 0.0], [0.002 * half.tan(), 0.0]]);
     let body = Body { outline, material: Material { index: n, absorption: 0.0 } };
-    let section = Section::new(0.05, vec![body], [None, None]).unwrap();
+    let section = ClearSection::new(0.05, vec![body], [None, None]).unwrap();
     let mut shares = Shares::default();
     // The strongest beam beside what passes by, as deviation.
     let mut deviation = |incidence: f64| {
@@ -238,7 +238,7 @@ fn flipped_prisms_exchange_the_sides() {
     }
 }
 
-fn grooves(upper: f64, lower: f64) -> Section {
+fn grooves(upper: f64, lower: f64) -> ClearSection {
     Prisms { angles: [upper, lower].map(f64::to_radians), ..prisms() }.section().unwrap()
 }
 
@@ -336,7 +336,7 @@ fn profiles_between_panes_keep_energy() {
     let outline = Outline::Closed(bar(0.012, 0.004, [0.0015, 0.0015], 0.5));
     let body = Body { outline, material: Material { index: 1.49, absorption: 0.0 } };
     let pane = Pane { index: 1.52, thickness: 0.004, absorption: 5.0 };
-    let section = Section::new(0.006, vec![body], [Some(pane), Some(pane)]).unwrap();
+    let section = ClearSection::new(0.006, vec![body], [Some(pane), Some(pane)]).unwrap();
     assert_eq!(section.outline().len(), 3);
     let mut shares = Shares::default();
     for (theta, phi) in [(0.2, 1.0), (0.9, 4.0)] {
@@ -356,7 +356,7 @@ fn profiles_between_panes_keep_energy() {
 fn outlines_that_are_no_bodies_are_told() {
     let material = Material { index: 1.49, absorption: 0.0 };
     let section = |points: Vec<[f64; 2]>| {
-        Section::new(1.0, vec![Body { outline: Outline::Closed(points), material }], [None, None])
+        ClearSection::new(1.0, vec![Body { outline: Outline::Closed(points), material }], [None, None])
     };
     let bow = section(vec![[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.7]]);
     assert!(matches!(bow, Err(OutlineError::Crossing(0, 0))), "{bow:?}");
@@ -370,7 +370,7 @@ fn redirecting_glass_keeps_energy_and_reciprocity_in_all_cells() {
     let outline = Outline::Closed(vec![[-0.006, 0.0], [0.006, 0.0], [0.006, 0.003], [-0.006, 0.004]]);
     let body = Body { outline, material: Material { index: 1.49, absorption: 2.0 } };
     let pane = Pane { index: 1.52, thickness: 0.004, absorption: 5.0 };
-    let section = Section::new(0.006, vec![body], [Some(pane), Some(pane)]).unwrap();
+    let section = ClearSection::new(0.006, vec![body], [Some(pane), Some(pane)]).unwrap();
     let basis = klems();
     let setting = Setting { incident: &basis, emergent: &basis, error: 0.02, seed: 1 };
     let measured = section.specimen().measure(&setting, &Silent).unwrap();

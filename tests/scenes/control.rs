@@ -2,7 +2,7 @@
 //!
 //! Judged by rays of this file's own: from points of the sun's disc, before the section of the slats, piece by piece.
 
-use cfs::compute::control::cut_off::Section;
+use cfs::compute::control::cut_off::SlatRow;
 use cfs::compute::direction::Surface;
 use cfs::compute::estimate::Silent;
 use cfs::compute::sky::SUN_HALF_ANGLE;
@@ -22,7 +22,7 @@ struct Blind {
 }
 
 impl Blind {
-    fn new(section: &Section, tilt: f64) -> Self {
+    fn new(section: &SlatRow, tilt: f64) -> Self {
         let (sin, cos) = tilt.sin_cos();
         // A tilt above 0 lowers the outer edge.
         let turned = |[u, v]: [f64; 2]| [u * cos + v * sin, v * cos - u * sin];
@@ -106,7 +106,7 @@ fn situation(latitude: f64, facade: f64) -> Situation {
     }
 }
 
-fn moving(section: &Section, device: &Device, keys: ControlKeys) -> Vec<Moving> {
+fn moving(section: &SlatRow, device: &Device, keys: ControlKeys) -> Vec<Moving> {
     let device = Device { section: Some(section.clone()), ..device.clone() };
     vec![Moving { aperture: 1, surface: Surface::Facade, device, keys, section: Some(section.clone()) }]
 }
@@ -123,7 +123,7 @@ struct Count {
 /// Rays pass where there is more than this to pass through. \[m\]
 const GAP: f64 = 1e-8;
 
-fn judge(section: &Section, device: &Device, moments: &[Moment], facade: f64, count: &mut Count) {
+fn judge(section: &SlatRow, device: &Device, moments: &[Moment], facade: f64, count: &mut Count) {
     let values: Vec<f64> = device.values.as_ref().unwrap().iter().map(|value| value.to_radians()).collect();
     let blinds: Vec<Blind> = values.iter().map(|tilt| Blind::new(section, *tilt)).collect();
     for moment in moments {
@@ -157,7 +157,7 @@ const LATITUDES: [f64; 5] = [0.0, 25.0, 48.8, 60.0, 70.0];
 const FACADES: [f64; 5] = [180.0, 135.0, 90.0, 250.0, 0.0];
 
 /// All latitudes and façades, each a year of hours.
-fn hourly(section: &Section, device: &Device, facades: &[f64]) -> Count {
+fn hourly(section: &SlatRow, device: &Device, facades: &[f64]) -> Count {
     let keys = ControlKeys::of(ControlMode::CutOff);
     let places: Vec<(f64, f64)> = LATITUDES.into_iter().flat_map(|l| facades.iter().map(move |f| (l, *f))).collect();
     let counts: Vec<Count> = places
@@ -181,7 +181,7 @@ fn hourly(section: &Section, device: &Device, facades: &[f64]) -> Count {
 
 #[test]
 fn flat_slats_keep_the_sun_out_at_every_hour_at_five_latitudes_and_no_more_open_state_does() {
-    let section = Section::new(SlatProfile::Flat { width: 0.080 }, 0.072).unwrap();
+    let section = SlatRow::new(SlatProfile::Flat { width: 0.080 }, 0.072).unwrap();
     let count = hourly(&section, &device((0..=15).map(|k| 5 * k)), &FACADES);
     println!("{count:?}");
     assert!(count.sunny > 50_000);
@@ -190,7 +190,7 @@ fn flat_slats_keep_the_sun_out_at_every_hour_at_five_latitudes_and_no_more_open_
 
 #[test]
 fn curved_slats_that_turn_both_ways_do_as_well() {
-    let section = Section::new(SlatProfile::Arc { width: 0.080, rise: 0.008 }, 0.072).unwrap();
+    let section = SlatRow::new(SlatProfile::Arc { width: 0.080, rise: 0.008 }, 0.072).unwrap();
     let count = hourly(&section, &device((-16..=16).map(|k| 5 * k)), &[180.0, 290.0]);
     println!("{count:?}");
     assert!(count.sunny > 20_000);
@@ -199,7 +199,7 @@ fn curved_slats_that_turn_both_ways_do_as_well() {
 
 #[test]
 fn every_five_minutes_of_the_year_s_corner_days_no_sun_passes_even_with_hysteresis_and_dwell_time() {
-    let section = Section::new(SlatProfile::Arc { width: 0.080, rise: -0.006 }, 0.070).unwrap();
+    let section = SlatRow::new(SlatProfile::Arc { width: 0.080, rise: -0.006 }, 0.070).unwrap();
     let device = device((0..=16).map(|k| 5 * k));
     let keys = ControlKeys { hysteresis: Some(3.0), dwell: Some(20.0), ..ControlKeys::of(ControlMode::CutOff) };
     let mut moves = [0, 0];
@@ -236,7 +236,7 @@ fn every_five_minutes_of_the_year_s_corner_days_no_sun_passes_even_with_hysteres
 /// The judge itself: rules that do let the sun in are caught.
 #[test]
 fn rays_catch_a_cut_off_for_a_sun_without_extent_and_a_lazy_one() {
-    let section = Section::new(SlatProfile::Flat { width: 0.080 }, 0.072).unwrap();
+    let section = SlatRow::new(SlatProfile::Flat { width: 0.080 }, 0.072).unwrap();
     let device = device(0..=80);
     let exact: Vec<[f64; 2]> = (0..=90)
         .map(|k| {
@@ -263,7 +263,7 @@ fn rays_catch_a_cut_off_for_a_sun_without_extent_and_a_lazy_one() {
 
 #[test]
 fn slats_too_narrow_for_it_say_that_the_sun_passes() {
-    let section = Section::new(SlatProfile::Flat { width: 0.050 }, 0.060).unwrap();
+    let section = SlatRow::new(SlatProfile::Flat { width: 0.050 }, 0.060).unwrap();
     let device = device((0..=16).map(|k| 5 * k));
     let keys = ControlKeys::of(ControlMode::CutOff);
     let here = situation(48.8, 180.0);

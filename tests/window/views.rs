@@ -10,7 +10,7 @@ use cfs::app::views::{btdf, control, lid, room, sky, transmittance};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix};
 use cfs::compute::direction::{Dir, Emergent, Facade, Incident, Surface};
-use cfs::compute::lid::{Beam, EmergentLuminance, Lid};
+use cfs::compute::lid::{EmergentLuminance, Lid, SunBeam};
 use egui::accesskit::Toggled;
 use egui::{Theme, Ui, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -114,7 +114,7 @@ fn redirecting_lid() -> Lid {
         surface: Surface::Facade,
         size: [2.0, 1.5],
         parts: vec![EmergentLuminance::Cells { basis, luminance }],
-        beam: Some(Beam { direction: Emergent::from_through_name(from(42.0, 75.0).0), flux: 2400.0 }),
+        beam: Some(SunBeam { direction: Emergent::from_through_name(from(42.0, 75.0).0), flux: 2400.0 }),
     }
 }
 

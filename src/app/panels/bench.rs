@@ -4,7 +4,7 @@ use crate::app::command::Command;
 use crate::app::offer;
 use crate::app::state::Tile;
 use crate::app::theme::{self, TILE_GAP};
-use crate::app::tiles::{Seen, TILES};
+use crate::app::tiles::{TILES, TileInput};
 use crate::app::window::App;
 use egui::{Rect, Sense, Ui, UiBuilder, vec2};
 
@@ -44,7 +44,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     if response.double_clicked() {
         commands.push(Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) }));
     }
-    let seen = Seen {
+    let seen = TileInput {
         state: &app.state,
         results: &app.results,
         busy: &|lane| app.jobs.busy(lane),

@@ -1,6 +1,6 @@
 //! The BTDF tile: one incidence of the selected dataset, the sun's or a chosen one.
 
-use super::drawn::{Drawn, Revision, Seen};
+use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::facing::sun_incident;
 use crate::app::state::Tile;
@@ -23,7 +23,7 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let sun = sun_incident(&state.document.scene);
         let dataset = &state.dataset;

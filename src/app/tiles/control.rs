@@ -1,6 +1,6 @@
 //! The control tile of the bench: the picture, and under it the rule with what belongs to it.
 
-use super::drawn::{Drawn, Revision, Seen};
+use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::control as rules;
 use crate::app::facing::sun_incident;
@@ -164,7 +164,7 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let scene = &state.document.scene;
         let product = state.product.clone();

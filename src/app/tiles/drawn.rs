@@ -9,7 +9,7 @@ use egui::Ui;
 use std::sync::Arc;
 
 /// What a tile reads.
-pub struct Seen<'a> {
+pub struct TileInput<'a> {
     /// What the window knows.
     pub state: &'a State,
     /// What was computed.
@@ -22,7 +22,7 @@ pub struct Seen<'a> {
     pub numbers: bool,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> TileInput<'a> {
     /// How far a picture is to be trusted.
     pub const fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
         Status { coarse: false, stale, hold_scale: self.held, error }
@@ -43,7 +43,7 @@ impl<'a> Seen<'a> {
 /// The drawing of a tile, with what it remembers from frame to frame.
 pub trait Drawn {
     /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String>;
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String>;
 }
 
 /// Counts changes of a result by the address of what is shown.

@@ -1,6 +1,6 @@
 //! The LID tile: the first aperture as a luminaire.
 
-use super::drawn::{Drawn, Revision, Seen};
+use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::state::Tile;
@@ -19,7 +19,7 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, _commands: &mut Vec<Command>) -> Option<String> {
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, _commands: &mut Vec<Command>) -> Option<String> {
         let shown = &seen.results.lid;
         let figures = shown.value.as_deref();
         let name = seen.caption();

@@ -11,7 +11,7 @@ mod room;
 mod sky;
 mod transmittance;
 
-pub use drawn::{Drawn, Seen};
+pub use drawn::{Drawn, TileInput};
 pub use layout::{Layout, Row};
 
 use super::command::Command;
@@ -57,7 +57,13 @@ impl Default for Bench {
 
 impl Bench {
     /// Draws a tile; its numbers where they are asked for.
-    pub fn show(&mut self, ui: &mut Ui, tile: Tile, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        tile: Tile,
+        seen: &TileInput<'_>,
+        commands: &mut Vec<Command>,
+    ) -> Option<String> {
         let (_, drawn) = self.drawn.iter_mut().find(|(one, _)| *one == tile)?;
         drawn.show(ui, seen, commands)
     }

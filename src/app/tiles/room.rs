@@ -1,6 +1,6 @@
 //! The room tile: illuminances on the sensor plane; the plane can be moved.
 
-use super::drawn::{Drawn, Seen};
+use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::engine::RoomFigures;
 use crate::app::jobs::Lane;
@@ -48,7 +48,7 @@ fn cells(figures: &RoomFigures) -> Vec<room::CellValue> {
 }
 
 impl Drawn for Drawing {
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let shown = &seen.results.room;
         let address = shown.value.as_ref().map_or(0, |value| Arc::as_ptr(value).addr());
         let figures = shown.value.as_deref().filter(|figures| figures.grid.is_some());

@@ -1,6 +1,6 @@
 //! The sky tile: the dome as the façade sees it; the sun can be dragged.
 
-use super::drawn::{Drawn, Revision, Seen};
+use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::state::Tile;
 use crate::app::views::sky;
@@ -21,7 +21,7 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let scene = &state.document.scene;
         let daylight = state.daylight.value.as_deref();

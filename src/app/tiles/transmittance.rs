@@ -1,6 +1,6 @@
 //! The transmittance tile: τ over the incident hemisphere, the sun's paths, and where the transmitted light goes.
 
-use super::drawn::{Drawn, Revision, Seen};
+use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::facing::{incident, sun_incident, surface};
 use crate::app::state::Tile;
@@ -70,7 +70,7 @@ fn split(btdf: &Btdf, incident: Incident, surface: Surface) -> FluxSplit {
 }
 
 impl Drawn for Drawing {
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, commands: &mut Vec<Command>) -> Option<String> {
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let scene = &state.document.scene;
         let dataset = &state.dataset;

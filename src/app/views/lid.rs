@@ -34,7 +34,7 @@ pub enum Action {}
 
 /// A cut through the distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Section {
+pub enum LidPlane {
     /// The vertical plane into the room: C 0° – C 180°.
     C0,
     /// The vertical plane along the façade: C 90° – C 270°.
@@ -43,8 +43,8 @@ pub enum Section {
     Horizontal,
 }
 
-impl Section {
-    /// Direction in the room for an angle from straight down (C 0° for [`Section::Horizontal`]) towards the right of
+impl LidPlane {
+    /// Direction in the room for an angle from straight down (C 0° for [`LidPlane::Horizontal`]) towards the right of
     /// the drawing. C 0° is into the room (+y), C counts anticlockwise seen from above, so C 90° is −x.
     pub fn direction(self, angle: f64) -> Dir<Room> {
         let (sin, cos) = angle.sin_cos();
@@ -96,10 +96,10 @@ fn intensity(lid: &Lid, d: Dir<Room>) -> f64 {
 }
 
 fn sample(lid: &Lid) -> Curves {
-    let cut = |section: Section| -> Vec<f64> {
+    let cut = |section: LidPlane| -> Vec<f64> {
         (0..SAMPLES).map(|k| intensity(lid, section.direction(TAU * k as f64 / SAMPLES as f64))).collect()
     };
-    let (c0, c90, horizontal) = (cut(Section::C0), cut(Section::C90), cut(Section::Horizontal));
+    let (c0, c90, horizontal) = (cut(LidPlane::C0), cut(LidPlane::C90), cut(LidPlane::Horizontal));
     let max = c0.iter().chain(&c90).chain(&horizontal).copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
     Curves { c0, c90, horizontal, max }
 }
@@ -162,9 +162,9 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     axes.paint(ui.painter(), |a| format!("{:.0}°", a.min(TAU - a).to_degrees()), -7.0 * PI / 12.0, &palette);
     let ideal = input.flux.filter(|flux| *flux > 0.0);
     let mut text = None;
-    let vertical = [(Section::C90, &curves.c90, palette.second), (Section::C0, &curves.c0, palette.first)];
+    let vertical = [(LidPlane::C90, &curves.c90, palette.second), (LidPlane::C0, &curves.c0, palette.first)];
     if let Some(flux) = ideal {
-        dashed(ui, &axes, lid.surface, flux * factor, Section::C0, &palette);
+        dashed(ui, &axes, lid.surface, flux * factor, LidPlane::C0, &palette);
     }
     for (_, values, colour) in &vertical {
         ui.painter().add(Shape::closed_line(axes.curve(&scaled(values)), Stroke::new(2.0, *colour)));
@@ -191,7 +191,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
         let axes = PolarAxes::within(side, max);
         axes.paint(ui.painter(), |a| format!("C{:.0}", a.to_degrees()), 7.0 * PI / 12.0, &palette);
         if let Some(flux) = ideal {
-            dashed(ui, &axes, lid.surface, flux * factor, Section::Horizontal, &palette);
+            dashed(ui, &axes, lid.surface, flux * factor, LidPlane::Horizontal, &palette);
         }
         let curve = axes.curve(&scaled(&curves.horizontal));
         ui.painter().add(Shape::closed_line(curve, Stroke::new(2.0, palette.first)));
@@ -221,7 +221,7 @@ fn summary(lid: &Lid, input: &Input<'_>, curves: &Curves, factor: f64, unit: &st
     format!("{flux}largest drawn {} · {size}", si(curves.max * factor, unit))
 }
 
-fn dashed(ui: &Ui, axes: &PolarAxes, surface: Surface, flux: f64, section: Section, palette: &Palette) {
+fn dashed(ui: &Ui, axes: &PolarAxes, surface: Surface, flux: f64, section: LidPlane, palette: &Palette) {
     let samples: Vec<f64> =
         (0..180).map(|k| diffuser(surface, flux, section.direction(TAU * f64::from(k) / 180.0))).collect();
     let mut points = axes.curve(&samples);
@@ -260,9 +260,9 @@ fn legend_ui(ui: &Ui, rect: Rect, lid: &Lid, input: &Input<'_>, unit: &str, beam
         at.x += size.x + 38.0;
     };
     let narrow = rect.width() < 300.0;
-    entry(format!("{}, {unit}", Section::C0.label()), palette.first, None);
+    entry(format!("{}, {unit}", LidPlane::C0.label()), palette.first, None);
     let own_plane = if lid.surface == Surface::Facade && !narrow { " (0: façade's plane)" } else { "" };
-    entry(format!("{}{own_plane}", Section::C90.label()), palette.second, None);
+    entry(format!("{}{own_plane}", LidPlane::C90.label()), palette.second, None);
     if input.flux.is_some() {
         entry(if narrow { "diffuser" } else { "ideal diffuser, same flux" }.to_owned(), palette.weak, Some(4.0));
     }
@@ -302,11 +302,11 @@ mod tests {
 
     #[test]
     fn planes_and_angles_agree() {
-        let (gamma, c) = c_gamma(Section::C0.direction(0.5));
+        let (gamma, c) = c_gamma(LidPlane::C0.direction(0.5));
         assert!((gamma - 0.5_f64.to_degrees()).abs() < 1e-9 && c == 0.0);
-        let (gamma, c) = c_gamma(Section::C90.direction(0.5));
+        let (gamma, c) = c_gamma(LidPlane::C90.direction(0.5));
         assert!((gamma - 0.5_f64.to_degrees()).abs() < 1e-9 && (c - 90.0).abs() < 1e-9);
-        let (gamma, c) = c_gamma(Section::Horizontal.direction(1.0));
+        let (gamma, c) = c_gamma(LidPlane::Horizontal.direction(1.0));
         assert!((gamma - 90.0).abs() < 1e-9 && (c - 1_f64.to_degrees()).abs() < 1e-9);
     }
 
@@ -315,7 +315,7 @@ mod tests {
         for surface in [Surface::Facade, Surface::Roof] {
             let lid = lambert(surface);
             let flux = PI * 1000.0 * lid.area();
-            for section in [Section::C0, Section::C90, Section::Horizontal] {
+            for section in [LidPlane::C0, LidPlane::C90, LidPlane::Horizontal] {
                 for k in 0..24 {
                     let d = section.direction(f64::from(k) * TAU / 24.0 + 0.01);
                     assert!((intensity(&lid, d) - diffuser(surface, flux, d)).abs() < 1e-6);
@@ -323,7 +323,7 @@ mod tests {
             }
         }
         // A façade's largest intensity is level into the room, a roof's straight down: L·A.
-        assert!((intensity(&lambert(Surface::Facade), Section::C0.direction(FRAC_PI_2)) - 3000.0).abs() < 1e-9);
-        assert!((intensity(&lambert(Surface::Roof), Section::C0.direction(0.0)) - 3000.0).abs() < 1e-9);
+        assert!((intensity(&lambert(Surface::Facade), LidPlane::C0.direction(FRAC_PI_2)) - 3000.0).abs() < 1e-9);
+        assert!((intensity(&lambert(Surface::Roof), LidPlane::C0.direction(0.0)) - 3000.0).abs() < 1e-9);
     }
 }

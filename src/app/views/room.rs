@@ -71,7 +71,7 @@ pub enum Action {
 }
 
 /// An illuminance and its lines.
-type Level = (f64, Vec<IsoLine>);
+type IsoLevel = (f64, Vec<IsoLine>);
 
 /// The tile's own settings and pictures.
 #[derive(Debug, Clone, Default)]
@@ -81,7 +81,7 @@ pub struct State {
     /// Row of sensors in the section, counted along x; the middle one while `None`.
     pub row: Option<usize>,
     scale: Option<ColourScale>,
-    lines: Cache<(u64, [usize; 2], ColourScale), Vec<Level>>,
+    lines: Cache<(u64, [usize; 2], ColourScale), Vec<IsoLevel>>,
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
 }
 

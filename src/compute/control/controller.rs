@@ -4,7 +4,7 @@
 //! rounds to the nearest state (redirection) waits before every movement.
 
 use super::curve::{curve_range, curve_value, redirecting_tilt, retro_tilt};
-use super::cut_off::Section;
+use super::cut_off::SlatRow;
 use super::states::{by_openness, most_closed, most_open, nearest, towards_closed};
 
 /// How a demanded value becomes a state.
@@ -33,7 +33,7 @@ pub enum Rule {
     /// The most open state that lets no direct light through.
     CutOff {
         /// The slats.
-        section: Section,
+        section: SlatRow,
         /// By how much a tilt may be missed. \[rad\]
         tolerance: f64,
     },
@@ -376,7 +376,7 @@ impl Controller {
 ///
 /// # Panics
 /// Without states.
-pub fn cut_off_state(section: &Section, values: &[f64], tolerance: f64, span: [f64; 2]) -> usize {
+pub fn cut_off_state(section: &SlatRow, values: &[f64], tolerance: f64, span: [f64; 2]) -> usize {
     let order = by_openness(values);
     let keeps_out = order.iter().copied().find(|&state| section.blocks(values[state], tolerance, span));
     keeps_out.unwrap_or_else(|| {

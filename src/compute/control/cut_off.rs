@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 /// Slats of one section, infinitely many and infinitely long.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Section {
+pub struct SlatRow {
     /// Shape of a slat at tilt 0.
     pub profile: SlatProfile,
     /// Vertical pitch. \[m\]
@@ -38,7 +38,7 @@ const SLACK: f64 = 1e-10;
 /// Step by which polylines are searched. \[rad\]
 const STEP: f64 = PI / 720.0;
 
-impl Section {
+impl SlatRow {
     /// `None` where lengths are not above 0 and finite, an arc is more than a semicircle, or a polyline has no two points.
     pub fn new(profile: SlatProfile, spacing: f64) -> Option<Self> {
         let length = |x: f64| x > 0.0 && x.is_finite();

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 
 /// Luminance on emergent cells and the doubts of it. \[cd/m²\]
 #[derive(Debug, Clone, PartialEq)]
-pub struct Light {
+pub struct CellLuminance {
     /// By cell.
     pub luminance: Vec<f64>,
     /// Signed difference to the simpler interpolation.
@@ -32,7 +32,7 @@ const PLACE: f64 = 0.06;
 const SUN_REST: f64 = 0.012;
 const BEYOND: f64 = 0.4;
 
-impl Light {
+impl CellLuminance {
     /// No light.
     pub fn dark(cells: usize) -> Self {
         Self { luminance: vec![0.0; cells], doubt: vec![0.0; cells], shifts: Vec::new() }
@@ -79,15 +79,15 @@ pub fn sub_patches(step: f64) -> RingBasis {
 const CHUNK: usize = 256;
 
 /// Luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.
-pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Light {
+pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellLuminance {
     let cells = model.grid().basis().len();
     let count = model.lattice().points().len();
     let total: f64 = illuminance.iter().sum();
-    let parts: Vec<(Light, Vec<[f64; 2]>)> = illuminance
+    let parts: Vec<(CellLuminance, Vec<[f64; 2]>)> = illuminance
         .par_chunks(CHUNK)
         .enumerate()
         .map(|(chunk, list)| {
-            let (mut light, mut bases) = (Light::dark(cells), vec![[0.0; 2]; count]);
+            let (mut light, mut bases) = (CellLuminance::dark(cells), vec![[0.0; 2]; count]);
             let mut scratch = Vec::new();
             for (k, &e) in list.iter().enumerate().filter(|(_, e)| **e > 1e-9 * total) {
                 let d: Dir<Facade> = patches.cell(chunk * CHUNK + k).centre();
@@ -108,7 +108,7 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Light
             (light, bases)
         })
         .collect();
-    let (mut light, mut bases) = (Light::dark(cells), vec![[0.0; 2]; count]);
+    let (mut light, mut bases) = (CellLuminance::dark(cells), vec![[0.0; 2]; count]);
     for (part, own) in parts {
         light.add(&part);
         bases.iter_mut().zip(own).for_each(|(sum, x)| *sum = [sum[0] + x[0], sum[1] + x[1]]);
@@ -123,8 +123,8 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> Light
 }
 
 /// Luminance of the cells of `target` (which lie within the data's own) from the sun. `points`² directions a cell.
-pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> Light {
-    let mut light = Light::dark(target.basis().len());
+pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> CellLuminance {
+    let mut light = CellLuminance::dark(target.basis().len());
     let parent = parents(model.grid(), target);
     let recipe = model.recipe(direction);
     for base in &recipe.bases {
@@ -136,7 +136,7 @@ pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Gri
     }
     let mut scratch = Vec::new();
     let mut coarse = Vec::new();
-    let mut lobes = Light::dark(target.basis().len());
+    let mut lobes = CellLuminance::dark(target.basis().len());
     for copy in &recipe.copies {
         model.moved(copy, target, points, &mut scratch);
         for &(cell, q) in &scratch {

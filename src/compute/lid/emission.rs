@@ -4,7 +4,7 @@
 //! Linear data on cells (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
 //! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
 
-use super::{Beam, EmergentLuminance, Lid};
+use super::{EmergentLuminance, Lid, SunBeam};
 use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident, Orientation, Surface};
@@ -242,7 +242,7 @@ impl Emission {
         let beam = facing
             .sun_direction()
             .filter(|_| beam_flux > 0.0)
-            .map(|sun| Beam { direction: Emergent::from_through_name(sun), flux: beam_flux });
+            .map(|sun| SunBeam { direction: Emergent::from_through_name(sun), flux: beam_flux });
         Lid { surface: facing.surface, size, parts, beam }
     }
 }

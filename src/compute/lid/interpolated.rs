@@ -10,7 +10,7 @@ use crate::compute::incidence::filter::{self, Filter, Kernel};
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::Model;
 use crate::compute::incidence::schemes::{DiffuseScheme, Schemes, SunScheme};
-use crate::compute::incidence::superpose::{self, Light};
+use crate::compute::incidence::superpose::{self, CellLuminance};
 use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ impl Interpolator {
     }
 
     /// Sky and ground by a scheme, and what to say of it.
-    fn diffuse(&self, scheme: DiffuseScheme, facing: &Facing<'_>) -> (Estimate, Light, String) {
+    fn diffuse(&self, scheme: DiffuseScheme, facing: &Facing<'_>) -> (Estimate, CellLuminance, String) {
         let model = self.model();
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
         let received = |cells: &RingBasis| {
@@ -81,7 +81,7 @@ impl Interpolator {
             let (total, values) = received(lattice);
             let filter = Filter { kernel, sharp_only: kernel == Kernel::Patch };
             if let Some(luminance) = filter::diffuse(model, filter, model.grid(), &values) {
-                let light = Light { luminance, ..Light::dark(model.grid().basis().len()) };
+                let light = CellLuminance { luminance, ..CellLuminance::dark(model.grid().basis().len()) };
                 return (total, light, format!("{}, as asked for; what it costs is not estimated", scheme.key()));
             }
         }
@@ -89,7 +89,7 @@ impl Interpolator {
         let patches = superpose::sub_patches(step);
         let (total, values) = received(&patches);
         if total.value <= 0.0 {
-            return (total, Light::dark(model.grid().basis().len()), "no diffuse light".into());
+            return (total, CellLuminance::dark(model.grid().basis().len()), "no diffuse light".into());
         }
         let note = match kernel {
             None => format!("sub-patches of {:.1}°, each with its own indicatrix", step.to_degrees()),
@@ -99,7 +99,7 @@ impl Interpolator {
     }
 
     /// The sun by a scheme, and why this one.
-    fn sun(&self, scheme: SunScheme, direction: Dir<Facade>, illuminance: f64) -> (Light, String) {
+    fn sun(&self, scheme: SunScheme, direction: Dir<Facade>, illuminance: f64) -> (CellLuminance, String) {
         let model = self.model();
         let mut light = superpose::sun(model, direction, illuminance, &self.sun_grid, SUN_POINTS);
         let place = model.lattice().locate(direction);
@@ -148,7 +148,7 @@ impl Emission {
                 notes.push(format!("sun: {note}"));
                 (&interpolator.sun_grid, diffuse.on(own, &interpolator.sun_grid), light)
             }
-            None => (own, diffuse, Light::dark(own.basis().len())),
+            None => (own, diffuse, CellLuminance::dark(own.basis().len())),
         };
         let relative = if incident_diffuse.value > 0.0 { incident_diffuse.error / incident_diffuse.value } else { 0.0 };
         let mut doubts = sun.shifts;

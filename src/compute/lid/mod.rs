@@ -58,7 +58,7 @@ impl EmergentLuminance {
 
 /// The sun's light that went through without being scattered: a parallel beam (but for the disc's 0.53°).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beam {
+pub struct SunBeam {
     /// Where it goes.
     pub direction: Emergent,
     /// Luminous flux of the whole aperture's beam. \[lm\]
@@ -75,7 +75,7 @@ pub struct Lid {
     /// The parts of the emergent luminance.
     pub parts: Vec<EmergentLuminance>,
     /// Unscattered sun.
-    pub beam: Option<Beam>,
+    pub beam: Option<SunBeam>,
 }
 
 impl Lid {

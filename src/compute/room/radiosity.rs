@@ -23,12 +23,12 @@ pub const MOST_REFLECTANCE: f64 = 0.999;
 pub struct Radiosity {
     /// The patches.
     pub nested: Nested,
-    level: Level,
-    coarser: Level,
+    level: MeshBalance,
+    coarser: MeshBalance,
 }
 
 /// Balance on one mesh, light from and to the next finer one.
-struct Level {
+struct MeshBalance {
     exchange: Exchange,
     /// Receiving patches: area and reflectance.
     area: Vec<f64>,
@@ -75,15 +75,15 @@ impl Radiosity {
             nested.coarse.patches.len(),
         );
         let singular = NothingAbsorbs { mean: 1.0 - absorbed / total };
-        let coarser = Level::new(coarser, &nested.coarser, &nested.coarser_of_coarse).ok_or(singular)?;
-        let level = Level::new(exchange, &nested.coarse, &nested.coarse_of_fine).ok_or(singular)?;
+        let coarser = MeshBalance::new(coarser, &nested.coarser, &nested.coarser_of_coarse).ok_or(singular)?;
+        let level = MeshBalance::new(exchange, &nested.coarse, &nested.coarse_of_fine).ok_or(singular)?;
         Ok(Self { nested, level, coarser })
     }
 
     /// Exitance of every patch from the first illuminance E₀ of the fine ones, with `apart` of that left out of the first
     /// reflection (but not of the following ones).
     pub fn exitance(&self, first: &[f64], apart: &[f64]) -> Exitance {
-        let reflected = |level: &Level, mesh: &Mesh, first: &[f64], apart: &[f64]| -> Vec<f64> {
+        let reflected = |level: &MeshBalance, mesh: &Mesh, first: &[f64], apart: &[f64]| -> Vec<f64> {
             let after = level.after_reflection(mesh, first);
             mesh.patches
                 .iter()
@@ -132,7 +132,7 @@ impl Radiosity {
     }
 }
 
-impl Level {
+impl MeshBalance {
     /// `None` when the system is singular.
     fn new(exchange: Exchange, receivers: &Mesh, holder: &[usize]) -> Option<Self> {
         let area: Vec<f64> = receivers.patches.iter().map(|patch| patch.area).collect();

@@ -4,60 +4,6 @@ use serde::Deserialize;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Keys {
-    pub name: String,
-    pub kind: Kind,
-    #[serde(default)]
-    pub description: String,
-    #[serde(default)]
-    pub upright: bool,
-    pub venetian: Option<Venetian>,
-    #[serde(rename = "laser-cut-panel")]
-    pub laser_cut_panel: Option<LaserCut>,
-    pub prismatic: Option<Prismatic>,
-    #[serde(rename = "redirecting-glass")]
-    pub redirecting_glass: Option<RedirectingGlass>,
-    pub pane: Option<Pane>,
-    pub diffuser: Option<Diffuser>,
-    pub woven: Option<Woven>,
-    pub perforated: Option<Perforated>,
-    pub stack: Option<Stack>,
-    #[serde(default)]
-    pub catalogue: Catalogue,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Kind {
-    Venetian,
-    LaserCutPanel,
-    Prismatic,
-    RedirectingGlass,
-    Pane,
-    Diffuser,
-    Woven,
-    Perforated,
-    Stack,
-}
-
-impl Kind {
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Venetian => "venetian",
-            Self::LaserCutPanel => "laser-cut-panel",
-            Self::Prismatic => "prismatic",
-            Self::RedirectingGlass => "redirecting-glass",
-            Self::Pane => "pane",
-            Self::Diffuser => "diffuser",
-            Self::Woven => "woven",
-            Self::Perforated => "perforated",
-            Self::Stack => "stack",
-        }
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Venetian {
     #[serde(default)]
     pub width: f64,

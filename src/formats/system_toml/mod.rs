@@ -12,7 +12,8 @@ use crate::compute::system::slats::{SlatProfile, Surface, Venetian};
 use crate::compute::system::stack::{Layer, LayerSource};
 use crate::compute::system::{SystemDescription, SystemKind};
 use checks::{length, outline, share, within, wrong};
-use keys::{Angles, Keys, Kind};
+use keys::Angles;
+use serde::Deserialize;
 use sheets::{diffuser, perforated, woven};
 use transparent::{laser_cut, pane, prismatic, redirecting};
 
@@ -73,39 +74,57 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     })
 }
 
-fn kind(keys: &Keys) -> Result<SystemKind, FormatError> {
-    let tables = [
-        (Kind::Venetian, keys.venetian.is_some()),
-        (Kind::LaserCutPanel, keys.laser_cut_panel.is_some()),
-        (Kind::Prismatic, keys.prismatic.is_some()),
-        (Kind::RedirectingGlass, keys.redirecting_glass.is_some()),
-        (Kind::Pane, keys.pane.is_some()),
-        (Kind::Diffuser, keys.diffuser.is_some()),
-        (Kind::Woven, keys.woven.is_some()),
-        (Kind::Perforated, keys.perforated.is_some()),
-        (Kind::Stack, keys.stack.is_some()),
-    ];
-    if let Some((other, _)) = tables.iter().find(|(kind, there)| *there && *kind != keys.kind) {
-        let expected = format!("the table [{}] alone, or kind = \"{}\"", keys.kind.word(), other.word());
-        return wrong(other.word(), format!("a table of another kind than \"{}\"", keys.kind.word()), expected);
-    }
-    let none = || {
-        let word = keys.kind.word();
-        FormatError::new(Location::file(), format!("kind = \"{word}\" without its table"), format!("a table [{word}]"))
-    };
-    Ok(match keys.kind {
-        Kind::Venetian => SystemKind::Venetian(venetian(keys.venetian.as_ref().ok_or_else(none)?)?),
-        Kind::LaserCutPanel => SystemKind::LaserCutPanel(laser_cut(keys.laser_cut_panel.as_ref().ok_or_else(none)?)?),
-        Kind::Prismatic => SystemKind::Prismatic(prismatic(keys.prismatic.as_ref().ok_or_else(none)?)?),
-        Kind::RedirectingGlass => {
-            SystemKind::RedirectingGlass(redirecting(keys.redirecting_glass.as_ref().ok_or_else(none)?)?)
+/// The keys of a file, and from its table to what it describes. A line a family: its kind, the word of its kind and
+/// table, the table's keys, and who reads them.
+macro_rules! families {
+    ($($kind:ident $word:literal $table:ident: $keys:ty, $read:path;)*) => {
+        #[derive(Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Keys {
+            name: String,
+            kind: Kind,
+            #[serde(default)]
+            description: String,
+            #[serde(default)]
+            upright: bool,
+            $(#[serde(rename = $word)] $table: Option<$keys>,)*
+            #[serde(default)]
+            catalogue: keys::Catalogue,
         }
-        Kind::Pane => SystemKind::Pane(pane(keys.pane.as_ref().ok_or_else(none)?)?),
-        Kind::Diffuser => SystemKind::Diffuser(diffuser(keys.diffuser.as_ref().ok_or_else(none)?)?),
-        Kind::Woven => SystemKind::Woven(woven(keys.woven.as_ref().ok_or_else(none)?)?),
-        Kind::Perforated => SystemKind::Perforated(perforated(keys.perforated.as_ref().ok_or_else(none)?)?),
-        Kind::Stack => SystemKind::Stack(stack(keys.stack.as_ref().ok_or_else(none)?)?),
-    })
+
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+        enum Kind {
+            $(#[serde(rename = $word)] $kind,)*
+        }
+
+        fn kind(keys: &Keys) -> Result<SystemKind, FormatError> {
+            let word = match keys.kind { $(Kind::$kind => $word,)* };
+            let there = [$(($word, keys.$table.is_some()),)*];
+            if let Some((other, _)) = there.iter().find(|(other, there)| *there && *other != word) {
+                let expected = format!("the table [{word}] alone, or kind = \"{other}\"");
+                return wrong(other, format!("a table of another kind than \"{word}\""), expected);
+            }
+            let none = || {
+                let found = format!("kind = \"{word}\" without its table");
+                FormatError::new(Location::file(), found, format!("a table [{word}]"))
+            };
+            Ok(match keys.kind {
+                $(Kind::$kind => SystemKind::$kind($read(keys.$table.as_ref().ok_or_else(none)?)?),)*
+            })
+        }
+    };
+}
+
+families! {
+    Venetian "venetian" venetian: keys::Venetian, venetian;
+    LaserCutPanel "laser-cut-panel" laser_cut_panel: keys::LaserCut, laser_cut;
+    Prismatic "prismatic" prismatic: keys::Prismatic, prismatic;
+    RedirectingGlass "redirecting-glass" redirecting_glass: keys::RedirectingGlass, redirecting;
+    Pane "pane" pane: keys::Pane, pane;
+    Diffuser "diffuser" diffuser: keys::Diffuser, diffuser;
+    Woven "woven" woven: keys::Woven, woven;
+    Perforated "perforated" perforated: keys::Perforated, perforated;
+    Stack "stack" stack: keys::Stack, stack;
 }
 
 fn face(key: &str, face: keys::Face) -> Result<Surface, FormatError> {

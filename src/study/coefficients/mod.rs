@@ -27,12 +27,12 @@ use crate::compute::direction::Dir;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
 use crate::compute::sky::{Distribution, Outside};
-use part::{Part, Sums};
+use part::{AperturePart, Sums};
 
 /// A prepared scene.
 pub struct Coefficients {
     scene: Scene,
-    parts: Vec<Part>,
+    parts: Vec<AperturePart>,
     room: Option<Responses>,
     directions: f64,
 }
@@ -84,7 +84,7 @@ impl Coefficients {
             .map(|index| {
                 let btdf = scene.apertures[index].system.dataset.transmission();
                 let btdf = btdf.expect("a resolved scene has only systems with transmission data");
-                Part::new(session, scene, index, btdf, room.as_ref(), progress)
+                AperturePart::new(session, scene, index, btdf, room.as_ref(), progress)
             })
             .collect::<Result<_, _>>()?;
         let mut coefficients = Self { scene: scene.clone(), parts, room, directions: 0.0 };
@@ -162,7 +162,7 @@ impl Coefficients {
 
     /// Number of sky luminances that a new sky takes.
     pub fn evaluations(&self) -> usize {
-        self.parts.iter().map(Part::evaluations).sum()
+        self.parts.iter().map(AperturePart::evaluations).sum()
     }
 
     /// What the mesh leaves besides the difference of its densities, relative to interreflected light.

@@ -23,7 +23,7 @@ use std::f64::consts::PI;
 const RELATIVE: f64 = 1e-7;
 
 /// One aperture.
-pub(super) struct Part {
+pub(super) struct AperturePart {
     patches: RingBasis,
     frame: Frame,
     samples: SkySamples,
@@ -39,14 +39,14 @@ pub(super) struct Part {
     pub transport: Transport,
     /// The regular part.
     pub regular: Option<AngularTransmittance>,
-    seen: Vec<Seen>,
+    seen: Vec<SensorView>,
     /// Mean relative gap of flux of the regular part.
     pub gap: f64,
 }
 
 /// The outside as one sensor sees it straight through.
 #[derive(Default)]
-struct Seen {
+struct SensorView {
     directions: Vec<(Dir<World>, f64)>,
     ground: f64,
     skyline: f64,
@@ -64,7 +64,7 @@ pub(super) struct Sums {
     pub interpolated: Vec<f64>,
 }
 
-impl Part {
+impl AperturePart {
     pub fn new(
         session: &Session,
         scene: &Scene,
@@ -125,7 +125,7 @@ impl Part {
         let reflected = tables.pop().unwrap_or_default();
         let total = tables.pop().unwrap_or_default();
         let seen = match &btdf.regular {
-            Some(tau) => scene.sensors.par_iter().map(|sensor| Seen::new(scene, index, sensor, tau)).collect(),
+            Some(tau) => scene.sensors.par_iter().map(|sensor| SensorView::new(scene, index, sensor, tau)).collect(),
             None => Vec::new(),
         };
         Ok(Self {
@@ -208,7 +208,7 @@ impl Part {
 /// Accuracy of what is not done by fixed directions.
 const EXACT: f64 = 1e-5;
 
-impl Seen {
+impl SensorView {
     fn new(
         scene: &Scene,
         index: usize,

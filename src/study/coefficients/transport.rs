@@ -1,6 +1,6 @@
 //! V·T: what every sensor receives per illuminance of an aperture from one incident direction or cell.
 
-use super::views::{Light, Views, Want, even};
+use super::views::{SensorRows, Views, Want, even};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Facade, Incident};
@@ -37,11 +37,11 @@ pub(super) enum Transport {
     /// It scatters nothing.
     Straight,
     /// Lambertian: τ, and what an even luminance of 1 gives.
-    Even(AngularTransmittance, Light),
+    Even(AngularTransmittance, SensorRows),
     /// An incident cell each.
-    Cells(RingBasis, Vec<Light>),
+    Cells(RingBasis, Vec<SensorRows>),
     /// The nearest of a list of directions.
-    Nearest(Arc<Indicatrices>, Vec<Light>),
+    Nearest(Arc<Indicatrices>, Vec<SensorRows>),
     /// Lobes between directions.
     Lobes(Box<Lobes>),
     /// A tree and its emergent cells.
@@ -51,7 +51,7 @@ pub(super) enum Transport {
 /// Lobes that move: the bases as light at the sensors, the lobes' own cells.
 pub(super) struct Lobes {
     interpolator: Arc<Interpolator>,
-    bases: Vec<Light>,
+    bases: Vec<SensorRows>,
     views: Views,
     /// On the finer cells for the sun; none where the data's own are as good.
     fine: Option<Views>,
@@ -59,8 +59,8 @@ pub(super) struct Lobes {
 
 /// What light through a direction gives, per lux on the aperture.
 pub(super) struct Column {
-    /// Three rows, see [`Light`].
-    pub light: Light,
+    /// Three rows, see [`SensorRows`].
+    pub light: SensorRows,
     /// What a simpler interpolation would add, signed; empty where there is none.
     pub doubt: Vec<f64>,
 }
@@ -91,7 +91,7 @@ impl Transport {
         let views = |basis: &RingBasis, want: Want| {
             Views::new(session, scene, index, Arc::new(basis.clone()), room, want, progress)
         };
-        let lights = |views: &Views, count: usize, row: &(dyn Fn(usize) -> Vec<f64> + Sync)| -> Vec<Light> {
+        let lights = |views: &Views, count: usize, row: &(dyn Fn(usize) -> Vec<f64> + Sync)| -> Vec<SensorRows> {
             let light = |i: usize| {
                 let mut light = vec![0.0; views.width()];
                 views.add_all(&row(i), &mut light);

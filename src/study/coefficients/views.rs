@@ -13,12 +13,12 @@ use std::sync::Arc;
 
 /// Three rows of one number a sensor, one behind the other: all light, the interreflected part of it, and what that part
 /// is in doubt by.
-pub(super) type Light = Vec<f64>;
+pub(super) type SensorRows = Vec<f64>;
 
 /// Values of every cell.
 pub(super) struct Views {
     width: usize,
-    /// Cell by cell, each as a [`Light`].
+    /// Cell by cell, each as a [`SensorRows`].
     rows: Vec<f32>,
     /// Mean relative gap of flux that was closed.
     pub gap: f64,
@@ -27,11 +27,11 @@ pub(super) struct Views {
 /// What of the light is wanted.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Want {
-    /// All of it, as a [`Light`].
+    /// All of it, as a [`SensorRows`].
     All,
     /// Its first row alone.
     Sum,
-    /// As a [`Light`], without what comes straight.
+    /// As a [`SensorRows`], without what comes straight.
     Reflected,
 }
 
@@ -141,7 +141,7 @@ pub(super) fn even(
     index: usize,
     room: Option<&Responses>,
     progress: &dyn Progress,
-) -> Result<Light, StudyError> {
+) -> Result<SensorRows, StudyError> {
     let sensors = scene.sensors.len();
     let mut light = vec![0.0; 3 * sensors];
     let receptions = session.receptions(scene, index, None, progress)?;

@@ -3,7 +3,7 @@
 use super::super::error::StudyError;
 use super::keys::SlatKeys;
 use crate::catalogue::{Product, blind_of};
-use crate::compute::control::cut_off::Section;
+use crate::compute::control::cut_off::SlatRow;
 use crate::compute::system::slats::SlatProfile;
 
 /// A device that a controller can set.
@@ -18,7 +18,7 @@ pub struct Device {
     /// The product's curve: (profile angle \[°\], value).
     pub curve: Vec<[f64; 2]>,
     /// Section of its slats, where it is known.
-    pub section: Option<Section>,
+    pub section: Option<SlatRow>,
 }
 
 impl Device {
@@ -52,19 +52,19 @@ impl Device {
 
 /// The slats of a product. The one place that knows where products keep them: those that the program computes are
 /// described in it.
-fn section_of(product: &Product) -> Option<Section> {
-    Section::of(&blind_of(&product.system)?)
+fn section_of(product: &Product) -> Option<SlatRow> {
+    SlatRow::of(&blind_of(&product.system)?)
 }
 
 /// The section that a scene describes.
-pub fn section_from_keys(keys: &SlatKeys) -> Result<Section, StudyError> {
+pub fn section_from_keys(keys: &SlatKeys) -> Result<SlatRow, StudyError> {
     let wrong = |message: &str| StudyError::key("control.slats", message);
     let profile = match (keys.width, keys.profile.is_empty()) {
         (Some(width), true) => SlatProfile::curved(width, keys.rise.unwrap_or(0.0)),
         (None, false) if keys.rise.is_none() => SlatProfile::Polyline(keys.profile.clone()),
         _ => return Err(wrong("needs either width (and rise) or profile, besides spacing")),
     };
-    Section::new(profile, keys.spacing).ok_or_else(|| {
+    SlatRow::new(profile, keys.spacing).ok_or_else(|| {
         wrong("is no section: width and spacing are lengths above 0 m, rise is at most half the width, a profile has two points or more")
     })
 }

@@ -11,7 +11,7 @@ use super::{Device, inputs, settings};
 use crate::catalogue::Product;
 use crate::compute::angle::Bearing;
 use crate::compute::control::controller::{Controller, Reason};
-use crate::compute::control::cut_off::Section;
+use crate::compute::control::cut_off::SlatRow;
 use crate::compute::direction::{Dir, Orientation, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::lid::Facing;
@@ -59,7 +59,7 @@ pub struct Moving {
     /// Its rule.
     pub keys: ControlKeys,
     /// The slats, where they are known: they say whether direct sun passes.
-    pub section: Option<Section>,
+    pub section: Option<SlatRow>,
 }
 
 /// One aperture at one moment.
@@ -290,7 +290,7 @@ impl Stepper<'_> {
             };
             let decision = controller.step(seconds, &inputs);
             let value = controller.settings().values[decision.state];
-            let passes = |section: &Section| inputs.sun.is_some_and(|sun| !section.blocks(value, 0.0, sun.span));
+            let passes = |section: &SlatRow| inputs.sun.is_some_and(|sun| !section.blocks(value, 0.0, sun.span));
             list.push(Setting {
                 profile_angle: inputs.sun.map(|sun| sun.centre),
                 demanded: decision.demanded.map(f64::to_degrees),

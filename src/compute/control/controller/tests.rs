@@ -7,8 +7,8 @@ fn degrees(list: impl IntoIterator<Item = i32>) -> Vec<f64> {
     list.into_iter().map(|value| f64::from(value).to_radians()).collect()
 }
 
-fn blind() -> Section {
-    Section::new(SlatProfile::Flat { width: 0.080 }, 0.072).unwrap()
+fn blind() -> SlatRow {
+    SlatRow::new(SlatProfile::Flat { width: 0.080 }, 0.072).unwrap()
 }
 
 fn sun(psi: f64) -> Inputs {

@@ -4,14 +4,14 @@ use super::*;
 use crate::compute::system::slats::Surface;
 use std::f64::consts::FRAC_PI_2;
 
-fn flat(width: f64, spacing: f64) -> Section {
-    Section::new(SlatProfile::Flat { width }, spacing).unwrap()
+fn flat(width: f64, spacing: f64) -> SlatRow {
+    SlatRow::new(SlatProfile::Flat { width }, spacing).unwrap()
 }
 
-fn sections() -> Vec<Section> {
-    let arc = |width, rise, spacing| Section::new(SlatProfile::Arc { width, rise }, spacing).unwrap();
+fn sections() -> Vec<SlatRow> {
+    let arc = |width, rise, spacing| SlatRow::new(SlatProfile::Arc { width, rise }, spacing).unwrap();
     let polyline =
-        |points: &[[f64; 2]], spacing| Section::new(SlatProfile::Polyline(points.to_vec()), spacing).unwrap();
+        |points: &[[f64; 2]], spacing| SlatRow::new(SlatProfile::Polyline(points.to_vec()), spacing).unwrap();
     vec![
         flat(0.080, 0.072),
         flat(0.080, 0.060),
@@ -32,7 +32,7 @@ struct Rays {
 }
 
 impl Rays {
-    fn new(section: &Section) -> Self {
+    fn new(section: &SlatRow) -> Self {
         Self { points: section.profile.polyline(400), spacing: section.spacing }
     }
 
@@ -141,8 +141,8 @@ fn spans_and_tolerances_are_kept_whole() {
 
 #[test]
 fn arcs_found_by_search_are_those_of_the_closed_form() {
-    let arc = Section::new(SlatProfile::Arc { width: 0.08, rise: 0.01 }, 0.07).unwrap();
-    let pieces = Section::new(SlatProfile::Polyline(arc.profile.polyline(300)), 0.07).unwrap();
+    let arc = SlatRow::new(SlatProfile::Arc { width: 0.08, rise: 0.01 }, 0.07).unwrap();
+    let pieces = SlatRow::new(SlatProfile::Polyline(arc.profile.polyline(300)), 0.07).unwrap();
     for psi in (0..=70).step_by(10).map(|k| f64::from(k).to_radians()) {
         let span = [psi, psi + 0.01];
         let [a, b] = [&arc, &pieces].map(|section| section.cut_off([-1.4, 1.4], 0.0, span).unwrap());
@@ -178,7 +178,7 @@ fn sections_that_are_none_are_refused() {
         (SlatProfile::Polyline(vec![[0.0, 0.0]]), 0.07),
         (SlatProfile::Polyline(vec![[0.0, 0.0]; 3]), 0.07),
     ] {
-        assert_eq!(Section::new(profile, spacing), None);
+        assert_eq!(SlatRow::new(profile, spacing), None);
     }
 }
 
@@ -194,7 +194,7 @@ fn thick_slats_shade_by_their_thickness_too() {
         upper: face,
         lower: face,
     };
-    let section = Section::of(&blind).unwrap();
+    let section = SlatRow::of(&blind).unwrap();
     for k in 1..17 {
         let psi = f64::to_radians(5.0 * f64::from(k));
         let tilt = section.cut_off([-FRAC_PI_2, FRAC_PI_2], 0.0, [psi, psi]).unwrap();

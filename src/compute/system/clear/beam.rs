@@ -1,6 +1,6 @@
 //! A parallel beam of finite width in the section.
 
-use super::polarised::Light;
+use super::polarised::PolarisedLight;
 use glam::{DVec2, DVec3};
 
 /// Axes of a beam in the section (outward, upward): along it, and across it to its left.
@@ -56,13 +56,13 @@ impl Front {
 
 /// A beam on its way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Beam {
+pub(super) struct WideBeam {
     /// Number of its region.
     pub region: usize,
     /// Wave vector (x, y, z); its length is the index.
     pub k: DVec3,
     /// Flux and polarisation.
-    pub light: Light,
+    pub light: PolarisedLight,
     /// Where it starts.
     pub front: Front,
     /// Change of (k_z, k_y) with the incident direction cosines x and y.

@@ -26,5 +26,5 @@ mod trace;
 
 pub use outline::{Outline, OutlineError};
 pub use polarised::Stokes;
-pub use section::{Body, Material, Section};
+pub use section::{Body, ClearSection, Material};
 pub use trace::{Emission, Leaving};

@@ -50,13 +50,13 @@ impl Stokes {
 
 /// Polarised light on its way: Stokes parameters with the direction of s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Light {
+pub(super) struct PolarisedLight {
     pub stokes: Stokes,
     /// Unit vector across the wave vector.
     pub s: DVec3,
 }
 
-impl Light {
+impl PolarisedLight {
     /// Unpolarised light of flux 1 along `k`.
     pub fn unpolarised(k: DVec3) -> Self {
         Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize_or(DVec3::X) }
@@ -79,20 +79,20 @@ impl Light {
 /// A wave at a surface: wave vectors and light, thrown back and passed on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Divided {
-    pub reflected: Light,
+    pub reflected: PolarisedLight,
     /// Without light where the reflection is total.
-    pub transmitted: Option<Light>,
+    pub transmitted: Option<PolarisedLight>,
     /// Normal components of the wave vector before the surface and behind it (0 where the reflection is total).
     pub normal: [f64; 2],
 }
 
 /// Divides light with wave vector `k` in a material of index² `n2` at the border to one of `beyond2`. `normal` points
 /// against the light.
-pub(super) fn divide(light: Light, k: DVec3, normal: DVec3, n2: f64, beyond2: f64) -> Divided {
+pub(super) fn divide(light: PolarisedLight, k: DVec3, normal: DVec3, n2: f64, beyond2: f64) -> Divided {
     let light = light.in_frame_of(k, normal);
     let before = (-k.dot(normal)).max(0.0);
     let behind2 = beyond2 - n2 + before * before;
-    let with = |stokes| Light { stokes, s: light.s };
+    let with = |stokes| PolarisedLight { stokes, s: light.s };
     if behind2 <= 0.0 {
         // r_s = (a − ib)/(a + ib), r_p = (β a − i n² b)/(β a + i n² b): of modulus 1, apart in phase.
         let evanescent = (-behind2).sqrt();
@@ -147,11 +147,12 @@ fn pane(pane: &Pane, theta: f64) -> [[f64; 3]; 2] {
 }
 
 /// Light passed and thrown back by a pane across the z axis.
-pub(super) fn at_pane(light: Light, k: DVec3, sheet: &Pane) -> [Light; 2] {
+pub(super) fn at_pane(light: PolarisedLight, k: DVec3, sheet: &Pane) -> [PolarisedLight; 2] {
     let normal = DVec3::new(0.0, 0.0, -k.z.signum());
     let light = light.in_frame_of(k, normal);
     let theta = k.truncate().length().atan2(k.z.abs());
-    pane(sheet, theta).map(|[s, p, product]| Light { stokes: light.stokes.through(s, p, [product, 0.0]), s: light.s })
+    pane(sheet, theta)
+        .map(|[s, p, product]| PolarisedLight { stokes: light.stokes.through(s, p, [product, 0.0]), s: light.s })
 }
 
 #[cfg(test)]
@@ -169,7 +170,7 @@ mod tests {
         for degrees in [0.0, 20.0, 56.66, 75.0, 89.0] {
             let theta = f64::to_radians(degrees);
             let k = wave(theta, 0.7, 1.0);
-            let divided = divide(Light::unpolarised(k), k, UP, 1.0, 1.52_f64.powi(2));
+            let divided = divide(PolarisedLight::unpolarised(k), k, UP, 1.0, 1.52_f64.powi(2));
             let ([s, p], _) = fresnel(1.52, theta);
             assert!((divided.reflected.stokes.i - 0.5 * (s + p)).abs() < 1e-14, "{degrees}");
             assert!((divided.reflected.stokes.q - 0.5 * (s - p)).abs() < 1e-14);
@@ -183,7 +184,7 @@ mod tests {
         let (theta, n) = (f64::to_radians(54.0 + 37.0 / 60.0), 1.51);
         let k = wave(theta, 0.5 * std::f64::consts::PI, n);
         let s = k.cross(UP).normalize();
-        let linear = Light { stokes: Stokes { i: 1.0, q: 0.0, u: 1.0, v: 0.0 }, s };
+        let linear = PolarisedLight { stokes: Stokes { i: 1.0, q: 0.0, u: 1.0, v: 0.0 }, s };
         let once = divide(linear, k, UP, n * n, 1.0);
         assert!(once.transmitted.is_none());
         let back = DVec3::new(k.x, k.y, -k.z);
@@ -210,7 +211,8 @@ mod tests {
             let theta = f64::to_radians(degrees);
             let k = wave(theta, 1.1, 1.0);
             // Light that is not the pane's own: partly linear in another frame, partly circular.
-            let light = Light { stokes: Stokes { i: 1.0, q: 0.2, u: 0.6, v: -0.3 }, ..Light::unpolarised(k) };
+            let light =
+                PolarisedLight { stokes: Stokes { i: 1.0, q: 0.2, u: 0.6, v: -0.3 }, ..PolarisedLight::unpolarised(k) };
             let [through, back] = at_pane(light, k, &sheet);
             let n2 = sheet.index * sheet.index;
             let first = divide(light, k, UP, 1.0, n2);

@@ -1,7 +1,7 @@
 //! Prismatic sheets: horizontal grooves on one face, the other one flat.
 
 use super::outline::Outline;
-use super::section::{Body, Material, Section};
+use super::section::{Body, ClearSection, Material};
 use super::{METHOD, OutlineError};
 use crate::compute::system::family::{Family, NoSpecimen, Polygons};
 use crate::compute::system::measure::Specimen;
@@ -34,7 +34,7 @@ impl Prisms {
     ///
     /// # Errors
     /// Flanks that make no ridge, lengths or materials out of range.
-    pub fn section(&self) -> Result<Section, OutlineError> {
+    pub fn section(&self) -> Result<ClearSection, OutlineError> {
         let [upper, lower] = self.angles;
         let flank = |angle: f64| angle > 0.0 && angle <= FRAC_PI_2 + 1e-12;
         let height = self.height();
@@ -45,7 +45,7 @@ impl Prisms {
         let flat = vec![[0.0, 0.0], [0.0, self.pitch]];
         let ridged = vec![[-self.base, 0.0], [-self.base - height, foot], [-self.base, self.pitch]];
         let outline = Outline::Sheet { outer: flat, inner: ridged };
-        let section = Section::new(self.pitch, vec![Body { outline, material: self.material }], [None, None])?;
+        let section = ClearSection::new(self.pitch, vec![Body { outline, material: self.material }], [None, None])?;
         Ok(if self.flipped { section.flipped() } else { section })
     }
 }

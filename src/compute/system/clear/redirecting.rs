@@ -1,7 +1,7 @@
 //! Light-redirecting glass: profiles of clear material between two panes.
 
 use super::outline::Outline;
-use super::section::{Body, Material, Section};
+use super::section::{Body, ClearSection, Material};
 use super::{METHOD, OutlineError};
 use crate::compute::system::family::{Family, NoSpecimen, Polygons};
 use crate::compute::system::measure::Specimen;
@@ -23,10 +23,10 @@ pub struct RedirectingGlass {
 }
 
 impl RedirectingGlass {
-    fn section(&self) -> Result<Section, OutlineError> {
+    fn section(&self) -> Result<ClearSection, OutlineError> {
         let material = Material { index: self.index, absorption: self.absorption };
         let body = |outline: &Vec<[f64; 2]>| Body { outline: Outline::Closed(outline.clone()), material };
-        Section::new(self.spacing, self.bodies.iter().map(body).collect(), self.panes)
+        ClearSection::new(self.spacing, self.bodies.iter().map(body).collect(), self.panes)
     }
 }
 

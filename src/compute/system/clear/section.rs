@@ -23,7 +23,7 @@ pub struct Body {
 
 /// Bodies in air, repeated upwards with a period, between optional panes.
 #[derive(Debug, Clone)]
-pub struct Section {
+pub struct ClearSection {
     bodies: Vec<Body>,
     pub(super) period: f64,
     /// Panes outside and inside, at a distance from the bodies that does not matter.
@@ -101,7 +101,7 @@ impl Region {
     }
 }
 
-impl Section {
+impl ClearSection {
     /// Bodies repeated upwards every `period` metres; panes outside and inside.
     ///
     /// # Errors

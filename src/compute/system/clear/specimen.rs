@@ -1,10 +1,10 @@
 //! Clear bodies in section as specimens: prismatic sheets, light-redirecting glass.
 
-use super::section::Section;
+use super::section::ClearSection;
 use super::trace::Emission;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::Side;
-use crate::compute::system::measure::beams::{Beam, Beams, Effort, Shares, SharpBeams};
+use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, SharpBeams};
 use std::cell::RefCell;
 
 thread_local! {
@@ -12,7 +12,7 @@ thread_local! {
     static EMISSION: RefCell<Emission> = RefCell::default();
 }
 
-impl Beams for Section {
+impl Beams for ClearSection {
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
         // Light from outside travels against its name, light from inside along it; so does what it becomes.
         let sign = if side == Side::Front { -1.0 } else { 1.0 };
@@ -20,7 +20,7 @@ impl Beams for Section {
         EMISSION.with_borrow_mut(|emission| {
             self.trace(sign * name.vector(), effort, emission);
             (out.absorbed, out.lost, out.surfaces) = (emission.absorbed, emission.lost, emission.surfaces);
-            out.beams.extend(emission.leaving.iter().map(|beam| Beam {
+            out.beams.extend(emission.leaving.iter().map(|beam| SharpBeam {
                 share: beam.share,
                 transmitted: beam.z * sign > 0.0,
                 y: sign * beam.y,
@@ -30,7 +30,7 @@ impl Beams for Section {
     }
 }
 
-impl Section {
+impl ClearSection {
     /// As a specimen of the goniophotometer.
     pub const fn specimen(self) -> SharpBeams<Self> {
         SharpBeams(self)

@@ -1,9 +1,9 @@
 //! Following all beams that one incident direction becomes.
 
-use super::beam::{Axes, Beam, Front};
+use super::beam::{Axes, Front, WideBeam};
 use super::hit::{Hit, extent, nearest};
-use super::polarised::{Light, at_pane, divide};
-use super::section::{Region, Section};
+use super::polarised::{PolarisedLight, at_pane, divide};
+use super::section::{ClearSection, Region};
 use crate::compute::sequence::Random;
 use crate::compute::system::measure::beams::Effort;
 use glam::{DVec2, DVec3};
@@ -34,7 +34,7 @@ pub struct Emission {
     /// Surfaces that were looked for, of all beams together: what the trace took.
     pub surfaces: u32,
     /// Room for the beams still to be followed; empty between traces.
-    waiting: Vec<Beam>,
+    waiting: Vec<WideBeam>,
 }
 
 impl Emission {
@@ -58,7 +58,7 @@ const fn drawn(random: &mut Random) -> f64 {
     random.bits() as f64 / (1_u128 << 64) as f64
 }
 
-impl Section {
+impl ClearSection {
     /// Follows unpolarised light that travels along `direction` (x, y, z; unit length, z not 0) into `out`, which is
     /// emptied before.
     pub fn trace(&self, direction: DVec3, effort: Effort, out: &mut Emission) {
@@ -78,12 +78,12 @@ impl Section {
     }
 
     /// Light before the section, one period high.
-    fn incident(&self, k: DVec3) -> Beam {
+    fn incident(&self, k: DVec3) -> WideBeam {
         let axes = Axes::new(k);
         let z = if k.z < 0.0 { self.depth[1] + 0.5 } else { self.depth[0] - 0.5 };
         let front = Front::new(&axes, [DVec2::new(z, 0.0), DVec2::new(z, 1.0)]);
         let change = [DVec2::new(-k.x / k.z, 0.0), DVec2::new(-k.y / k.z, 1.0)];
-        Beam { region: 0, k, light: Light::unpolarised(k), front, change, surfaces: 0 }
+        WideBeam { region: 0, k, light: PolarisedLight::unpolarised(k), front, change, surfaces: 0 }
     }
 }
 
@@ -108,17 +108,17 @@ impl Handful {
 }
 
 struct Work<'a> {
-    section: &'a Section,
+    section: &'a ClearSection,
     /// The least share that is divided at present.
     share: f64,
     random: Random,
-    stack: Vec<Beam>,
+    stack: Vec<WideBeam>,
     out: &'a mut Emission,
 }
 
 impl Work<'_> {
     /// One of all beams that are left, with the flux of all of them, no more to be divided.
-    fn one_of_all(&mut self, last: Beam) -> Beam {
+    fn one_of_all(&mut self, last: WideBeam) -> WideBeam {
         self.share = f64::INFINITY;
         let (mut chosen, mut flux) = (last, last.light.stokes.i);
         while let Some(beam) = self.stack.pop() {
@@ -131,7 +131,7 @@ impl Work<'_> {
     }
 
     /// Passes a beam on to all surfaces that it meets.
-    fn follow(&mut self, mut beam: Beam) {
+    fn follow(&mut self, mut beam: WideBeam) {
         let section = self.section;
         let region = &section.regions[beam.region];
         if beam.light.stokes.i < FAINT {
@@ -182,14 +182,22 @@ impl Work<'_> {
     }
 
     /// A single ray for all parts of a handful.
-    fn one_of(&mut self, beam: &Beam, axes: &Axes, region: &Region, small: &mut Handful) {
+    fn one_of(&mut self, beam: &WideBeam, axes: &Axes, region: &Region, small: &mut Handful) {
         let Handful { hit, range, flux } = std::mem::take(small);
         let c = range[0] + (range[1] - range[0]) * drawn(&mut self.random);
         self.surface(beam, axes, region, hit.as_ref(), [c, c], flux);
     }
 
     /// The part of a beam between two places across it, at what it meets there.
-    fn surface(&mut self, beam: &Beam, axes: &Axes, region: &Region, hit: Option<&Hit>, range: [f64; 2], flux: f64) {
+    fn surface(
+        &mut self,
+        beam: &WideBeam,
+        axes: &Axes,
+        region: &Region,
+        hit: Option<&Hit>,
+        range: [f64; 2],
+        flux: f64,
+    ) {
         if flux <= 0.0 {
             return;
         }
@@ -200,7 +208,7 @@ impl Work<'_> {
                 let ends = range.map(|c| axes.place([c, beam.front.at(c)]));
                 let front = Front::new(axes, ends);
                 let towards = usize::from(beam.k.z < 0.0);
-                self.meet_pane(Beam { light, front, ..*beam }, towards, false);
+                self.meet_pane(WideBeam { light, front, ..*beam }, towards, false);
             } else {
                 self.lose(flux);
             }
@@ -220,7 +228,7 @@ impl Work<'_> {
         let floor = places[0].y.floor();
         let confined = self.section.regions[hit.beyond].confined || region.confined;
         let places = if confined { places } else { places.map(|place| place - DVec2::new(0.0, floor)) };
-        let child = |k: DVec3, region: usize, light: Light, change: [DVec2; 2]| Beam {
+        let child = |k: DVec3, region: usize, light: PolarisedLight, change: [DVec2; 2]| WideBeam {
             region,
             k,
             light,
@@ -264,7 +272,7 @@ impl Work<'_> {
     }
 
     /// A beam in the air at the pane of a side (0 outside, 1 inside), on its way in or out.
-    fn meet_pane(&mut self, beam: Beam, side: usize, inwards: bool) {
+    fn meet_pane(&mut self, beam: WideBeam, side: usize, inwards: bool) {
         let Some(pane) = self.section.panes[side] else {
             if inwards {
                 self.stack.push(beam);
@@ -276,12 +284,12 @@ impl Work<'_> {
         let before = beam.light.stokes.i;
         let [through, back] = at_pane(beam.light, beam.k, &pane);
         self.out.absorbed += before - through.stokes.i - back.stokes.i;
-        let through = Beam { light: through, surfaces: beam.surfaces + 1, ..beam };
+        let through = WideBeam { light: through, surfaces: beam.surfaces + 1, ..beam };
         // Thrown back at a distance that does not matter: on average every height is as likely.
         let k = DVec3::new(beam.k.x, beam.k.y, -beam.k.z);
         let axes = Axes::new(beam.k);
         let places = beam.front.ends.map(|end| axes.place(end));
-        let back = Beam {
+        let back = WideBeam {
             light: back,
             k,
             front: Front::new(&Axes::new(k), places),
@@ -307,7 +315,7 @@ impl Work<'_> {
     }
 
     /// A beam that a pane throws back to the bodies, from beyond their depths.
-    fn behind(&self, beam: Beam) -> Beam {
+    fn behind(&self, beam: WideBeam) -> WideBeam {
         let axes = Axes::new(beam.k);
         let [low, high] = self.section.depth;
         let z = if beam.k.z < 0.0 { high + 0.5 } else { low - 0.5 };
@@ -322,7 +330,7 @@ impl Work<'_> {
             let along = (z - place.x) / axes.along.x;
             DVec2::new(z, place.y + along * axes.along.y - shift)
         });
-        Beam { front: Front::new(&axes, places), ..beam }
+        WideBeam { front: Front::new(&axes, places), ..beam }
     }
 
     fn lose(&mut self, flux: f64) {
@@ -330,7 +338,7 @@ impl Work<'_> {
         self.out.absorbed += flux;
     }
 
-    fn leave(&mut self, beam: &Beam) {
+    fn leave(&mut self, beam: &WideBeam) {
         let (share, k) = (beam.light.stokes.i, beam.k);
         if share > 0.0 {
             self.out.leaving.push(Leaving { share, y: k.y, z: k.z, change: beam.change.map(|change| change.y) });
@@ -339,7 +347,7 @@ impl Work<'_> {
 }
 
 /// A beam that carries this flux, so as to stand for others.
-fn whole(mut beam: Beam, flux: f64) -> Beam {
+fn whole(mut beam: WideBeam, flux: f64) -> WideBeam {
     if beam.light.stokes.i <= 0.0 {
         return beam;
     }
@@ -350,7 +358,7 @@ fn whole(mut beam: Beam, flux: f64) -> Beam {
 /// Mean internal transmittance over a beam whose ends travel the given lengths in the section.
 ///
 /// What is left is taken as evenly spread, which is exact for weak absorption or parallel borders.
-fn mean_transmittance(region: &Region, beam: &Beam, lengths: [f64; 2]) -> f64 {
+fn mean_transmittance(region: &Region, beam: &WideBeam, lengths: [f64; 2]) -> f64 {
     // The true way is longer than its section.
     let slant = region.n2.sqrt() / DVec2::new(beam.k.y, beam.k.z).length();
     let [a, b] = lengths.map(|length| length.max(0.0) * slant * region.absorption);

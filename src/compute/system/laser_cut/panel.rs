@@ -3,7 +3,7 @@
 use super::shares::LaserCutPanel;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::family::{Family, NoSpecimen, Polygons, rectangle};
-use crate::compute::system::measure::beams::{Beam, Beams, Effort, Shares, SharpBeams};
+use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, SharpBeams};
 use crate::compute::system::measure::{Side, Specimen};
 
 /// A panel with cuts that do not reflect all light.
@@ -54,7 +54,7 @@ impl Beams for CutPanel {
             (shares.returned, false, -1.0),
         ] {
             if share > 0.0 {
-                out.beams.push(Beam { share, transmitted, y: sign * y, change: [0.0, sign] });
+                out.beams.push(SharpBeam { share, transmitted, y: sign * y, change: [0.0, sign] });
             }
         }
         out.lost = 0.0;

@@ -7,7 +7,7 @@
 //! Their number is doubled, what was found before being kept, until the totals stand.
 
 use super::cells::CellFinder;
-use super::{Measured, Seen, Setting, Side, Specimen};
+use super::{Measured, OneSide, Setting, Side, Specimen};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A sharp beam that a direction becomes. All systems here are endless along x, which keeps the x of the name.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beam {
+pub struct SharpBeam {
     /// Share of the incident flux.
     pub share: f64,
     /// Transmitted, or thrown back.
@@ -34,7 +34,7 @@ pub struct Beam {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shares {
     /// The beams.
-    pub beams: Vec<Beam>,
+    pub beams: Vec<SharpBeam>,
     /// Share that is absorbed, what was given up included.
     pub absorbed: f64,
     /// Share that was given up, as an error.
@@ -229,7 +229,7 @@ impl Row {
         self.error = self.doubt() + self.lost * each;
     }
 
-    fn store(self, seen: &mut Seen, index: usize) {
+    fn store(self, seen: &mut OneSide, index: usize) {
         let m = self.transmitted.len();
         seen.transmitted[index * m..(index + 1) * m].copy_from_slice(&self.transmitted);
         seen.reflected[index * m..(index + 1) * m].copy_from_slice(&self.reflected);
@@ -356,7 +356,7 @@ impl<'a, B: Beams> Bench<'a, B> {
     }
 
     /// Where light goes that comes from a little beside the middle of its part.
-    fn target(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2], beam: &Beam) -> Option<usize> {
+    fn target(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2], beam: &SharpBeam) -> Option<usize> {
         let x = x + dx;
         // The slope holds near the middle only: no farther than light can go.
         let most = (1.0 - x * x).max(0.0).sqrt();

@@ -55,7 +55,7 @@ pub struct Setting<'a> {
 
 /// What light from one side does.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Seen {
+pub struct OneSide {
     /// q of transmitted light, `[i · emergent.len() + o]`. \[1/sr\]
     pub transmitted: Vec<f64>,
     /// q of light thrown back, the same order. \[1/sr\]
@@ -74,9 +74,9 @@ pub struct Measured {
     /// Emergent cells.
     pub emergent: RingBasis,
     /// Light from outside.
-    pub front: Seen,
+    pub front: OneSide,
     /// Light from inside.
-    pub back: Seen,
+    pub back: OneSide,
 }
 
 /// Something whose scattering can be computed.
@@ -114,7 +114,7 @@ impl Measured {
     /// Nothing yet on the cells of a setting: every value 0.
     pub fn dark(setting: &Setting<'_>) -> Self {
         let (n, m) = (setting.incident.len(), setting.emergent.len());
-        let seen = Seen {
+        let seen = OneSide {
             transmitted: vec![0.0; n * m],
             reflected: vec![0.0; n * m],
             absorbed: vec![0.0; n],
@@ -124,7 +124,7 @@ impl Measured {
     }
 
     /// Light from one side.
-    pub const fn seen(&self, side: Side) -> &Seen {
+    pub const fn seen(&self, side: Side) -> &OneSide {
         match side {
             Side::Front => &self.front,
             Side::Back => &self.back,
@@ -132,7 +132,7 @@ impl Measured {
     }
 
     /// Light from one side, to be filled in.
-    pub const fn seen_mut(&mut self, side: Side) -> &mut Seen {
+    pub const fn seen_mut(&mut self, side: Side) -> &mut OneSide {
         match side {
             Side::Front => &mut self.front,
             Side::Back => &mut self.back,

@@ -6,7 +6,7 @@
 //! solved, (4 M_fine − M_coarse)/3 is used, and a third of their difference is the stated error.
 
 use super::flows::Transport;
-use super::outline::Section;
+use super::outline::SlatSection;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
@@ -27,13 +27,13 @@ pub(super) struct Balance {
 const WHITEST: f64 = 1.0 - 1e-10;
 
 /// One division's solution.
-struct Level {
+struct Division {
     response: Mat<f64>,
     absorbed: Vec<f64>,
     leaves: [Vec<f64>; 2],
 }
 
-fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exits: &[Vec<f64>; 2]) -> Level {
+fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exits: &[Vec<f64>; 2]) -> Division {
     let n = length.len();
     let d: Vec<f64> =
         length.iter().zip(diffuse).map(|(a, rho)| if *a > 0.0 { rho.min(WHITEST) / a } else { 0.0 }).collect();
@@ -45,12 +45,12 @@ fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exi
     // Landed in all: g + S M g.
     let landing: Vec<f64> = (0..n).map(|k| (0..n).map(|i| lost[i] * exchange[(i, k)]).sum::<f64>()).collect();
     let absorbed = through(&landing).iter().zip(lost).map(|(more, own)| own + more).collect();
-    Level { absorbed, leaves: [through(&exits[0]), through(&exits[1])], response }
+    Division { absorbed, leaves: [through(&exits[0]), through(&exits[1])], response }
 }
 
 impl Balance {
     /// Of a section's transport. `hat` are the weights of the nodes. \[rad\]
-    pub(super) fn new(section: &Section, transport: &Transport, hat: &[f64]) -> Self {
+    pub(super) fn new(section: &SlatSection, transport: &Transport, hat: &[f64]) -> Self {
         let n = section.faces.len();
         let diffuse: Vec<f64> = section.faces.iter().map(|f| f.surface.diffuse).collect();
         let lost: Vec<f64> = section.faces.iter().map(|f| 1.0 - f.surface.diffuse - f.surface.mirror).collect();

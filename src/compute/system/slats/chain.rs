@@ -1,7 +1,7 @@
 //! Light that mirrors throw on: a ray from reflection to reflection until it leaves the slats or has died.
 
 use super::arc::Point;
-use super::outline::{Facet, Section};
+use super::outline::{Facet, SlatSection};
 use super::sweep::Met;
 use crate::compute::sequence::{mix, recurrence, unit};
 use std::f64::consts::PI;
@@ -102,7 +102,7 @@ pub(super) struct Trace {
 /// Weaker parts do not make a way another.
 const TELLING: f64 = 1e-3;
 
-impl Section {
+impl SlatSection {
     /// Follows the mirrored part of a ray of weight 1.
     pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
         sequence.next_ray();

@@ -81,7 +81,7 @@ pub(super) struct Second {
 /// Light of one variance that rough mirrors throw out, between nodes: ∫∫ over both nodes' hats of the width, divided by
 /// both hats.
 #[derive(Debug, Clone)]
-pub(super) struct Level {
+pub(super) struct VarianceLevel {
     /// From outside by the first index to inside by the second; from inside it is the transpose.
     pub(super) through: Vec<f64>,
     /// Thrown back outside and inside; the second index is the node from which light takes the way back.
@@ -94,7 +94,7 @@ pub(super) struct Rough {
     /// What becomes of x.
     pub(super) along: Along,
     /// As many as `along` has.
-    pub(super) levels: Vec<Level>,
+    pub(super) levels: Vec<VarianceLevel>,
     /// What the sums over all that light can do lacked, a node, from outside and from inside. In pitches.
     pub(super) doubt: [Vec<f64>; 2],
 }

@@ -5,13 +5,13 @@ use super::balance::Balance;
 use super::deposit::Intervals;
 use super::direct::Direct;
 use super::flows::{Lobe, Transport, index};
-use super::outline::Section;
+use super::outline::SlatSection;
 use super::profile::SlatProfile;
 use super::profile_weights::{ProfileGrid, ProfileWeights};
 use super::rough::add_rough;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::measure::{Measured, Seen, Setting, Side, Specimen};
+use crate::compute::system::measure::{Measured, OneSide, Setting, Side, Specimen};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
@@ -75,7 +75,7 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
     let curved = mirrors && matches!(array.profile(), SlatProfile::Arc { .. });
     let mut parts = if curved { CURVED } else { PARTS[0] };
     let (transport, balance, from) = loop {
-        let section = Section::new(array, parts);
+        let section = SlatSection::new(array, parts);
         let transport = Transport::new(&section, grid, setting.seed, progress)?;
         let balance = Balance::new(&section, &transport, &hat);
         let from = [0, 1].map(|side: usize| landed(&incident, setting.incident, &transport.landed[side], false));
@@ -105,7 +105,7 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
             (0..q.ncols()).flat_map(|i| q.col_as_slice(i).iter().map(|q| q.max(0.0)).collect::<Vec<_>>()).collect()
         };
         let (transmitted, reflected): (Vec<f64>, Vec<f64>) = rayon::join(|| block(other, false), || block(own, true));
-        Seen { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
+        OneSide { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
     };
     let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
     (measured.front, measured.back) = (front, back);

@@ -82,7 +82,7 @@ impl Group {
 
 /// A slat of an endless array of pitch 1.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Section {
+pub(super) struct SlatSection {
     /// Strips of the slat that turns about the origin.
     pub(super) strips: Vec<Strip>,
     /// All faces.
@@ -103,7 +103,7 @@ pub(super) struct Section {
 
 /// Strip of the coarse division, before faces are numbered.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct CoarseStrip {
     a: Point,
     b: Point,
     normals: [Point; 2],
@@ -197,7 +197,7 @@ pub(super) fn polygon(array: &SlatArray, parts: usize) -> Vec<Point> {
     points.into_iter().map(|p| turned(array.tilt(), p)).collect()
 }
 
-impl Section {
+impl SlatSection {
     /// Of an array whose slats are cut into about `parts` strips, halved once more.
     pub(super) fn new(array: &SlatArray, parts: usize) -> Self {
         let mut list = coarse_parts(array, parts);
@@ -306,12 +306,12 @@ impl Section {
 }
 
 /// The strips of the coarse division at tilt 0. \[m\]
-fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<Part> {
+fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<CoarseStrip> {
     let line = middle(array.profile(), parts);
     let along = |points: &[Point], side: f64, left: Surface, right: Option<Surface>| {
         let normals = |k: usize| [line[k].1[1], line[k + 1].1[0]].map(|n| n.map(|x| side * x));
         (0..points.len() - 1)
-            .map(|k| Part { a: points[k], b: points[k + 1], normals: normals(k), left, right })
+            .map(|k| CoarseStrip { a: points[k], b: points[k + 1], normals: normals(k), left, right })
             .collect::<Vec<_>>()
     };
     let half = 0.5 * array.thickness();
@@ -323,12 +323,12 @@ fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<Part> {
     let edge = array.edge();
     let end = |a: Point, b: Point| {
         let normal = left_of(a, b);
-        Part { a, b, normals: [normal, normal], left: edge, right: None }
+        CoarseStrip { a, b, normals: [normal, normal], left: edge, right: None }
     };
     let mut list = along(&above, 1.0, array.upper(), None);
     list.push(end(above[above.len() - 1], below[below.len() - 1]));
     let lower = along(&below, -1.0, array.lower(), None);
-    list.extend(lower.into_iter().rev().map(|part| Part {
+    list.extend(lower.into_iter().rev().map(|part| CoarseStrip {
         a: part.b,
         b: part.a,
         normals: [part.normals[1], part.normals[0]],
@@ -339,7 +339,7 @@ fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<Part> {
 }
 
 /// Shares of the ways p and q (moved by `lift`) at which they cross.
-fn crossing(p: &Part, q: &Part, lift: f64) -> Option<(f64, f64)> {
+fn crossing(p: &CoarseStrip, q: &CoarseStrip, lift: f64) -> Option<(f64, f64)> {
     let (e, f) = ([p.b[0] - p.a[0], p.b[1] - p.a[1]], [q.b[0] - q.a[0], q.b[1] - q.a[1]]);
     let across = e[0] * f[1] - e[1] * f[0];
     if across.abs() < 1e-14 {
@@ -351,7 +351,7 @@ fn crossing(p: &Part, q: &Part, lift: f64) -> Option<(f64, f64)> {
 }
 
 /// Share of the way at which it holds a point.
-fn on_way(way: &Part, point: Point) -> Option<f64> {
+fn on_way(way: &CoarseStrip, point: Point) -> Option<f64> {
     let (e, w) = ([way.b[0] - way.a[0], way.b[1] - way.a[1]], [point[0] - way.a[0], point[1] - way.a[1]]);
     let square = e[0] * e[0] + e[1] * e[1];
     let off = (e[0] * w[1] - e[1] * w[0]).abs() / square.sqrt();
@@ -360,7 +360,7 @@ fn on_way(way: &Part, point: Point) -> Option<f64> {
 
 /// Cuts strips where slats run through their neighbours (closed curved slats) and where they begin to lie upon them
 /// (closed flat slats), so that the order of strips along a line of sight never changes within one.
-fn split_at_crossings(list: Vec<Part>, reach: i32) -> Vec<Part> {
+fn split_at_crossings(list: Vec<CoarseStrip>, reach: i32) -> Vec<CoarseStrip> {
     let mut cuts: Vec<Vec<f64>> = vec![vec![]; list.len()];
     for (i, p) in list.iter().enumerate() {
         for (j, q) in list.iter().enumerate() {
@@ -388,7 +388,12 @@ fn split_at_crossings(list: Vec<Part>, reach: i32) -> Vec<Part> {
         for pair in cuts.windows(2) {
             let at = |s: f64| between(part.a, part.b, s);
             let normal = |s: f64| between(part.normals[0], part.normals[1], s);
-            out.push(Part { a: at(pair[0]), b: at(pair[1]), normals: [normal(pair[0]), normal(pair[1])], ..part });
+            out.push(CoarseStrip {
+                a: at(pair[0]),
+                b: at(pair[1]),
+                normals: [normal(pair[0]), normal(pair[1])],
+                ..part
+            });
         }
     }
     out

@@ -4,7 +4,7 @@ use super::array::SlatArray;
 use super::balance::Balance;
 use super::direct::Direct;
 use super::flows::{Transport, index};
-use super::outline::Section;
+use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use super::transport::beam;
 use crate::compute::estimate::{Cancelled, Progress};
@@ -41,7 +41,7 @@ impl SlatArray {
     ) -> Result<Vec<ProfileShares>, Cancelled> {
         let grid = ProfileGrid::new(STEP);
         let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
-        let section = Section::new(self, PARTS);
+        let section = SlatSection::new(self, PARTS);
         let transport = Transport::new(&section, grid, seed, progress)?;
         let balance = Balance::new(&section, &transport, &hat);
         let direct = Direct::without_knots(self);

@@ -5,8 +5,8 @@
 //! such that all sums are right again, repairs that. What the sums lacked before is stated as error.
 
 use super::along::Along;
-use super::flows::{Level, Rough, Second, Thrown, Transport};
-use super::outline::Section;
+use super::flows::{Rough, Second, Thrown, Transport, VarianceLevel};
+use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use crate::compute::scaling::by_rounds;
 
@@ -85,7 +85,7 @@ fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64])
 }
 
 /// Makes what rays have found reciprocal and energy-keeping. `direct` holds what comes to faces without mirrors.
-pub(super) fn settle(section: &Section, grid: ProfileGrid, direct: &Transport, second: &mut Second) -> Rough {
+pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transport, second: &mut Second) -> Rough {
     let n = grid.len();
     let hat: Vec<f64> = (0..n).map(|node| grid.hat(node)).collect();
     let mirror: Vec<f64> = section.faces.iter().map(|face| face.surface.mirror).collect();
@@ -132,14 +132,14 @@ pub(super) fn settle(section: &Section, grid: ProfileGrid, direct: &Transport, s
 }
 
 /// The scaled sums as densities, divided among levels of variance.
-fn divided(sums: &Sums, [front, back]: [&[f64]; 2], hat: &[f64], along: &Along) -> Vec<Level> {
+fn divided(sums: &Sums, [front, back]: [&[f64]; 2], hat: &[f64], along: &Along) -> Vec<VarianceLevel> {
     let n = hat.len();
     let none = || vec![0.0; n * n];
-    let mut levels: Vec<Level> =
-        along.levels.iter().map(|_| Level { through: none(), back: [none(), none()] }).collect();
+    let mut levels: Vec<VarianceLevel> =
+        along.levels.iter().map(|_| VarianceLevel { through: none(), back: [none(), none()] }).collect();
     for at in 0..n * n {
         let (i, j) = (at / n, at % n);
-        let mut put = |[flux, moment]: [f64; 2], scale: f64, pick: fn(&mut Level) -> &mut Vec<f64>| {
+        let mut put = |[flux, moment]: [f64; 2], scale: f64, pick: fn(&mut VarianceLevel) -> &mut Vec<f64>| {
             if flux > 0.0 {
                 let (level, above) = along.place(moment / flux);
                 let density = 2.0 * flux * scale / (hat[i] * hat[j]);

@@ -6,7 +6,7 @@
 //! first, are what parallel light from outside and inside meets.
 
 use super::arc::Point;
-use super::outline::Section;
+use super::outline::SlatSection;
 
 /// A face of the slat `copy` pitches above.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ pub(super) struct Bundle {
 
 /// A strip of some slat as seen along the direction.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct StripView {
     strip: usize,
     copy: i32,
     low: f64,
@@ -58,8 +58,8 @@ pub(super) fn place([u, v]: Point, [cos, sin]: Point) -> (f64, f64) {
     (v * cos - u * sin, u * cos + v * sin)
 }
 
-fn seen_strips(section: &Section, direction: Point) -> (Vec<Seen>, f64, f64) {
-    let own: Vec<Seen> = section
+fn seen_strips(section: &SlatSection, direction: Point) -> (Vec<StripView>, f64, f64) {
+    let own: Vec<StripView> = section
         .strips
         .iter()
         .enumerate()
@@ -70,7 +70,7 @@ fn seen_strips(section: &Section, direction: Point) -> (Vec<Seen>, f64, f64) {
             // The left normal of a way that rises across the direction looks against it.
             let [left, right] = s.faces;
             let (against, along) = if rising { (left, right) } else { (right, left) };
-            (high - low > NARROW).then(|| Seen {
+            (high - low > NARROW).then(|| StripView {
                 strip,
                 copy: 0,
                 low,
@@ -88,7 +88,7 @@ fn seen_strips(section: &Section, direction: Point) -> (Vec<Seen>, f64, f64) {
     let mut all = Vec::with_capacity(3 * own.len());
     for copy in -section.reach..=section.reach {
         let (shift, deeper) = (f64::from(copy) * cos, f64::from(copy) * sin);
-        all.extend(own.iter().filter(|s| s.high + shift > low && s.low + shift < high).map(|s| Seen {
+        all.extend(own.iter().filter(|s| s.high + shift > low && s.low + shift < high).map(|s| StripView {
             copy,
             low: s.low + shift,
             high: s.high + shift,
@@ -100,7 +100,7 @@ fn seen_strips(section: &Section, direction: Point) -> (Vec<Seen>, f64, f64) {
 }
 
 /// Calls `visit` for every bundle of one pitch that leaves or meets a slat, in a fixed order.
-pub(super) fn sweep(section: &Section, direction: Point, mut visit: impl FnMut(Bundle)) {
+pub(super) fn sweep(section: &SlatSection, direction: Point, mut visit: impl FnMut(Bundle)) {
     let (seen, low, high) = seen_strips(section, direction);
     let mut events: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * seen.len());
     for (index, s) in seen.iter().enumerate() {
@@ -135,7 +135,7 @@ pub(super) fn sweep(section: &Section, direction: Point, mut visit: impl FnMut(B
 }
 
 /// Insertion: the order of one bundle is nearly that of the next.
-fn sort_by_depth(active: &mut [(f64, usize)], seen: &[Seen]) {
+fn sort_by_depth(active: &mut [(f64, usize)], seen: &[StripView]) {
     let before = |a: &(f64, usize), b: &(f64, usize)| {
         if (a.0 - b.0).abs() > TOUCHING { a.0 < b.0 } else { seen[a.1].copy < seen[b.1].copy }
     };
@@ -149,8 +149,12 @@ fn sort_by_depth(active: &mut [(f64, usize)], seen: &[Seen]) {
 }
 
 /// Pairs of what a line leaves and what it meets next.
-fn along_line<'a>(solid: bool, order: impl Iterator<Item = &'a Seen>, mut pair: impl FnMut(Option<Met>, Option<Met>)) {
-    let met = |s: &Seen, face: Option<usize>| face.map(|face| Met { strip: s.strip, copy: s.copy, face });
+fn along_line<'a>(
+    solid: bool,
+    order: impl Iterator<Item = &'a StripView>,
+    mut pair: impl FnMut(Option<Met>, Option<Met>),
+) {
+    let met = |s: &StripView, face: Option<usize>| face.map(|face| Met { strip: s.strip, copy: s.copy, face });
     let mut open = None;
     let mut inside = 0;
     for s in order {

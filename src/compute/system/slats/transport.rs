@@ -3,7 +3,7 @@
 use super::arc::Point;
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
 use super::flows::{Exchange, Lobe, Second, Thrown, Transport, index};
-use super::outline::Section;
+use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use super::reciprocal::settle;
 use super::sweep::{Bundle, Met, sweep};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::rc::Rc;
 
 /// What a chunk of profile angles adds.
-struct Part {
+struct Chunk {
     /// Exchange between strips, without mirrors and by way of them.
     exchange: [Exchange; 2],
     /// Lengths seen.
@@ -32,10 +32,10 @@ pub(super) struct Node {
 }
 
 /// Parallel light of one profile angle: what comes to every face and what mirrors throw out. \[rad\]
-pub(super) fn beam(section: &Section, psi: f64, seed: u64) -> Node {
+pub(super) fn beam(section: &SlatSection, psi: f64, seed: u64) -> Node {
     let size = section.faces.len();
     let mut none =
-        Part { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
+        Chunk { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
     let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, 0));
     for (landed, second) in node.landed.iter_mut().zip(&node.second) {
         landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
@@ -69,7 +69,7 @@ impl Into<'_> {
     }
 
     /// The mirrored part of a width of a bundle, by rays at its ends and between that go the same way.
-    fn add(&mut self, section: &Section, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
+    fn add(&mut self, section: &SlatSection, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
         let [low, middle, high] = traces;
         for (k, landing) in middle.landed.iter().enumerate() {
             let amount = width * landing.weight;
@@ -127,7 +127,7 @@ const FINEST: f64 = 1.0 / 64.0;
 const CHUNK: usize = 12;
 
 struct Tracer<'a> {
-    section: &'a Section,
+    section: &'a SlatSection,
     direction: Point,
     weight: f64,
     rough: bool,
@@ -136,21 +136,21 @@ struct Tracer<'a> {
 impl Transport {
     /// Of a section on a grid of profile angles.
     pub(super) fn new(
-        section: &Section,
+        section: &SlatSection,
         grid: ProfileGrid,
         seed: u64,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let nodes: Vec<usize> = (0..grid.len()).collect();
         let size = section.faces.len();
-        let parts: Vec<Option<Part>> = nodes
+        let parts: Vec<Option<Chunk>> = nodes
             .par_chunks(CHUNK)
             .map(|chunk| {
                 if progress.cancelled() {
                     return None;
                 }
                 let exchange = [Exchange::new(size), Exchange::new(size)];
-                let mut part = Part { exchange, length: vec![0.0; size], nodes: vec![] };
+                let mut part = Chunk { exchange, length: vec![0.0; size], nodes: vec![] };
                 for &node in chunk {
                     let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
                     let done = tracer.node(&mut part, Sequence::new(seed, node as u64));
@@ -211,11 +211,11 @@ impl Transport {
 }
 
 impl<'a> Tracer<'a> {
-    fn new(section: &'a Section, psi: f64, weight: f64) -> Self {
+    fn new(section: &'a SlatSection, psi: f64, weight: f64) -> Self {
         Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough() }
     }
 
-    fn node(&self, part: &mut Part, mut sequence: Sequence) -> Node {
+    fn node(&self, part: &mut Chunk, mut sequence: Sequence) -> Node {
         let none = || vec![0.0; self.section.faces.len()];
         let mut node =
             Node { landed: [none(), none()], second: [none(), none()], thrown: [Thrown::default(), Thrown::default()] };

@@ -10,7 +10,7 @@ use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
 use crate::compute::btdf::{Band, CellMatrix, Component, matrix_on, resample_matrix};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
-use crate::compute::system::measure::{Measured, Seen, Setting, Side, Specimen};
+use crate::compute::system::measure::{Measured, OneSide, Setting, Side, Specimen};
 use std::f64::consts::PI;
 
 /// Layers from outside to inside.
@@ -210,13 +210,13 @@ impl Layered {
         Measured {
             incident: cells.clone(),
             emergent: cells.clone(),
-            front: Seen {
+            front: OneSide {
                 transmitted: front(&self.t[0]),
                 reflected: front(&self.r[0]),
                 absorbed: own(&self.absorbed[0]),
                 error: own(&self.error[0]),
             },
-            back: Seen {
+            back: OneSide {
                 transmitted: back(&self.t[1]),
                 reflected: back(&self.r[1]),
                 absorbed: named(&self.absorbed[1]),
@@ -234,7 +234,7 @@ fn averaged(fine: &Measured, setting: &Setting<'_>) -> Measured {
         resample_matrix(&matrix, setting.incident, setting.emergent).values().into_owned()
     };
     let mean = |list: &[f64]| crate::compute::basis::Resampling::new(&fine.incident, setting.incident).apply(list);
-    let seen = |seen: &Seen| Seen {
+    let seen = |seen: &OneSide| OneSide {
         transmitted: on(&seen.transmitted),
         reflected: on(&seen.reflected),
         absorbed: mean(&seen.absorbed),
