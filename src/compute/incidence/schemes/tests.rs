@@ -31,7 +31,7 @@ fn places(model: &Model) -> Vec<Dir<Facade>> {
 /// Interpolated τ of an incident direction, the same for all schemes.
 fn tau(schemes: &Schemes, d: Dir<Facade>) -> f64 {
     let place = schemes.model().lattice.locate(d);
-    Between::new(&schemes.model(), &place, schemes.model().recipe(d), d.vector()).tau
+    Between::new(schemes.model(), &place, schemes.model().recipe(d), d.vector()).tau
 }
 
 #[test]
