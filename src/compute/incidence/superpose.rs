@@ -103,8 +103,8 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellL
     light
 }
 
-/// Light of the lobes from the sub-patches `first` and following, and for every base the illuminance that it answers to,
-/// with the doubt of it.
+/// Light of the lobes from the sub-patches `first` and following; for every base the illuminance that it answers to,
+/// and the doubt of it.
 fn chunk_of_diffuse(
     model: &Model,
     patches: &RingBasis,
