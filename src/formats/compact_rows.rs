@@ -90,6 +90,7 @@ impl<'a> RowFile<'a> {
         let cut_off = || "compact rows cut off".to_owned();
         let (fixed, rest) = bytes.split_first_chunk::<6>().ok_or_else(cut_off)?;
         let (exponent, mask) = (fixed[0], fixed[1]);
+        // Transforms of that size would be prepared before the first byte of a row could be found wrong.
         if basis.len() > MOST_CELLS {
             return Err(format!("compact rows of {} cells (at most {MOST_CELLS})", basis.len()));
         }
@@ -98,6 +99,8 @@ impl<'a> RowFile<'a> {
         }
         let length = u32::from_le_bytes([fixed[2], fixed[3], fixed[4], fixed[5]]) as usize;
         let (packed, mut strings) = rest.split_at_checked(length).ok_or_else(cut_off)?;
+        // The size is known beforehand. One byte more is enough to tell that there is too much, and no small file can
+        // ask for all memory.
         let size = mask.count_ones() as usize * CONTEXTS + HEAD * count;
         let mut plain = Vec::new();
         zstd::stream::read::Decoder::new(packed)
@@ -107,6 +110,7 @@ impl<'a> RowFile<'a> {
             return Err(format!("heads of compact rows do not have {size} bytes"));
         }
         let mut plain = plain.as_slice();
+        // Tables of the orders that the mask names, each behind the one before; what then is left are the heads.
         let tables = [0, 1, 2].map(|k| {
             (mask >> k & 1 == 1).then(|| {
                 let (table, rest) = plain.split_at(CONTEXTS);
@@ -116,12 +120,15 @@ impl<'a> RowFile<'a> {
         });
         let mut heads = Vec::with_capacity(count);
         for row in 0..count {
+            // Heads are stored byte by byte: all first bytes, all second ones ….
             let byte = |k: usize| plain[k * count + row];
             let order = usize::from(byte(10));
             let length = u32::from_le_bytes([11, 12, 13, 14].map(byte)) as usize;
+            // Strings lie end to end: a row begins where the lengths before it say.
             let (string, rest) = strings.split_at_checked(length).ok_or_else(cut_off)?;
             strings = rest;
             let tau = f64::from_le_bytes(std::array::from_fn(byte));
+            // Rows without light name an order, too. A range refuses what is not a number as well.
             if tables.get(order).is_none_or(Option::is_none) || !(0.0..1e30).contains(&tau) {
                 return Err(format!("compact row {row} has no table, or no transmittance"));
             }

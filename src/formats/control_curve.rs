@@ -50,6 +50,7 @@ pub enum CurveError {
 /// Reads (profile angle \[°\], value) points.
 pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
     let text = std::str::from_utf8(bytes).map_err(|error| CurveError::NotText(error.valid_up_to()))?;
+    // Spreadsheets put a mark of the byte order first, which would be part of the first field.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut columns = [0, 1];
     let mut points: Vec<[f64; 2]> = Vec::new();
@@ -60,10 +61,12 @@ pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
         if line.is_empty() {
             continue;
         }
+        // Commas and semicolons may stand beside blanks; without them blanks and tabs separate.
         let fields: Vec<&str> = match line.find([',', ';']) {
             Some(_) => line.split([',', ';']).map(str::trim).collect(),
             None => line.split_whitespace().collect(),
         };
+        // A header is told by its words: the first line with content that is not all numbers.
         if std::mem::take(&mut first) && fields.iter().any(|field| field.parse::<f64>().is_err()) {
             let named = |names: &[&str]| fields.iter().position(|field| names.contains(&field.trim_matches('"')));
             let found = named(&["profile_angle_deg"]).zip(named(&["value_deg", "value"]));
@@ -74,6 +77,7 @@ pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
         let mut point = [0.0; 2];
         for (number, column) in point.iter_mut().zip(columns) {
             let field = fields.get(column).copied().unwrap_or("(missing)");
+            // "nan" and "inf" are numbers to the parser, but no angles.
             let parsed = field.parse::<f64>().ok().filter(|value| value.is_finite());
             *number = parsed.ok_or_else(|| CurveError::Number {
                 line: line_number,
@@ -83,10 +87,12 @@ pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
         if point[0].abs() > 90.0 {
             return Err(CurveError::Range { line: line_number, found: point[0] });
         }
+        // Values are interpolated between neighbours: two at one angle would be a jump of no width.
         if points.last().is_some_and(|last| last[0] >= point[0]) {
             return Err(CurveError::Order { line: line_number, found: point[0] });
         }
         points.push(point);
+        // Within the loop, so that a file of another kind is not read to its end first.
         if points.len() > MOST_POINTS {
             return Err(CurveError::Count(points.len()));
         }

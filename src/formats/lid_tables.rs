@@ -14,7 +14,9 @@ pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
     let centre = 0.5 * f64::from(SIZE);
     let radius = 250.0;
     let drawn = [0.0, 90.0, 180.0, 270.0].map(|c| luminaire.plane(nearest_plane(luminaire, c)));
+    // One scale for all four half planes: their sizes are to be compared.
     let full = round_up(drawn.into_iter().flatten().copied().fold(0.0, f64::max));
+    // Nadir is down and pixels count downwards: γ = 0 goes to +y, and `side` tells the half plane.
     let at = |gamma_deg: f64, r: f64, side: f64| {
         let (sin, cos) = gamma_deg.to_radians().sin_cos();
         [centre + side * r * sin, centre + r * cos]
@@ -28,10 +30,12 @@ pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
     for k in 0..12 {
         let gamma = f64::from(k) * 30.0;
         shapes.push(Shape::Line { points: vec![[centre, centre], at(gamma, radius, 1.0)], colour: GRID, width: 1.0 });
+        // The circle is drawn once all round; γ runs from nadir to zenith on both sides.
         let shown = if gamma > 180.0 { 360.0 - gamma } else { gamma };
         shapes.push(Shape::Text { at: at(gamma, radius + 26.0, 1.0), text: format!("{shown}°"), colour: INK });
     }
     for (c, colour) in [(0.0, C0), (90.0, C90)] {
+        // The two half planes of a colour make one section through the luminaire.
         for (plane_c, side) in [(c, 1.0), (c + 180.0, -1.0)] {
             let plane = luminaire.plane(nearest_plane(luminaire, plane_c));
             let points =
@@ -39,6 +43,7 @@ pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
             shapes.push(Shape::Line { points, colour, width: 2.0 });
         }
     }
+    // Beside the zenith, between two rays, curves seldom reach; two of the four rings are enough to read the scale.
     for ring in [2.0, 4.0] {
         let text = format!("{} cd", number(full * ring / 4.0, 3));
         shapes.push(Shape::Text { at: at(165.0, radius * ring / 4.0, 1.0), text, colour: INK });

@@ -48,9 +48,13 @@ pub struct Blocks {
 impl Blocks {
     /// The functions of a band that the source itself holds; `None` without any.
     pub fn new(dataset: &Dataset, band: &Band) -> Option<Self> {
+        // Functions derived by reciprocity would agree with their origin whatever is wrong. The dataset's list is about
+        // its visible band alone.
         let visible = std::ptr::eq(band, &dataset.visible);
         let own = |component: &Component| !(visible && dataset.derived.contains(component));
         let components: Vec<Component> = band.components().into_iter().filter(own).collect();
+        // On the data's own cells nothing is blurred by resampling. They serve where incident and emergent cells are
+        // the same ones, few enough for all pairs, and mapped onto each other by turns; else Klems' do.
         let basis = components
             .iter()
             .find_map(|component| match &band.get(*component)?.scattered {
@@ -67,6 +71,7 @@ impl Blocks {
             given[*component as usize] =
                 Some(Block { tau: matrix.tau_by_cell().to_vec(), q: matrix.values().to_vec() });
         }
+        // On cells counted by through-names a turn only exchanges numbers. A cell without an image stands for itself.
         let turned = |turn: fn(DVec3) -> DVec3| -> Vec<usize> {
             let place = |d: Dir<_>| basis.index(Dir::from_unit(turn(d.vector())));
             basis.cells().enumerate().map(|(k, cell)| place(cell.centre()).unwrap_or(k)).collect()

@@ -286,6 +286,7 @@ fn transposed(btdf: &Btdf) -> Result<Btdf, &'static str> {
 
 /// Values times a factor of the emergent cell; `all`: light that goes straight on as well.
 fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf, &'static str> {
+    // With `all` the factor is the same for every cell: any one tells it.
     let anywhere = factor(&RingBasis::hemisphere().cell(0));
     let angular = |tau: &AngularTransmittance| match tau {
         AngularTransmittance::Constant(tau) => AngularTransmittance::Constant(tau * anywhere),
@@ -293,6 +294,7 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
             AngularTransmittance::Table(list.iter().map(|tau| tau * anywhere).collect())
         }
     };
+    // What a file's author did to the values was done to the emergent cells: every row takes the same factors.
     let rows = |basis: &RingBasis, values: &[f64]| -> Vec<f64> {
         let factors: Vec<f64> = basis.cells().map(|cell| factor(&cell)).collect();
         values.chunks_exact(factors.len()).flat_map(|row| row.iter().zip(&factors).map(|(q, f)| q * f)).collect()
@@ -300,6 +302,7 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
     let scattered = match &btdf.scattered {
         None => None,
         Some(Scattered::Lambert(tau)) if all => Some(Scattered::Lambert(angular(tau))),
+        // A factor of the cell would make it something else than a diffuser.
         Some(Scattered::Lambert(_)) => return Err("an ideal diffuser has no value for every direction"),
         Some(Scattered::Cells(matrix)) => {
             let values = rows(matrix.emergent(), &matrix.values());
@@ -313,12 +316,14 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
             Some(Scattered::Directions(Arc::new(made.expect("the same directions as before"))))
         }
         Some(Scattered::Tree(tree)) => {
+            // The factor varies within large leaves; the tree is kept as it is and each leaf takes it at its middle.
             let mut nodes = tree.nodes().to_vec();
             scale_leaves(tree, 0, [0.0; 2], 1.0, &factor, &mut nodes);
             let tree = TensorTree::new(tree.rank(), tree.axes(), nodes).map_err(|_| "values beyond all numbers")?;
             Some(Scattered::Tree(Box::new(tree)))
         }
     };
+    // τ of straight light is no density: cosines and solid angles were never in it, a factor of 100 may be.
     let regular = btdf.regular.as_ref().map(|tau| if all { angular(tau) } else { tau.clone() });
     Ok(Btdf { regular, scattered })
 }

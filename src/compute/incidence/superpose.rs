@@ -80,39 +80,20 @@ const CHUNK: usize = 256;
 
 /// Luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.
 pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellLuminance {
-    let cells = model.grid().basis().len();
-    let count = model.lattice().points().len();
-    let total: f64 = illuminance.iter().sum();
+    // Lobes of sub-patches that bring nothing to the sum are not worth moving.
+    let least = 1e-9 * illuminance.iter().sum::<f64>();
     let parts: Vec<(CellLuminance, Vec<[f64; 2]>)> = illuminance
         .par_chunks(CHUNK)
         .enumerate()
-        .map(|(chunk, list)| {
-            let (mut light, mut bases) = (CellLuminance::dark(cells), vec![[0.0; 2]; count]);
-            let mut scratch = Vec::new();
-            for (k, &e) in list.iter().enumerate().filter(|(_, e)| **e > 1e-9 * total) {
-                let d: Dir<Facade> = patches.cell(chunk * CHUNK + k).centre();
-                let recipe = model.recipe(d);
-                for base in &recipe.bases {
-                    bases[base.vertex][0] += base.factor * e;
-                    bases[base.vertex][1] += (base.linear - base.factor) * e;
-                }
-                for copy in &recipe.copies {
-                    let doubt = copy.linear / copy.flux - 1.0;
-                    model.moved(copy, model.grid(), 1, &mut scratch);
-                    for &(cell, q) in &scratch {
-                        light.luminance[cell as usize] += e * q;
-                        light.doubt[cell as usize] += e * q * doubt;
-                    }
-                }
-            }
-            (light, bases)
-        })
+        .map(|(chunk, list)| chunk_of_diffuse(model, patches, chunk * CHUNK, list, least))
         .collect();
-    let (mut light, mut bases) = (CellLuminance::dark(cells), vec![[0.0; 2]; count]);
+    let count = model.lattice().points().len();
+    let (mut light, mut bases) = (CellLuminance::dark(model.grid().basis().len()), vec![[0.0; 2]; count]);
     for (part, own) in parts {
         light.add(&part);
         bases.iter_mut().zip(own).for_each(|(sum, x)| *sum = [sum[0] + x[0], sum[1] + x[1]]);
     }
+    // Bases stay where they are, whatever sub-patch they serve: each is drawn once, with all its light.
     for (vertex, &[e, doubt]) in bases.iter().enumerate().filter(|(_, e)| e[0] > 0.0) {
         for (cell, q) in model.base(vertex).into_iter().enumerate() {
             light.luminance[cell] += e * q;
@@ -120,6 +101,39 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellL
         }
     }
     light
+}
+
+/// Light of the lobes from the sub-patches `first` and following; for every base the illuminance that it answers to,
+/// and the doubt of it.
+fn chunk_of_diffuse(
+    model: &Model,
+    patches: &RingBasis,
+    first: usize,
+    list: &[f64],
+    least: f64,
+) -> (CellLuminance, Vec<[f64; 2]>) {
+    let mut light = CellLuminance::dark(model.grid().basis().len());
+    let mut bases = vec![[0.0; 2]; model.lattice().points().len()];
+    let mut scratch = Vec::new();
+    for (k, &e) in list.iter().enumerate().filter(|(_, e)| **e > least) {
+        let d: Dir<Facade> = patches.cell(first + k).centre();
+        let recipe = model.recipe(d);
+        for base in &recipe.bases {
+            bases[base.vertex][0] += base.factor * e;
+            bases[base.vertex][1] += (base.linear - base.factor) * e;
+        }
+        for copy in &recipe.copies {
+            // The lobe lies in the same place with either flux: the doubt is its light, scaled.
+            let doubt = copy.linear / copy.flux - 1.0;
+            // One direction a cell: sums over many sub-patches smooth what cells do not.
+            model.moved(copy, model.grid(), 1, &mut scratch);
+            for &(cell, q) in &scratch {
+                light.luminance[cell as usize] += e * q;
+                light.doubt[cell as usize] += e * q * doubt;
+            }
+        }
+    }
+    (light, bases)
 }
 
 /// Luminance of the cells of `target` (which lie within the data's own) from the sun. `points`² directions a cell.

@@ -124,6 +124,8 @@ impl Polygon {
         breaks: &mut Vec<f64>,
         visit: &mut impl FnMut(usize, f64),
     ) {
+        // Borders of the ring are circles d tanθ in the gnomonic plane; at the horizon the circle is infinite, which a
+        // rounded tangent of 90° is not.
         let inner = self.distance * ring.theta_min.tan();
         let outer =
             if ring.theta_max < 0.5 * PI - 1e-12 { self.distance * ring.theta_max.tan() } else { f64::INFINITY };
@@ -132,10 +134,12 @@ impl Polygon {
         }
         let [first, last] = self.range;
         let width = 2.0 * PI / ring.sectors as f64;
+        // Azimuths at which the cell changes, or the edge or circle that bounds it: in between all closed forms hold.
         breaks.clear();
         breaks.extend([first, last]);
         if ring.sectors > 1 {
             for sector in 0..ring.sectors {
+                // The first sector is centred on `first_phi`: borders lie half a width further.
                 let own = ring.first_phi + (sector as f64 + 0.5) * width;
                 breaks.push(relative(basis.azimuth().facade_phi(own), self.reference));
             }
@@ -150,14 +154,18 @@ impl Polygon {
         breaks.sort_unstable_by(f64::total_cmp);
         let rims = [ring.theta_min, ring.theta_max].map(Rim::new);
         let mut from = first;
+        // Two neighbouring intervals share a border: its sine and cosine are computed once.
         let mut end = (first + self.reference).sin_cos();
         for &to in breaks.iter() {
+            // Breaks that coincide; `from` stays, so that nothing is lost between them.
             if to - from < 1e-15 {
                 continue;
             }
             let (a, b) = (from, to);
             let ends = [end, (b + self.reference).sin_cos()];
             (from, end) = (to, ends[1]);
+            // What bounds the interval, and its sector, are asked in its middle, where rounding cannot confuse
+            // neighbours.
             let middle = 0.5 * (a + b);
             let Some([low, high]) = self.along(middle) else {
                 continue;
@@ -168,6 +176,7 @@ impl Polygon {
                 continue;
             }
             let fan = |bound: &Bound| self.fan(bound, ends, b - a);
+            // w = n·∫ω dω over the fan between the two bounds. The part lies before the sensor: below 0 is rounding.
             let weight = view.normal.dot(fan(&upper) - fan(&lower));
             let own = basis.azimuth().own_phi(middle + self.reference);
             let sector = (wrap_two_pi(own - ring.first_phi + 0.5 * width) / width) as usize;

@@ -53,6 +53,8 @@ impl Exchange {
 
     fn parallel(&mut self, a: &Wall, b: &Wall) {
         let z = (a.position - b.position).abs();
+        // Both walls lie across the same axis, so that their lines run along the same two. The corner function G is
+        // even in both offsets: distances are enough, and equal ones share an entry.
         let [x, y] = [0, 1].map(|side| Differences::new(&a.lines[side], &b.lines[side]));
         let table: Vec<f64> =
             x.values.iter().flat_map(|&x| y.values.iter().map(move |&y| parallel_corner(x, y, z))).collect();
@@ -63,10 +65,13 @@ impl Exchange {
                 let row = a.first + i * (a.lines[1].len() - 1) + j;
                 for k in 0..b0 {
                     let base = row * self.columns + b.first + k * b1;
+                    // A F = Σ (−1)^(i+j+k+l) G(x_i − ξ_k, y_j − η_l, z): the second difference in x first, whose places
+                    // in the table serve the whole run over l, then that in y.
                     let at = [x.at(i, k), x.at(i + 1, k), x.at(i, k + 1), x.at(i + 1, k + 1)].map(|x| x * width);
                     let out = &mut self.values[base..base + b1];
                     for (l, af) in out.iter_mut().enumerate() {
                         let sum = |y: usize| table[at[0] + y] - table[at[1] + y] - table[at[2] + y] + table[at[3] + y];
+                        // Never negative but by rounding, where patches are small and far apart.
                         *af = (sum(y.at(j, l)) - sum(y.at(j + 1, l)) - sum(y.at(j, l + 1)) + sum(y.at(j + 1, l + 1)))
                             .abs();
                     }

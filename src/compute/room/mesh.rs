@@ -149,9 +149,12 @@ impl Mesh {
         aperture_reflectance: &[f64],
         lines: &[Vec<f64>; 3],
     ) -> Self {
+        // The order that `Mesh` states; `number` below counts in it.
         let sides = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
         let mut mesh = Self { walls: Vec::with_capacity(6), patches: Vec::new() };
         for (number, (axis, high)) in sides.into_iter().enumerate() {
+            // The two other axes, rising: opposite walls then have the same lines in the same order, as exchange areas
+            // need.
             let along = [if axis == 0 { 1 } else { 0 }, if axis == 2 { 1 } else { 2 }];
             let mut normal = DVec3::ZERO;
             normal[axis] = if high { -1.0 } else { 1.0 };
@@ -163,6 +166,7 @@ impl Mesh {
                 lines: along.map(|a| lines[a].clone()),
                 first: mesh.patches.len(),
             };
+            // Apertures are set into the ceiling (roof lights) and into the façade only.
             let surface = match number {
                 1 => Some(Surface::Roof),
                 4 => Some(Surface::Facade),
@@ -175,9 +179,12 @@ impl Mesh {
             };
             for a in wall.lines[0].windows(2) {
                 for b in wall.lines[1].windows(2) {
+                    // The lines hold all borders of apertures, so that no patch lies across one: its centre decides for
+                    // all of it.
                     let centre = wall.point(0.5 * (a[0] + a[1]), 0.5 * (b[0] + b[1]));
                     let aperture = apertures.iter().position(|aperture| {
                         let offset = aperture.surface.facade_from_room(centre - aperture.corner);
+                        // The offset is along the surface alone; the surface itself must be asked for.
                         surface == Some(aperture.surface)
                             && (0.0..aperture.size[0]).contains(&offset.x)
                             && (0.0..aperture.size[1]).contains(&offset.y)

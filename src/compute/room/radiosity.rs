@@ -172,11 +172,15 @@ impl MeshBalance {
 
     /// Weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R): [`Self::after_reflection`] read backwards.
     fn adjoint(&self, emitters: &Mesh, gather: &[f64]) -> Vec<f64> {
+        // h = ρ gather weighs both E₀ and R. Without any active patch R is 0.
         let mut result: Vec<f64> =
             emitters.patches.iter().zip(gather).map(|(patch, g)| patch.reflectance * g).collect();
         let Some(factor) = &self.factor else {
             return result;
         };
+        // The last step forwards gives every receiving patch the mean of the balance: what its fine patches weigh
+        // together goes to that mean, b/ρ, and is taken off the mean of what exchange alone brings. Black patches have
+        // no such step.
         let mut held = vec![0.0; self.area.len()];
         for (h, &holder) in result.iter().zip(&self.holder) {
             held[holder] += h;
@@ -187,12 +191,16 @@ impl MeshBalance {
             .zip(emitters.patches.iter().zip(&self.holder))
             .map(|(h, (patch, &i))| h / patch.area - held[i] / self.area[i])
             .collect();
+        // u = AF (h/a − held/A): weights of the exitance that was handed back to the fine patches.
         let exitance: Vec<f64> = (0..self.area.len()).map(|i| dot(self.exchange.row(i), &before)).collect();
+        // b counts as exitance and, over ρ, as mean. (A/ρ − AF) is symmetric: the same factor solves backwards, and
+        // what comes out weighs A E₁. That b is held at 0 forwards only takes off rounding, and is left out here.
         let rhs = Mat::from_fn(self.active.len(), 1, |r, _| {
             let i = self.active[r];
             exitance[i] + held[i] / self.reflectance[i]
         });
         let solution = factor.solve(&rhs);
+        // A E₁ = AF ρE₀ read backwards: by the transpose to the emitting patches, whose ρ follows below.
         let mut emitted = vec![0.0; result.len()];
         for (r, &i) in self.active.iter().enumerate() {
             let once = solution[(r, 0)];
@@ -200,6 +208,7 @@ impl MeshBalance {
                 emitted.iter_mut().zip(self.exchange.row(i)).for_each(|(sum, af)| *sum += af * once);
             }
         }
+        // The exitance of a receiving patch also held ρ times the mean of E₀ itself.
         let means: Vec<f64> = exitance.iter().zip(&self.reflectance).map(|(u, rho)| u * rho).collect();
         let by_means = self.spread(emitters, &means);
         for (k, (value, patch)) in result.iter_mut().zip(&emitters.patches).enumerate() {

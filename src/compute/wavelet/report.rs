@@ -41,12 +41,15 @@ impl CompactReport {
             let (back, negative) = compact.restored(index);
             let sum = |f: &dyn Fn(usize) -> f64| weights.iter().enumerate().map(|(k, w)| w * f(k)).sum::<f64>();
             let (tau, tau_back) = (sum(&|k| given[k]), sum(&|k| back[k]));
+            // Dark rows have no relative error, and come back exactly.
             if tau <= 0.0 {
                 continue;
             }
             lit += 1.0;
+            // Squares are summed over all rows before they are divided: bright rows count for what they are.
             off += sum(&|k| (back[k] - given[k]).powi(2));
             all += sum(&|k| given[k].powi(2));
+            // The threshold within a criterion plays no part here: only its measure of error does.
             let misplaced = Criterion::ARCHIVE.error(&weights, &given, &back);
             report.misplaced += misplaced;
             report.misplaced_worst = report.misplaced_worst.max(misplaced);
@@ -57,6 +60,7 @@ impl CompactReport {
             report.tau_error = report.tau_error.max((tau_back - tau).abs() / tau);
             report.negative += negative;
         }
+        // Without any row that is lit all errors are 0.
         report.rms = if all > 0.0 { (off / all).sqrt() } else { 0.0 };
         report.misplaced /= lit.max(1.0);
         report.negative /= lit.max(1.0);

@@ -51,9 +51,12 @@ pub(super) fn resample(
     let Some((_, first)) = list.first() else {
         return Err(FormatError::new(Location::file(), "no records", "records behind the header"));
     };
+    // Instruments that scan one raster give all incidences the same directions; names are compared to the last bit,
+    // since they come from the same text.
     let same = list.iter().all(|(_, points)| {
         points.len() == first.len() && points.iter().zip(first).all(|(a, b)| a.name.vector() == b.name.vector())
     });
+    // Points that are the centres of rings need no interpolation, unless the header asks for other cells.
     if rings.is_none()
         && same
         && let Some((basis, cells)) = own_rings(first)
@@ -61,6 +64,7 @@ pub(super) fn resample(
         return Ok(on_own_rings(list, basis, &cells, naming));
     }
     let basis = rings.map_or_else(|| cells_for(list), |rings| rings.basis);
+    // Before anything is allocated: a header may ask for any number of cells.
     if basis.len().saturating_mul(list.len()) > MOST_VALUES {
         return Err(FormatError::new(
             Location::file(),
@@ -69,25 +73,16 @@ pub(super) fn resample(
         ));
     }
     let samples = samples(&basis);
+    // Weights depend on the directions alone: the search for neighbours is made once where it can be.
     let shared = same.then(|| Stencils::new(&Cloud::new(first), &samples));
     let rows: Vec<(Vec<f64>, f64, f64)> = list
         .par_iter()
-        .map(|(_, points)| {
-            let made;
-            let stencils = match &shared {
-                Some(shared) => shared,
-                None => {
-                    made = Stencils::new(&Cloud::new(points), &samples);
-                    &made
-                }
-            };
-            let value = |s: &Stencil| s.iter().map(|&(k, w)| w * points[k as usize].q).sum::<f64>();
-            let mut row: Vec<f64> =
-                stencils.list.chunks_exact(4).map(|four| 0.25 * four.iter().map(value).sum::<f64>()).collect();
-            means_of_many(&basis, points, &mut row);
-            (row, stencils.beyond, left_out(points))
+        .map(|(_, points)| match &shared {
+            Some(stencils) => row_by(stencils, &basis, points),
+            None => row_by(&Stencils::new(&Cloud::new(points), &samples), &basis, points),
         })
         .collect();
+    // The worst incidence speaks: a mean over all would hide a gap that only grazing light has.
     let beyond = rows.iter().map(|row| row.1).fold(0.0, f64::max);
     let errors: Vec<f64> = rows.iter().map(|row| row.2).collect();
     let mut findings =
@@ -104,6 +99,16 @@ pub(super) fn resample(
     }
     let rows = rows.into_iter().flat_map(|row| row.0).collect();
     Ok(Resampled { basis, rows, findings })
+}
+
+/// One incidence's values on the cells, the share of samples far from its points, and how much single points miss.
+fn row_by(stencils: &Stencils, basis: &RingBasis, points: &[Point]) -> (Vec<f64>, f64, f64) {
+    let value = |s: &Stencil| s.iter().map(|&(k, w)| w * points[k as usize].q).sum::<f64>();
+    // The four samples of a cell have equal projected weight.
+    let mut row: Vec<f64> =
+        stencils.list.chunks_exact(4).map(|four| 0.25 * four.iter().map(value).sum::<f64>()).collect();
+    means_of_many(basis, points, &mut row);
+    (row, stencils.beyond, left_out(points))
 }
 
 /// Puts the mean of the points of a cell where many lie in it.

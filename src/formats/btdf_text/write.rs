@@ -84,6 +84,7 @@ impl Table {
         let mut tell = |code, text: String| findings.push(Finding::info(code, text));
         let made;
         let (mut table, emergent) = match &btdf.scattered {
+            // Only without straight light, which the format cannot say: it must go into cells first, as below.
             Some(Scattered::Directions(data)) if btdf.regular.is_none() => {
                 let rows = (0..data.incident().len()).map(|k| data.row(k).into_owned()).collect();
                 let names = data.incident().iter().map(|d| d.0).collect();
@@ -100,6 +101,7 @@ impl Table {
                     Some(Scattered::Directions(_) | Scattered::Cells(_)) => "cells and light that goes straight on",
                     None => "light that goes straight on",
                 };
+                // The finest incident cells whose means the format knows.
                 let incident = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
                 made = matrix_on(btdf, &incident, &even_rings(5_f64.to_radians()));
                 tell("resampled", format!("{from}, averaged over Klems' 145 incident cells and emergent rings of 5°."));
@@ -112,6 +114,7 @@ impl Table {
                 (Self::of_matrix(&made, &mut tell), made.emergent())
             }
         };
+        // A file counts sectors from φ = 0 of its own angles. Where that only renumbers cells, values stay exact.
         let own = emergent.clone();
         table.emergent = file_basis(&own, Naming::emergent(component));
         match same_cells(&own, &table.emergent) {
@@ -128,6 +131,7 @@ impl Table {
                 );
             }
         }
+        // Last: a lattice is not listed but named, and its records stand in the order of its definition.
         table.sort(Naming::incident(component));
         table
     }

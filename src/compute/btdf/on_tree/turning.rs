@@ -97,6 +97,8 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
     let sine = |u: f64| 1.0 - 2.0 * (at as f64 + u) / grid.resolution() as f64;
     let angle = |k: usize, of: usize| 2.0 * PI * (k as f64 + 0.5) / of as f64;
     let side = 1.0 / grid.resolution() as f64;
+    // The map from square to disk keeps areas, so that four equal quarters of a cell weigh the same; all azimuths share
+    // them, turned.
     let disks: Vec<[[f64; 2]; 4]> = grid
         .cells()
         .map(|cell| {
@@ -106,11 +108,13 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
         })
         .collect();
     let mut rows = vec![vec![0.0; grid.len()]; AZIMUTHS];
+    // Projected solid angle in a ring is r dr dφ: radii weigh by r.
     let weights: f64 = (0..RADII).map(|k| sine((k as f64 + 0.5) / RADII as f64)).sum();
     for (k, row) in rows.iter_mut().enumerate() {
         let turn = angle(k, AZIMUTHS);
         for radius in 0..RADII {
             let r = sine((radius as f64 + 0.5) / RADII as f64);
+            // Incidence and emergence turn together: what is the same at every azimuth lands in the same cell.
             let of = sampler.from(direction(rotate([r, 0.0], turn)));
             for (value, cell) in row.iter_mut().zip(&disks) {
                 let sum: f64 = cell.iter().map(|&disk| of(direction(rotate(disk, turn)))).sum();
@@ -122,9 +126,12 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
     for row in &rows {
         mean.iter_mut().zip(row).for_each(|(m, q)| *m += q / AZIMUTHS as f64);
     }
+    // What is left at single azimuths is what rank 3 cannot hold. The ring's own weight lets the caller add up rings.
     let ring = sine(0.5) * grid.projected_solid_angle();
     let apart: f64 = rows.iter().flat_map(|row| row.iter().zip(&mean).map(|(q, m)| (q - m).abs())).sum::<f64>();
     let flux: f64 = mean.iter().sum();
+    // The emergent square is sampled too coarsely to be trusted with the flux: τ of the scattered part alone (straight
+    // light is put in by the caller) is averaged over more directions of incidence and sets it.
     let scattered = Btdf { regular: None, scattered: btdf.scattered.clone() };
     let (mut tau, mut weight) = (0.0, 0.0);
     for k in 0..72 {

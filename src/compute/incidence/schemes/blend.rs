@@ -151,20 +151,24 @@ fn deposit(out: &[(usize, f64)], (wanted, place): (f64, DVec3), target: &Grid, s
 
 /// Values of a piece on the cells that it reaches, not normalised.
 fn draw(model: &Model, piece: &Piece, target: &Grid, points: usize, out: &mut Vec<(usize, f64)>) {
+    // Cells ask where their light came from: drawn the other way, a turned piece would leave holes between cells.
     let back = piece.turn.conjugate();
     match piece.shape {
         Shape::Base(vertex) => {
             let base = model.base(vertex);
             if piece.stays() {
+                // Where it stays, a base has its own cells' values: interpolation would only blur it.
                 let same = model.grid.basis() == target.basis();
                 for (cell, &d) in target.centre.iter().enumerate() {
                     let own = if same { cell } else { model.grid.basis().index(Dir::from_unit(d)).unwrap_or(0) };
+                    // A base is what lobes leave of the data; below 0 is rounding.
                     out.push((cell, base[own].max(0.0)));
                 }
             } else {
                 let first = |ring| model.grid.basis().first_cell(ring);
                 for (cell, &d) in target.centre.iter().enumerate() {
                     let d = back * d;
+                    // What would have come from behind the plane is not known, and adds nothing.
                     if d.z > 0.0 {
                         let around = model.grid.around_rings(d);
                         let q: f64 = around.iter().map(|&(ring, k, _, w)| w * base[first(ring) + k]).sum();
@@ -175,11 +179,13 @@ fn draw(model: &Model, piece: &Piece, target: &Grid, points: usize, out: &mut Ve
         }
         Shape::Lobe(vertex, l) => {
             let lobe = &model.lobes[vertex][l];
+            // As in the data, to the last digit; the picture below is sampled and interpolated.
             if piece.stays() && model.grid.basis() == target.basis() {
                 out.extend(lobe.cells(&model.grid));
                 return;
             }
             let picture = model.rasters[vertex][l].turned_by(piece.turn);
+            // A little more than the lobe, since its picture fades out over the cells around it.
             target.within(piece.turn * lobe.centre, lobe.radius + 0.04, |cell| {
                 let q = target.cell_mean(cell, points, |d| picture.at(d));
                 if q > 0.0 {
@@ -190,6 +196,7 @@ fn draw(model: &Model, piece: &Piece, target: &Grid, points: usize, out: &mut Ve
         Shape::Spot(spread) => {
             let centre = piece.turn * DVec3::Z;
             target.within(centre, 3.5 * spread, |cell| {
+                // e^((cosα − 1)/σ²) is e^(−α²/2σ²) for small α, without an arc cosine.
                 let q = target.cell_mean(cell, points, |d| ((d.dot(centre) - 1.0) / (spread * spread)).exp());
                 if q > 1e-6 {
                     out.push((cell, q));

@@ -63,6 +63,8 @@ impl Specimen for Panes {
                 return Err(Cancelled);
             }
             let whole = cell.projected_solid_angle();
+            // Light keeps its name, so that only cells that overlap exchange any: with the overlap Δφ by θ₁ … θ₂, q =
+            // Δφ ∫ τ sinθ cosθ dθ / (PΩᵢ PΩₒ).
             let add = |measured: &mut Measured, o: usize, width: f64, mean: &Share, weight: f64| {
                 let q = width / (whole * weight);
                 measured.front.transmitted[i * m + o] += mean.transmitted * q;
@@ -72,6 +74,7 @@ impl Specimen for Panes {
             };
             for (o, out) in emergent.iter().enumerate() {
                 let (from, to) = (cell.theta_min.max(out.theta_min), cell.theta_max.min(out.theta_max));
+                // Rings that only touch, and below azimuths that do, differ by rounding.
                 if to - from <= 1e-12 {
                     continue;
                 }
@@ -81,10 +84,12 @@ impl Specimen for Panes {
                     add(&mut measured, o, width, &mean, out.projected_solid_angle());
                 }
             }
+            // Absorbed and error need no azimuth: its width falls out of means over the whole cell.
             let ([mean, coarse], weight) = known.integral(cell.theta_min, cell.theta_max);
             for side in Side::BOTH {
                 let reflected = |s: &Share| if side == Side::Front { s.reflected_front } else { s.reflected_back };
                 let seen = measured.seen_mut(side);
+                // What is neither passed nor thrown back; clear panes leave 0, and rounding.
                 seen.absorbed[i] = (weight - mean.transmitted - reflected(&mean)).max(0.0) / weight;
                 let apart = (mean.transmitted - coarse.transmitted).abs();
                 seen.error[i] = apart.max((reflected(&mean) - reflected(&coarse)).abs()) / weight;

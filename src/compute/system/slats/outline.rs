@@ -264,44 +264,44 @@ impl SlatSection {
         self.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0)
     }
 
+    /// Strips joined as far as rays need not tell them apart: rays then meet a few facets instead of all strips.
     fn runs(&self) -> Vec<Facet> {
-        let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
-        let bent = |strip: &Strip| strip.normals[0] != strip.normals[1];
         let mut runs: Vec<std::ops::Range<usize>> = vec![];
         for (k, strip) in self.strips.iter().enumerate() {
-            let goes_on = k > 0 && {
-                let before = &self.strips[k - 1];
-                let (m, n) = (left_of(before.a, before.b), left_of(strip.a, strip.b));
-                let joined = (before.b[0] - strip.a[0]).hypot(before.b[1] - strip.a[1]) < 1e-12;
-                let straight = (m[0] - n[0]).hypot(m[1] - n[1]) < 1e-9 && !(bent(before) || bent(strip));
-                let [p, q] = [before.normals[1], strip.normals[0]];
-                let round = bent(before) && bent(strip) && (p[0] - q[0]).hypot(p[1] - q[1]) < 1e-9;
-                joined && (straight || round) && finish(before) == finish(strip)
-            };
             match runs.last_mut() {
-                Some(run) if goes_on => run.end = k + 1,
+                Some(run) if self.goes_on(&self.strips[k - 1], strip) => run.end = k + 1,
                 _ => runs.push(k..k + 1),
             }
         }
-        let facet = |run: std::ops::Range<usize>| {
-            let (first, last) = (&self.strips[run.start], &self.strips[run.end - 1]);
-            let (a, b) = (first.a, last.b);
-            let circle = Circle::of(a, b, [first.normals[0], last.normals[1]]);
-            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            let end = |strip: &Strip| {
-                let along = || (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
-                circle.map_or_else(along, |circle| circle.share(strip.normals[1]))
-            };
-            Facet {
-                a,
-                b,
-                left: left_of(a, b),
-                first: run.start,
-                ends: self.strips[run].iter().map(end).collect(),
-                circle,
-            }
+        runs.into_iter().map(|run| self.facet(run)).collect()
+    }
+
+    /// Whether a strip continues the line or the arc of the one before.
+    fn goes_on(&self, before: &Strip, strip: &Strip) -> bool {
+        // Both halves of a strip, and strips cut at crossings, have faces of their own: what counts is their finish.
+        let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
+        let bent = |strip: &Strip| strip.normals[0] != strip.normals[1];
+        let (m, n) = (left_of(before.a, before.b), left_of(strip.a, strip.b));
+        let joined = (before.b[0] - strip.a[0]).hypot(before.b[1] - strip.a[1]) < 1e-12;
+        let straight = (m[0] - n[0]).hypot(m[1] - n[1]) < 1e-9 && !(bent(before) || bent(strip));
+        // Chords of an arc turn from strip to strip, its normals do not jump.
+        let [p, q] = [before.normals[1], strip.normals[0]];
+        let round = bent(before) && bent(strip) && (p[0] - q[0]).hypot(p[1] - q[1]) < 1e-9;
+        joined && (straight || round) && finish(before) == finish(strip)
+    }
+
+    /// The facet that a run of strips makes.
+    fn facet(&self, run: std::ops::Range<usize>) -> Facet {
+        let (first, last) = (&self.strips[run.start], &self.strips[run.end - 1]);
+        let (a, b) = (first.a, last.b);
+        let circle = Circle::of(a, b, [first.normals[0], last.normals[1]]);
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        // The ways along which rays tell where they meet the facet: the turn of the normal on an arc, else the length.
+        let end = |strip: &Strip| {
+            let along = || (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
+            circle.map_or_else(along, |circle| circle.share(strip.normals[1]))
         };
-        runs.into_iter().map(facet).collect()
+        Facet { a, b, left: left_of(a, b), first: run.start, ends: self.strips[run].iter().map(end).collect(), circle }
     }
 }
 

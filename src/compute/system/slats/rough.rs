@@ -4,7 +4,7 @@
 use super::along::{Along, BINS};
 use super::flows::Rough;
 use super::profile_weights::{Piece, ProfileGrid, primitive};
-use crate::compute::basis::RingBasis;
+use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::system::measure::{Measured, Setting, Side};
 use rayon::prelude::*;
@@ -23,41 +23,48 @@ fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Foot
     let nodes: Vec<f64> = (0..grid.len()).map(|node| grid.psi(node)).collect();
     let rule = gauss_legendre(6);
     let cells: Vec<_> = basis.cells().collect();
-    let one = |cell: &crate::compute::basis::Cell| {
-        let mut sums: Vec<(usize, Vec<f64>)> = vec![];
-        for piece in Piece::of(cell) {
-            let knots = piece.knots();
-            let (low, high) = (knots[0], knots[knots.len() - 1]);
-            let own: Vec<f64> = nodes.iter().copied().filter(|psi| (low..=high).contains(&(psi * piece.up))).collect();
-            piece.integrate(&rule, &own, |psi, weight| {
-                let Some([a, b]) = piece.across(psi * piece.up) else { return };
-                let (from, to) = if piece.right > 0.0 { (a, b) } else { (-b, -a) };
-                let length = primitive(to) - primitive(from);
-                let (node, above) = grid.place(psi);
-                for (node, share) in [(node, 1.0 - above), (node + 1, above)] {
-                    let at = sums.iter().position(|(other, _)| *other == node).unwrap_or_else(|| {
-                        sums.push((node, vec![0.0; BINS]));
-                        sums.len() - 1
-                    });
-                    let start = along.edges.partition_point(|edge| *edge <= from).clamp(1, BINS) - 1;
-                    for (bin, ends) in along.edges.windows(2).enumerate().skip(start) {
-                        if ends[0] >= to {
-                            break;
-                        }
-                        let part = primitive(ends[1].min(to)) - primitive(ends[0].max(from));
-                        sums[at].1[bin] += weight * share * part.max(0.0) / length;
+    cells.par_iter().map(|cell| footings_of(cell, grid, &nodes, &rule, along)).collect()
+}
+
+/// Parts of one cell.
+fn footings_of(cell: &Cell, grid: ProfileGrid, nodes: &[f64], rule: &[(f64, f64)], along: &Along) -> Vec<Footing> {
+    let mut sums: Vec<(usize, Vec<f64>)> = vec![];
+    for piece in Piece::of(cell) {
+        let knots = piece.knots();
+        let (low, high) = (knots[0], knots[knots.len() - 1]);
+        // Hats have kinks at the nodes: the rule is to hold between them.
+        let own: Vec<f64> = nodes.iter().copied().filter(|psi| (low..=high).contains(&(psi * piece.up))).collect();
+        piece.integrate(rule, &own, |psi, weight| {
+            let Some([a, b]) = piece.across(psi * piece.up) else { return };
+            // Pieces know |x|; the bins run from left to right.
+            let (from, to) = if piece.right > 0.0 { (a, b) } else { (-b, -a) };
+            let length = primitive(to) - primitive(from);
+            let (node, above) = grid.place(psi);
+            for (node, share) in [(node, 1.0 - above), (node + 1, above)] {
+                let at = sums.iter().position(|(other, _)| *other == node).unwrap_or_else(|| {
+                    sums.push((node, vec![0.0; BINS]));
+                    sums.len() - 1
+                });
+                // An end of the line may lie on, or by rounding beyond, an end of the bins.
+                let start = along.edges.partition_point(|edge| *edge <= from).clamp(1, BINS) - 1;
+                for (bin, ends) in along.edges.windows(2).enumerate().skip(start) {
+                    if ends[0] >= to {
+                        break;
                     }
+                    // `weight` is D dψ of the whole line: each bin takes its share of D = ∫ √(1 − x²) dx.
+                    let part = primitive(ends[1].min(to)) - primitive(ends[0].max(from));
+                    sums[at].1[bin] += weight * share * part.max(0.0) / length;
                 }
-            });
-        }
-        let trimmed = |(node, bins): (usize, Vec<f64>)| {
-            let first = bins.iter().position(|x| *x > 0.0)?;
-            let last = bins.iter().rposition(|x| *x > 0.0)?;
-            Some(Footing { node, first, parts: bins[first..=last].to_vec() })
-        };
-        sums.into_iter().filter_map(trimmed).collect()
+            }
+        });
+    }
+    // Most of the bins of a cell are empty; what multiplies kernels and flows later runs over the others alone.
+    let trimmed = |(node, bins): (usize, Vec<f64>)| {
+        let first = bins.iter().position(|x| *x > 0.0)?;
+        let last = bins.iter().rposition(|x| *x > 0.0)?;
+        Some(Footing { node, first, parts: bins[first..=last].to_vec() })
     };
-    cells.par_iter().map(one).collect()
+    sums.into_iter().filter_map(trimmed).collect()
 }
 
 /// The cells that take light at one node.
@@ -118,24 +125,31 @@ pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough,
 
 /// Adds what a cell sends by these flows from node to node.
 fn send(cell: &[Footing], flows: &[f64], targets: &[Targets], scale: f64, row: &mut [f64]) {
+    // Before it is spread by the kernel, light keeps the few bins of x that the cell has: only these are carried along.
     let first = cell.iter().map(|f| f.first).min().unwrap_or(0);
     let last = cell.iter().map(|f| f.first + f.parts.len()).max().unwrap_or(first);
     let (n, width) = (targets.len(), last - first);
     let mut sent = vec![0.0; n * width];
+    // First A F, summed over the cell's nodes, then K and the cells that take it, once a node: products one after the
+    // other instead of one for every pair of parts.
     for f in cell {
         let start = f.first - first;
         let range = start..start + f.parts.len();
+        // Most pairs of nodes exchange nothing.
         for (other, flow) in flows[f.node * n..(f.node + 1) * n].iter().enumerate().filter(|(_, flow)| **flow > 0.0) {
             let line = &mut sent[other * width..(other + 1) * width][range.clone()];
             line.iter_mut().zip(&f.parts).for_each(|(sum, part)| *sum += scale * flow * part);
         }
     }
     let mut taken = vec![];
+    // `max(1)`: a cell without any part has no bins, and chunks of 0 are not allowed.
     for (line, targets) in sent.chunks(width.max(1)).zip(targets) {
         let count = targets.cells.len();
         taken.clear();
         taken.resize(count, 0.0);
         for (bin, amount) in line.iter().enumerate().filter(|(_, amount)| **amount > 0.0) {
+            // The cells of a node stand side by side here, which lets the sum run straight through; they are sorted
+            // into the row at the end.
             let parts = &targets.parts[(first + bin) * count..(first + bin + 1) * count];
             taken.iter_mut().zip(parts).for_each(|(sum, part)| *sum += amount * part);
         }
