@@ -29,12 +29,14 @@ impl App {
             Command::ControlKeys(keys) => self.set_control(*keys),
             Command::ControlOf(index) => {
                 state.control_of = index;
+                // What was asked last is known by the document, which does not hold this choice: ask again by hand.
                 self.asked = None;
             }
             Command::Quit => self.ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Command::Undo => self.step_history(false),
             Command::Redo => self.step_history(true),
             Command::Search => {
+                // The field to type in may be hidden with its panel.
                 state.settings.catalogue_open = true;
                 state.focus_search = true;
             }
@@ -44,6 +46,7 @@ impl App {
             Command::EditPalette(text) => state.palette = Some(text),
             Command::Maximise(tile) => state.maximised = tile,
             Command::Hour(hours) => {
+                // A sun that is given by angles has no clock: the key does nothing then.
                 moment::step(&mut state.document.scene, 0, 60 * hours);
             }
             Command::Day(days) => {
@@ -57,11 +60,13 @@ impl App {
                 choice.apply(&self.ctx);
             }
             Command::ResetScene => {
+                // The first scene names no product: the one that is chosen stays.
                 state.document.scene = first_scene();
                 state.document.daylight_follows = true;
                 fill(&mut state.document.scene, &state.document.selection);
             }
             Command::Sheet(sheet) => {
+                // The key that opens a sheet also closes it.
                 state.sheet = if state.sheet == sheet { None } else { sheet };
             }
             Command::Cancel(lane) => {
@@ -74,6 +79,7 @@ impl App {
                     Lane::Import | Lane::Export => format!("{} stopped", lane.word()),
                     _ => format!("{} stopped; what is shown is older than the scene", lane.word()),
                 };
+                // The job may have ended between the picture and the click: then nothing was lost, and nothing is said.
                 if stopped {
                     self.toasts.info(told);
                 }
@@ -81,6 +87,7 @@ impl App {
             Command::Select(product) => self.select(Selection { product, state: String::new() }),
             Command::SelectState(key) => {
                 let product = state.document.selection.product.clone();
+                // With one aperture in hand the click means that aperture: the others go on by their rules.
                 if state.control_of.is_some() && state.document.selection.state == CONTROLLED {
                     self.set_control(ControlKeys { state: Some(key), ..ControlKeys::of(ControlMode::Fixed) });
                 } else {
@@ -90,6 +97,7 @@ impl App {
             Command::Row(step) => {
                 let last = state.found.entries.len().saturating_sub(1);
                 let here = state.found.entries.iter().position(|entry| entry.key == state.document.selection.product);
+                // Where the list no longer holds the chosen product the keys start at its top.
                 state.row = match here {
                     Some(row) => row.saturating_add_signed(step as isize).min(last),
                     None => 0,

@@ -147,9 +147,12 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
         let wrong = |byte| AppError::NotText(byte, what).about(path.display());
         String::from_utf8(read_bytes(path)?).map_err(|error| wrong(error.utf8_error().valid_up_to()))
     };
+    // Its name ends like a scene's, so it is asked about first. Among several files neither is opened: those are taken
+    // as states of a product, and what is no dataset is listed as a failure.
     if let [path] = paths
         && is_system_file(&path.to_string_lossy())
     {
+        // Files that the system names are found from its own folder.
         let base = path.parent().map(PathBuf::from).unwrap_or_default();
         return Outcome::ReadSystem(text_of(path, "a system").map(|text| (text, base)));
     }
@@ -176,6 +179,7 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
             read_bytes(path).and_then(|bytes| read(&name, &bytes).map_err(|error| AppError::from(error).about(&name)));
         match source {
             Ok(source) => sources.push(source),
+            // One bad file among many does not stop the others: the sheet lists it.
             Err(error) => import.failures.push(error.to_string()),
         }
         import.files.push(name);
@@ -184,6 +188,7 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
     if let Some(Gathered { meta, datasets, .. }) = products.next() {
         import.diagnoses = datasets.iter().map(examine).collect();
         import.datasets = datasets.into_iter().map(Arc::new).collect();
+        // Repairs always start from what the files hold, so that each can be taken back.
         import.originals = import.datasets.clone();
         import.name = meta.name;
         import.manufacturer = meta.manufacturer;
@@ -191,6 +196,7 @@ pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
         import.tags = meta.tags.join(", ");
         import.provenance = meta.provenance;
     }
+    // The sheet asks for name and maker of one product; the others are not lost without a word.
     for other in products {
         let (name, files) = (other.meta.name, other.meta.provenance.source_file);
         import.failures.push(format!("{files}: another product (\"{name}\"); open it after this one"));

@@ -91,6 +91,7 @@ fn diff_products(
     let mut diff = ProductDiff { key: a.key.clone(), ..ProductDiff::default() };
     let (p, q) = (&a.provenance, &b.provenance);
     let curve = |product: &PackageProduct| {
+        // As words like every other field: a report sets the two side by side.
         let points = product.control_curve.iter().map(|point| format!("{}: {}", point.profile_angle, point.value));
         points.collect::<Vec<_>>().join(", ")
     };
@@ -122,6 +123,7 @@ fn diff_products(
     };
     (diff.only_first, diff.only_second) = (states(a, b), states(b, a));
     for one in &a.states {
+        // States of one side alone are listed above.
         let Some(other) = b.states.iter().find(|other| other.key == one.key) else { continue };
         let value = |state: &PackageState| state.value.map(|value| value.to_string()).unwrap_or_default();
         for (name, x, y) in [("label", one.label.clone(), other.label.clone()), ("value", value(one), value(other))] {
@@ -129,11 +131,13 @@ fn diff_products(
                 diff.fields.push((format!("states.{}.{name}", one.key), x, y));
             }
         }
+        // The hash tells; only datasets that differ are worth the time of being decoded.
         if one.dataset != other.dataset {
             diff.states.push(diff_states(one, other, first, second)?);
         }
     }
     let order = |product: &PackageProduct| product.states.iter().map(|s| s.key.as_str()).collect::<Vec<_>>().join(", ");
+    // Where a state is missing the order differs by that alone, which has been said.
     if diff.only_first.is_empty() && diff.only_second.is_empty() && order(a) != order(b) {
         diff.fields.push(("order of states".to_owned(), order(a), order(b)));
     }

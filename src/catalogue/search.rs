@@ -1,6 +1,7 @@
 //! Finding products: full text, facets, and the rows that lists show.
 
 use super::{Catalogue, CatalogueError, Origin};
+use rusqlite::Row;
 use rusqlite::types::Value;
 
 /// What is looked for. Everything that is set must hold; the default finds all products.
@@ -90,10 +91,29 @@ fn match_expression(text: &str) -> Option<String> {
     (!words.is_empty()).then(|| words.join(" "))
 }
 
+/// A row of [`Catalogue::search`].
+fn product_row(row: &Row<'_>) -> rusqlite::Result<ProductRow> {
+    Ok(ProductRow {
+        key: row.get(0)?,
+        name: row.get(1)?,
+        manufacturer: row.get(2)?,
+        kind: row.get(3)?,
+        origin: Origin::from_word(&row.get::<_, String>(4)?),
+        tau_normal: row.get(5)?,
+        tau_hemispherical: row.get(6)?,
+        tau_profile: list(&row.get::<_, String>(7)?),
+        state_keys: list(&row.get::<_, String>(8)?),
+        favourite: row.get(9)?,
+        builtin: row.get(10)?,
+    })
+}
+
 impl Catalogue {
     /// Products that fit, best match first when words are given, else built-in products in their own order and then
     /// the user's by name.
     pub fn search(&self, query: &Query) -> Result<Vec<ProductRow>, CatalogueError> {
+        // The first state stands for the product in lists. Keys are ordered in a query of their own, since an aggregate
+        // takes rows as they come.
         let mut sql = String::from(
             "SELECT p.key, p.name, p.manufacturer, p.kind, p.origin, s.tau_normal, s.tau_hemispherical, s.tau_profile,
                     (SELECT json_group_array(key) FROM (SELECT key FROM state WHERE product = p.id ORDER BY position)),
@@ -104,8 +124,10 @@ impl Catalogue {
         let expression = match_expression(&query.text);
         if let Some(expression) = &expression {
             sql.push_str(" JOIN product_text t ON t.rowid = p.id WHERE product_text MATCH ?");
+            // Words of the user are bound here and below, never put into the SQL: any input is safe.
             values.push(expression.clone().into());
         } else {
+            // So that every condition can begin with AND.
             sql.push_str(" WHERE 1");
         }
         for (column, list) in [("p.kind", &query.kinds), ("p.manufacturer", &query.manufacturers)] {
@@ -130,25 +152,13 @@ impl Catalogue {
             sql.push_str(" AND p.builtin = ?");
             values.push(builtin.into());
         }
+        // A word in the name tells most, one in the description least; bm25 falls as the match gets better.
         let by_match = "bm25(product_text, 10.0, 5.0, 5.0, 1.0, 3.0), ";
         let order = if expression.is_some() { by_match } else { "" };
+        // Keys last: products of the same name keep their places from one search to the next.
         sql.push_str(&format!(" ORDER BY {order}p.builtin DESC, p.rank, p.name COLLATE NOCASE, p.key"));
         let mut statement = self.db.prepare_cached(&sql)?;
-        let rows = statement.query_map(rusqlite::params_from_iter(values), |row| {
-            Ok(ProductRow {
-                key: row.get(0)?,
-                name: row.get(1)?,
-                manufacturer: row.get(2)?,
-                kind: row.get(3)?,
-                origin: Origin::from_word(&row.get::<_, String>(4)?),
-                tau_normal: row.get(5)?,
-                tau_hemispherical: row.get(6)?,
-                tau_profile: list(&row.get::<_, String>(7)?),
-                state_keys: list(&row.get::<_, String>(8)?),
-                favourite: row.get(9)?,
-                builtin: row.get(10)?,
-            })
-        })?;
+        let rows = statement.query_map(rusqlite::params_from_iter(values), product_row)?;
         Ok(rows.collect::<Result<_, _>>()?)
     }
 

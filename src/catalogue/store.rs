@@ -9,7 +9,7 @@ use super::{
 use crate::compute::btdf::{Dataset, Finding, Severity};
 use crate::formats::dataset_blob::{content_hash, decode, encode};
 use rayon::prelude::*;
-use rusqlite::{Connection, OptionalExtension, Transaction, params};
+use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -233,59 +233,66 @@ fn severity(word: &str) -> Severity {
     }
 }
 
+/// A product without its lists, of a row of [`read_product`].
+fn product_of_row(key: &str, row: &Row<'_>) -> rusqlite::Result<Product> {
+    let provenance = Provenance {
+        origin: Origin::from_word(&row.get::<_, String>(5)?),
+        author: row.get(6)?,
+        method: row.get(7)?,
+        date: row.get(8)?,
+        source_file: row.get(9)?,
+        source_hash: row.get(10)?,
+        inside_face: row.get(11)?,
+    };
+    Ok(Product {
+        key: key.to_owned(),
+        name: row.get(1)?,
+        manufacturer: row.get(2)?,
+        kind: row.get(3)?,
+        description: row.get(4)?,
+        provenance,
+        tags: Vec::new(),
+        states: Vec::new(),
+        control_curve: Vec::new(),
+        findings: Vec::new(),
+        builtin: row.get(12)?,
+        favourite: row.get(13)?,
+        system: row.get(14)?,
+    })
+}
+
+/// A state, of a row of [`read_product`].
+fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
+    Ok(State {
+        key: row.get(0)?,
+        label: row.get(1)?,
+        value: row.get(2)?,
+        dataset: row.get(3)?,
+        tau_normal: row.get(4)?,
+        tau_hemispherical: row.get(5)?,
+        tau_profile: list(&row.get::<_, String>(6)?),
+    })
+}
+
 /// The product of a key, from one connection or transaction.
 pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, CatalogueError> {
+    // A favourite is asked for by key: built-in products get new rows when they are renewed, and stay favourites.
     let found = db
         .prepare_cached(
             "SELECT id, name, manufacturer, kind, description, origin, author, method, date, source_file, source_hash,
                     inside_face, builtin, EXISTS (SELECT 1 FROM favourite WHERE product_key = key), system
              FROM product WHERE key = ?",
         )?
-        .query_row([key], |row| {
-            let provenance = Provenance {
-                origin: Origin::from_word(&row.get::<_, String>(5)?),
-                author: row.get(6)?,
-                method: row.get(7)?,
-                date: row.get(8)?,
-                source_file: row.get(9)?,
-                source_hash: row.get(10)?,
-                inside_face: row.get(11)?,
-            };
-            let product = Product {
-                key: key.to_owned(),
-                name: row.get(1)?,
-                manufacturer: row.get(2)?,
-                kind: row.get(3)?,
-                description: row.get(4)?,
-                provenance,
-                tags: Vec::new(),
-                states: Vec::new(),
-                control_curve: Vec::new(),
-                findings: Vec::new(),
-                builtin: row.get(12)?,
-                favourite: row.get(13)?,
-                system: row.get(14)?,
-            };
-            Ok((row.get::<_, i64>(0)?, product))
-        })
+        .query_row([key], |row| Ok((row.get::<_, i64>(0)?, product_of_row(key, row)?)))
         .optional()?;
     let (id, mut product) = found.ok_or_else(|| CatalogueError::NoProduct(key.to_owned()))?;
+    // A query for each list: joined into one, every list would repeat the rows of the others.
     product.states = db
         .prepare_cached(
             "SELECT key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile
              FROM state WHERE product = ? ORDER BY position",
         )?
-        .query_map([id], |row| {
-            Ok(State {
-                key: row.get(0)?,
-                label: row.get(1)?,
-                value: row.get(2)?,
-                dataset: row.get(3)?,
-                tau_normal: row.get(4)?,
-                tau_hemispherical: row.get(5)?,
-                tau_profile: list(&row.get::<_, String>(6)?),
-            })
-        })?
+        .query_map([id], state_of_row)?
         .collect::<Result<_, _>>()?;
     product.tags = db
         .prepare_cached("SELECT tag FROM tag WHERE product = ? ORDER BY tag")?
@@ -295,6 +302,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
         .prepare_cached("SELECT profile_angle, value FROM control_point WHERE product = ? ORDER BY position")?
         .query_map([id], |row| Ok(CurvePoint { profile_angle: row.get(0)?, value: row.get(1)? }))?
         .collect::<Result<_, _>>()?;
+    // A finding is stored under its state's position, and told under its key.
     product.findings = db
         .prepare_cached(
             "SELECT s.key, f.severity, f.code, f.message

@@ -73,15 +73,18 @@ fn component(word: &str) -> Result<Component, String> {
 /// Nothing is left behind then.
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let out_name = args.output.to_string_lossy();
+    // Before the input is read: that may take seconds, a wrong extension is known at once.
     let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
     let mut datasets = dataset_file::read(&args.input)?;
     if let Some(state) = &args.state {
+        // Taken down before the others are gone: the message needs them.
         let keys: Vec<String> = datasets.iter().map(|one| format!("'{}'", one.state)).collect();
         datasets.retain(|one| one.state == *state);
         if datasets.is_empty() {
             return Err(anyhow!("{}: no state '{state}'; expected one of {}", args.input.display(), keys.join(", ")));
         }
     }
+    // The parser asks only whether `--tree` is there; matrices would pass these over without a word.
     if args.tree == Some(TreeChoice::Klems) && (args.level.is_some() || args.tolerance.is_some()) {
         return Err(anyhow!("--level and --tolerance are for trees; expected --tree 3 or --tree 4"));
     }
@@ -89,6 +92,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
         return Err(anyhow!("{out_name}: --tree for {}; expected a BSDF XML file (.xml)", format.name()));
     }
     let written = match (format, args.component, datasets.as_slice()) {
+        // Several states go to the writer, which says how many a file holds and how to choose.
         (Format::BsdfXml, None, [one]) if let Some(choice) = args.tree => in_form(one, choice, args),
         (_, None, all) => write_dataset(format, all),
         (Format::BtdfText, Some(component), [one]) => btdf_text::write_component(one, component),
@@ -104,6 +108,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     };
     let written = written.map_err(|error| anyhow!("{out_name}: {error}"))?;
     files::write(&args.output, &written.bytes)?;
+    // After the file is there: findings are about data that could be written. To stderr, as results alone go to stdout.
     for finding in datasets.iter().flat_map(|one| &one.findings).chain(&written.findings) {
         eprintln!("{}: {}", finding.severity.word(), finding.message);
     }

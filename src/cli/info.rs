@@ -58,7 +58,9 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("manufacturer".into(), dataset.manufacturer.clone().into());
     object.insert("description".into(), dataset.description.clone().into());
     object.insert("state".into(), dataset.state.clone().into());
+    // What a file does not tell is null and not left out: who reads this need not ask for keys first.
     object.insert("thickness_m".into(), dataset.thickness.into());
+    // Few files know any of this; without, the object is left out, since its own keys vary anyway.
     if !dataset.thermal.is_empty() {
         object.insert("thermal".into(), thermal_json(&dataset.thermal));
     }
@@ -67,14 +69,17 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("resolution".into(), transmission.map(resolution).into());
     object.insert(
         "states".into(),
+        // A single state may be nameless: nothing that `--state` could choose.
         all.iter().map(|one| one.state.clone()).filter(|key| !key.is_empty()).collect::<Vec<_>>().into(),
     );
     object.insert("components".into(), dataset.visible.components().iter().map(key).collect::<Vec<_>>().into());
+    // From other components by reciprocity: who wants measured values alone must see which these are.
     object.insert("derived".into(), dataset.derived.iter().map(key).collect::<Vec<_>>().into());
     object.insert("solar".into(), dataset.solar.is_some().into());
     object.insert("tau_normal_hemispherical".into(), transmission.map(Btdf::tau_normal).into());
     object.insert("tau_hemispherical_hemispherical".into(), transmission.map(Btdf::tau_hemispherical).into());
     object.insert("hemispherical_hemispherical".into(), hemispherical(dataset));
+    // An empty list, so that loops over it need no exception.
     object.insert("tau_dir_hem".into(), transmission.map_or_else(|| json!([]), tau_dir_hem));
     object.insert("reciprocity_error".into(), reciprocity(dataset).into());
     object.insert("findings".into(), examine(dataset).iter().map(finding_json).collect::<Vec<_>>().into());

@@ -36,11 +36,14 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
         if args.items.is_empty() { all.iter().map(|row| row.key.clone()).collect() } else { args.items.clone() };
     let mut results = Vec::new();
     for item in items {
+        // Keys first: a file of the same name can still be given as ./NAME. Repairs are made on files, so a stored
+        // product is offered none.
         let judged: Vec<Judged> = if all.iter().any(|row| row.key == item) {
             catalogue.validate(&item)?.into_iter().map(|finding| Judged { finding, repair: None }).collect()
         } else if Path::new(&item).exists() {
             of_file(Path::new(&item))?
         } else {
+            // Passed over, a misspelt item would look as if it were fit for use.
             bail!("{item}: neither a product of the catalogue nor a file");
         };
         results.push((item, judged));
@@ -60,6 +63,7 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
     } else {
         let mut text = String::new();
         for (item, judged) in &results {
+            // Information alone leaves an item "ok".
             let worst = judged.iter().map(|one| one.finding.severity).max();
             writeln!(text, "{item}: {}", worst.filter(|worst| *worst > Severity::Info).map_or("ok", Severity::word))?;
             for Judged { finding, repair } in judged {
@@ -71,6 +75,7 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
         }
         print(&text)?;
     }
+    // After the report, so that who is stopped by the status also sees why.
     if bad > 0 {
         return Err(NotFit { bad, of: results.len() }.into());
     }

@@ -304,12 +304,15 @@ fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, Stu
             SurfaceKey::Roof => (Surface::Roof, "roof", [room.size.x, room.size.y]),
         };
         for ((from, size), limit) in keys.origin.into_iter().zip(keys.size).zip(limits) {
+            // Written so that what is no number fails too.
             if !(size > 0.0 && size.is_finite()) {
                 return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
             }
+            // Lengths typed as decimals do not add up exactly, and an aperture may fill its wall.
             let slack = 1e-9 * limit;
             if !(from >= -slack && from + size <= limit + slack) {
                 return Err(StudyError::key(
+                    // The key that is to be changed: from a good origin it is the size that reaches too far.
                     name(if from >= -slack && from <= limit { "size" } else { "origin" }),
                     format!("{from} m to {} m lies beyond the {wall}, 0 to {} m", from + size, limit),
                 ));
@@ -324,6 +327,7 @@ fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, Stu
             let offset = surface.facade_from_room(corner - other.corner);
             other.surface == surface
                 && (0..2).all(|axis| {
+                    // Apertures may touch, as panes in a frame do.
                     let slack = 1e-9 * limits[axis];
                     offset[axis] + keys.size[axis] > slack && offset[axis] < other.size[axis] - slack
                 })
@@ -351,6 +355,7 @@ fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[us
         within("sensors.plane.z", plane.z, 0.0, room.size.z, " m")?;
         let normal = unit("sensors.plane.normal", plane.normal)?;
         for (key, n) in [("sensors.plane.nx", plane.nx), ("sensors.plane.ny", plane.ny)] {
+            // Judged before the list is made: a slip of the keyboard must not fill the memory.
             if n == 0 || n > MOST_SENSORS {
                 return Err(StudyError::key(key, format!("{n} cells (allowed: 1 to {MOST_SENSORS})")));
             }
@@ -360,6 +365,7 @@ fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[us
         }
         for j in 0..plane.ny {
             for i in 0..plane.nx {
+                // At the centres of equal cells, so that the mean of the sensors is that of the plane.
                 let position = DVec3::new(
                     (i as f64 + 0.5) * room.size.x / plane.nx as f64,
                     (j as f64 + 0.5) * room.size.y / plane.ny as f64,
@@ -368,11 +374,13 @@ fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[us
                 list.push(Sensor { position, normal });
             }
         }
+        // With points besides, the results are no grid that could be drawn as a plan.
         if keys.points.is_empty() {
             grid = Some([plane.nx, plane.ny]);
         }
     }
     if !keys.points.is_empty() {
+        // Points have no plane to say where they face: a desk's upper side is meant.
         let normal = unit("sensors.normal", keys.normal.unwrap_or([0.0, 0.0, 1.0]))?;
         for (number, point) in keys.points.iter().enumerate() {
             let position = DVec3::from_array(*point);

@@ -34,38 +34,11 @@ const CIE: [&str; 16] = [
 /// Draws the panel.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.heading("Scene");
+    // A copy is edited; the panel changes nothing itself, and a command is given only where something differs.
     let mut scene = state.document.scene.clone();
     let mut follows = state.document.daylight_follows;
     ScrollArea::vertical().id_salt("scene").auto_shrink([false, false]).show(ui, |ui| {
-        let wrong = |title: &str| {
-            let error = state.scene_error.as_ref().filter(|error| section_of(error.key) == title)?;
-            Some(error.to_string())
-        };
-        section(ui, "Place", &title::place(&scene), wrong("Place"), false, |ui| place(ui, &mut scene));
-        let facing = format!("{}, {:.0}°", moment::bearing_word(scene.site.azimuth), scene.site.azimuth);
-        section(ui, "Façade", &facing, wrong("Façade"), true, |ui| facade(ui, &mut scene));
-        section(ui, "Date and time", &title::time(&scene), wrong("Date and time"), true, |ui| {
-            date_and_time(ui, &mut scene);
-        });
-        section(ui, "Sky", &title::sky(&scene), wrong("Sky"), true, |ui| sky(ui, &mut scene, &mut follows));
-        let ground = format!("ρ {:.2}", scene.site.ground_reflectance);
-        section(ui, "Ground and skyline", &ground, wrong("Ground and skyline"), false, |ui| {
-            ground_and_skyline(ui, &mut scene);
-        });
-        let count = scene.aperture.len();
-        let essence = scene.aperture.first().map_or_else(
-            || "none".to_owned(),
-            |a| if count > 1 { format!("{count}") } else { format!("{:.1} × {:.1} m", a.size[0], a.size[1]) },
-        );
-        let clash = apertures::problem(&scene);
-        section(ui, "Apertures", &essence, clash, false, |ui| apertures::show(ui, &mut scene));
-        let room = format!("{:.1} × {:.1} × {:.1} m", scene.room.width, scene.room.depth, scene.room.height);
-        section(ui, "Room", &room, wrong("Room"), false, |ui| room_ui(ui, &mut scene));
-        let plane = scene.sensors.plane.map_or_else(
-            || format!("{} points", scene.sensors.points.len()),
-            |plane| format!("{} × {} at {:.2} m", plane.nx, plane.ny, plane.z),
-        );
-        section(ui, "Sensors", &plane, wrong("Sensors"), false, |ui| sensors(ui, &mut scene));
+        sections(ui, state, &mut scene, &mut follows);
     });
     if follows != state.document.daylight_follows {
         commands.push(Command::DaylightFollows(follows));
@@ -73,6 +46,40 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if scene != state.document.scene {
         commands.push(Command::Scene(Box::new(scene)));
     }
+}
+
+/// The sections in the order in which a study is thought of: where, when, what sky, then the room.
+fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, follows: &mut bool) {
+    let wrong = |title: &str| {
+        let error = state.scene_error.as_ref().filter(|error| section_of(error.key) == title)?;
+        Some(error.to_string())
+    };
+    section(ui, "Place", &title::place(scene), wrong("Place"), false, |ui| place(ui, scene));
+    let facing = format!("{}, {:.0}°", moment::bearing_word(scene.site.azimuth), scene.site.azimuth);
+    section(ui, "Façade", &facing, wrong("Façade"), true, |ui| facade(ui, scene));
+    section(ui, "Date and time", &title::time(scene), wrong("Date and time"), true, |ui| {
+        date_and_time(ui, scene);
+    });
+    section(ui, "Sky", &title::sky(scene), wrong("Sky"), true, |ui| sky(ui, scene, follows));
+    let ground = format!("ρ {:.2}", scene.site.ground_reflectance);
+    section(ui, "Ground and skyline", &ground, wrong("Ground and skyline"), false, |ui| {
+        ground_and_skyline(ui, scene);
+    });
+    let count = scene.aperture.len();
+    let essence = scene.aperture.first().map_or_else(
+        || "none".to_owned(),
+        |a| if count > 1 { format!("{count}") } else { format!("{:.1} × {:.1} m", a.size[0], a.size[1]) },
+    );
+    // The scene's error is that of sky and site; whether apertures fit their walls and lie apart is judged here.
+    let clash = apertures::problem(scene);
+    section(ui, "Apertures", &essence, clash, false, |ui| apertures::show(ui, scene));
+    let room = format!("{:.1} × {:.1} × {:.1} m", scene.room.width, scene.room.depth, scene.room.height);
+    section(ui, "Room", &room, wrong("Room"), false, |ui| room_ui(ui, scene));
+    let plane = scene.sensors.plane.map_or_else(
+        || format!("{} points", scene.sensors.points.len()),
+        |plane| format!("{} × {} at {:.2} m", plane.nx, plane.ny, plane.z),
+    );
+    section(ui, "Sensors", &plane, wrong("Sensors"), false, |ui| sensors(ui, scene));
 }
 
 /// The section in which a key of the scene file is edited.
@@ -251,6 +258,7 @@ fn sky(ui: &mut Ui, scene: &mut SceneFile, follows: &mut bool) {
     let width = ui.available_width() - 8.0;
     let combo = ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
         for (model, word) in words {
+            // Choosing the model that is there already must not reset its numbers.
             if ui.selectable_label(sky.model == model, word).clicked() && sky.model != model {
                 choose_model(sky, model);
             }
@@ -259,6 +267,7 @@ fn sky(ui: &mut Ui, scene: &mut SceneFile, follows: &mut bool) {
     combo.response.accessible_name("Sky model");
     match sky.model {
         SkyModelKey::Cie => {
+            // A scene without a type, or with one that no sky has, is refused; the list still needs an entry to show.
             let kind = usize::from(sky.cie_type.unwrap_or(16)).clamp(1, 16);
             let combo =
                 ComboBox::from_id_salt("cie").selected_text(CIE[kind - 1]).width(width).truncate().show_ui(ui, |ui| {
@@ -284,10 +293,12 @@ fn sky(ui: &mut Ui, scene: &mut SceneFile, follows: &mut bool) {
         }
         SkyModelKey::Uniform => {}
     }
+    // Perez's sky and a measured one bring their own illuminances.
     if matches!(sky.model, SkyModelKey::Cie | SkyModelKey::Uniform) {
         ui.checkbox(follows, "Illuminances follow the sun")
             .on_hover_text("Typical values for the sun's altitude (IES RP-21, 1984); off: type your own");
         ui.add_enabled_ui(!*follows, |ui| {
+            // Shown while they follow, so that what is computed with is never hidden.
             kilolux(ui, "Diffuse horizontal", &mut sky.diffuse_horizontal, 100.0);
             kilolux(ui, "Direct normal", &mut sky.sun.direct_normal, 130.0);
         });

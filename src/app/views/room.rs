@@ -148,16 +148,20 @@ impl Plan {
 
 fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> String {
     let palette = Palette::of(ui.visuals());
+    // A dark room still needs a scale with an extent.
     let max = input.cells.iter().map(|c| c.total).filter(|v| v.is_finite()).fold(0.0, f64::max).max(1.0);
     let scale = match (input.range, &state.scale) {
         (Some([lo, hi]), _) => {
+            // A logarithmic scale cannot begin at 0.
             let lo = if state.log { lo.max(hi * 1e-4) } else { lo };
             ColourScale { lo, hi, log: state.log, map: ColourMap::Sequential }
         }
+        // While something is dragged equal colours stay equal illuminances.
         (None, Some(held)) if input.status.hold_scale && held.log == state.log => held.clone(),
         _ => ColourScale::up_to(max, state.log, 2, ColourMap::Sequential),
     };
     state.scale = Some(scale.clone());
+    // In a low tile both would be too small to read: the plan goes first.
     let with_section = rect.height() > 230.0;
     let section_height = if with_section { (0.38 * rect.height()).clamp(110.0, 230.0) } else { 0.0 };
     let plan_rect = Rect::from_min_max(
@@ -168,13 +172,16 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     let response = ui.interact(plan.area, ui.scope_id().with("plan"), Sense::click());
     let cell = response.hover_pos().map(|at| {
         let (x, y) = plan.room(at);
+        // The far walls belong to the last cells.
         let index = |v: f64, size: f64, n: usize| ((v / size * n as f64) as usize).min(n - 1);
         (index(x, input.room[0], input.nx), index(y, input.room[1], input.ny))
     });
     if response.clicked() {
+        // A second click lets the row go.
         state.row = cell.map(|(i, _)| i).filter(|i| state.row != Some(*i));
     }
     let value = cell.map(|(i, j)| input.cells[j * input.nx + i]);
+    // A row that was kept on a finer grid may be beyond this one.
     let row = cell.map(|(i, _)| i).or(state.row).unwrap_or(input.nx / 2).min(input.nx - 1);
     plan_ui(ui, &plan, input, row, state, &scale, &palette);
     let legend = Rect::from_min_size(
@@ -184,6 +191,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
     scale.paint_legend(ui.painter(), legend, "lx", value.map(|v| v.total), &palette);
     let mut text = None;
     if with_section {
+        // From the plan's left edge to its right: every depth stands under itself.
         let place = Rect::from_min_max(
             pos2(rect.left(), rect.bottom() - section_height),
             pos2(plan.area.right() + RIGHT, rect.bottom()),

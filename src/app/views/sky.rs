@@ -206,13 +206,16 @@ fn dome(
     let palette = Palette::of(ui.visuals());
     let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
     let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
+    // Beyond the rim too, so that a sun on the horizon can be taken hold of.
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * (disk.radius + 8.0));
     let response = ui.interact(area, ui.scope_id().with("dome"), Sense::click_and_drag());
     let (facade, dark) = (input.facade_bearing, ui.visuals().dark_mode);
+    // Not of the sky alone: the half behind the façade is faded, into what the theme has as ground.
     let key = (input.revision, disk, scale.clone(), facade.to_bits(), dark);
     let mesh = state.dome.get(key, || Arc::new(dome_mesh(&disk, luminance, scale, facade, &palette)));
     ui.painter().add(Shape::Mesh(mesh.clone()));
     compass(ui, &disk, input, &palette);
+    // The disk ends at the horizon: a sun under it has no place there.
     let sun_at = input.sun.filter(|sun| sun.altitude >= 0.0).map(|sun| disk.screen(disk_point(sun)));
     if let Some(at) = sun_at {
         let near = state.dragging || response.hover_pos().is_some_and(|p| p.distance(at) < 14.0);
@@ -221,6 +224,7 @@ fn dome(
             ui.set_cursor_icon(if state.dragging { egui::CursorIcon::Grabbing } else { egui::CursorIcon::Grab });
         }
     }
+    // Where the button went down counts: before egui calls it a drag, the pointer has moved off already.
     let grabbed = |p: Pos2| sun_at.is_some_and(|at| p.distance(at) < 16.0);
     if response.drag_started() && ui.input(|i| i.pointer.press_origin()).is_some_and(grabbed) {
         state.dragging = true;
@@ -231,6 +235,7 @@ fn dome(
         let free = ui.input(|i| i.modifiers.alt);
         out.push(Action::SunDragged { place: place_of(disk.disk(at)), free });
     }
+    // The end of a drag is not always told, as when the tile goes out of sight: the scale would be held for good.
     if state.dragging && (response.drag_stopped() || !response.dragged() && !response.drag_started()) {
         state.dragging = false;
         out.push(Action::SunReleased);

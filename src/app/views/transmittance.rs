@@ -5,6 +5,7 @@ use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, incident_disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Status, Words};
+use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::Incident;
 use crate::drawing::ticks::{degrees, number};
@@ -139,6 +140,7 @@ fn picture(
 ) -> String {
     let palette = Palette::of(ui.visuals());
     let bar = input.split.map(|split| {
+        // In a narrow tile the map keeps at least half.
         let width = 124.0_f32.min(0.5 * rect.width());
         let place = Rect::from_min_max(pos2(rect.right() - width, rect.top()), rect.max);
         split_bar(ui, place, &split, &palette);
@@ -153,20 +155,11 @@ fn picture(
     let max = *state
         .max
         .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
+    // Up to the data's own maximum: dense products would be one dark blot on a scale up to 1. Opaque ones still
+    // need an extent.
     let scale = ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
-    let mesh = state.mesh.get((input.revision, disk, scale.clone()), || {
-        Arc::new(match &btdf.scattered {
-            Some(Scattered::Cells(_) | Scattered::Directions(_) | Scattered::Tree(_)) => {
-                disk.cells(PROJECTION, Side::Incident, &basis, |i| {
-                    scale.colour(btdf.tau(Incident(basis.cell(i).centre())))
-                })
-            }
-            _ => disk.smooth(|p| {
-                let d = Side::Incident.through_name(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
-                scale.colour(d.map_or(0.0, |d| btdf.tau(Incident(d))))
-            }),
-        })
-    });
+    let mesh =
+        state.mesh.get((input.revision, disk, scale.clone()), || Arc::new(map_mesh(&disk, btdf, &basis, &scale)));
     ui.painter().add(Shape::Mesh(mesh.clone()));
     disk.frame(ui.painter(), PROJECTION, "outside", &palette);
     if !state.hide_paths {
@@ -174,6 +167,7 @@ fn picture(
             input.moment.filter(|sun| sun.0.vector().z > 0.0).map(|sun| disk.screen(incident_disk(PROJECTION, sun)));
         sun_paths(ui, &disk, input.sun_paths, sun, &palette);
     }
+    // After the paths, so that none crosses it.
     if let Some(sun) = input.moment.filter(|sun| sun.0.vector().z > 0.0) {
         let at = disk.screen(incident_disk(PROJECTION, sun));
         ui.painter().circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
@@ -189,12 +183,27 @@ fn picture(
     let text = |label: &str, d: Incident| {
         format!("{label} θ {}, φ {} · τ {}", degrees(d.0.theta()), degrees(d.0.phi()), number(btdf.tau(d), 3))
     };
+    // The line under the picture is never empty: without a pointer it tells of the sun.
     let rest = match input.moment.filter(|sun| sun.0.vector().z > 0.0) {
         Some(sun) => text("sun", sun),
         None => "the sun is not before the façade".to_owned(),
     };
     tile::name(ui, &response, "Transmittance map", &rest);
     pointed.map_or(rest, |d| text("from", d))
+}
+
+/// τ in colours. Measured cells stay flat, so that the picture shows no resolution that the data do not have.
+fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) -> Mesh {
+    match &btdf.scattered {
+        Some(Scattered::Cells(_) | Scattered::Directions(_) | Scattered::Tree(_)) => {
+            disk.cells(PROJECTION, Side::Incident, basis, |i| scale.colour(btdf.tau(Incident(basis.cell(i).centre()))))
+        }
+        _ => disk.smooth(|p| {
+            // Just inside the rim: rounding may put a point of the rim where there is no direction.
+            let d = Side::Incident.through_name(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
+            scale.colour(d.map_or(0.0, |d| btdf.tau(Incident(d))))
+        }),
+    }
 }
 
 fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<egui::Pos2>, palette: &Palette) {

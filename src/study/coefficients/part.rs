@@ -80,6 +80,7 @@ impl AperturePart {
         let (patches, spacing) = transport::patches(btdf, scene.interpolation);
         let samples = SkySamples::new(&patches, &frame, altitude, spacing);
         let transport = Transport::new(session, scene, index, btdf, room, progress)?;
+        // What goes straight to the sensors is left to `seen`: here is what the room makes of that light.
         let straight = match (&btdf.regular, room) {
             (Some(tau), Some(room)) => {
                 let basis = std::sync::Arc::new(patches.clone());
@@ -95,17 +96,21 @@ impl AperturePart {
                 let cell = patches.cell(p);
                 let mut column = transport.through_patch(p, &cell, sensors);
                 if let Some((tau, views)) = &straight {
+                    // What goes straight leaves by the patch that it came through, as a luminance even over it.
                     let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
                     views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
                 }
                 column
             })
             .collect();
+        // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
         let [ground, skyline] = constants(altitude).map(|outside| {
             outside.map_or_else(|| vec![0.0; patches.len()], |o| illuminances(&o, &patches, &frame, RELATIVE))
         });
+        // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
         let open = samples.cells();
         let width = open.len() + 2;
+        // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
         let doubts = columns.iter().any(|column| !column.doubt.is_empty());
         let mut tables: Vec<Vec<f64>> =
             (0..4).map(|k| if k < 3 || doubts { vec![0.0; sensors * width] } else { Vec::new() }).collect();
@@ -124,6 +129,7 @@ impl AperturePart {
         let doubtful = tables.pop().unwrap_or_default();
         let reflected = tables.pop().unwrap_or_default();
         let total = tables.pop().unwrap_or_default();
+        // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
         let seen = match &btdf.regular {
             Some(tau) => scene.sensors.par_iter().map(|sensor| SensorView::new(scene, index, sensor, tau)).collect(),
             None => Vec::new(),

@@ -78,6 +78,16 @@ pub(super) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, 
     }
 }
 
+/// The light at the sensors by every row of a system's data.
+fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -> Vec<SensorRows> {
+    let light = |i: usize| {
+        let mut light = vec![0.0; views.width()];
+        views.add_all(&row(i), &mut light);
+        light
+    };
+    (0..count).into_par_iter().map(light).collect()
+}
+
 impl Transport {
     /// Of one aperture's system.
     pub fn new(
@@ -91,36 +101,35 @@ impl Transport {
         let views = |basis: &RingBasis, want: Want| {
             Views::new(session, scene, index, Arc::new(basis.clone()), room, want, progress)
         };
-        let lights = |views: &Views, count: usize, row: &(dyn Fn(usize) -> Vec<f64> + Sync)| -> Vec<SensorRows> {
-            let light = |i: usize| {
-                let mut light = vec![0.0; views.width()];
-                views.add_all(&row(i), &mut light);
-                light
-            };
-            (0..count).into_par_iter().map(light).collect()
-        };
         Ok(match &btdf.scattered {
             None => Self::Straight,
             Some(Scattered::Lambert(tau)) => Self::Even(tau.clone(), even(session, scene, index, room, progress)?),
             Some(Scattered::Cells(matrix)) => {
                 let matrix: &CellMatrix = matrix;
                 let views = views(matrix.emergent(), Want::All)?;
-                let columns = lights(&views, matrix.incident().len(), &|i| matrix.row(i).into_owned());
+                // An incident cell is the same all over: its light at the sensors is all that is ever asked, so the
+                // views may go.
+                let columns = lights(&views, matrix.incident().len(), |i| matrix.row(i).into_owned());
                 Self::Cells(matrix.incident().clone(), columns)
             }
             Some(Scattered::Directions(data)) if scene.interpolation == Interpolation::Patch => {
                 let views = views(data.emergent(), Want::All)?;
-                let columns = lights(&views, data.incident().len(), &|i| data.row(i).into_owned());
+                let columns = lights(&views, data.incident().len(), |i| data.row(i).into_owned());
                 Self::Nearest(Arc::clone(data), columns)
             }
             Some(Scattered::Directions(data)) => {
                 let interpolator = session.interpolator(data);
                 let (own, sun) = (interpolator.model().grid().basis(), interpolator.sun_grid().basis());
                 let views_of_data = views(own, Want::All)?;
-                let bases = lights(&views_of_data, data.incident().len(), &|i| interpolator.model().base(i));
+                // What stays where it is for all incidences is light at once; lobes move with the sun and need the
+                // views.
+                let bases = lights(&views_of_data, data.incident().len(), |i| interpolator.model().base(i));
+                // A narrow lobe of the sun would jump between the data's cells. For the finer ones the sum is enough:
+                // the error is that of the data's own.
                 let fine = if sun == own { None } else { Some(views(sun, Want::Sum)?) };
                 Self::Lobes(Box::new(Lobes { interpolator, bases, views: views_of_data, fine }))
             }
+            // Trees have too many incident cells for a row each: theirs are made when a direction is asked for.
             Some(Scattered::Tree(tree)) => Self::Tree(tree.clone(), views(&tree.incident_grid().rings(), Want::All)?),
         })
     }

@@ -80,6 +80,7 @@ pub fn sun_at(facing: &Facing<'_>) -> Option<SunAt> {
 /// # Errors
 /// As [`pick_state`].
 pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Settings, StudyError> {
+    // Ignored, such a key would look as if it did something.
     if let Some((key, modes)) = keys.misplaced() {
         return Err(StudyError::key(format!("control.{key}"), format!("belongs to mode = {modes}: leave it out")));
     }
@@ -87,6 +88,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
     let by_name = matches!(keys.mode, ControlMode::Fixed | ControlMode::User);
     let values = match &device.values {
         Some(values) => values.iter().map(|value| value.to_radians()).collect(),
+        // Rules that name states never look at the numbers: any will do that tell the states apart.
         None if by_name || device.keys.len() == 1 => {
             (0..device.keys.len()).map(|k| (k as f64).to_radians()).collect::<Vec<f64>>()
         }
@@ -95,6 +97,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
             return Err(StudyError::key("system.state", message));
         }
     };
+    // A device of one state cannot move, whatever the rule wants to know of its slats.
     let rule = if device.keys.len() == 1 { Rule::Fixed(0) } else { rule(keys, device, base)? };
     let empty = || StudyError::Catalogue(format!("'{}' has no states", device.name));
     let mut settings = Settings::new(values, rule).or_else(unmoved).ok_or_else(empty)?;
@@ -107,6 +110,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
     };
     const LUX: [f64; 2] = [0.0, 1e6];
     settings.threshold = within("threshold", keys.threshold, 0.0, LUX, " lx")?;
+    // Judged only: left out, these mean never, which no number stands for.
     within("close_above", keys.close_above, 0.0, LUX, " lx")?;
     within("open_below", keys.open_below, 0.0, LUX, " lx")?;
     within("indoor", keys.indoor, 0.0, LUX, " lx")?;
@@ -123,6 +127,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
             *place = device.state(key, name)?;
         }
     }
+    // After `open_state`, which also rules the night unless that is named.
     if keys.night_state.is_none() {
         settings.night = settings.open;
     }
@@ -143,6 +148,7 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
                 let message = format!("{tolerance}° is out of range (allowed: 0 to 45°)");
                 return Err(StudyError::key("control.tolerance", message));
             }
+            // What the scene says of the slats is meant to stand for what the product says.
             let described = keys.slats.as_ref().map(section_from_keys).transpose()?;
             match described.or_else(|| device.section.clone()) {
                 Some(section) => Rule::CutOff { section, tolerance: tolerance.to_radians() },
@@ -153,6 +159,8 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
                     );
                     return Err(StudyError::key("control.mode", message));
                 }
+                // Without a section the maker's own curve stands for the cut-off; rounded to the nearest it could let
+                // the sun in.
                 None => Rule::Curve(radians(&device.curve), Rounding::Closed),
             }
         }
@@ -160,6 +168,7 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
         ControlMode::Curve => Rule::Curve(radians(&curve(keys, device, base)?), rounding(Rounding::Closed)),
         ControlMode::RetroReflect => Rule::RetroReflect(rounding(Rounding::Closed)),
         ControlMode::Redirect => {
+            // Here the aim is where light goes, not that none comes in: the nearest state serves it best.
             let elevation = keys.elevation.unwrap_or(DEFAULT_ELEVATION);
             if !(-90.0..=90.0).contains(&elevation) {
                 let message = format!("{elevation}° is out of range (allowed: -90 to 90°)");
@@ -172,6 +181,7 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
             let periods: Vec<Period> =
                 keys.schedule.iter().map(|keys| period(keys, device)).collect::<Result<_, _>>()?;
             distinct(&periods, &keys.schedule)?;
+            // Between the periods: the state that is named, else the product's first.
             Rule::User(named()?, periods)
         }
     })

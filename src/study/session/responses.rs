@@ -6,7 +6,7 @@ use super::{Session, check};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
 use crate::compute::room::aperture::Aperture;
-use crate::compute::room::back_reflection::{gathered, settled_weights};
+use crate::compute::room::back_reflection::{BackReflection, gathered, settled_weights};
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
@@ -85,35 +85,28 @@ impl Session {
             return Ok(());
         }
         check(progress)?;
-        let patches = responses.radiosity.nested.fine.patches.len();
+        // Solved once for all sensors and lights: the matrix is only as large as the mirroring cells are many.
         let settled = settled_weights(&responses.radiosity, &responses.geometry, &mirrors);
-        let through = |weights: &[f64]| -> Vec<f64> {
-            let mut sums = vec![0.0; patches];
-            for (w, row) in weights.iter().zip(&settled).filter(|(w, _)| **w != 0.0) {
-                sums.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
-            }
-            sums
-        };
         let mut seen = vec![Vec::with_capacity(settled.len()); scene.sensors.len()];
         for (index, mirror) in &mirrors {
+            // Straight to the sensor as well: a mirror is seen, and not only what it lights.
             let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
             seen.iter_mut().zip(receptions.iter()).for_each(|(list, reception)| list.extend(&reception.cells));
         }
         check(progress)?;
-        responses.sensors.par_iter_mut().zip(seen).for_each(|(sensor, seen)| {
-            let add = |to: &mut Vec<f64>, part: &[f64]| to.iter_mut().zip(part).for_each(|(sum, x)| *sum += x);
-            let back = through(&gathered(&mirrors, &sensor.value));
-            add(&mut sensor.value, &back);
-            sensor.thrown_back = through(&seen);
-            let thrown_back = sensor.thrown_back.clone();
-            add(&mut sensor.value, &thrown_back);
-            for wall in &mut sensor.walls {
-                let back = through(&gathered(&mirrors, &wall.value));
-                add(&mut wall.value, &back);
-            }
-        });
+        let sensors = responses.sensors.par_iter_mut().zip(seen);
+        sensors.for_each(|(sensor, seen)| sensor.add_thrown_back(&mirrors, &settled, &seen));
         Ok(())
     }
+}
+
+/// Weights of the mirroring cells' settled luminances as weights of the first illuminance.
+fn through(settled: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; settled.first().map_or(0, Vec::len)];
+    for (w, row) in weights.iter().zip(settled).filter(|(w, _)| **w != 0.0) {
+        sums.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
+    }
+    sums
 }
 
 /// Without mirrors.
@@ -152,6 +145,21 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
 }
 
 impl Response {
+    /// The step of [`Session::add_mirrors`] at one sensor; `seen`: what it sees of every mirroring cell itself.
+    fn add_thrown_back(&mut self, mirrors: &[(usize, BackReflection<'_>)], settled: &[Vec<f64>], seen: &[f64]) {
+        let add = |to: &mut Vec<f64>, part: &[f64]| to.iter_mut().zip(part).for_each(|(sum, x)| *sum += x);
+        let back = through(settled, &gathered(mirrors, &self.value));
+        add(&mut self.value, &back);
+        // Kept by itself too: that an aperture is not evenly lit puts this part in doubt, and no other.
+        self.thrown_back = through(settled, seen);
+        add(&mut self.value, &self.thrown_back);
+        // The part counted elsewhere is left alone: mirrors have their share of all first illuminance in the value.
+        for wall in &mut self.walls {
+            let back = through(settled, &gathered(mirrors, &wall.value));
+            add(&mut wall.value, &back);
+        }
+    }
+
     /// Of a first illuminance of which `beam` is reflected elsewhere at first: value, and what the two densities differ by
     /// together with what comes back from apertures.
     pub fn of(&self, first: &[f64], beam: &[f64]) -> (f64, f64, f64) {

@@ -96,11 +96,13 @@ pub fn edit(
     editing: &mut Editing,
 ) -> (Option<Vec<[f64; 2]>>, bool) {
     let curve = input.curve;
+    // Undo or another product may have left a shorter curve.
     editing.chosen = editing.chosen.filter(|&k| k < curve.len());
     let pointer = response.interact_pointer_pos();
     let mut taken = editing.dragged;
     let mut new = None;
     if response.drag_started() {
+        // Where the button went down: when egui calls it a drag, the pointer has left the point already.
         let origin = ui.input(|i| i.pointer.press_origin()).or(pointer);
         let found = origin.and_then(|at| near(transform, curve, at));
         editing.dragged = found.is_some();
@@ -110,6 +112,7 @@ pub fn edit(
         && let (Some(index), Some(at)) = (editing.chosen, pointer)
     {
         taken = true;
+        // Pulled out of the chart a point stays at its edge, where it can be taken hold of again.
         let place = transform.value_from_position(transform.frame().clamp(at));
         let (lo, hi) = extent(input);
         let free = ui.input(|i| i.modifiers.shift);
@@ -138,10 +141,12 @@ pub fn edit(
         response.request_focus();
     }
     if response.has_focus() {
+        // Else arrows would move the focus to other tiles instead of the point.
         let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
         new = by_keys(ui, input, editing).or(new);
     }
+    // Snapping mostly gives the curve that was there: that is no edit, and costs neither a run nor a step of undo.
     (new.filter(|new| new != curve), taken)
 }
 
@@ -149,8 +154,10 @@ pub fn edit(
 fn by_keys(ui: &Ui, input: &Input<'_>, editing: &mut Editing) -> Option<Vec<[f64; 2]>> {
     let curve = input.curve;
     let last = curve.len().checked_sub(1)?;
+    // Taken out of the input, so that nothing else obeys them too; with Shift as well, as + is typed on many keyboards.
     let pressed =
         |key: Key| ui.input_mut(|i| i.consume_key(Modifiers::NONE, key) || i.consume_key(Modifiers::SHIFT, key));
+    // With no point chosen backwards starts at the last one, forwards at the first.
     if pressed(Key::Comma) {
         editing.chosen = Some(editing.chosen.map_or(last, |k| k.saturating_sub(1)));
     }
@@ -169,15 +176,18 @@ fn by_keys(ui: &Ui, input: &Input<'_>, editing: &mut Editing) -> Option<Vec<[f64
     let [angle, value] = curve[index];
     if let Some([right, up]) = step {
         let states = || input.states.iter().map(|state| state.value);
+        // Numbers that went through radians differ in their last digits: a state must not be its own neighbour.
         let next = if up > 0.0 {
             states().filter(|v| *v > value + 1e-9).fold(f64::INFINITY, f64::min)
         } else {
             states().filter(|v| *v < value - 1e-9).fold(f64::NEG_INFINITY, f64::max)
         };
+        // Beyond the last state there is nothing to snap to: the point stays.
         let value = if up != 0.0 && next.is_finite() { next } else { value };
         return Some(moved(curve, index, [angle + right, value]));
     }
     if pressed(Key::Insert) || pressed(Key::Plus) {
+        // After the last point the chart's edge stands for a neighbour.
         let next = curve.get(index + 1).map_or(90.0, |next| next[0]);
         let (curve, at) = with_point(curve, 0.5 * (angle + next))?;
         editing.chosen = Some(at);
