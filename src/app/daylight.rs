@@ -20,8 +20,8 @@ pub const fn cover(cie_type: u8) -> Cover {
 pub fn follow(scene: &mut SceneFile) {
     let kind = match scene.sky.model {
         SkyModelKey::Cie => cover(scene.sky.cie_type.unwrap_or(16)),
-        SkyModelKey::Uniform => Cover::Overcast,
-        SkyModelKey::Perez | SkyModelKey::Scan => return,
+        model if model.takes_illuminances() => Cover::Overcast,
+        _ => return,
     };
     let Some((altitude, _)) = moment::sun(scene) else { return };
     let (direct, diffuse) = typical_illuminances(kind, altitude);

@@ -53,9 +53,6 @@ pub fn time(scene: &SceneFile) -> String {
 /// The sky in words.
 pub fn sky(scene: &SceneFile) -> String {
     match scene.sky.model {
-        SkyModelKey::Uniform => "uniform sky".to_owned(),
-        SkyModelKey::Perez => "Perez sky".to_owned(),
-        SkyModelKey::Scan => "measured sky".to_owned(),
         SkyModelKey::Cie => {
             let kind = scene.sky.cie_type.unwrap_or(16);
             let word = match kind {
@@ -65,6 +62,7 @@ pub fn sky(scene: &SceneFile) -> String {
             };
             format!("{word} (CIE {kind})")
         }
+        model => model.words()[1].to_owned(),
     }
 }
 

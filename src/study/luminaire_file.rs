@@ -138,9 +138,7 @@ fn sky_remark(scene: &SceneFile) -> String {
         SkyModelKey::Cie => {
             format!("CIE type {}", sky.cie_type.map_or_else(|| "unstated".to_owned(), |t| t.to_string()))
         }
-        SkyModelKey::Uniform => "uniform".to_owned(),
-        SkyModelKey::Perez => "Perez all-weather".to_owned(),
-        SkyModelKey::Scan => "measured scan".to_owned(),
+        model => model.words()[2].to_owned(),
     };
     let mut parts = vec![format!("Sky {model}")];
     let mut add = |name: &str, value: Option<f64>, unit: &str| {

@@ -269,6 +269,26 @@ pub enum SkyModelKey {
     Scan,
 }
 
+impl SkyModelKey {
+    /// All, in the order that lists show.
+    pub const ALL: [Self; 4] = [Self::Cie, Self::Uniform, Self::Perez, Self::Scan];
+
+    /// Words: in a list, for a scene's title, and in the header of a luminaire file.
+    pub const fn words(self) -> [&'static str; 3] {
+        match self {
+            Self::Cie => ["CIE general sky", "CIE sky", "CIE"],
+            Self::Uniform => ["Uniform", "uniform sky", "uniform"],
+            Self::Perez => ["Perez all-weather", "Perez sky", "Perez all-weather"],
+            Self::Scan => ["Measured (file)", "measured sky", "measured scan"],
+        }
+    }
+
+    /// Is it scaled to illuminances that are stated? Perez's sky and a measured one bring their own.
+    pub const fn takes_illuminances(self) -> bool {
+        !matches!(self, Self::Perez | Self::Scan)
+    }
+}
+
 /// `[sky]`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -248,18 +248,12 @@ fn sun_marks(ui: &Ui, scene: &SceneFile, rect: egui::Rect) {
 
 fn sky(ui: &mut Ui, scene: &mut SceneFile, follows: &mut bool) {
     let sky = &mut scene.sky;
-    let words = [
-        (SkyModelKey::Cie, "CIE general sky"),
-        (SkyModelKey::Uniform, "Uniform"),
-        (SkyModelKey::Perez, "Perez all-weather"),
-        (SkyModelKey::Scan, "Measured (file)"),
-    ];
-    let shown = words.iter().find(|(model, _)| *model == sky.model).map_or("", |(_, word)| word);
+    let shown = sky.model.words()[0];
     let width = ui.available_width() - 8.0;
     let combo = ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
-        for (model, word) in words {
+        for model in SkyModelKey::ALL {
             // Choosing the model that is there already must not reset its numbers.
-            if ui.selectable_label(sky.model == model, word).clicked() && sky.model != model {
+            if ui.selectable_label(sky.model == model, model.words()[0]).clicked() && sky.model != model {
                 choose_model(sky, model);
             }
         }
@@ -291,10 +285,10 @@ fn sky(ui: &mut Ui, scene: &mut SceneFile, follows: &mut bool) {
                 sky.file = Some(path.into());
             }
         }
-        SkyModelKey::Uniform => {}
+        _ => {}
     }
     // Perez's sky and a measured one bring their own illuminances.
-    if matches!(sky.model, SkyModelKey::Cie | SkyModelKey::Uniform) {
+    if sky.model.takes_illuminances() {
         ui.checkbox(follows, "Illuminances follow the sun")
             .on_hover_text("Typical values for the sun's altitude (IES RP-21, 1984); off: type your own");
         ui.add_enabled_ui(!*follows, |ui| {
@@ -319,7 +313,7 @@ fn choose_model(sky: &mut crate::study::scene_file::SkyKeys, model: SkyModelKey)
             sky.sun.direct_normal = None;
         }
         SkyModelKey::Scan => sky.diffuse_horizontal = None,
-        SkyModelKey::Cie | SkyModelKey::Uniform => {
+        _ => {
             sky.diffuse_horizontal.get_or_insert(10_000.0);
         }
     }
