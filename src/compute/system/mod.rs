@@ -1,7 +1,7 @@
 //! Described systems, a room a family: slats, clear profiles, panes, laser-cut panels, thin sheets, stacks of all.
 //!
 //! Every family answers the same questions ([`Family`]): its words, states and structure, a drawing of its section, and
-//! a [`Specimen`](measure::Specimen) that the numerical goniophotometer ([`measure`]) makes data from. A family is added
+//! a [`Specimen`] that the numerical goniophotometer ([`measure`]) makes data from. A family is added
 //! by a room of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in system files are
 //! in `formats::system_toml`.
 

@@ -7,8 +7,8 @@
 //! sun; the sun's unscattered beam has no luminance that could be sampled and goes the exact way in all of them.
 
 pub mod homogeneity;
-pub mod kernel;
-mod monte_carlo;
+mod kernel;
+pub mod monte_carlo;
 pub mod profile_table;
 pub mod subdivision;
 
