@@ -14,10 +14,10 @@
 use super::grid::Grid;
 use super::lattice::{Lattice, Place};
 use super::model::Model;
-use super::schemes::SunScheme;
 use super::schemes::between::Between;
 use super::schemes::blend::{Blend, Piece, Shape};
 use super::schemes::plain::Plain;
+use super::schemes::words::SunScheme;
 use super::superpose::sub_patches;
 use crate::compute::direction::Dir;
 use glam::{DQuat, DVec3};

@@ -10,7 +10,7 @@ mod matched;
 pub(super) mod plain;
 mod transport;
 mod whole;
-mod words;
+pub(super) mod words;
 
 use super::choice::Choices;
 use super::grid::Grid;
