@@ -13,11 +13,15 @@
 
 pub mod beams;
 mod cells;
+mod parallel;
 mod reciprocal;
 pub mod upright;
 
+pub use parallel::{Beam, ScatteredLight};
+
 use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
 use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 
 /// The cells that computed systems are given on: LBNL/Klems Full, as light from outside names them.
@@ -80,7 +84,7 @@ pub struct Measured {
 }
 
 /// Something whose scattering can be computed.
-pub trait Specimen: Sync {
+pub trait Specimen: Send + Sync {
     /// The four functions on the cells of `setting`, to its error.
     ///
     /// # Errors
@@ -95,6 +99,17 @@ pub trait Specimen: Sync {
     fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
         let measured = self.measure(setting, progress)?;
         Ok((measured.band(), measured.quality()))
+    }
+
+    /// The beams that parallel light of one name from a side becomes, exactly: straight on (the name kept), deflected,
+    /// mirrored. What mirrors or edges spread is not among them.
+    fn beams(&self, _name: Dir<Facade>, _side: Side) -> Vec<Beam> {
+        Vec::new()
+    }
+
+    /// What else becomes of it, on emergent cells.
+    fn scattered(&self, _name: Dir<Facade>, _side: Side, _emergent: &RingBasis) -> ScatteredLight {
+        ScatteredLight::default()
     }
 }
 
