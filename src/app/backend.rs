@@ -12,6 +12,7 @@ use crate::study::compact::stored_by_default;
 use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::scene_file::SystemKeys;
+use crate::study::system::Need;
 use crate::study::{Library, Scene, Session, StudyError, System, SystemLibrary};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -152,11 +153,16 @@ struct WindowLibrary<'a> {
 }
 
 impl SystemLibrary for WindowLibrary<'_> {
-    fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError> {
-        let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base) };
+    fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
+        let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
         let dataset =
             self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
-        Ok(Arc::new(System { label: dataset.name.clone(), state: state.clone().unwrap_or_default(), dataset }))
+        let very = self
+            .shelf
+            .product(key)
+            .map(|product| self.files.very_of(&product.system, &dataset.state))
+            .map_err(|error| StudyError::Catalogue(error.to_string()))?;
+        Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {

@@ -4,7 +4,7 @@
 use super::error::StudyError;
 use super::files;
 use super::scene_file::SystemKeys;
-use super::system::{System, SystemLibrary};
+use super::system::{Need, System, SystemLibrary};
 use crate::catalogue::{NewProduct, Product, builtin_system, described_dataset, method, product_of};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
@@ -240,7 +240,7 @@ impl Described {
             LayerSource::File(name) => SystemKeys::File { path: name.into(), state: told },
             LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
         };
-        let system = library.load(&keys, self.folder())?;
+        let system = library.load(&keys, self.folder(), Need::Everything)?;
         list.push(LayerRun::Other(Box::new(DataLayer(system.dataset.visible.clone()))));
         Ok(())
     }
@@ -317,6 +317,13 @@ impl Described {
         self.sources_into(&mut hash, library, 0)?;
         hash.update(&request.error.to_le_bytes()).update(&request.seed.to_le_bytes()).update(&METHODS.to_le_bytes());
         Ok(format!("{}.cfsd", &hash.finalize().to_hex()[..32]))
+    }
+
+    /// Hash of all that the system is computed from.
+    pub(super) fn fingerprint(&self, library: &dyn LayerLibrary) -> Result<String, StudyError> {
+        let mut hash = blake3::Hasher::new();
+        self.sources_into(&mut hash, library, 0)?;
+        Ok(hash.finalize().to_hex().to_string())
     }
 
     /// Hashes the text and what its layers are made of.

@@ -5,7 +5,8 @@
 pub mod accuracy;
 pub mod accuracy_plot;
 pub mod builtin;
-pub mod cache;
+pub mod by_description;
+mod cache;
 pub mod coefficients;
 pub mod compact;
 pub mod control;

@@ -72,7 +72,7 @@ impl Effort {
 }
 
 /// A system made of sharp beams, endless along x and the same from left and right.
-pub trait Beams: Sync {
+pub trait Beams: Send + Sync {
     /// The beams of light of the given name from a side, into `out`, which is to be emptied first. `effort` is for
     /// systems that follow very many beams.
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
