@@ -168,6 +168,10 @@ impl SystemLibrary for WindowLibrary<'_> {
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         self.shelf.controlled_state(product, asked)
     }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        self.files.controlled_description(path, asked)
+    }
 }
 
 /// The study with its caches.

@@ -178,6 +178,12 @@ impl SystemLibrary for Library {
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         pick_state(&Device::of(&self.product(product)?)?, asked)
     }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        let described = Described::read(path)?;
+        let states = described.states(self)?;
+        pick_state(&Device::described(&described.file, &described.text, states), asked)
+    }
 }
 
 fn pick(systems: &[Arc<System>], state: Option<&str>, name: &str) -> Result<Arc<System>, StudyError> {

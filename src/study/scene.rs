@@ -22,6 +22,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
+use crate::formats::system_toml::is_system_file;
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -249,13 +250,19 @@ fn controlled_state(
     asked: Option<&ControlQuestion<'_>>,
     library: &dyn SystemLibrary,
 ) -> Result<SystemKeys, StudyError> {
+    let without = || StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode");
     match &keys.system {
         SystemKeys::Catalogue { key, state: Some(word) } if word == CONTROLLED => {
-            let asked = asked.ok_or_else(|| {
-                StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode")
-            })?;
+            let asked = asked.ok_or_else(without)?;
             let state = library.controlled_state(key, asked)?;
             Ok(SystemKeys::Catalogue { key: key.clone(), state: Some(state) })
+        }
+        SystemKeys::File { path, state: Some(word) }
+            if word == CONTROLLED && is_system_file(&path.to_string_lossy()) =>
+        {
+            let asked = asked.ok_or_else(without)?;
+            let state = library.controlled_description(&asked.base.join(path), asked)?;
+            Ok(SystemKeys::File { path: path.clone(), state: Some(state) })
         }
         other => Ok(other.clone()),
     }

@@ -54,6 +54,12 @@ pub trait SystemLibrary: Sync {
 
     /// The state that a control picks for a product.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
+
+    /// The state that a control picks for a description in a file.
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        let _ = asked;
+        Err(StudyError::key("system.file", format!("{}: no descriptions are read here", path.display())))
+    }
 }
 
 /// An ideal system.
