@@ -12,8 +12,9 @@ use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Indicatrices, Scattered};
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::{Emission, Facing, Interpolator, Lid};
+use crate::compute::lid::{BandLight, Emission, Facing, Interpolator, Lid};
 use crate::compute::quadrature::Tolerance;
+use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
@@ -102,6 +103,7 @@ pub struct Session {
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
+    bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
 }
 
@@ -119,6 +121,7 @@ impl Session {
             gather: Cache::new(8),
             reception: Cache::new(16),
             patches: Cache::new(24),
+            bands: Cache::new(16),
             interpolators: Cache::new(6),
         }
     }
@@ -275,6 +278,28 @@ impl Session {
         })
     }
 
+    /// What every sensor receives from one aperture by bands of the profile angle.
+    fn band_weights(
+        &self,
+        scene: &Scene,
+        index: usize,
+        bands: &BandLight,
+        progress: &dyn Progress,
+    ) -> Result<Arc<Vec<BandWeights>>, StudyError> {
+        let aperture = &scene.apertures[index].aperture;
+        let (upright, count) = (bands.light.upright, bands.light.q.len());
+        let mut key = reception_key(scene, index, None);
+        key.extend([u64::from(upright), count as u64]);
+        self.bands.get(key, || {
+            let of = |sensor: &Sensor| {
+                check(progress)?;
+                let view = aperture.view(sensor.position, sensor.normal);
+                Ok(view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count)))
+            };
+            scene.sensors.par_iter().map(of).collect()
+        })
+    }
+
     fn direct(
         &self,
         scene: &Scene,
@@ -305,6 +330,10 @@ impl Session {
                 .into_iter()
                 .map(|basis| self.receptions(scene, index, basis, progress))
                 .collect::<Result<_, StudyError>>()?;
+            let bands = match &emission.bands {
+                Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
+                None => None,
+            };
             // Dark corners are not chased beyond what anyone can see.
             let absolute = 1e-7 * (facing.outside.diffuse_horizontal());
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
@@ -315,7 +344,8 @@ impl Session {
                 .map(|(s, sensor)| {
                     check(progress)?;
                     let own: Vec<&Reception> = receptions.iter().map(|all| &all[s]).collect();
-                    Ok(direct::illuminance(sensor, aperture, &own, emission, &facing, tolerance))
+                    let bands = bands.as_ref().map(|all| &all[s]);
+                    Ok(direct::illuminance(sensor, aperture, &own, bands, emission, &facing, tolerance))
                 })
                 .collect::<Result<_, StudyError>>()?;
             for (sum, e) in sums.iter_mut().zip(part) {

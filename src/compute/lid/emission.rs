@@ -13,6 +13,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::sky::sun_disc::{self, Edge};
 use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
+use crate::compute::system::measure::ProfileLight;
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -76,6 +77,15 @@ pub struct CellLight {
     pub relative_error: f64,
 }
 
+/// Luminance by profile angle: q times illuminance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandLight {
+    /// Per illuminance.
+    pub light: ProfileLight,
+    /// Of the aperture's outside. \[lx\]
+    pub illuminance: f64,
+}
+
 /// Everything that an aperture emits.
 #[derive(Debug, Clone)]
 pub struct Emission {
@@ -83,6 +93,8 @@ pub struct Emission {
     pub uniform: Estimate,
     /// Parts on cells, each on its own.
     pub cells: Vec<CellLight>,
+    /// The sun's scattered light where it depends on a profile angle alone.
+    pub bands: Option<BandLight>,
     /// The outside seen straight through, with this transmittance.
     pub regular: Option<AngularTransmittance>,
     /// The sun's light that goes on as beams.
@@ -104,6 +116,7 @@ impl Emission {
         let mut emission = Self {
             uniform: Estimate::default(),
             cells: Vec::new(),
+            bands: None,
             regular: btdf.regular.clone(),
             beams: Vec::new(),
             incident_diffuse: Estimate::default(),
@@ -190,6 +203,9 @@ impl Emission {
     /// Flux that leaves into the room per area, beam included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
+        if let Some(bands) = &self.bands {
+            sum += Estimate::new(bands.light.share(), bands.light.error) * bands.illuminance;
+        }
         for cells in &self.cells {
             let total: f64 = cells
                 .basis
@@ -227,6 +243,12 @@ impl Emission {
                 basis: Arc::clone(&cells.basis),
                 luminance: cells.diffuse.iter().zip(&cells.sun).map(|(a, b)| a + b).collect(),
             });
+        }
+        if let Some(bands) = &self.bands {
+            let bands = bands.clone();
+            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
+                bands.light.at(twin) * bands.illuminance
+            })));
         }
         if let Some(tau) = &self.regular {
             let (tau, outside) = (tau.clone(), facing.outside.clone());

@@ -7,7 +7,7 @@ mod interpolated;
 mod sun_through;
 
 pub use beams::BeamLight;
-pub use emission::{CellLight, Emission, Facing};
+pub use emission::{BandLight, CellLight, Emission, Facing};
 pub use interpolated::Interpolator;
 pub use sun_through::{sun_beams, sun_cells};
 

@@ -1,11 +1,11 @@
 //! The very sun through a system that answers for single directions: its beams as means over the disc, and what it
 //! scatters.
 
-use super::{BeamLight, CellLight, Emission, Facing};
+use super::{BandLight, BeamLight, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::sky::SUN_HALF_ANGLE;
-use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen};
+use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -153,12 +153,34 @@ impl Pieces {
     }
 }
 
+/// Directions of the disc that what is scattered is a mean over.
+fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
+    if sun.vector().z < GRAZING { disc(facing, sun, POINTS[0]) } else { vec![sun] }
+}
+
+/// What a system scatters of the sun where that depends on a profile angle alone.
+fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight> {
+    let illuminance = facing.sun_illuminance();
+    let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
+    let names = standing_for(facing, sun);
+    let cosines: f64 = names.iter().map(|name| name.vector().z.max(0.0)).sum();
+    let mut mean: Option<ProfileLight> = None;
+    for name in &names {
+        let weight = name.vector().z.max(0.0) / cosines;
+        let own = specimen.profile_light(*name, Side::Front)?;
+        let sum = mean.get_or_insert_with(|| ProfileLight { q: vec![0.0; own.q.len()], error: 0.0, ..own });
+        sum.q.iter_mut().zip(&own.q).for_each(|(sum, q)| *sum += weight * q);
+        sum.error += weight * own.error;
+    }
+    mean.map(|light| BandLight { light, illuminance })
+}
+
 /// What a system scatters of the sun, on [`sun_cells`]; `None` where it scatters nothing.
 fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> {
     let incident = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
     let cells = sun_cells();
-    let names = if sun.vector().z < GRAZING { disc(facing, sun, POINTS[0]) } else { vec![sun] };
+    let names = standing_for(facing, sun);
     let lights: Vec<(ScatteredLight, f64)> =
         names.iter().map(|name| (specimen.scattered(*name, Side::Front, cells), name.vector().z.max(0.0))).collect();
     let cosines: f64 = lights.iter().map(|(_, cosine)| cosine).sum();
@@ -184,7 +206,10 @@ impl Emission {
     pub fn add_sun_through(&mut self, specimen: &dyn Specimen, facing: &Facing<'_>) {
         self.incident_sun = facing.sun_illuminance();
         self.beams = sun_beams(specimen, facing);
-        self.cells.extend(scattered(specimen, facing));
+        self.bands = by_profile(specimen, facing);
+        if self.bands.is_none() {
+            self.cells.extend(scattered(specimen, facing));
+        }
         let flux: f64 = self.beams.iter().map(|beam| beam.exitance).sum();
         let straight: f64 = self.beams.iter().filter(|beam| beam.straight).map(|beam| beam.exitance).sum();
         if self.incident_sun > 0.0 {

@@ -2,6 +2,7 @@
 //! exact or error-controlled way.
 
 use super::aperture::{Aperture, View};
+use super::band_weights::BandWeights;
 use super::cell_weights::for_each_cell;
 use super::through;
 use crate::compute::basis::RingBasis;
@@ -65,12 +66,16 @@ impl std::ops::AddAssign for DirectLight {
     }
 }
 
+/// What the width of the bands costs, relative; seen on matt slats against exact integrals along them.
+const BAND_ERROR: f64 = 5e-4;
+
 /// Illuminance at a sensor from one aperture, sun included. `receptions`: one for every part on cells, the first of them
-/// for what is uniform, too.
+/// for what is uniform, too; `weights`: for the part in bands.
 pub fn illuminance(
     sensor: &Sensor,
     aperture: &Aperture,
     receptions: &[&Reception],
+    weights: Option<&BandWeights>,
     emission: &Emission,
     facing: &Facing<'_>,
     tolerance: Tolerance,
@@ -83,6 +88,12 @@ pub fn illuminance(
         let at_sensor = |doubt: &Vec<f64>| reception.cells.iter().zip(doubt).map(|(w, l)| w * l).sum::<f64>();
         data_error += light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
         sum += Estimate::new(e, e * light.relative_error);
+    }
+    if let (Some(bands), Some(weights)) = (&emission.bands, weights) {
+        let part = weights.of(&bands.light.q) * bands.illuminance;
+        let share = bands.light.share();
+        let relative = if share > 0.0 { bands.light.error / share } else { 0.0 };
+        sum += Estimate::new(part, part * (relative + BAND_ERROR));
     }
     if let (Some(tau), Some(view)) = (&emission.regular, aperture.view(sensor.position, sensor.normal)) {
         sum += through::illuminance(&view, facing, tau, tolerance);

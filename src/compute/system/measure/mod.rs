@@ -14,10 +14,12 @@
 pub mod beams;
 mod cells;
 mod parallel;
+mod profile_light;
 mod reciprocal;
 pub mod upright;
 
 pub use parallel::{Beam, ScatteredLight};
+pub use profile_light::ProfileLight;
 
 use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
 use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
@@ -105,6 +107,12 @@ pub trait Specimen: Send + Sync {
     /// mirrored. What mirrors or edges spread is not among them.
     fn beams(&self, _name: Dir<Facade>, _side: Side) -> Vec<Beam> {
         Vec::new()
+    }
+
+    /// What is transmitted besides, where that depends on a profile angle alone; then [`Self::scattered`] gives the same
+    /// by cells.
+    fn profile_light(&self, _name: Dir<Facade>, _side: Side) -> Option<ProfileLight> {
+        None
     }
 
     /// What else becomes of it, on emergent cells.
