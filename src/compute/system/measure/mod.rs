@@ -13,6 +13,9 @@
 
 pub mod beams;
 mod cells;
+pub mod directions;
+pub mod fan;
+pub mod merged;
 mod parallel;
 mod profile_light;
 mod reciprocal;

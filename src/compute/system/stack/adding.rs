@@ -7,7 +7,7 @@
 
 use super::halves::{Flux, Halves};
 use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
-use crate::compute::btdf::{Band, CellMatrix, Component, matrix_on, resample_matrix};
+use crate::compute::btdf::{CellMatrix, resample_matrix};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
 use crate::compute::system::measure::{Measured, OneSide, Setting, Side, Specimen};
@@ -16,45 +16,8 @@ use std::f64::consts::PI;
 /// Layers from outside to inside.
 pub struct Stack(pub Vec<Box<dyn Specimen>>);
 
-/// Data of a file as a layer: means over the cells asked for.
-pub struct DataLayer(pub Band);
-
 /// Finest cut of the cells: 9 parts of a Klems cell are 3.3° wide; 1300 cells are solved in a second.
 const MOST_PARTS: usize = 3;
-
-impl Specimen for DataLayer {
-    /// Functions that are missing count as: transmission from the other side by reciprocity, reflection none, all that
-    /// does not pass being absorbed.
-    fn measure(&self, setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        let mut measured = Measured::dark(setting);
-        let on = |component| {
-            let btdf = self.0.get(component)?;
-            Some(matrix_on(btdf, setting.incident, setting.emergent).values().into_owned())
-        };
-        let other = |component| {
-            let matrix = matrix_on(self.0.get(component)?, setting.emergent, setting.incident);
-            Some(matrix.reversed().values().into_owned())
-        };
-        for (side, through, opposite, back) in [
-            (Side::Front, Component::TransmissionFront, Component::TransmissionBack, Component::ReflectionFront),
-            (Side::Back, Component::TransmissionBack, Component::TransmissionFront, Component::ReflectionBack),
-        ] {
-            let seen = measured.seen_mut(side);
-            if let Some(values) = on(through).or_else(|| other(opposite)) {
-                seen.transmitted = values;
-            }
-            if let Some(values) = on(back) {
-                seen.reflected = values;
-            }
-            let (tau, rho) = (measured.shares(&measured.seen(side).transmitted), {
-                let seen = measured.seen(side);
-                measured.shares(&seen.reflected)
-            });
-            measured.seen_mut(side).absorbed = tau.iter().zip(&rho).map(|(t, r)| (1.0 - t - r).max(0.0)).collect();
-        }
-        Ok(measured)
-    }
-}
 
 impl Specimen for Stack {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {

@@ -1,8 +1,10 @@
 //! Layers one behind the other.
 
 mod adding;
+mod data;
 mod halves;
 mod layers;
 
-pub use adding::{DataLayer, Stack};
+pub use adding::Stack;
+pub use data::DataLayer;
 pub use layers::{Layer, LayerSource};

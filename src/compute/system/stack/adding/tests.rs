@@ -1,7 +1,8 @@
 //! Stacks beside closed forms, and their balance.
 
+use super::super::DataLayer;
 use super::*;
-use crate::compute::btdf::Btdf;
+use crate::compute::btdf::{Band, Btdf};
 use crate::compute::direction::Dir;
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
