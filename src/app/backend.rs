@@ -157,11 +157,7 @@ impl SystemLibrary for WindowLibrary<'_> {
         let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
         let dataset =
             self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
-        let very = self
-            .shelf
-            .product(key)
-            .map(|product| self.files.very_of(&product.system, &dataset.state))
-            .map_err(|error| StudyError::Catalogue(error.to_string()))?;
+        let very = self.files.very_of(&dataset);
         Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
     }
 

@@ -51,12 +51,9 @@ impl Described {
     }
 }
 
-/// What answers for single directions by the text of a description; `None` where the text is empty or names layers that
-/// cannot be found from here: then the data are all that is known.
+/// What answers for single directions by the text of a description; `None` where it names layers that cannot be found
+/// from here.
 pub(super) fn very_system(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<VerySystem> {
-    if text.is_empty() {
-        return None;
-    }
     let described = Described::from_text(text, Base::Builtin).ok()?;
     described.specimen(state, library).ok().map(|specimen| VerySystem(Arc::from(specimen)))
 }

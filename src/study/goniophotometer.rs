@@ -10,6 +10,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::system::SystemKind;
+use crate::compute::system::measure::directions::measured_at_directions;
 use crate::compute::system::measure::upright::Upright;
 use crate::compute::system::measure::{Quality, Setting, Specimen};
 use crate::compute::system::panes::Panes;
@@ -59,6 +60,13 @@ pub struct Request {
     pub error: f64,
     /// Seed of what is drawn at random.
     pub seed: u64,
+}
+
+impl Request {
+    /// Are incidences single directions? The 145 of a goniophotometer are; Klems cells are cells.
+    pub fn at_directions(&self) -> bool {
+        self.incident == RingBasis::tregenza()
+    }
 }
 
 /// A computed state.
@@ -275,7 +283,13 @@ impl Described {
         let start = Instant::now();
         let Request { incident, emergent, error, seed } = request;
         let setting = Setting { incident, emergent, error: *error, seed: *seed };
-        let (visible, quality) = self.specimen(state, library)?.examine(&setting, progress)?;
+        let specimen = self.specimen(state, library)?;
+        let (visible, quality) = if request.at_directions() {
+            let measured = measured_at_directions(specimen.as_ref(), &setting, progress)?;
+            (measured.band_at_directions(), measured.quality())
+        } else {
+            specimen.examine(&setting, progress)?
+        };
         let mut dataset = described_dataset(&self.file, state.to_owned(), visible, &quality, *error);
         dataset.described = self.described(state, library);
         if let Some(path) = &kept {

@@ -21,8 +21,12 @@ const SAME: f64 = 1e-9;
 const PIECE: f64 = 0.15 * PI / 180.0;
 /// Pieces of fans that fall together within this are one. \[rad\]
 const TOGETHER: f64 = 0.1 * PI / 180.0;
-/// Points of the disc that tell whether its middle can stand for it, and those that take its place where it cannot.
-const POINTS: [usize; 2] = [7, 127];
+/// Pairs of directions over the disc for the straight beam, one number after the other until its share stands ...
+const SEEDS: [usize; 4] = [16, 64, 256, 1024];
+/// ... to this, relative.
+const STANDS: f64 = 1e-5;
+/// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
+const PARTS: [usize; 2] = [3, 64];
 /// Shares that are as near as this to linear over the disc are.
 const LINEAR: f64 = 2e-5;
 /// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
@@ -34,21 +38,16 @@ pub fn sun_cells() -> &'static Arc<RingBasis> {
     CELLS.get_or_init(|| Arc::new(RingBasis::even(CELL)))
 }
 
-/// A point of the sun's disc that nothing hides, as the aperture faces it.
-struct DiscPoint {
-    name: Dir<Facade>,
-    beams: Vec<Beam>,
-}
-
-/// Directions evenly over the disc that are not hidden: the middle, then rings of equal shares (a sunflower).
-fn disc(facing: &Facing<'_>, sun: Dir<Facade>, points: usize) -> Vec<Dir<Facade>> {
+/// Directions evenly over the disc that nothing hides: a sunflower of so many seeds, each with its opposite.
+fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
     let (u, v) = sun.vector().any_orthonormal_pair();
     let edges = facing.sun_edges();
     let golden = PI * (3.0 - 5.0_f64.sqrt());
-    (0..points)
+    (0..2 * seeds)
         .map(|k| {
-            let (sin, cos) = (golden * k as f64).sin_cos();
-            let at = SUN_HALF_ANGLE.tan() * ((k as f64 + 0.5) / points as f64).sqrt();
+            let (sin, cos) = (golden * (k / 2) as f64).sin_cos();
+            let at = SUN_HALF_ANGLE.tan() * (((k / 2) as f64 + 0.5) / seeds as f64).sqrt();
+            let at = if k % 2 == 0 { at } else { -at };
             (sun.vector() + at * (cos * u + sin * v)).normalize()
         })
         .filter(|d| edges.iter().all(|edge| edge.normal.dot(*d) > edge.offset))
@@ -56,72 +55,83 @@ fn disc(facing: &Facing<'_>, sun: Dir<Facade>, points: usize) -> Vec<Dir<Facade>
         .collect()
 }
 
-impl DiscPoint {
-    fn straight(&self) -> f64 {
-        self.beams.iter().filter(|beam| self.is_straight(beam)).map(|beam| beam.share).sum()
-    }
-
-    fn is_straight(&self, beam: &Beam) -> bool {
-        beam.names.iter().all(|name| name.vector().distance(self.name.vector()) < SAME)
-    }
-
-    fn turned(&self) -> impl Iterator<Item = &Beam> {
-        self.beams.iter().filter(|beam| !self.is_straight(beam))
-    }
-
-    fn cosine(&self) -> f64 {
-        self.name.vector().z.max(0.0)
-    }
+fn cosine(name: Dir<Facade>) -> f64 {
+    name.vector().z.max(0.0)
 }
 
-/// Points of the disc with what the system makes of each, as many as its shares ask for.
-fn points(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<DiscPoint> {
-    let ask = |name: Dir<Facade>| {
-        let beams = specimen.beams(name, Side::Front).into_iter().filter(|beam| beam.transmitted).collect();
-        DiscPoint { name, beams }
+/// The straight beam as a mean over the disc, by more and more directions until it stands.
+fn straight(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
+    let (incident, normal) = (facing.sun_illuminance(), facing.sun?.direct_normal);
+    let mut found: Option<BeamLight> = None;
+    for seeds in SEEDS {
+        let names = disc(facing, sun, seeds);
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        if cosines <= 0.0 {
+            continue;
+        }
+        let shares: Vec<f64> = names.iter().map(|name| specimen.straight(*name, Side::Front)).collect();
+        let [flux, mean] = [
+            names.iter().zip(&shares).map(|(name, share)| share * cosine(*name)).sum::<f64>() / cosines,
+            shares.iter().sum::<f64>() / shares.len() as f64,
+        ];
+        // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is
+        // hidden in part is cut by what hides it, later.
+        let centre: DVec3 = names.iter().zip(&shares).map(|(name, share)| *share * name.vector()).sum();
+        let to = if names.len() == 2 * seeds { Dir::new(centre).unwrap_or(sun) } else { sun };
+        let change = found.map_or(f64::INFINITY, |before| (flux * incident - before.exitance).abs());
+        let error = if flux > 0.0 { change / (flux * incident) } else { 0.0 };
+        found =
+            Some(BeamLight { to, exitance: flux * incident, normal: mean * normal, straight: true, error, doubt: 0.0 });
+        if change <= STANDS * incident * flux.max(STANDS) {
+            break;
+        }
+    }
+    found.filter(|beam| beam.exitance > 0.0)
+}
+
+/// The beams that do not go straight on: by the disc's middle where the shares of its parts are as good as linear, else
+/// by many parts.
+fn turned(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<BeamLight> {
+    let incident = facing.sun_illuminance();
+    let ask = |name: Dir<Facade>| -> Vec<Beam> {
+        let turned = |beam: &Beam| beam.names.iter().any(|other| other.vector().distance(name.vector()) > SAME);
+        specimen.beams(name, Side::Front).into_iter().filter(|beam| beam.transmitted && turned(beam)).collect()
     };
-    let few: Vec<DiscPoint> = disc(facing, sun, POINTS[0]).into_iter().map(ask).collect();
+    let share = |beams: &[Beam]| beams.iter().map(|beam| beam.share).sum::<f64>();
+    let laid = |names: &[Dir<Facade>], of: &[Vec<Beam>]| {
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        let mut pieces = Pieces::default();
+        for (name, beams) in names.iter().zip(of) {
+            let weight = incident * cosine(*name) / cosines.max(f64::MIN_POSITIVE);
+            beams.iter().for_each(|beam| pieces.add(beam, weight));
+        }
+        pieces
+    };
+    let few = disc(facing, sun, PARTS[0]);
+    let of: Vec<Vec<Beam>> = few.iter().map(|name| ask(*name)).collect();
     let middle = ask(sun);
-    let shares = |point: &DiscPoint| [point.straight(), point.turned().map(|beam| beam.share).sum()];
-    let own = shares(&middle);
-    let linear = few.len() == POINTS[0]
-        && [0, 1].into_iter().all(|k| {
-            // Opposite points of a linear function have the middle as their mean.
-            let mirror = |p: &DiscPoint| {
-                let c = sun.vector();
-                let across = p.name.vector() - c * p.name.vector().dot(c);
-                Dir::new(c - across).map(|name| shares(&ask(name))[k])
-            };
-            few.iter().all(|p| mirror(p).is_some_and(|other| (0.5 * (shares(p)[k] + other) - own[k]).abs() < LINEAR))
-        });
-    if linear { vec![middle] } else { disc(facing, sun, POINTS[1]).into_iter().map(ask).collect() }
+    let own = share(&middle);
+    let opposite = of.chunks_exact(2).all(|pair| (0.5 * (share(&pair[0]) + share(&pair[1])) - own).abs() < LINEAR);
+    if few.len() == 2 * PARTS[0] && opposite {
+        return laid(&[sun], &[middle]).beams(0.0);
+    }
+    let many = disc(facing, sun, PARTS[1]);
+    let parts: Vec<Vec<Beam>> = many.iter().map(|name| ask(*name)).collect();
+    // Every other pair of directions against all of them.
+    let mean = |pairs: usize| {
+        let some = parts.chunks(2).step_by(pairs).flatten();
+        let count = some.clone().count().max(1);
+        some.map(|beams| share(beams)).sum::<f64>() / count as f64
+    };
+    let error = (mean(1) - mean(2)).abs() / mean(1).max(f64::MIN_POSITIVE);
+    laid(&many, &parts).beams(error)
 }
 
 /// The sun's beams behind a system.
 pub fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
-    let incident = facing.sun_illuminance();
-    let (Some(light), Some(sun)) = (facing.sun, facing.sun_direction()) else { return Vec::new() };
-    if incident <= 0.0 {
-        return Vec::new();
-    }
-    let points = points(specimen, facing, sun);
-    let cosines: f64 = points.iter().map(DiscPoint::cosine).sum();
-    if cosines <= 0.0 {
-        return Vec::new();
-    }
-    let mut beams = Vec::new();
-    let straight = points.iter().map(|p| p.straight() * p.cosine()).sum::<f64>() / cosines;
-    if straight > 0.0 {
-        let mean = points.iter().map(DiscPoint::straight).sum::<f64>() / points.len() as f64;
-        let (exitance, normal) = (straight * incident, mean * light.direct_normal);
-        beams.push(BeamLight { to: sun, exitance, normal, straight: true, doubt: 0.0 });
-    }
-    let mut turned = Pieces::default();
-    for point in &points {
-        let weight = incident * point.cosine() / cosines;
-        point.turned().for_each(|beam| turned.add(beam, weight));
-    }
-    beams.extend(turned.beams());
+    let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
+    let mut beams: Vec<BeamLight> = straight(specimen, facing, sun).into_iter().collect();
+    beams.extend(turned(specimen, facing, sun));
     beams
 }
 
@@ -143,19 +153,21 @@ impl Pieces {
         }
     }
 
-    fn beams(self) -> impl Iterator<Item = BeamLight> {
-        self.0.into_values().filter_map(|(sum, exitance)| {
+    fn beams(self, error: f64) -> Vec<BeamLight> {
+        let beam = |(sum, exitance): (DVec3, f64)| {
             let to = Dir::<Facade>::new(sum)?;
             let cosine = to.vector().z;
             let normal = exitance / cosine;
-            (cosine > 1e-6 && exitance > 0.0).then_some(BeamLight { to, exitance, normal, straight: false, doubt: 0.0 })
-        })
+            let beam = BeamLight { to, exitance, normal, straight: false, error, doubt: 0.0 };
+            (cosine > 1e-6 && exitance > 0.0).then_some(beam)
+        };
+        self.0.into_values().filter_map(beam).collect()
     }
 }
 
 /// Directions of the disc that what is scattered is a mean over.
 fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
-    if sun.vector().z < GRAZING { disc(facing, sun, POINTS[0]) } else { vec![sun] }
+    if sun.vector().z < GRAZING { disc(facing, sun, PARTS[0]) } else { vec![sun] }
 }
 
 /// What a system scatters of the sun where that depends on a profile angle alone.

@@ -134,9 +134,9 @@ impl<'a> Integrator<'a> {
             (_, Some([fine, coarse])) => profile_table::illuminance(&view, fine, coarse),
             (_, None) => Estimate::default(),
         };
-        let (beam, data_error) = direct::beams_through(sensor, self.aperture, &self.emission.beams, self.facing);
-        let rounding = 1e-12 * (diffuse.value + beam).abs();
-        let error = diffuse.error + self.relative_error * diffuse.value.abs() + rounding;
-        DirectLight { all: Estimate::new(diffuse.value + beam, error), beam, data_error }
+        let beams = direct::beams_through(sensor, self.aperture, &self.emission.beams, self.facing);
+        let rounding = 1e-12 * (diffuse.value + beams.beam).abs();
+        let error = self.relative_error * diffuse.value.abs() + rounding;
+        DirectLight { all: diffuse + beams.all + Estimate::new(0.0, error), ..beams }
     }
 }

@@ -135,6 +135,10 @@ impl Specimen for SlatSpecimen {
         beams
     }
 
+    fn straight(&self, name: Dir<Facade>, _: Side) -> f64 {
+        self.direct.share(section_angles(name).1)
+    }
+
     fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
         let (_, psi) = section_angles(name);
         // Rough mirrors spread along the slats, too.
