@@ -193,6 +193,8 @@ impl Engine for StudyEngine {
             positions: result.sensors.iter().map(|sensor| sensor.sensor.position.to_array()).collect(),
             direct: result.sensors.iter().map(|sensor| sensor.direct).collect(),
             interreflected: result.sensors.iter().map(|sensor| sensor.interreflected).collect(),
+            beam: result.sensors.iter().map(|sensor| sensor.beam).collect(),
+            data_error: result.sensors.iter().map(|sensor| sensor.data_error).collect(),
             grid: scene.grid,
             seconds: start.elapsed().as_secs_f64(),
         })

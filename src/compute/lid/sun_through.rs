@@ -184,7 +184,12 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
         sum.q.iter_mut().zip(&own.q).for_each(|(sum, q)| *sum += weight * q);
         sum.error += weight * own.error;
     }
-    mean.map(|light| BandLight { light, illuminance })
+    let mut light = mean?;
+    if names.len() > 1 {
+        // A few directions stand for a disc that covers degrees of the profile angle.
+        light.error += (specimen.profile_light(sun, Side::Front)?.share() - light.share()).abs();
+    }
+    Some(BandLight { light, illuminance })
 }
 
 /// What a system scatters of the sun, on [`sun_cells`]; `None` where it scatters nothing.

@@ -10,6 +10,7 @@ use super::direct::Direct;
 use super::flows::{Lobe, Transport, index};
 use super::measure::PARTS_BY_DIRECTION;
 use super::outline::SlatSection;
+use super::profile::SlatProfile;
 use super::profile_weights::{ProfileGrid, ProfileWeights};
 use super::transport::{Node, beam};
 use crate::compute::basis::RingBasis;
@@ -25,6 +26,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub struct SlatSpecimen {
     array: SlatArray,
     direct: Direct,
+    /// For beams, and for what matt faces send on.
+    mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
     solved: OnceLock<Solved>,
     /// Of the cells asked for last.
@@ -37,6 +40,8 @@ struct Solved {
     balance: Balance,
 }
 
+/// Parts of a curved mirror, each of which throws a fan of its own.
+const FANS: usize = 128;
 /// Step of the profile angle where matt light leaves. \[rad\]
 const STEP: f64 = 0.25 * PI / 180.0;
 /// Rays are drawn by this seed: the same light gives the same beams.
@@ -50,7 +55,23 @@ impl SlatSpecimen {
     /// Of an array.
     pub fn new(array: SlatArray) -> Self {
         let direct = Direct::without_knots(&array);
-        Self { array, direct, section: OnceLock::new(), solved: OnceLock::new(), weights: Mutex::new(None) }
+        Self {
+            array,
+            direct,
+            mirrors: OnceLock::new(),
+            section: OnceLock::new(),
+            solved: OnceLock::new(),
+            weights: Mutex::new(None),
+        }
+    }
+
+    /// A fan lies evenly between the rays at its ends: where mirrors are curved, they are cut finely.
+    fn mirrors(&self) -> &SlatSection {
+        if matches!(self.array.profile(), SlatProfile::Arc { .. }) {
+            self.mirrors.get_or_init(|| SlatSection::new(&self.array, FANS))
+        } else {
+            self.section()
+        }
     }
 
     fn section(&self) -> &SlatSection {
@@ -116,7 +137,7 @@ impl Specimen for SlatSpecimen {
         if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
             return beams;
         }
-        let node = beam(self.section(), psi, SEED);
+        let node = beam(self.mirrors(), psi, SEED);
         let thrown = &node.thrown[index(side)];
         for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
             let from = beams.len();
