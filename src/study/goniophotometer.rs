@@ -198,7 +198,7 @@ impl Described {
         let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(LayerRun::into_specimen).collect();
         Ok(match ready.len() {
             1 => ready.pop().expect("counted"),
-            _ => Box::new(Stack(ready)),
+            _ => Box::new(Stack::new(ready)),
         })
     }
 

@@ -15,6 +15,7 @@ pub mod beams;
 mod cells;
 pub mod directions;
 pub mod fan;
+pub mod kept;
 pub mod merged;
 mod parallel;
 mod profile_light;

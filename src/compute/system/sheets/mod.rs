@@ -3,6 +3,7 @@
 pub mod diffuser;
 mod hole;
 mod holes;
+mod lobe;
 mod perforated;
 pub mod sheet;
 mod walls;

@@ -2,8 +2,11 @@
 
 mod adding;
 mod data;
+mod flows;
 mod halves;
 mod layers;
+mod passage;
+mod single;
 
 pub use adding::Stack;
 pub use data::DataLayer;

@@ -31,7 +31,7 @@ fn blind(tilt: f64) -> Box<dyn Specimen> {
 
 fn measure(layers: Vec<Box<dyn Specimen>>, error: f64) -> Measured {
     let cells = front_basis();
-    Stack(layers).measure(&Setting { incident: &cells, emergent: &cells, error, seed: 1 }, &Silent).unwrap()
+    Stack::new(layers).measure(&Setting { incident: &cells, emergent: &cells, error, seed: 1 }, &Silent).unwrap()
 }
 
 #[test]
