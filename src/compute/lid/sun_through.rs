@@ -187,7 +187,8 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
     let mut light = mean?;
     if names.len() > 1 {
         // A few directions stand for a disc that covers degrees of the profile angle.
-        light.error += (specimen.profile_light(sun, Side::Front)?.share() - light.share()).abs();
+        let middle = specimen.profile_light(sun, Side::Front)?;
+        light.error += middle.apart(&light);
     }
     Some(BandLight { light, illuminance })
 }

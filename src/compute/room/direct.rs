@@ -67,7 +67,7 @@ impl std::ops::AddAssign for DirectLight {
 }
 
 /// What the width of the bands costs, relative; seen on matt slats against exact integrals along them.
-const BAND_ERROR: f64 = 5e-4;
+const BAND_ERROR: f64 = 1e-3;
 
 /// Illuminance at a sensor from one aperture, sun included. `receptions`: one for every part on cells, the first of them
 /// for what is uniform, too; `weights`: for the part in bands.

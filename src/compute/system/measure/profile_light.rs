@@ -39,10 +39,20 @@ impl ProfileLight {
 
     /// Share of the incident light.
     pub fn share(&self) -> f64 {
-        // On a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected solid angle is that times cosψ dψ.
-        let borders: Vec<f64> = Self::borders(self.q.len()).collect();
-        let bands = borders.windows(2).map(|pair| FRAC_PI_2 * (pair[1].sin() - pair[0].sin()));
-        bands.zip(&self.q).map(|(weight, q)| weight * q).sum()
+        Self::weights(self.q.len()).zip(&self.q).map(|(weight, q)| weight * q).sum()
+    }
+
+    /// Share that another one has elsewhere: Σ |q − q′| over the bands.
+    pub fn apart(&self, other: &Self) -> f64 {
+        let apart = self.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs());
+        Self::weights(self.q.len()).zip(apart).map(|(weight, apart)| weight * apart).sum()
+    }
+
+    /// Projected solid angles of the bands: on a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected solid angle is
+    /// that times cosψ dψ. \[sr\]
+    fn weights(bands: usize) -> impl Iterator<Item = f64> {
+        let borders: Vec<f64> = Self::borders(bands).collect();
+        (0..bands).map(move |k| FRAC_PI_2 * (borders[k + 1].sin() - borders[k].sin()))
     }
 
     /// Means over cells, to about a tenth of a per cent of the largest. \[1/sr\]
