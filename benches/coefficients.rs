@@ -64,7 +64,8 @@ fn scene(system: &str) -> Scene {
     }
     if system == "indicatrices" {
         let dataset = Arc::new(clear_lobe());
-        scene.apertures[0].system = Arc::new(System { label: "clear lobe".into(), state: String::new(), dataset });
+        scene.apertures[0].system =
+            Arc::new(System { label: "clear lobe".into(), state: String::new(), dataset, very: None });
     }
     scene
 }

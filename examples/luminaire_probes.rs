@@ -22,7 +22,7 @@ fn main() -> anyhow::Result<()> {
         ("up_right", EmergentLuminance::Function(Arc::new(up_right))),
     ];
     for (name, part) in probes {
-        let lid = Lid { surface: Surface::Facade, size: [1.2, 1.0], parts: vec![part], beam: None };
+        let lid = Lid { surface: Surface::Facade, size: [1.2, 1.0], parts: vec![part], beams: Vec::new() };
         for (suffix, aim) in [("mounted", Aim::Mounted), ("down", Aim::Down)] {
             let text = Description {
                 report: "orientation probe".to_owned(),

@@ -208,8 +208,13 @@ pub fn sun_alone(altitude: f64) -> String {
 struct Only(Arc<Dataset>);
 
 impl SystemLibrary for Only {
-    fn load(&self, _: &SystemKeys, _: &Path) -> Result<Arc<System>, StudyError> {
-        Ok(Arc::new(System { label: self.0.name.clone(), state: String::new(), dataset: Arc::clone(&self.0) }))
+    fn load(&self, _: &SystemKeys, _: &Path, _: Need) -> Result<Arc<System>, StudyError> {
+        Ok(Arc::new(System {
+            label: self.0.name.clone(),
+            state: String::new(),
+            dataset: Arc::clone(&self.0),
+            very: None,
+        }))
     }
 
     fn controlled_state(&self, _: &str, _: &ControlQuestion<'_>) -> Result<String, StudyError> {

@@ -12,6 +12,7 @@ use crate::study::compact::stored_by_default;
 use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::scene_file::SystemKeys;
+use crate::study::system::Need;
 use crate::study::{Library, Scene, Session, StudyError, System, SystemLibrary};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -152,15 +153,20 @@ struct WindowLibrary<'a> {
 }
 
 impl SystemLibrary for WindowLibrary<'_> {
-    fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError> {
-        let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base) };
+    fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
+        let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
         let dataset =
             self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
-        Ok(Arc::new(System { label: dataset.name.clone(), state: state.clone().unwrap_or_default(), dataset }))
+        let very = self.files.very_of(&dataset);
+        Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         self.shelf.controlled_state(product, asked)
+    }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        self.files.controlled_description(path, asked)
     }
 }
 
@@ -187,6 +193,8 @@ impl Engine for StudyEngine {
             positions: result.sensors.iter().map(|sensor| sensor.sensor.position.to_array()).collect(),
             direct: result.sensors.iter().map(|sensor| sensor.direct).collect(),
             interreflected: result.sensors.iter().map(|sensor| sensor.interreflected).collect(),
+            beam: result.sensors.iter().map(|sensor| sensor.beam).collect(),
+            data_error: result.sensors.iter().map(|sensor| sensor.data_error).collect(),
             grid: scene.grid,
             seconds: start.elapsed().as_secs_f64(),
         })

@@ -136,7 +136,7 @@ mod tests {
         let command = Command::try_parse_from(["lid"].iter().chain(words))?;
         write_distribution(&command.lid, |_, _| {
             let parts = vec![EmergentLuminance::Uniform(100.0)];
-            Ok((Lid { surface, size: [2.0, 1.0], parts, beam: None }, Description::default()))
+            Ok((Lid { surface, size: [2.0, 1.0], parts, beams: Vec::new() }, Description::default()))
         })
     }
 

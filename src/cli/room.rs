@@ -14,7 +14,9 @@ use std::path::PathBuf;
   cfs room office.toml --out office.csv      the same into a file
   cfs room office.toml --json                with the plan: what ran, what was left out and why, and how long it took
 
-Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error).
+Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error) =
+E_error_numerical_lx (of the computation, were the data exact) + E_error_data_lx (how far the data leave the answer open), E_beam_lx (the part of
+E_direct_lx that is the sun's light come through as beams).
 Notes on standard error: sensors that lie too near to a blind or panel to see its mean alone, and what error was reached
 where the scene asks for one.")]
 pub struct RoomArgs {
@@ -34,13 +36,16 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
     notes(&scene, &result);
-    let mut csv = String::from("x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx\n");
+    let mut csv = String::from(
+        "x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx,E_error_numerical_lx,E_error_data_lx,E_beam_lx\n",
+    );
     for row in &result.sensors {
         let total = row.total();
         let [p, n] = [row.sensor.position, row.sensor.normal];
-        let cells =
-            [p.x, p.y, p.z, n.x, n.y, n.z, total.value, row.direct.value, row.interreflected.value, total.error];
-        csv.push_str(&cells.map(number).join(","));
+        let light = [total.value, row.direct.value, row.interreflected.value];
+        let errors = [total.error, row.numerical_error(), row.data_error];
+        let cells = p.to_array().into_iter().chain(n.to_array()).chain(light).chain(errors).chain([row.beam]);
+        csv.push_str(&cells.map(number).collect::<Vec<_>>().join(","));
         csv.push('\n');
     }
     if let Some(path) = &args.out {
@@ -100,6 +105,9 @@ fn to_json(scene: &Scene, result: &RoomResult) -> serde_json::Value {
             "E_direct_lx": row.direct.value,
             "E_interreflected_lx": row.interreflected.value,
             "E_error_lx": row.total().error,
+            "E_error_numerical_lx": row.numerical_error(),
+            "E_error_data_lx": row.data_error,
+            "E_beam_lx": row.beam,
         })).collect::<Vec<_>>(),
     })
 }

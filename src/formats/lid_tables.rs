@@ -99,7 +99,7 @@ mod tests {
     fn upwards() -> Luminaire {
         let up = |twin: Dir<Facade>| if twin.vector().y < 0.0 { 1000.0 } else { 0.0 };
         let parts = vec![EmergentLuminance::Function(Arc::new(up))];
-        let lid = Lid { surface: Surface::Facade, size: [1.0, 1.0], parts, beam: None };
+        let lid = Lid { surface: Surface::Facade, size: [1.0, 1.0], parts, beams: Vec::new() };
         let table = CGammaTable::new(&lid, Aim::Mounted, Step::from_degrees(5.0).unwrap());
         Luminaire::from_table(&table, lid.size, Description::default())
     }

@@ -1,16 +1,18 @@
 //! The library that programs use: ideal systems, dataset files (kept as long as they do not change), the catalogue.
 
+use super::by_description::very_system;
 use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
-use super::goniophotometer::LayerLibrary;
+use super::goniophotometer::{Described, LayerLibrary};
 use super::scene_file::SystemKeys;
-use super::system::{System, SystemLibrary, ideal};
+use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
-use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
-use std::collections::HashMap;
+use crate::formats::system_toml::is_system_file;
+use std::collections::{HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
@@ -24,7 +26,16 @@ pub struct Library {
     files: Mutex<HashMap<PathBuf, Loaded>>,
     catalogue_path: Option<PathBuf>,
     catalogue: Mutex<Option<Catalogue>>,
+    described: Mutex<Descriptions>,
+    very: Mutex<VeryDescribed>,
 }
+
+/// Described systems by what they are computed from, the state, and what was needed of them.
+type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
+/// Answers for single directions by hash of the description, and state.
+type VeryDescribed = VecDeque<((String, String), Option<VerySystem>)>;
+/// Described systems that are kept: two moving products of 21 states.
+const MOST_DESCRIBED: usize = 42;
 
 /// A file's systems, valid as long as its time and length stay.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
@@ -64,6 +75,47 @@ impl Library {
     }
 }
 
+impl Library {
+    /// A state of a described system, computed once as long as its description stays.
+    fn load_description(&self, path: &Path, state: Option<&str>, need: Need) -> Result<Arc<System>, StudyError> {
+        let described = Described::read(path)?;
+        let key = (described.fingerprint(self)?, state.map(str::to_owned), need);
+        let known = |list: &Mutex<Descriptions>| {
+            list.lock().unwrap_or_else(PoisonError::into_inner).iter().find(|(other, _)| *other == key).cloned()
+        };
+        if let Some((_, system)) = known(&self.described) {
+            return Ok(system);
+        }
+        let system = Arc::new(described.system(state, need, self)?);
+        let mut list = self.described.lock().unwrap_or_else(PoisonError::into_inner);
+        if list.len() >= MOST_DESCRIBED {
+            list.pop_front();
+        }
+        list.push_back((key, Arc::clone(&system)));
+        Ok(system)
+    }
+
+    /// What answers for single directions by a dataset's own description; kept, since what it solves is kept with it.
+    /// `None` without one, or where it names layers that are not at hand: then the data are all that is known.
+    pub fn very_of(&self, dataset: &Dataset) -> Option<VerySystem> {
+        let DescribedState { text, state } = dataset.described.as_ref()?;
+        let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
+        let key = (hash, state.clone());
+        let mut list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, very)) = list.iter().find(|(other, _)| *other == key) {
+            return very.clone();
+        }
+        drop(list);
+        let very = very_system(text, state, self);
+        list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
+        if list.len() >= MOST_DESCRIBED {
+            list.pop_front();
+        }
+        list.push_back((key, very.clone()));
+        very
+    }
+}
+
 impl LayerLibrary for Library {
     fn product(&self, key: &str) -> Result<Product, StudyError> {
         self.provide_builtin(key)?;
@@ -95,7 +147,7 @@ impl LayerLibrary for Library {
             .into_iter()
             .map(|dataset| {
                 let label = if dataset.name.is_empty() { name.clone() } else { dataset.name.clone() };
-                Arc::new(System { label, state: dataset.state.clone(), dataset: Arc::new(dataset) })
+                Arc::new(System { label, state: dataset.state.clone(), dataset: Arc::new(dataset), very: None })
             })
             .collect();
         known.insert(path.to_owned(), (stamp, systems.clone()));
@@ -104,26 +156,37 @@ impl LayerLibrary for Library {
 }
 
 impl SystemLibrary for Library {
-    fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError> {
+    fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
         match keys {
             SystemKeys::Ideal { kind, transmittance } => ideal(*kind, *transmittance),
+            SystemKeys::File { path, state } if is_system_file(&path.to_string_lossy()) => {
+                self.load_description(&base.join(path), state.as_deref(), need)
+            }
             SystemKeys::File { path, state } => {
                 let systems = self.load_file(&base.join(path))?;
-                pick(&systems, state.as_deref(), &path.display().to_string())
+                let found = pick(&systems, state.as_deref(), &path.display().to_string())?;
+                let very = self.very_of(&found.dataset);
+                Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
             }
             SystemKeys::Catalogue { key, state } => {
                 self.provide_builtin(key)?;
-                self.in_catalogue(|catalogue| {
-                    let dataset = catalogue.dataset(key, state.as_deref())?;
-                    let label = catalogue.product(key)?.name;
-                    Ok(Arc::new(System { label, state: dataset.state.clone(), dataset }))
-                })
+                let (dataset, label) = self.in_catalogue(|catalogue| {
+                    Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?.name))
+                })?;
+                let very = self.very_of(&dataset);
+                Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
             }
         }
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         pick_state(&Device::of(&self.product(product)?)?, asked)
+    }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        let described = Described::read(path)?;
+        let states = described.states(self)?;
+        pick_state(&Device::described(&described.file, &described.text, states), asked)
     }
 }
 

@@ -195,7 +195,7 @@ normal = [0.0, 0.0, 1.0]
         let scene: SceneFile = toml::from_str(SCENE).unwrap();
         let text = describe("office.toml", &scene, 0, "2026-03-21");
         let parts = vec![EmergentLuminance::Uniform(500.0)];
-        let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beam: None };
+        let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beams: Vec::new() };
         let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();
         let file = encode(&lid, text, format, None, None).unwrap();
         // Continuation lines cut sentences anywhere.

@@ -5,7 +5,8 @@
 pub mod accuracy;
 pub mod accuracy_plot;
 pub mod builtin;
-pub mod cache;
+pub mod by_description;
+mod cache;
 pub mod coefficients;
 pub mod compact;
 pub mod control;
@@ -19,6 +20,7 @@ pub mod plan;
 pub mod scene;
 pub mod scene_file;
 mod scheme_words;
+mod self_contained;
 pub mod session;
 pub mod sky;
 pub mod sun_position;

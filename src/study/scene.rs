@@ -5,12 +5,12 @@ use super::control::year::CONTROLLED;
 use super::error::StudyError;
 use super::near_field::near_field;
 use super::scene_file::{
-    ApertureKeys, ApertureReflectance, BackReflectionMode, Interpolation, RoomKeys, SceneFile, SensorKeys, SurfaceKey,
-    SystemKeys,
+    ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
+    SurfaceKey, SystemKeys,
 };
 use super::sky::outside_from_keys;
 use super::sun_position::parse_local_time;
-use super::system::{System, SystemLibrary};
+use super::system::{Need, System, SystemLibrary};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Orientation, Surface};
@@ -22,6 +22,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
+use crate::formats::system_toml::is_system_file;
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -89,6 +90,8 @@ pub struct Scene {
     pub error_target: Option<f64>,
     /// Between and inside the dataset's directions.
     pub interpolation: Interpolation,
+    /// Is what comes through unscattered kept sharp?
+    pub beams: bool,
     /// Between the dataset's incident directions, for the sun.
     pub sun_interpolation: SunScheme,
     /// Between the dataset's incident directions, for sky and ground.
@@ -123,6 +126,7 @@ impl Scene {
         let (sensors, grid) = sensors(&file.sensors, &room)?;
         let hour = hour(file)?;
         let mut list = Vec::with_capacity(geometry.len());
+        let beams = file.compute.beam == BeamMode::Auto && file.compute.interpolation == Interpolation::Auto;
         for (index, (keys, aperture)) in file.aperture.iter().zip(geometry).enumerate() {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
             let rule = keys.control.as_ref().or(file.control.as_ref());
@@ -133,7 +137,10 @@ impl Scene {
                 _ => in_aperture(index, error),
             })?;
             let picked = if wanted == keys.system { None } else { wanted_state(&wanted) };
-            let system = library.load(&wanted, base).map_err(|error| in_aperture(index, error))?;
+            // Without diffuse light, and with nothing that comes back, a description need not become data.
+            let dark = !facing.outside.is_lit() && !(file.compute.interreflection && reflects(file));
+            let need = if dark && beams { Need::VerySun } else { Need::Everything };
+            let system = library.load(&wanted, base, need).map_err(|error| in_aperture(index, error))?;
             if system.dataset.transmission().is_none() {
                 return Err(StudyError::key(
                     format!("aperture[{}].system", index + 1),
@@ -180,6 +187,7 @@ impl Scene {
             interreflection: file.compute.interreflection,
             error_target: file.compute.error_target,
             interpolation: file.compute.interpolation,
+            beams,
             sun_interpolation: file.compute.sun_interpolation,
             diffuse_interpolation: file.compute.diffuse_interpolation,
             near_field: near_field(file.compute.near_field, file.compute.near_field_samples)?,
@@ -242,16 +250,28 @@ fn controlled_state(
     asked: Option<&ControlQuestion<'_>>,
     library: &dyn SystemLibrary,
 ) -> Result<SystemKeys, StudyError> {
+    let without = || StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode");
     match &keys.system {
         SystemKeys::Catalogue { key, state: Some(word) } if word == CONTROLLED => {
-            let asked = asked.ok_or_else(|| {
-                StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode")
-            })?;
+            let asked = asked.ok_or_else(without)?;
             let state = library.controlled_state(key, asked)?;
             Ok(SystemKeys::Catalogue { key: key.clone(), state: Some(state) })
         }
+        SystemKeys::File { path, state: Some(word) }
+            if word == CONTROLLED && is_system_file(&path.to_string_lossy()) =>
+        {
+            let asked = asked.ok_or_else(without)?;
+            let state = library.controlled_description(&asked.base.join(path), asked)?;
+            Ok(SystemKeys::File { path: path.clone(), state: Some(state) })
+        }
         other => Ok(other.clone()),
     }
+}
+
+/// Does anything in the room send light back to the apertures?
+fn reflects(file: &SceneFile) -> bool {
+    let rho = &file.room.reflectance;
+    rho.floor > 0.0 || rho.walls > 0.0 || rho.ceiling > 0.0
 }
 
 /// Hour of the scene's day; `None` where the sun is given by angles.

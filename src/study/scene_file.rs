@@ -412,6 +412,24 @@ pub enum Interpolation {
     Patch,
 }
 
+/// `compute.beam`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BeamMode {
+    /// What comes through unscattered is kept sharp: by the description where there is one, else as far as data stand out.
+    #[default]
+    Auto,
+    /// As stored.
+    Cells,
+}
+
+impl BeamMode {
+    /// Nothing that the file needs to say.
+    fn is_auto(&self) -> bool {
+        *self == Self::Auto
+    }
+}
+
 /// `compute.back_reflection`
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -454,6 +472,9 @@ pub struct ComputeKeys {
     /// Effort of the methods that have one: point luminaires in all, random points a sensor, cells along each angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near_field_samples: Option<usize>,
+    /// What becomes of light that comes through unscattered.
+    #[serde(skip_serializing_if = "BeamMode::is_auto")]
+    pub beam: BeamMode,
     /// How apertures of `reflectance = "dataset"` reflect the room's light.
     #[serde(skip_serializing_if = "BackReflectionMode::is_auto")]
     pub back_reflection: BackReflectionMode,
@@ -469,6 +490,7 @@ impl Default for ComputeKeys {
             diffuse_interpolation: DiffuseScheme::Auto,
             near_field: NearFieldKey::SolidAngle,
             near_field_samples: None,
+            beam: BeamMode::Auto,
             back_reflection: BackReflectionMode::Auto,
         }
     }

@@ -10,11 +10,12 @@ use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::{Indicatrices, Scattered};
+use crate::compute::btdf::{Btdf, Indicatrices, Scattered};
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::{Emission, Interpolator, Lid};
+use crate::compute::lid::{BandLight, Emission, Facing, Interpolator, Lid};
 use crate::compute::quadrature::Tolerance;
-use crate::compute::room::direct::{self, Reception, Sensor};
+use crate::compute::room::band_weights::BandWeights;
+use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
@@ -41,12 +42,21 @@ pub struct SensorResult {
     pub direct: Estimate,
     /// After at least one reflection. \[lx\]
     pub interreflected: Estimate,
+    /// The part of `direct` that is the sun's light come through as beams: straight on, deflected, mirrored. \[lx\]
+    pub beam: f64,
+    /// How far all may be off for what the data do not tell apart, beside what the computation may be. \[lx\]
+    pub data_error: f64,
 }
 
 impl SensorResult {
-    /// Both together. \[lx\]
+    /// Direct and interreflected light together, with both kinds of error. \[lx\]
     pub fn total(&self) -> Estimate {
-        self.direct + self.interreflected
+        self.direct + self.interreflected + Estimate::new(0.0, self.data_error)
+    }
+
+    /// Error of the computation alone, were the data exact. \[lx\]
+    pub fn numerical_error(&self) -> f64 {
+        (self.direct + self.interreflected).error
     }
 }
 
@@ -93,6 +103,7 @@ pub struct Session {
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
+    bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
 }
 
@@ -110,6 +121,7 @@ impl Session {
             gather: Cache::new(8),
             reception: Cache::new(16),
             patches: Cache::new(24),
+            bands: Cache::new(16),
             interpolators: Cache::new(6),
         }
     }
@@ -132,14 +144,25 @@ impl Session {
         let system = &scene.apertures[aperture].system;
         let btdf = system.dataset.transmission().expect("a resolved scene has only systems with transmission data");
         let facing = scene.facing(aperture);
-        let Some(Scattered::Directions(data)) = &btdf.scattered else {
-            return Emission::new(btdf, &facing);
-        };
-        if scene.interpolation == Interpolation::Patch {
-            return Emission::new(btdf, &facing);
+        match system.very.as_ref().filter(|_| scene.beams) {
+            Some(very) => {
+                let mut emission = self.by_data(scene, btdf, &Facing { sun: None, ..facing });
+                emission.add_sun_through(very.0.as_ref(), &facing);
+                emission
+            }
+            None => self.by_data(scene, btdf, &facing),
         }
-        let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
-        Emission::interpolated(btdf, &self.interpolator(data), schemes, &facing)
+    }
+
+    /// What the data make of the outside.
+    fn by_data(&self, scene: &Scene, btdf: &Btdf, facing: &Facing<'_>) -> Emission {
+        match &btdf.scattered {
+            Some(Scattered::Directions(data)) if scene.interpolation != Interpolation::Patch => {
+                let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
+                Emission::interpolated(btdf, &self.interpolator(data), schemes, facing)
+            }
+            _ => Emission::new(btdf, facing),
+        }
     }
 
     /// What interpolation between the directions of a dataset needs.
@@ -185,7 +208,7 @@ impl Session {
             let reused = self.holds_room(scene);
             let reason = if reused { "reused: room, apertures and reflectances are the same" } else { "not there yet" };
             plan.note("room factors", !reused, reason);
-            self.interreflected(scene, &emissions, &direct, progress)?
+            self.interreflected(scene, &emissions, &direct.iter().map(|one| one.all).collect::<Vec<_>>(), progress)?
         } else {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
         };
@@ -194,7 +217,10 @@ impl Session {
             .sensors
             .iter()
             .zip(direct.into_iter().zip(interreflected))
-            .map(|(&sensor, (direct, interreflected))| SensorResult { sensor, direct, interreflected })
+            .map(|(&sensor, (direct, interreflected))| {
+                let DirectLight { all, beam, data_error } = direct;
+                SensorResult { sensor, direct: all, interreflected, beam, data_error }
+            })
             .collect();
         Ok(RoomResult { sensors, flux, flux_gap, plan })
     }
@@ -202,8 +228,7 @@ impl Session {
     /// Is everything there that sensors and apertures are to each other?
     fn holds_receptions(&self, scene: &Scene, emissions: &[Emission]) -> bool {
         emissions.iter().enumerate().all(|(index, emission)| {
-            let basis = emission.cells.as_ref().map(|light| light.basis.as_ref());
-            self.reception.holds(&reception_key(scene, index, basis))
+            bases(emission).iter().all(|basis| self.reception.holds(&reception_key(scene, index, *basis)))
         })
     }
 
@@ -218,11 +243,12 @@ impl Session {
     ) -> Result<(), StudyError> {
         let (mut unseen, mut all) = (0, 0);
         for (index, emission) in emissions.iter().enumerate() {
-            let Some(light) = &emission.cells else { continue };
-            let receptions = self.receptions(scene, index, Some(&light.basis), progress)?;
-            all += light.basis.len();
-            let seen = |cell: usize| receptions.iter().any(|reception| reception.cells[cell] != 0.0);
-            unseen += (0..light.basis.len()).filter(|&cell| !seen(cell)).count();
+            for light in &emission.cells {
+                let receptions = self.receptions(scene, index, Some(&light.basis), progress)?;
+                all += light.basis.len();
+                let seen = |cell: usize| receptions.iter().any(|reception| reception.cells[cell] != 0.0);
+                unseen += (0..light.basis.len()).filter(|&cell| !seen(cell)).count();
+            }
         }
         if all > 0 {
             let rest = if plan.runs("interreflection") { "; they count for interreflection alone" } else { "" };
@@ -252,13 +278,35 @@ impl Session {
         })
     }
 
+    /// What every sensor receives from one aperture by bands of the profile angle.
+    fn band_weights(
+        &self,
+        scene: &Scene,
+        index: usize,
+        bands: &BandLight,
+        progress: &dyn Progress,
+    ) -> Result<Arc<Vec<BandWeights>>, StudyError> {
+        let aperture = &scene.apertures[index].aperture;
+        let (upright, count) = (bands.light.upright, bands.light.q.len());
+        let mut key = reception_key(scene, index, None);
+        key.extend([u64::from(upright), count as u64]);
+        self.bands.get(key, || {
+            let of = |sensor: &Sensor| {
+                check(progress)?;
+                let view = aperture.view(sensor.position, sensor.normal);
+                Ok(view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count)))
+            };
+            scene.sensors.par_iter().map(of).collect()
+        })
+    }
+
     fn direct(
         &self,
         scene: &Scene,
         emissions: &[Emission],
         progress: &dyn Progress,
-    ) -> Result<Vec<Estimate>, StudyError> {
-        let mut sums = vec![Estimate::default(); scene.sensors.len()];
+    ) -> Result<Vec<DirectLight>, StudyError> {
+        let mut sums = vec![DirectLight::default(); scene.sensors.len()];
         let relative = cubature(scene.error_target);
         for (index, emission) in emissions.iter().enumerate() {
             check(progress)?;
@@ -267,7 +315,7 @@ impl Session {
             if scene.near_field != NearField::SolidAngle {
                 let method =
                     Integrator::new(scene.near_field, aperture, emission, &facing, Tolerance::relative(relative));
-                let part: Vec<Estimate> = scene
+                let part: Vec<DirectLight> = scene
                     .sensors
                     .par_iter()
                     .map(|sensor| {
@@ -278,18 +326,26 @@ impl Session {
                 sums.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
                 continue;
             }
-            let basis = emission.cells.as_ref().map(|light| Arc::clone(&light.basis));
-            let receptions = self.receptions(scene, index, basis.as_deref(), progress)?;
+            let receptions: Vec<Arc<Vec<Reception>>> = bases(emission)
+                .into_iter()
+                .map(|basis| self.receptions(scene, index, basis, progress))
+                .collect::<Result<_, StudyError>>()?;
+            let bands = match &emission.bands {
+                Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
+                None => None,
+            };
             // Dark corners are not chased beyond what anyone can see.
             let absolute = 1e-7 * (facing.outside.diffuse_horizontal());
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
-            let part: Vec<Estimate> = scene
+            let part: Vec<DirectLight> = scene
                 .sensors
                 .par_iter()
-                .zip(receptions.par_iter())
-                .map(|(sensor, reception)| {
+                .enumerate()
+                .map(|(s, sensor)| {
                     check(progress)?;
-                    Ok(direct::illuminance(sensor, aperture, reception, emission, &facing, tolerance))
+                    let own: Vec<&Reception> = receptions.iter().map(|all| &all[s]).collect();
+                    let bands = bands.as_ref().map(|all| &all[s]);
+                    Ok(direct::illuminance(sensor, aperture, &own, bands, emission, &facing, tolerance))
                 })
                 .collect::<Result<_, StudyError>>()?;
             for (sum, e) in sums.iter_mut().zip(part) {
@@ -298,6 +354,12 @@ impl Session {
         }
         Ok(sums)
     }
+}
+
+/// The bases of an emission's parts on cells; one `None` where there are no such parts.
+fn bases(emission: &Emission) -> Vec<Option<&RingBasis>> {
+    let own: Vec<_> = emission.cells.iter().map(|light| Some(&*light.basis)).collect();
+    if own.is_empty() { vec![None] } else { own }
 }
 
 fn check(progress: &dyn Progress) -> Result<(), Cancelled> {

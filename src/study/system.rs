@@ -4,6 +4,8 @@ use super::control::ControlQuestion;
 use super::error::StudyError;
 use super::scene_file::{IdealKind, SystemKeys};
 use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::system::measure::Specimen;
+use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,15 +18,48 @@ pub struct System {
     pub state: String,
     /// Its photometry.
     pub dataset: Arc<Dataset>,
+    /// What answers for single directions, where the system is known by its description.
+    pub very: Option<VerySystem>,
+}
+
+/// A system that answers for light of single directions. Two are equal when they are the same.
+#[derive(Clone)]
+pub struct VerySystem(pub Arc<dyn Specimen>);
+
+impl fmt::Debug for VerySystem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("VerySystem")
+    }
+}
+
+impl PartialEq for VerySystem {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// How much of a system a scene needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Need {
+    /// All that is known of it.
+    Everything,
+    /// What it does to the very sun, where its description tells: there is no other light.
+    VerySun,
 }
 
 /// Loads what `aperture.system` names.
 pub trait SystemLibrary: Sync {
     /// Loads a system. Key names in errors are relative to the aperture.
-    fn load(&self, keys: &SystemKeys, base: &Path) -> Result<Arc<System>, StudyError>;
+    fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError>;
 
     /// The state that a control picks for a product.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
+
+    /// The state that a control picks for a description in a file.
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        let _ = asked;
+        Err(StudyError::key("system.file", format!("{}: no descriptions are read here", path.display())))
+    }
 }
 
 /// An ideal system.
@@ -41,5 +76,5 @@ pub fn ideal(kind: IdealKind, transmittance: f64) -> Result<Arc<System>, StudyEr
     };
     let mut dataset = Dataset { name: format!("{name}, τ = {transmittance}"), ..Dataset::default() };
     dataset.visible.transmission_front = Some(btdf);
-    Ok(Arc::new(System { label: dataset.name.clone(), state: String::new(), dataset: Arc::new(dataset) }))
+    Ok(Arc::new(System { label: dataset.name.clone(), state: String::new(), dataset: Arc::new(dataset), very: None }))
 }

@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 fn lid(parts: Vec<EmergentLuminance>) -> Lid {
-    Lid { surface: Surface::Facade, size: [1.2, 0.7], parts, beam: None }
+    Lid { surface: Surface::Facade, size: [1.2, 0.7], parts, beams: Vec::new() }
 }
 
 /// Only up and to the right seen from outside, on top of a little light everywhere.

@@ -8,6 +8,7 @@ use cfs::compute::estimate::Silent;
 use cfs::compute::room::direct::Sensor;
 use cfs::study::control::ControlQuestion;
 use cfs::study::scene_file::SystemKeys;
+use cfs::study::system::Need;
 use cfs::study::{RoomResult, Scene, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::sync::{Arc, Mutex};
@@ -176,12 +177,12 @@ fn cells_that_no_sensor_sees_do_not_matter() {
 struct States(Mutex<Vec<String>>);
 
 impl SystemLibrary for States {
-    fn load(&self, keys: &SystemKeys, _: &std::path::Path) -> Result<Arc<System>, StudyError> {
+    fn load(&self, keys: &SystemKeys, _: &std::path::Path, _: Need) -> Result<Arc<System>, StudyError> {
         let SystemKeys::Catalogue { state: Some(state), .. } = keys else { panic!("{keys:?}") };
         self.0.lock().unwrap().push(state.clone());
         let level: f64 = state.parse().unwrap();
         let dataset = Arc::new(klems(move |i, o| level * rough(i, o)));
-        Ok(Arc::new(System { label: "states".into(), state: state.clone(), dataset }))
+        Ok(Arc::new(System { label: "states".into(), state: state.clone(), dataset, very: None }))
     }
     fn controlled_state(&self, _: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         Ok(if asked.facing.sun_illuminance() > 0.0 { "0.3".into() } else { "1.0".into() })

@@ -9,7 +9,7 @@ use cfs::compute::estimate::Silent;
 use cfs::compute::room::direct::Sensor;
 use cfs::study::control::ControlQuestion;
 use cfs::study::scene_file::SystemKeys;
-use cfs::study::system::ideal;
+use cfs::study::system::{Need, ideal};
 use cfs::study::{RoomResult, Scene, SceneFile, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::path::Path;
@@ -117,12 +117,15 @@ impl Text {
 pub struct Made(pub Option<Dataset>);
 
 impl SystemLibrary for Made {
-    fn load(&self, keys: &SystemKeys, _base: &Path) -> Result<Arc<System>, StudyError> {
+    fn load(&self, keys: &SystemKeys, _base: &Path, _: Need) -> Result<Arc<System>, StudyError> {
         match (keys, &self.0) {
             (SystemKeys::Ideal { kind, transmittance }, _) => ideal(*kind, *transmittance),
-            (_, Some(dataset)) => {
-                Ok(Arc::new(System { label: "made".into(), state: String::new(), dataset: Arc::new(dataset.clone()) }))
-            }
+            (_, Some(dataset)) => Ok(Arc::new(System {
+                label: "made".into(),
+                state: String::new(),
+                dataset: Arc::new(dataset.clone()),
+                very: None,
+            })),
             _ => Err(StudyError::key("system", "this test has no such system")),
         }
     }

@@ -101,7 +101,13 @@ fn grid(nx: usize, ny: usize) -> Vec<room::CellValue> {
                 }
             }
             let inter = 90.0 - 6.0 * y;
-            room::CellValue { total: direct + inter, error: 0.004 * (direct + inter), direct, inter }
+            room::CellValue {
+                total: direct + inter,
+                error: 0.004 * (direct + inter),
+                direct,
+                inter,
+                ..room::CellValue::default()
+            }
         })
         .collect()
 }

@@ -26,7 +26,7 @@ impl Drawn for Drawing {
         let input = lid::Input {
             lid: figures.map(|figures| &figures.lid),
             name: &name,
-            flux: figures.map(|figures| figures.flux.value - figures.lid.beam.map_or(0.0, |beam| beam.flux)),
+            flux: figures.map(|figures| figures.flux.value - figures.lid.beam_flux()),
             max: None,
             revision: self.revision.of(shown.value.as_ref()),
             status: seen.status_of(shown, Lane::Lid),

@@ -147,7 +147,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let automatic = input.max.unwrap_or(curves.max * factor);
     let max = state.ring.filter(|_| input.status.hold_scale).unwrap_or(automatic);
     state.ring = Some(max);
-    let legend_height = if lid.beam.is_some() && rect.width() > 300.0 { 54.0 } else { 36.0 };
+    let legend_height = if !lid.beams.is_empty() && rect.width() > 300.0 { 54.0 } else { 36.0 };
     let (body, legend) = rect.split_top_bottom_at_y((rect.bottom() - legend_height).max(rect.top() + 60.0));
     let two = body.width() > 400.0 && body.width() > 1.35 * body.height();
     let (main, side) = if two {
@@ -229,15 +229,22 @@ fn dashed(ui: &Ui, axes: &PolarAxes, surface: Surface, flux: f64, section: LidPl
     ui.painter().extend(Shape::dashed_line(&points, Stroke::new(1.3, palette.weak), 5.0, 4.0));
 }
 
-/// The beam as a ray in the C 0° plane; true when there is one to explain.
+/// Beams weaker than this share of the strongest are not drawn.
+const FAINT_BEAM: f64 = 0.02;
+
+/// The beams as rays in the C 0° plane; true when there is one to explain.
 fn beam(ui: &Ui, axes: &PolarAxes, lid: &Lid, palette: &Palette) -> bool {
-    let Some(beam) = lid.beam.filter(|beam| beam.flux > 0.0) else { return false };
-    let v = lid.surface.room_dir(beam.direction.0).vector();
-    let angle = v.y.atan2(-v.z);
-    let (from, to) = (axes.centre, axes.screen(angle, axes.max));
-    ui.painter().extend(Shape::dashed_line(&[from, to], Stroke::new(2.0, palette.beam), 2.0, 4.0));
-    ui.painter().circle_filled(to, 3.5, palette.beam);
-    true
+    // The fan of a curved mirror is drawn by its stronger rays.
+    let strongest = lid.beams.iter().map(|beam| beam.flux).fold(0.0, f64::max);
+    let drawn = lid.beams.iter().filter(|beam| beam.flux > FAINT_BEAM * strongest);
+    drawn.clone().for_each(|beam| {
+        let v = lid.surface.room_dir(beam.direction.0).vector();
+        let angle = v.y.atan2(-v.z);
+        let (from, to) = (axes.centre, axes.screen(angle, axes.max));
+        ui.painter().extend(Shape::dashed_line(&[from, to], Stroke::new(2.0, palette.beam), 2.0, 4.0));
+        ui.painter().circle_filled(to, 3.5, palette.beam);
+    });
+    drawn.count() > 0
 }
 
 fn legend_ui(ui: &Ui, rect: Rect, lid: &Lid, input: &Input<'_>, unit: &str, beam: bool, palette: &Palette) {
@@ -266,10 +273,12 @@ fn legend_ui(ui: &Ui, rect: Rect, lid: &Lid, input: &Input<'_>, unit: &str, beam
     if input.flux.is_some() {
         entry(if narrow { "diffuser" } else { "ideal diffuser, same flux" }.to_owned(), palette.weak, Some(4.0));
     }
-    if let (true, Some(beam)) = (beam, lid.beam) {
+    if let (true, Some(beam)) = (beam, lid.beams.iter().max_by(|a, b| a.flux.total_cmp(&b.flux))) {
         let (gamma, c) = c_gamma(lid.surface.room_dir(beam.direction.0));
-        let text = format!("sun unscattered {} to γ {gamma:.0}°, C {c:.0}° (not to scale)", si(beam.flux, "lm"));
-        let text = if narrow { format!("sun {}", si(beam.flux, "lm")) } else { text };
+        let all = si(lid.beam_flux(), "lm");
+        let more = if lid.beams.len() > 1 { "most " } else { "" };
+        let text = format!("sun unscattered {all}, {more}to γ {gamma:.0}°, C {c:.0}° (not to scale)");
+        let text = if narrow { format!("sun {all}") } else { text };
         entry(text, palette.beam, Some(2.0));
     }
 }
@@ -297,7 +306,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     fn lambert(surface: Surface) -> Lid {
-        Lid { surface, size: [2.0, 1.5], parts: vec![EmergentLuminance::Uniform(1000.0)], beam: None }
+        Lid { surface, size: [2.0, 1.5], parts: vec![EmergentLuminance::Uniform(1000.0)], beams: Vec::new() }
     }
 
     #[test]

@@ -98,7 +98,7 @@ impl Step {
                 .any(|ring| ring.theta_min > 0.0 && ring.theta_max - ring.theta_min < 5_f64.to_radians() - 1e-9),
             EmergentLuminance::Uniform(_) | EmergentLuminance::Function(_) => false,
         });
-        if narrow || lid.beam.is_some_and(|beam| beam.flux > 0.0) { Self::FINE } else { Self::NORMAL }
+        if narrow || lid.beam_flux() > 0.0 { Self::FINE } else { Self::NORMAL }
     }
 
     /// \[°\]
@@ -125,7 +125,7 @@ pub struct CGammaTable {
     /// Factor by which the averages were multiplied to make the zonal sum of the table equal to `flux`: what the
     /// quadrature missed of a known flux, and the zonal sum's own constant (1/cos(step/2) for smooth light).
     pub scaled_by: f64,
-    /// Flux of the unscattered beam, spread over the four nodes round it. \[lm\]
+    /// Flux of the unscattered beams, each spread over the four nodes round it. \[lm\]
     pub beam_flux: f64,
 }
 
@@ -163,12 +163,11 @@ impl CGammaTable {
                 *node += share.value * closing * area;
             }
         }
-        let mut beam_flux = 0.0;
-        if let Some(beam) = lid.beam.filter(|beam| beam.flux != 0.0) {
+        let beam_flux = lid.beam_flux();
+        for beam in lid.beams.iter().filter(|beam| beam.flux != 0.0) {
             grid.lay(&mut node_flux, beam.direction, beam.flux);
-            flux += Estimate::exact(beam.flux);
-            beam_flux = beam.flux;
         }
+        flux += Estimate::exact(beam_flux);
         let mut table = Self { aim, step, intensity: grid.averages(&node_flux), flux, scaled_by: 1.0, beam_flux };
         let read = table.zonal_flux();
         if read != 0.0 && flux.value != 0.0 {

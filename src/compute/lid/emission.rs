@@ -4,6 +4,7 @@
 //! Linear data on cells (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
 //! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
 
+use super::beams::BeamLight;
 use super::{EmergentLuminance, Lid, SunBeam};
 use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
@@ -12,6 +13,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::sky::sun_disc::{self, Edge};
 use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
+use crate::compute::system::measure::ProfileLight;
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -75,17 +77,28 @@ pub struct CellLight {
     pub relative_error: f64,
 }
 
+/// Luminance by profile angle: q times illuminance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandLight {
+    /// Per illuminance.
+    pub light: ProfileLight,
+    /// Of the aperture's outside. \[lx\]
+    pub illuminance: f64,
+}
+
 /// Everything that an aperture emits.
 #[derive(Debug, Clone)]
 pub struct Emission {
     /// Lambertian part. \[cd/m²\]
     pub uniform: Estimate,
-    /// Part on cells.
-    pub cells: Option<CellLight>,
+    /// Parts on cells, each on its own.
+    pub cells: Vec<CellLight>,
+    /// The sun's scattered light where it depends on a profile angle alone.
+    pub bands: Option<BandLight>,
     /// The outside seen straight through, with this transmittance.
     pub regular: Option<AngularTransmittance>,
-    /// Regular transmittance for the sun's direction; 0 without sun.
-    pub beam_tau: f64,
+    /// The sun's light that goes on as beams.
+    pub beams: Vec<BeamLight>,
     /// Illuminance of the outside face by diffuse light. \[lx\]
     pub incident_diffuse: Estimate,
     /// Illuminance of the outside face by the sun. \[lx\]
@@ -102,16 +115,15 @@ impl Emission {
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
         let mut emission = Self {
             uniform: Estimate::default(),
-            cells: None,
+            cells: Vec::new(),
+            bands: None,
             regular: btdf.regular.clone(),
-            beam_tau: 0.0,
+            beams: Vec::new(),
             incident_diffuse: Estimate::default(),
             incident_sun,
             notes: Vec::new(),
         };
-        if let (Some(tau), Some(sun)) = (&btdf.regular, sun_direction) {
-            emission.beam_tau = tau.at(sun.theta().min(0.5 * PI));
-        }
+        emission.beams.extend(BeamLight::regular(btdf.regular.as_ref(), facing));
         match &btdf.scattered {
             None => {
                 emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum();
@@ -137,7 +149,7 @@ impl Emission {
                 let sun = sun_direction
                     .and_then(|sun| matrix.incident().index(sun))
                     .map_or_else(Vec::new, |cell| matrix.row(cell).iter().map(|q| q * incident_sun).collect());
-                emission.cells = Some(CellLight {
+                emission.cells.push(CellLight {
                     basis: Arc::new(matrix.emergent().clone()),
                     diffuse: matrix.luminance(&values),
                     doubts: Vec::new(),
@@ -162,7 +174,7 @@ impl Emission {
                 if let Some(direction) = sun_direction {
                     add(direction, incident_sun, &mut sun);
                 }
-                emission.cells = Some(CellLight {
+                emission.cells.push(CellLight {
                     basis: Arc::new(data.emergent().clone()),
                     diffuse,
                     sun,
@@ -176,7 +188,7 @@ impl Emission {
                 let (basis, diffuse) = tree.luminance(&illuminance);
                 let sun = sun_direction
                     .map_or_else(|| vec![0.0; basis.len()], |sun| tree.sun_luminance(Incident(sun), incident_sun).1);
-                emission.cells = Some(CellLight {
+                emission.cells.push(CellLight {
                     basis: Arc::new(basis),
                     diffuse,
                     sun,
@@ -191,7 +203,10 @@ impl Emission {
     /// Flux that leaves into the room per area, beam included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
-        if let Some(cells) = &self.cells {
+        if let Some(bands) = &self.bands {
+            sum += Estimate::new(bands.light.share(), bands.light.error) * bands.illuminance;
+        }
+        for cells in &self.cells {
             let total: f64 = cells
                 .basis
                 .cells()
@@ -213,9 +228,8 @@ impl Emission {
                         .sum()
                 }
             };
-            sum += Estimate::exact(self.beam_tau * self.incident_sun);
         }
-        sum
+        sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
     }
 
     /// As a luminous-intensity distribution (eq 5).
@@ -224,11 +238,17 @@ impl Emission {
         if self.uniform.value > 0.0 {
             parts.push(EmergentLuminance::Uniform(self.uniform.value));
         }
-        if let Some(cells) = &self.cells {
+        for cells in &self.cells {
             parts.push(EmergentLuminance::Cells {
                 basis: Arc::clone(&cells.basis),
                 luminance: cells.diffuse.iter().zip(&cells.sun).map(|(a, b)| a + b).collect(),
             });
+        }
+        if let Some(bands) = &self.bands {
+            let bands = bands.clone();
+            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
+                bands.light.at(twin) * bands.illuminance
+            })));
         }
         if let Some(tau) = &self.regular {
             let (tau, outside) = (tau.clone(), facing.outside.clone());
@@ -238,12 +258,13 @@ impl Emission {
                 tau.at(twin.theta()) * outside.luminance(world)
             })));
         }
-        let beam_flux = self.beam_tau * self.incident_sun * size[0] * size[1];
-        let beam = facing
-            .sun_direction()
-            .filter(|_| beam_flux > 0.0)
-            .map(|sun| SunBeam { direction: Emergent::from_through_name(sun), flux: beam_flux });
-        Lid { surface: facing.surface, size, parts, beam }
+        let area = size[0] * size[1];
+        let beam = |beam: &BeamLight| SunBeam {
+            direction: Emergent::from_through_name(beam.to),
+            flux: beam.exitance * area,
+            straight: beam.straight,
+        };
+        Lid { surface: facing.surface, size, parts, beams: self.beams.iter().map(beam).collect() }
     }
 }
 

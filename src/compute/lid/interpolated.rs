@@ -1,7 +1,7 @@
 //! What an aperture emits when the data are known at single incident directions only: sky and ground in sub-patches
 //! finer than these directions, the sun exactly where it is, each through an interpolated indicatrix.
 
-use super::{CellLight, Emission, Facing};
+use super::{BeamLight, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Indicatrices};
 use crate::compute::direction::{Dir, Facade};
@@ -138,12 +138,8 @@ impl Emission {
         let (incident_diffuse, diffuse, note) = interpolator.diffuse(diffuse_scheme, facing);
         let mut notes = vec![format!("diffuse light: {note}")];
         let own = interpolator.model().grid();
-        let mut beam_tau = 0.0;
         let (grid, diffuse, sun) = match facing.sun_direction().filter(|_| incident_sun > 0.0) {
             Some(direction) => {
-                if let Some(tau) = &btdf.regular {
-                    beam_tau = tau.at(direction.theta().min(0.5 * PI));
-                }
                 let (light, note) = interpolator.sun(sun_scheme, direction, incident_sun);
                 notes.push(format!("sun: {note}"));
                 (&interpolator.sun_grid, diffuse.on(own, &interpolator.sun_grid), light)
@@ -162,9 +158,10 @@ impl Emission {
         };
         Self {
             uniform: Estimate::default(),
-            cells: Some(cells),
+            cells: vec![cells],
+            bands: None,
             regular: btdf.regular.clone(),
-            beam_tau,
+            beams: BeamLight::regular(btdf.regular.as_ref(), facing).into_iter().collect(),
             incident_diffuse,
             incident_sun,
             notes,

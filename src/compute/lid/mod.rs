@@ -1,11 +1,15 @@
 //! The luminous-intensity distribution of an aperture: what the room side emits, as a luminaire would.
 
+mod beams;
 pub mod c_gamma;
 mod emission;
 mod interpolated;
+mod sun_through;
 
-pub use emission::{CellLight, Emission, Facing};
+pub use beams::BeamLight;
+pub use emission::{BandLight, CellLight, Emission, Facing};
 pub use interpolated::Interpolator;
+pub use sun_through::{sun_beams, sun_cells};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
@@ -56,13 +60,16 @@ impl EmergentLuminance {
     }
 }
 
-/// The sun's light that went through without being scattered: a parallel beam (but for the disc's 0.53°).
+/// Sunlight that went through without being scattered: a parallel beam (but for the disc's 0.53°), straight on, deflected
+/// or mirrored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunBeam {
     /// Where it goes.
     pub direction: Emergent,
     /// Luminous flux of the whole aperture's beam. \[lm\]
     pub flux: f64,
+    /// It goes straight on: the sun itself is seen along it.
+    pub straight: bool,
 }
 
 /// The luminous-intensity distribution of one aperture (eq 5): I(ω_a) = L(ω_a) · A · cosθ_a.
@@ -75,7 +82,7 @@ pub struct Lid {
     /// The parts of the emergent luminance.
     pub parts: Vec<EmergentLuminance>,
     /// Unscattered sun.
-    pub beam: Option<SunBeam>,
+    pub beams: Vec<SunBeam>,
 }
 
 impl Lid {
@@ -87,6 +94,11 @@ impl Lid {
     /// Luminous intensity in an emergent direction, beam left out. \[cd\]
     pub fn intensity(&self, emergent: Emergent) -> f64 {
         self.luminance(emergent) * self.area() * (-emergent.0.vector().z).max(0.0)
+    }
+
+    /// Flux of all beams. \[lm\]
+    pub fn beam_flux(&self) -> f64 {
+        self.beams.iter().map(|beam| beam.flux).sum()
     }
 
     /// Area of the aperture. \[m²\]

@@ -1,14 +1,16 @@
 //! Direct component: what arrives at a sensor straight from an aperture (eq 17), each part of the emission by its own
 //! exact or error-controlled way.
 
-use super::aperture::Aperture;
+use super::aperture::{Aperture, View};
+use super::band_weights::BandWeights;
 use super::cell_weights::for_each_cell;
 use super::through;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Estimate;
-use crate::compute::lid::{Emission, Facing};
+use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::Tolerance;
+use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::sky::sun_disc::{self, Edge};
 use glam::DVec3;
 
@@ -45,47 +47,114 @@ impl Reception {
     }
 }
 
-/// Illuminance at a sensor from one aperture, sun included. \[lx\]
+/// What a sensor receives straight from one aperture.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DirectLight {
+    /// All of it; the error is that of the computation. \[lx\]
+    pub all: Estimate,
+    /// The part of it that comes as beams of the sun. \[lx\]
+    pub beam: f64,
+    /// How far all may be off for what the data do not tell apart. \[lx\]
+    pub data_error: f64,
+}
+
+impl std::ops::AddAssign for DirectLight {
+    fn add_assign(&mut self, other: Self) {
+        self.all += other.all;
+        self.beam += other.beam;
+        self.data_error += other.data_error;
+    }
+}
+
+/// What the width of the bands costs, relative; seen on matt slats against exact integrals along them.
+const BAND_ERROR: f64 = 1e-3;
+
+/// Illuminance at a sensor from one aperture, sun included. `receptions`: one for every part on cells, the first of them
+/// for what is uniform, too; `weights`: for the part in bands.
 pub fn illuminance(
     sensor: &Sensor,
     aperture: &Aperture,
-    reception: &Reception,
+    receptions: &[&Reception],
+    weights: Option<&BandWeights>,
     emission: &Emission,
     facing: &Facing<'_>,
     tolerance: Tolerance,
-) -> Estimate {
-    let mut sum = emission.uniform * reception.uniform;
-    if let Some(light) = &emission.cells {
+) -> DirectLight {
+    let mut sum = emission.uniform * receptions.first().map_or(0.0, |reception| reception.uniform);
+    let mut data_error = 0.0;
+    for (light, reception) in emission.cells.iter().zip(receptions) {
         let e: f64 =
             reception.cells.iter().zip(light.diffuse.iter().zip(&light.sun)).map(|(w, (d, s))| w * (d + s)).sum();
         let at_sensor = |doubt: &Vec<f64>| reception.cells.iter().zip(doubt).map(|(w, l)| w * l).sum::<f64>();
-        let doubt = light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
-        sum += Estimate::new(e, e * light.relative_error + doubt);
+        data_error += light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
+        sum += Estimate::new(e, e * light.relative_error);
     }
-    if let Some(tau) = &emission.regular {
-        if let Some(view) = aperture.view(sensor.position, sensor.normal) {
-            sum += through::illuminance(&view, facing, tau, tolerance);
-        }
-        sum += Estimate::exact(sun_through(sensor, aperture, emission, facing));
+    if let (Some(bands), Some(weights)) = (&emission.bands, weights) {
+        let part = weights.of(&bands.light.q) * bands.illuminance;
+        let share = bands.light.share();
+        let relative = if share > 0.0 { bands.light.error / share } else { 0.0 };
+        sum += Estimate::new(part, part * (relative + BAND_ERROR));
     }
+    if let (Some(tau), Some(view)) = (&emission.regular, aperture.view(sensor.position, sensor.normal)) {
+        sum += through::illuminance(&view, facing, tau, tolerance);
+    }
+    let beams = beams_through(sensor, aperture, &emission.beams, facing);
+    sum += beams.all;
     // Rounding of the closed forms and of the weights' sums.
-    Estimate::new(sum.value.max(0.0), sum.error + 1e-9 * sum.value.abs())
+    let all = Estimate::new(sum.value.max(0.0), sum.error + 1e-9 * sum.value.abs());
+    DirectLight { all, beam: beams.beam, data_error: data_error + beams.data_error }
 }
 
-/// Unscattered sun at a sensor: the share of the disc seen through the opening. \[lx\]
-pub fn sun_through(sensor: &Sensor, aperture: &Aperture, emission: &Emission, facing: &Facing<'_>) -> f64 {
-    let Some(sun) = facing.sun.filter(|_| emission.beam_tau > 0.0) else {
-        return 0.0;
+/// What a sensor gets from the sun's beams through an aperture, with the sun's penumbra.
+pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> DirectLight {
+    let Some(view) = aperture.view(sensor.position, sensor.normal).filter(|_| !beams.is_empty()) else {
+        return DirectLight::default();
     };
-    let direction = facing.orientation.room_from_world(sun.direction).vector();
-    let corners = aperture.corners().map(|corner| corner - sensor.position);
-    let outward = aperture.surface.room_from_facade(DVec3::Z);
-    if outward.dot(corners[0]) <= 0.0 {
-        return 0.0;
+    let corners = view.corners();
+    let mut opening: Option<Vec<Edge>> = None;
+    let (mut sum, mut data_error) = (Estimate::default(), 0.0);
+    for beam in beams {
+        let e = match clearly_seen(&view, beam.to.vector()) {
+            Some(false) => continue,
+            Some(true) if !beam.straight => view.normal.dot(beam.to.vector()),
+            _ => {
+                let edges = opening.get_or_insert_with(|| {
+                    let mut edges = sun_disc::opening(&corners);
+                    edges.push(Edge::great_circle(DVec3::Z));
+                    edges.push(Edge::great_circle(view.normal));
+                    edges
+                });
+                let outside = if beam.straight { Some(facing.sun_edges()[0]) } else { None };
+                sun_disc::share(beam.to.vector(), view.normal, edges.iter().copied().chain(outside))
+            }
+        };
+        let e = beam.normal * e;
+        sum += Estimate::new(e, e * beam.error);
+        data_error += e * beam.doubt;
     }
-    let mut edges = sun_disc::opening(&corners);
-    edges.push(Edge::great_circle(outward));
-    edges.push(Edge::great_circle(sensor.normal));
-    edges.push(Edge { normal: DVec3::Z, offset: facing.outside.skyline_altitude().sin() });
-    emission.beam_tau * sun.direct_normal * sun_disc::share(direction, sensor.normal, edges)
+    DirectLight { all: sum, beam: sum.value, data_error }
+}
+
+/// Is a beam seen as a whole disc through the opening, or none of it? `None` where an edge may cut it.
+fn clearly_seen(view: &View, to: DVec3) -> Option<bool> {
+    // On the opening's plane the disc's ellipse reaches no farther than this from its middle, a little more than exactly.
+    const REACH: f64 = 1.05 * SUN_HALF_ANGLE;
+    let facing = view.normal.dot(to);
+    if to.z <= 2.0 * REACH || facing.abs() <= REACH {
+        return None;
+    }
+    if facing < 0.0 {
+        return Some(false);
+    }
+    let [x, y] = [to.x, to.y].map(|c| c / to.z * view.distance);
+    let reach = view.distance * REACH / (to.z * to.z) * (1.0 + REACH / to.z);
+    let inside = |at: f64, [low, high]: [f64; 2]| at > low + reach && at < high - reach;
+    let outside = |at: f64, [low, high]: [f64; 2]| at < low - reach || at > high + reach;
+    if outside(x, view.x) || outside(y, view.y) {
+        Some(false)
+    } else if inside(x, view.x) && inside(y, view.y) {
+        Some(true)
+    } else {
+        None
+    }
 }

@@ -9,7 +9,8 @@ use super::radiosity::{Radiosity, dot};
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Surface};
-use crate::compute::lid::{Emission, Facing};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::gauss_legendre;
 use glam::{DVec2, DVec3};
@@ -227,7 +228,7 @@ impl FirstLight {
                 *sum += exitance * e;
             }
         }
-        if let Some(light) = &emission.cells {
+        for light in &emission.cells {
             let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
             let part = if light.basis.len() > MOST_CELLS {
                 let merged = Arc::new(merged_basis());
@@ -238,19 +239,24 @@ impl FirstLight {
             };
             self.add_diffuse(part);
         }
+        if let Some(bands) = &emission.bands {
+            let merged = Arc::new(merged_basis());
+            let luminance: Vec<f64> = bands.light.on(&merged).iter().map(|q| q * bands.illuminance).collect();
+            self.add_diffuse(weights(&merged).illuminance(&luminance));
+        }
         if let Some(tau) = &emission.regular {
             self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
-            self.add_beam(mesh, aperture, emission, facing);
         }
+        emission.beams.iter().for_each(|beam| self.add_beam(mesh, aperture, beam));
     }
 
-    /// Adds the sun's unscattered beam through one aperture.
-    pub fn add_beam(&mut self, mesh: &Mesh, aperture: &Aperture, emission: &Emission, facing: &Facing<'_>) {
-        let Some(sun) = facing.sun_direction().filter(|sun| emission.beam_tau > 0.0 && sun.vector().z > 0.0) else {
+    /// Adds a beam of the sun through one aperture.
+    pub fn add_beam(&mut self, mesh: &Mesh, aperture: &Aperture, beam: &BeamLight) {
+        if beam.to.vector().z <= 0.0 {
             return;
-        };
-        let direction = facing.surface.room_dir(sun).vector();
-        let flux = emission.beam_tau * emission.incident_sun * aperture.area();
+        }
+        let direction = aperture.surface.room_dir(beam.to).vector();
+        let flux = beam.exitance * aperture.area();
         let landing = landing(mesh, aperture, direction);
         let cosine = |i: usize| mesh.walls[mesh.patches[i].wall].normal.dot(direction).max(0.0);
         let landed: f64 = landing.shares.iter().enumerate().map(|(i, s)| s * mesh.patches[i].area * cosine(i)).sum();
@@ -306,7 +312,8 @@ fn outside_seen(
         .collect();
     // What goes straight on, without the beam and what scatters.
     let mut straight = emission.clone();
-    (straight.beam_tau, straight.cells, straight.uniform) = (0.0, None, Default::default());
+    (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), None);
+    straight.uniform = Estimate::default();
     let flux = straight.exitance(facing).value * aperture.area();
     let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
     if received <= 0.0 {

@@ -147,6 +147,13 @@ impl Outside {
         self.diffuse_horizontal
     }
 
+    /// Is there any diffuse light at all?
+    pub fn is_lit(&self) -> bool {
+        self.diffuse_horizontal > 0.0
+            || self.ground_luminance > 0.0
+            || (self.skyline_luminance > 0.0 && self.skyline_sine > 0.0)
+    }
+
     /// Where the circumsolar part peaks; `None` for skies without one.
     pub fn sun_direction(&self) -> Option<Dir<World>> {
         match &self.distribution.model {

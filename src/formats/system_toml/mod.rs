@@ -3,15 +3,19 @@
 //! Keys, defaults and ranges; every wrong value is told by its key and by what would be right.
 
 mod checks;
+mod contained;
 mod keys;
 mod sheets;
 mod transparent;
+
+pub use contained::{MOST_NESTED, described, self_contained, states};
 
 use super::location::{FormatError, Location, excerpt};
 use crate::compute::system::slats::{SlatProfile, Surface, Venetian};
 use crate::compute::system::stack::{Layer, LayerSource};
 use crate::compute::system::{SystemDescription, SystemKind};
 use checks::{length, outline, share, within, wrong};
+use contained::stack;
 use keys::Angles;
 use serde::Deserialize;
 use sheets::{diffuser, perforated, woven};
@@ -184,24 +188,6 @@ fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {
         upper: face("venetian.upper", blind.upper)?,
         lower: face("venetian.lower", blind.lower)?,
     })
-}
-
-fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
-    if !(1..=10).contains(&stack.layers.len()) {
-        return wrong("stack.layers", format!("{} layers", stack.layers.len()), "1 to 10, outside first");
-    }
-    if stack.layers.iter().filter(|layer| layer.state == EACH_STATE).count() > 1 {
-        return wrong("stack.layers", "state = \"each\" in several layers", "one moving layer at most");
-    }
-    let layer = |(k, layer): (usize, &keys::Layer)| {
-        let source = match (&layer.file, &layer.catalogue) {
-            (Some(file), None) => LayerSource::File(file.clone()),
-            (None, Some(key)) => LayerSource::Catalogue(key.clone()),
-            _ => return wrong(&format!("stack.layers[{k}]"), "not one of file and catalogue", "file or catalogue"),
-        };
-        Ok(Layer { source, state: layer.state.clone() })
-    };
-    stack.layers.iter().enumerate().map(layer).collect()
 }
 
 #[cfg(test)]

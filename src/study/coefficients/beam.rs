@@ -2,13 +2,12 @@
 
 use super::Coefficients;
 use crate::compute::estimate::Estimate;
-use crate::compute::lid::{Emission, Facing};
-use crate::compute::room::direct::sun_through;
+use crate::compute::lid::{BeamLight, Facing};
+use crate::compute::room::direct::beams_through;
 use crate::compute::room::first_bounce::FirstLight;
 use crate::compute::room::radiosity::dot;
 use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
-use std::f64::consts::PI;
 
 impl Coefficients {
     /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
@@ -21,7 +20,7 @@ impl Coefficients {
             let illuminance = facing.sun_illuminance();
             let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
             part.transport.sun(direction, sensors, &mut sums, illuminance);
-            add_beam(self, index, &facing, illuminance, &mut first, &mut sums);
+            add_beam(self, index, &facing, &mut first, &mut sums);
         }
         if let (Some(room), Some(first)) = (&self.room, first.filter(|first| !first.outlines.is_empty())) {
             let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
@@ -54,7 +53,7 @@ impl Coefficients {
                 sum.error +=
                     doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s];
             }
-            add_beam(self, index, &facing, illuminance, &mut first, &mut own);
+            add_beam(self, index, &facing, &mut first, &mut own);
         }
         if let (Some(room), Some(first)) = (&self.room, first.filter(|first| !first.outlines.is_empty())) {
             let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
@@ -74,29 +73,13 @@ fn dark(all: &Coefficients) -> Option<FirstLight> {
 }
 
 /// The unscattered sun through one aperture: at the sensors, and on the surfaces.
-fn add_beam(
-    all: &Coefficients,
-    index: usize,
-    facing: &Facing<'_>,
-    illuminance: f64,
-    first: &mut Option<FirstLight>,
-    sums: &mut [f64],
-) {
-    let (Some(tau), Some(direction)) = (&all.parts[index].regular, facing.sun_direction()) else { return };
-    let emission = Emission {
-        notes: Vec::new(),
-        uniform: Estimate::default(),
-        cells: None,
-        regular: Some(tau.clone()),
-        beam_tau: tau.at(direction.theta().min(0.5 * PI)),
-        incident_diffuse: Estimate::default(),
-        incident_sun: illuminance,
-    };
+fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut Option<FirstLight>, sums: &mut [f64]) {
+    let Some(beam) = BeamLight::regular(all.parts[index].regular.as_ref(), facing) else { return };
     let aperture = &all.scene.apertures[index].aperture;
     for (sum, sensor) in sums.iter_mut().zip(&all.scene.sensors) {
-        *sum += sun_through(sensor, aperture, &emission, facing);
+        *sum += beams_through(sensor, aperture, &[beam], facing).beam;
     }
     if let (Some(first), Some(room)) = (first, &all.room) {
-        first.add_beam(&room.radiosity.nested.fine, aperture, &emission, facing);
+        first.add_beam(&room.radiosity.nested.fine, aperture, &beam);
     }
 }

@@ -6,7 +6,7 @@ use crate::compute::lid::SunBeam;
 use std::sync::Arc;
 
 fn lid(parts: Vec<EmergentLuminance>) -> Lid {
-    Lid { surface: Surface::Facade, size: [1.2, 1.0], parts, beam: None }
+    Lid { surface: Surface::Facade, size: [1.2, 1.0], parts, beams: Vec::new() }
 }
 
 #[test]
@@ -94,7 +94,8 @@ fn cell_flux_is_exact_and_narrow_cells_keep_it() {
 #[test]
 fn beam_keeps_flux_and_direction() {
     let down_right = Dir::<Facade>::new(DVec3::new(0.31, -0.62, -0.72)).unwrap();
-    let lid = Lid { beam: Some(SunBeam { direction: Emergent(down_right), flux: 900.0 }), ..lid(vec![]) };
+    let lid =
+        Lid { beams: vec![SunBeam { direction: Emergent(down_right), flux: 900.0, straight: true }], ..lid(vec![]) };
     for aim in [Aim::Mounted, Aim::Down] {
         let table = CGammaTable::new(&lid, aim, Step::for_lid(&lid));
         assert_eq!(table.step, Step::FINE);

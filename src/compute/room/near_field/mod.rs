@@ -13,7 +13,9 @@ pub mod profile_table;
 pub mod subdivision;
 
 use super::aperture::Aperture;
-use super::direct::{self, Reception, Sensor};
+use super::band_weights::BandWeights;
+use super::direct::{self, DirectLight, Reception, Sensor};
+use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{Emission, Facing, Lid};
@@ -95,14 +97,31 @@ impl<'a> Integrator<'a> {
     }
 
     /// Illuminance at a sensor, sun included. \[lx\] The error is what the method itself can tell; see its module.
-    pub fn illuminance(&self, sensor: &Sensor) -> Estimate {
+    pub fn illuminance(&self, sensor: &Sensor) -> DirectLight {
         if self.method == NearField::SolidAngle {
-            let basis = self.emission.cells.as_ref().map(|light| &*light.basis);
-            let reception = Reception::new(sensor, self.aperture, basis);
-            return direct::illuminance(sensor, self.aperture, &reception, self.emission, self.facing, self.tolerance);
+            let on = |basis: Option<&RingBasis>| Reception::new(sensor, self.aperture, basis);
+            let mut receptions: Vec<Reception> =
+                self.emission.cells.iter().map(|light| on(Some(&*light.basis))).collect();
+            if receptions.is_empty() {
+                receptions.push(on(None));
+            }
+            let receptions: Vec<&Reception> = receptions.iter().collect();
+            let view = self.aperture.view(sensor.position, sensor.normal);
+            let bands = self.emission.bands.as_ref().zip(view);
+            let bands = bands.map(|(bands, view)| BandWeights::new(&view, bands.light.upright, bands.light.q.len()));
+            let (light, facing) = (self.emission, self.facing);
+            return direct::illuminance(
+                sensor,
+                self.aperture,
+                &receptions,
+                bands.as_ref(),
+                light,
+                facing,
+                self.tolerance,
+            );
         }
         let Some(view) = self.aperture.view(sensor.position, sensor.normal) else {
-            return Estimate::default();
+            return DirectLight::default();
         };
         let luminance =
             |to: DVec3| Dir::new(to).map_or(0.0, |twin| self.lid.luminance(Emergent::from_through_name(twin)));
@@ -115,8 +134,9 @@ impl<'a> Integrator<'a> {
             (_, Some([fine, coarse])) => profile_table::illuminance(&view, fine, coarse),
             (_, None) => Estimate::default(),
         };
-        let sun = direct::sun_through(sensor, self.aperture, self.emission, self.facing);
-        let rounding = 1e-12 * (diffuse.value + sun).abs();
-        Estimate::new(diffuse.value + sun, diffuse.error + self.relative_error * diffuse.value.abs() + rounding)
+        let beams = direct::beams_through(sensor, self.aperture, &self.emission.beams, self.facing);
+        let rounding = 1e-12 * (diffuse.value + beams.beam).abs();
+        let error = self.relative_error * diffuse.value.abs() + rounding;
+        DirectLight { all: diffuse + beams.all + Estimate::new(0.0, error), ..beams }
     }
 }

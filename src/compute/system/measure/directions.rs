@@ -3,11 +3,13 @@
 
 use super::cells::CellFinder;
 use super::fan::{middle, pieces};
-use super::{OneSide, Side, Specimen};
+use super::{Measured, OneSide, Setting, Side, Specimen};
 use crate::compute::basis::RingBasis;
-use crate::compute::direction::{Dir, Facade};
+use crate::compute::btdf::{Band, Btdf, Component, Indicatrices, Scattered};
+use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::estimate::{Cancelled, Progress};
 use rayon::prelude::*;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Width of the parts of a fan that are laid into a cell each. \[rad\]
@@ -47,6 +49,39 @@ pub fn at_directions(
         made.error.extend(row.error);
     }
     Ok(made)
+}
+
+/// The four functions at the centres of the incident cells of a setting.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
+pub fn measured_at_directions(
+    specimen: &dyn Specimen,
+    setting: &Setting<'_>,
+    progress: &dyn Progress,
+) -> Result<Measured, Cancelled> {
+    let names: Vec<_> = setting.incident.cells().map(|cell| cell.centre()).collect();
+    let side = |side| at_directions(specimen, side, &names, setting.emergent, progress);
+    let (front, back) = (side(Side::Front)?, side(Side::Back)?);
+    Ok(Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back })
+}
+
+impl Measured {
+    /// The four functions as the rest of the program holds them, known at the centres of the incident cells alone.
+    pub fn band_at_directions(&self) -> Band {
+        let incident: Vec<Incident> = self.incident.cells().map(|cell| Incident(cell.centre())).collect();
+        let mut band = Band::default();
+        let mut set = |component, values: &[f64]| {
+            let made = Indicatrices::new(incident.clone(), self.emergent.clone(), values.to_vec());
+            let scattered = Scattered::Directions(Arc::new(made.expect("values are counted by these cells")));
+            band.set(component, Btdf { regular: None, scattered: Some(scattered) });
+        };
+        set(Component::TransmissionFront, &self.front.transmitted);
+        set(Component::TransmissionBack, &self.back.transmitted);
+        set(Component::ReflectionFront, &self.front.reflected);
+        set(Component::ReflectionBack, &self.back.reflected);
+        band
+    }
 }
 
 /// The row of one direction.

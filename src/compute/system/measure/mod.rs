@@ -18,10 +18,12 @@ pub mod fan;
 pub mod kept;
 pub mod merged;
 mod parallel;
+mod profile_light;
 mod reciprocal;
 pub mod upright;
 
 pub use parallel::{Beam, ScatteredLight};
+pub use profile_light::ProfileLight;
 
 use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
 use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
@@ -87,6 +89,9 @@ pub struct Measured {
     pub back: OneSide,
 }
 
+/// Names of directions nearer than this are the same. \[rad\]
+const SAME_NAME: f64 = 1e-9;
+
 /// Something whose scattering can be computed.
 pub trait Specimen: Send + Sync {
     /// The four functions on the cells of `setting`, to its error.
@@ -109,6 +114,19 @@ pub trait Specimen: Send + Sync {
     /// mirrored. What mirrors or edges spread is not among them.
     fn beams(&self, _name: Dir<Facade>, _side: Side) -> Vec<Beam> {
         Vec::new()
+    }
+
+    /// Share of parallel light that goes straight on.
+    fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
+        let same = |other: &Dir<Facade>| other.vector().distance(name.vector()) < SAME_NAME;
+        let on = |beam: &Beam| beam.transmitted && beam.names.iter().all(same);
+        self.beams(name, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
+    }
+
+    /// What is transmitted besides, where that depends on a profile angle alone; then [`Self::scattered`] gives the same
+    /// by cells.
+    fn profile_light(&self, _name: Dir<Facade>, _side: Side) -> Option<ProfileLight> {
+        None
     }
 
     /// What else becomes of it, on emergent cells.

@@ -51,7 +51,7 @@ mod tests {
     use crate::compute::direction::Dir;
     use crate::compute::estimate::Silent;
     use crate::compute::system::measure::front_basis;
-    use crate::compute::system::slats::{SlatArray, SlatProfile, Surface};
+    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
     use crate::compute::system::stack::DataLayer;
 
     #[test]
@@ -101,7 +101,7 @@ mod tests {
             SlatArray::new(SlatProfile::Flat { width: 0.08 }, 0.0, 0.072, 0.6, [Surface::matt(0.5); 2]).unwrap();
         let cells = front_basis();
         let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
-        let flat = DataLayer(slats.examine(&setting, &Silent).unwrap().0);
+        let flat = DataLayer(SlatSpecimen::new(slats).examine(&setting, &Silent).unwrap().0);
         let lying = flat.measure(&setting, &Silent).unwrap();
         let standing = Upright(Box::new(flat)).measure(&setting, &Silent).unwrap();
         let (a, b) = (lying.shares(&lying.front.transmitted), standing.shares(&standing.front.transmitted));

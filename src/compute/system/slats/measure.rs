@@ -11,7 +11,7 @@ use super::profile_weights::{ProfileGrid, ProfileWeights};
 use super::rough::add_rough;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::measure::{Measured, OneSide, Setting, Side, Specimen};
+use crate::compute::system::measure::{Measured, OneSide, Setting, Side};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
@@ -20,6 +20,8 @@ use rayon::prelude::*;
 const PARTS: [usize; 2] = [16, 128];
 /// At least so many where mirrors are curved: strips are chords, and what comes past a chord misses the arc.
 const CURVED: usize = 32;
+/// For light of one direction.
+pub(super) const PARTS_BY_DIRECTION: usize = 32;
 
 /// Step of the profile angle. \[rad\]
 fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
@@ -54,13 +56,16 @@ fn landed(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: 
     matrix
 }
 
-impl Specimen for SlatArray {
-    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+impl SlatArray {
+    /// What the array does to light, on the cells of the setting.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` says so.
+    pub fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         measure(self, setting, progress)
     }
 }
 
-/// What the array does to light, on the cells of the setting.
 fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
     const STAGE: &str = "slats";
     progress.advance(STAGE, 0, 4);

@@ -2,6 +2,7 @@
 
 use super::array::{SlatArray, Surface};
 use super::profile::SlatProfile;
+use super::specimen::SlatSpecimen;
 use crate::compute::system::family::{Family, NoSpecimen, Polygons, state_key};
 use crate::compute::system::measure::Specimen;
 
@@ -65,7 +66,7 @@ impl Family for Venetian {
 
     fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
         let slats = self.slats(state).ok_or_else(|| NoSpecimen(format!("no state \"{state}\"")))?;
-        Ok(Box::new(slats.map_err(NoSpecimen::because)?))
+        Ok(Box::new(SlatSpecimen::new(slats.map_err(NoSpecimen::because)?)))
     }
 }
 

@@ -1,0 +1,241 @@
+//! The very sun through a system that answers for single directions: its beams as means over the disc, and what it
+//! scatters.
+
+use super::{BandLight, BeamLight, CellLight, Emission, Facing};
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::sky::SUN_HALF_ANGLE;
+use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::sync::{Arc, OnceLock};
+
+/// Width of the cells that scattered sunlight is put on. \[rad\]
+const CELL: f64 = 3.0 * PI / 180.0;
+/// What their size costs, relative; seen on matt slats against exact integrals along the slats.
+const CELL_ERROR: f64 = 3e-3;
+/// Names closer than this are the same. \[rad\]
+const SAME: f64 = 1e-9;
+/// Longest piece of a fan that is one beam: a fraction of the sun's own width. \[rad\]
+const PIECE: f64 = 0.15 * PI / 180.0;
+/// Pieces of fans that fall together within this are one. \[rad\]
+const TOGETHER: f64 = 0.1 * PI / 180.0;
+/// Pairs of directions over the disc for the straight beam, one number after the other until its share stands ...
+const SEEDS: [usize; 4] = [16, 64, 256, 1024];
+/// ... to this, relative.
+const STANDS: f64 = 1e-5;
+/// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
+const PARTS: [usize; 2] = [3, 64];
+/// Shares that are as near as this to linear over the disc are.
+const LINEAR: f64 = 2e-5;
+/// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
+const GRAZING: f64 = 0.3;
+
+/// The cells that scattered sunlight is put on: the same for all systems, so that what sensors see of them is found once.
+pub fn sun_cells() -> &'static Arc<RingBasis> {
+    static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
+    CELLS.get_or_init(|| Arc::new(RingBasis::even(CELL)))
+}
+
+/// Directions evenly over the disc that nothing hides: a sunflower of so many seeds, each with its opposite.
+fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
+    let (u, v) = sun.vector().any_orthonormal_pair();
+    let edges = facing.sun_edges();
+    let golden = PI * (3.0 - 5.0_f64.sqrt());
+    (0..2 * seeds)
+        .map(|k| {
+            let (sin, cos) = (golden * (k / 2) as f64).sin_cos();
+            let at = SUN_HALF_ANGLE.tan() * (((k / 2) as f64 + 0.5) / seeds as f64).sqrt();
+            let at = if k % 2 == 0 { at } else { -at };
+            (sun.vector() + at * (cos * u + sin * v)).normalize()
+        })
+        .filter(|d| edges.iter().all(|edge| edge.normal.dot(*d) > edge.offset))
+        .map(Dir::from_unit)
+        .collect()
+}
+
+fn cosine(name: Dir<Facade>) -> f64 {
+    name.vector().z.max(0.0)
+}
+
+/// The straight beam as a mean over the disc, by more and more directions until it stands.
+fn straight(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
+    let (incident, normal) = (facing.sun_illuminance(), facing.sun?.direct_normal);
+    let mut found: Option<BeamLight> = None;
+    for seeds in SEEDS {
+        let names = disc(facing, sun, seeds);
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        if cosines <= 0.0 {
+            continue;
+        }
+        let shares: Vec<f64> = names.iter().map(|name| specimen.straight(*name, Side::Front)).collect();
+        let [flux, mean] = [
+            names.iter().zip(&shares).map(|(name, share)| share * cosine(*name)).sum::<f64>() / cosines,
+            shares.iter().sum::<f64>() / shares.len() as f64,
+        ];
+        // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is
+        // hidden in part is cut by what hides it, later.
+        let centre: DVec3 = names.iter().zip(&shares).map(|(name, share)| *share * name.vector()).sum();
+        let to = if names.len() == 2 * seeds { Dir::new(centre).unwrap_or(sun) } else { sun };
+        let change = found.map_or(f64::INFINITY, |before| (flux * incident - before.exitance).abs());
+        let error = if flux > 0.0 { change / (flux * incident) } else { 0.0 };
+        found =
+            Some(BeamLight { to, exitance: flux * incident, normal: mean * normal, straight: true, error, doubt: 0.0 });
+        if change <= STANDS * incident * flux.max(STANDS) {
+            break;
+        }
+    }
+    found.filter(|beam| beam.exitance > 0.0)
+}
+
+/// The beams that do not go straight on: by the disc's middle where the shares of its parts are as good as linear, else
+/// by many parts.
+fn turned(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<BeamLight> {
+    let incident = facing.sun_illuminance();
+    let ask = |name: Dir<Facade>| -> Vec<Beam> {
+        let turned = |beam: &Beam| beam.names.iter().any(|other| other.vector().distance(name.vector()) > SAME);
+        specimen.beams(name, Side::Front).into_iter().filter(|beam| beam.transmitted && turned(beam)).collect()
+    };
+    let share = |beams: &[Beam]| beams.iter().map(|beam| beam.share).sum::<f64>();
+    let laid = |names: &[Dir<Facade>], of: &[Vec<Beam>]| {
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        let mut pieces = Pieces::default();
+        for (name, beams) in names.iter().zip(of) {
+            let weight = incident * cosine(*name) / cosines.max(f64::MIN_POSITIVE);
+            beams.iter().for_each(|beam| pieces.add(beam, weight));
+        }
+        pieces
+    };
+    let few = disc(facing, sun, PARTS[0]);
+    let of: Vec<Vec<Beam>> = few.iter().map(|name| ask(*name)).collect();
+    let middle = ask(sun);
+    let own = share(&middle);
+    let opposite = of.chunks_exact(2).all(|pair| (0.5 * (share(&pair[0]) + share(&pair[1])) - own).abs() < LINEAR);
+    if few.len() == 2 * PARTS[0] && opposite {
+        return laid(&[sun], &[middle]).beams(0.0);
+    }
+    let many = disc(facing, sun, PARTS[1]);
+    let parts: Vec<Vec<Beam>> = many.iter().map(|name| ask(*name)).collect();
+    // Every other pair of directions against all of them.
+    let mean = |pairs: usize| {
+        let some = parts.chunks(2).step_by(pairs).flatten();
+        let count = some.clone().count().max(1);
+        some.map(|beams| share(beams)).sum::<f64>() / count as f64
+    };
+    let error = (mean(1) - mean(2)).abs() / mean(1).max(f64::MIN_POSITIVE);
+    laid(&many, &parts).beams(error)
+}
+
+/// The sun's beams behind a system.
+pub fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
+    let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
+    let mut beams: Vec<BeamLight> = straight(specimen, facing, sun).into_iter().collect();
+    beams.extend(turned(specimen, facing, sun));
+    beams
+}
+
+/// Turned beams, those that fall together as one.
+#[derive(Default)]
+struct Pieces(BTreeMap<[i64; 2], (DVec3, f64)>);
+
+impl Pieces {
+    fn add(&mut self, beam: &Beam, incident: f64) {
+        let [a, b] = beam.names.map(Dir::vector);
+        let count = (a.angle_between(b) / PIECE).ceil().max(1.0) as usize;
+        for k in 0..count {
+            let to = a.lerp(b, (k as f64 + 0.5) / count as f64).normalize_or_zero();
+            let flux = beam.share * incident / count as f64;
+            let place = [to.x, to.y].map(|c| (c / TOGETHER).round() as i64);
+            let sum = self.0.entry(place).or_default();
+            sum.0 += flux * to;
+            sum.1 += flux;
+        }
+    }
+
+    fn beams(self, error: f64) -> Vec<BeamLight> {
+        let beam = |(sum, exitance): (DVec3, f64)| {
+            let to = Dir::<Facade>::new(sum)?;
+            let cosine = to.vector().z;
+            let normal = exitance / cosine;
+            let beam = BeamLight { to, exitance, normal, straight: false, error, doubt: 0.0 };
+            (cosine > 1e-6 && exitance > 0.0).then_some(beam)
+        };
+        self.0.into_values().filter_map(beam).collect()
+    }
+}
+
+/// Directions of the disc that what is scattered is a mean over.
+fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
+    if sun.vector().z < GRAZING { disc(facing, sun, PARTS[0]) } else { vec![sun] }
+}
+
+/// What a system scatters of the sun where that depends on a profile angle alone.
+fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight> {
+    let illuminance = facing.sun_illuminance();
+    let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
+    let names = standing_for(facing, sun);
+    let cosines: f64 = names.iter().map(|name| name.vector().z.max(0.0)).sum();
+    let mut mean: Option<ProfileLight> = None;
+    for name in &names {
+        let weight = name.vector().z.max(0.0) / cosines;
+        let own = specimen.profile_light(*name, Side::Front)?;
+        let sum = mean.get_or_insert_with(|| ProfileLight { q: vec![0.0; own.q.len()], error: 0.0, ..own });
+        sum.q.iter_mut().zip(&own.q).for_each(|(sum, q)| *sum += weight * q);
+        sum.error += weight * own.error;
+    }
+    let mut light = mean?;
+    if names.len() > 1 {
+        // A few directions stand for a disc that covers degrees of the profile angle.
+        let middle = specimen.profile_light(sun, Side::Front)?;
+        light.error += middle.apart(&light);
+    }
+    Some(BandLight { light, illuminance })
+}
+
+/// What a system scatters of the sun, on [`sun_cells`]; `None` where it scatters nothing.
+fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> {
+    let incident = facing.sun_illuminance();
+    let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
+    let cells = sun_cells();
+    let names = standing_for(facing, sun);
+    let lights: Vec<(ScatteredLight, f64)> =
+        names.iter().map(|name| (specimen.scattered(*name, Side::Front, cells), name.vector().z.max(0.0))).collect();
+    let cosines: f64 = lights.iter().map(|(_, cosine)| cosine).sum();
+    let mut luminance = vec![0.0; cells.len()];
+    let mut error = 0.0;
+    for (light, cosine) in &lights {
+        let weight = incident * cosine / cosines;
+        error += light.error * weight;
+        luminance.iter_mut().zip(&light.transmitted).for_each(|(sum, q)| *sum += q * weight);
+    }
+    let total: f64 = luminance.iter().zip(cells.projected_solid_angles()).map(|(l, w)| l * w).sum();
+    (total > 0.0).then(|| CellLight {
+        basis: Arc::clone(cells),
+        diffuse: vec![0.0; cells.len()],
+        sun: luminance,
+        doubts: Vec::new(),
+        relative_error: error / total + CELL_ERROR,
+    })
+}
+
+impl Emission {
+    /// Adds what a system makes of the very sun. `self` is what it makes of the diffuse light alone.
+    pub fn add_sun_through(&mut self, specimen: &dyn Specimen, facing: &Facing<'_>) {
+        self.incident_sun = facing.sun_illuminance();
+        self.beams = sun_beams(specimen, facing);
+        self.bands = by_profile(specimen, facing);
+        if self.bands.is_none() {
+            self.cells.extend(scattered(specimen, facing));
+        }
+        let flux: f64 = self.beams.iter().map(|beam| beam.exitance).sum();
+        let straight: f64 = self.beams.iter().filter(|beam| beam.straight).map(|beam| beam.exitance).sum();
+        if self.incident_sun > 0.0 {
+            let [flux, straight] = [flux, straight].map(|part| 100.0 * part / self.incident_sun);
+            self.notes.push(format!(
+                "sun: by the description for this very direction; {straight:.2} % goes straight on, {:.2} % as turned beams",
+                flux - straight
+            ));
+        }
+    }
+}

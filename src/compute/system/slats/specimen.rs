@@ -1,0 +1,281 @@
+//! Slats as a specimen: measured over cells, or asked for light of one very direction.
+//!
+//! Of one direction, what passes is a closed form, what flat mirrors throw are parallel beams and what curved ones throw
+//! are fans; matt faces send on what lands on them by the same balance as over cells, each direction of the section with
+//! its own luminance. What is solved once for that is kept.
+
+use super::array::{SlatArray, Surface};
+use super::balance::Balance;
+use super::direct::Direct;
+use super::flows::{Lobe, Transport, index};
+use super::measure::PARTS_BY_DIRECTION;
+use super::outline::SlatSection;
+use super::profile::SlatProfile;
+use super::profile_weights::{ProfileGrid, ProfileWeights};
+use super::transport::{Node, beam};
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::{Cancelled, Progress, Silent};
+use crate::compute::sequence::recurrence;
+use crate::compute::system::measure::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
+use glam::DVec3;
+use std::f64::consts::{FRAC_1_PI, PI};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Slats with what has been solved of them.
+pub struct SlatSpecimen {
+    array: SlatArray,
+    direct: Direct,
+    /// For beams, and for what matt faces send on.
+    mirrors: OnceLock<SlatSection>,
+    section: OnceLock<SlatSection>,
+    solved: OnceLock<Solved>,
+    /// Of the cells asked for last.
+    weights: Mutex<Option<(RingBasis, Arc<ProfileWeights>)>>,
+}
+
+/// Transport and balance of the section.
+struct Solved {
+    transport: Transport,
+    balance: Balance,
+}
+
+/// Parts of a curved mirror, each of which throws a fan of its own.
+const FANS: usize = 128;
+/// Step of the profile angle where matt light leaves. \[rad\]
+const STEP: f64 = 0.25 * PI / 180.0;
+/// Rays are drawn by this seed: the same light gives the same beams.
+const SEED: u64 = 1;
+/// Beams closer than this are one. \[rad\]
+const SAME: f64 = 1e-9;
+/// Directions along the slats that a ray of a rough mirror is spread to.
+const ALONG: usize = 24;
+
+impl SlatSpecimen {
+    /// Of an array.
+    pub fn new(array: SlatArray) -> Self {
+        let direct = Direct::without_knots(&array);
+        Self {
+            array,
+            direct,
+            mirrors: OnceLock::new(),
+            section: OnceLock::new(),
+            solved: OnceLock::new(),
+            weights: Mutex::new(None),
+        }
+    }
+
+    /// A fan lies evenly between the rays at its ends: where mirrors are curved, they are cut finely.
+    fn mirrors(&self) -> &SlatSection {
+        if matches!(self.array.profile(), SlatProfile::Arc { .. }) {
+            self.mirrors.get_or_init(|| SlatSection::new(&self.array, FANS))
+        } else {
+            self.section()
+        }
+    }
+
+    fn section(&self) -> &SlatSection {
+        self.section.get_or_init(|| SlatSection::new(&self.array, PARTS_BY_DIRECTION))
+    }
+
+    fn solved(&self) -> &Solved {
+        self.solved.get_or_init(|| {
+            let grid = ProfileGrid::new(STEP);
+            let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
+            let transport = match Transport::new(self.section(), grid, SEED, &Silent) {
+                Ok(transport) => transport,
+                Err(Cancelled) => unreachable!("nobody can cancel it"),
+            };
+            let balance = Balance::new(self.section(), &transport, &hat);
+            Solved { transport, balance }
+        })
+    }
+
+    fn has(&self, share: fn(Surface) -> f64) -> bool {
+        // The edge of a solid slat is matt.
+        let edge = (self.array.thickness() > 0.0).then(|| self.array.edge());
+        [self.array.upper(), self.array.lower()].into_iter().chain(edge).any(|side| share(side) > 0.0)
+    }
+
+    fn weights(&self, cells: &RingBasis) -> Arc<ProfileWeights> {
+        let mut kept = self.weights.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some((basis, weights)) if basis == cells => Arc::clone(weights),
+            _ => {
+                let weights = Arc::new(ProfileWeights::new(cells, ProfileGrid::new(STEP)));
+                *kept = Some((cells.clone(), Arc::clone(&weights)));
+                weights
+            }
+        }
+    }
+}
+
+/// Direction cosine along the slats, and profile angle.
+fn section_angles(name: Dir<Facade>) -> (f64, f64) {
+    let v = name.vector();
+    (v.x, v.y.atan2(v.z))
+}
+
+/// The name of a profile angle with the direction cosine x.
+fn name_of(x: f64, psi: f64) -> Dir<Facade> {
+    let across = (1.0 - x * x).max(0.0).sqrt();
+    Dir::from_unit(DVec3::new(x, across * psi.sin(), across * psi.cos()))
+}
+
+impl Specimen for SlatSpecimen {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        self.array.measure(setting, progress)
+    }
+
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let (x, psi) = section_angles(name);
+        let mut beams = Vec::new();
+        let open = self.direct.share(psi);
+        if open > 0.0 {
+            beams.push(Beam::through(name, open));
+        }
+        if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
+            return beams;
+        }
+        let node = beam(self.mirrors(), psi, SEED);
+        let thrown = &node.thrown[index(side)];
+        for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
+            let from = beams.len();
+            for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
+                let share = lobe.width / psi.cos();
+                let alike = |other: &&mut Beam| {
+                    let own = lobe.psi.map(|psi| name_of(x, psi).vector());
+                    other.names.iter().zip(own).all(|(a, b)| a.vector().distance(b) < SAME)
+                };
+                match beams[from..].iter_mut().find(alike) {
+                    Some(known) => known.share += share,
+                    None => beams.push(Beam { names: lobe.psi.map(|psi| name_of(x, psi)), share, transmitted }),
+                }
+            }
+        }
+        beams
+    }
+
+    fn straight(&self, name: Dir<Facade>, _: Side) -> f64 {
+        self.direct.share(section_angles(name).1)
+    }
+
+    fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
+        let (_, psi) = section_angles(name);
+        // Rough mirrors spread along the slats, too.
+        if psi.cos() <= 0.0
+            || !self.has(|surface| surface.diffuse)
+            || self.has(|surface| surface.mirror * surface.spread)
+        {
+            return None;
+        }
+        let node = beam(self.section(), psi, SEED);
+        let sent = self.sent(&node, psi, side);
+        Some(ProfileLight {
+            upright: false,
+            q: self.luminance(&self.solved().transport.landed[1 - index(side)], &sent),
+            error: self.doubt(&node, psi, side),
+        })
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let (x, psi) = section_angles(name);
+        let rough = self.has(|surface| surface.mirror * surface.spread);
+        let matt = self.has(|surface| surface.diffuse);
+        if psi.cos() <= 0.0 || !(matt || rough) {
+            return ScatteredLight::default();
+        }
+        let node = beam(self.section(), psi, SEED);
+        let mut light = if matt { self.matt(&node, psi, side, emergent) } else { ScatteredLight::default() };
+        if rough {
+            let thrown = &node.thrown[index(side)];
+            add_rough(&mut light.transmitted, &thrown.through, [x, psi], emergent);
+            add_rough(&mut light.reflected, &thrown.back, [x, psi], emergent);
+        }
+        light
+    }
+}
+
+impl SlatSpecimen {
+    /// What faces send out of parallel light that has landed on them, per illuminance: M g/π as over cells.
+    fn sent(&self, node: &Node, psi: f64, side: Side) -> Vec<f64> {
+        let landed = &node.landed[index(side)];
+        let response = &self.solved().balance.response;
+        let n = landed.len();
+        let scale = FRAC_1_PI / psi.cos();
+        (0..n).map(|i| scale * (0..n).map(|j| response[(i, j)] * landed[j]).sum::<f64>()).collect()
+    }
+
+    /// Error of the shares that leave so.
+    fn doubt(&self, node: &Node, psi: f64, side: Side) -> f64 {
+        let landed = &node.landed[index(side)];
+        let one = |doubt: &[f64]| landed.iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs() / psi.cos();
+        let [inside, outside] = &self.solved().balance.doubt;
+        one(inside).max(one(outside))
+    }
+
+    /// Luminance at the nodes of the profile angle, from the width of parallel light of each that comes to the faces.
+    fn luminance(&self, landed: &[Vec<f64>], sent: &[f64]) -> Vec<f64> {
+        let at = |(node, row): (usize, &Vec<f64>)| {
+            // Along the slats the pitch is seen foreshortened; at ±90° nothing of it is seen.
+            let cosine = ProfileGrid::new(STEP).psi(node).cos();
+            let width: f64 = row.iter().zip(sent).map(|(h, s)| h * s).sum();
+            // The extrapolation to endless strips may fall below 0 where nothing arrives.
+            if cosine > 1e-9 { (width / cosine).max(0.0) } else { 0.0 }
+        };
+        landed.iter().enumerate().map(at).collect()
+    }
+
+    /// What matt faces send on, by cells.
+    fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let sent = self.sent(node, psi, side);
+        let weights = self.weights(emergent);
+        let by_cell = |rows: &[Vec<f64>], turned: bool| -> Vec<f64> {
+            let width = |row: &Vec<f64>| row.iter().zip(&sent).map(|(h, s)| h * s).sum::<f64>();
+            let mut widths: Vec<f64> = rows.iter().map(width).collect();
+            if turned {
+                widths.reverse();
+            }
+            let of = |(cell, solid): (usize, f64)| {
+                let (first, row) = weights.cell(cell);
+                let sum: f64 = row.iter().zip(&widths[first..]).map(|(w, l)| w * l).sum();
+                (sum / solid).max(0.0)
+            };
+            emergent.projected_solid_angles().into_iter().enumerate().map(of).collect()
+        };
+        let landed = &self.solved().transport.landed;
+        ScatteredLight {
+            transmitted: by_cell(&landed[1 - index(side)], false),
+            reflected: by_cell(&landed[index(side)], true),
+            error: self.doubt(node, psi, side),
+        }
+    }
+}
+
+/// Adds rays that rough mirrors have thrown: their profile angles are drawn already, along the slats a step on the sphere
+/// of four dimensions moves x (see the head of the parent module).
+fn add_rough(q: &mut Vec<f64>, lobes: &[Lobe], [x, psi]: [f64; 2], emergent: &RingBasis) {
+    let rough = || lobes.iter().filter(|lobe| lobe.variance > 0.0);
+    if rough().next().is_none() {
+        return;
+    }
+    q.resize(emergent.len(), 0.0);
+    let solid = emergent.projected_solid_angles();
+    for (number, lobe) in rough().enumerate() {
+        let spread = lobe.variance.sqrt();
+        for k in 0..ALONG {
+            let at = (number * ALONG + k) as f64;
+            let [r, s, t] = [2.0_f64, 3.0, 5.0].map(|prime| recurrence(0.5, at, prime.sqrt()));
+            // One component of a normal step; the other two enter by its length's square.
+            let normal = |r: f64, s: f64| (-2.0 * (1.0 - r).ln()).sqrt() * (2.0 * PI * s).cos();
+            let step = spread * normal(r, s);
+            let rest = spread * (-2.0 * (1.0 - t).ln()).sqrt();
+            let (length, across) = (step.hypot(rest), (1.0 - x * x).max(0.0).sqrt());
+            let sine = if length > 0.0 { length.sin() * step / length } else { 0.0 };
+            let moved = (x * length.cos() + across * sine).clamp(-1.0, 1.0);
+            if let Some(cell) = emergent.index(name_of(moved, lobe.psi[0])) {
+                q[cell] += lobe.width / (psi.cos() * ALONG as f64 * solid[cell]);
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Systems known by their description: what a scene needs of them is computed from it, the very sun first of all.
+
+use super::error::StudyError;
+use super::goniophotometer::{Base, Described, LayerLibrary, Request};
+use super::system::{Need, System, VerySystem};
+use crate::compute::btdf::{Btdf, Dataset, Finding};
+use crate::compute::estimate::Silent;
+use crate::compute::system::measure::front_basis;
+use std::sync::Arc;
+
+/// Error allowed in the data that sky, ground and back reflection are computed with.
+pub(super) const ERROR: f64 = 0.005;
+
+/// What data computed for a scene are asked to be.
+pub(super) fn request() -> Request {
+    let cells = front_basis();
+    Request { incident: cells.clone(), emergent: cells, error: ERROR, seed: 1 }
+}
+
+impl Described {
+    /// One state as a system of a scene.
+    pub fn system(&self, state: Option<&str>, need: Need, library: &dyn LayerLibrary) -> Result<System, StudyError> {
+        let states = self.states(library)?;
+        let first = states.first().map(String::as_str).unwrap_or_default();
+        let state = state.unwrap_or(first);
+        if !states.iter().any(|key| key == state) {
+            return Err(StudyError::key("system.state", no_such_state(&self.file.system.name, state, &states)));
+        }
+        let very = VerySystem(Arc::from(self.specimen(state, library)?));
+        let dataset = match need {
+            Need::Everything => self.measure(state, &request(), library, None, &Silent)?.dataset,
+            Need::VerySun => self.dark(state),
+        };
+        let label = if state.is_empty() { dataset.name.clone() } else { format!("{}, {state}", dataset.name) };
+        Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), very: Some(very) })
+    }
+
+    /// The place of data that nothing asks for.
+    fn dark(&self, state: &str) -> Dataset {
+        let system = &self.file.system;
+        let mut dataset = Dataset {
+            name: system.name.clone(),
+            description: system.description.clone(),
+            state: state.to_owned(),
+            structure: system.family().structure(),
+            findings: vec![Finding::info("not-computed", "Nothing in this scene asks for its diffuse light.")],
+            ..Dataset::default()
+        };
+        dataset.visible.transmission_front = Some(Btdf::default());
+        dataset
+    }
+}
+
+/// What answers for single directions by the text of a description; `None` where it names layers that cannot be found
+/// from here.
+pub(super) fn very_system(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<VerySystem> {
+    let described = Described::from_text(text, Base::Builtin).ok()?;
+    described.specimen(state, library).ok().map(|specimen| VerySystem(Arc::from(specimen)))
+}
+
+/// The key of a described system's state in a file, for messages.
+pub(super) fn no_such_state(name: &str, state: &str, states: &[String]) -> String {
+    if states.iter().all(String::is_empty) {
+        format!("{name} has no states; leave `state` out")
+    } else {
+        format!("{name} has no state '{state}'; it has: {}", states.join(", "))
+    }
+}
