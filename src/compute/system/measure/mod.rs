@@ -112,9 +112,7 @@ pub trait Specimen: Send + Sync {
 
     /// The beams that parallel light of one name from a side becomes, exactly: straight on (the name kept), deflected,
     /// mirrored. What mirrors or edges spread is not among them.
-    fn beams(&self, _name: Dir<Facade>, _side: Side) -> Vec<Beam> {
-        Vec::new()
-    }
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam>;
 
     /// Share of parallel light that goes straight on.
     fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
@@ -130,9 +128,7 @@ pub trait Specimen: Send + Sync {
     }
 
     /// What else becomes of it, on emergent cells.
-    fn scattered(&self, _name: Dir<Facade>, _side: Side, _emergent: &RingBasis) -> ScatteredLight {
-        ScatteredLight::default()
-    }
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
 }
 
 /// Balance and reciprocity of a measurement.

@@ -71,13 +71,8 @@ impl Flows {
             let through = flux(&seen.transmitted);
             let n = cells.len();
             let straight = (0..n).into_par_iter().map(|c| {
-                let name = cells.cell(c).centre();
-                let on = layer
-                    .beams(name, side)
-                    .into_iter()
-                    .filter(|beam| beam.transmitted && beam.names.iter().all(|to| to.dot(name) > 1.0 - 1e-12));
                 // Not more than the cell's own mean, so that what is left of it is never negative.
-                on.map(|beam| beam.share).sum::<f64>().min(through[c * n + c])
+                layer.straight(cells.cell(c).centre(), side).min(through[c * n + c])
             });
             let straight = straight.collect();
             OneWay { back: flux(&seen.reflected), straight, through }
