@@ -304,7 +304,7 @@ mod tests {
                 mean[i] += beams[0].share / weight[i] / 36.0;
             }
             let apart: f64 = (0..145).map(|o| (mean[o] - made.front.transmitted[i * 145 + o]).abs() * weight[o]).sum();
-            assert!(apart < 0.012, "{i}: {apart}");
+            assert!(apart < 0.015, "{i}: {apart}");
         }
     }
 

@@ -12,6 +12,7 @@ use crate::compute::system::panes::Panes;
 use crate::compute::system::panes::coated::Layer;
 use crate::compute::system::panes::glazing::{Pane, stack};
 use crate::compute::system::sheets::{Hole, Perforated, diffuser};
+use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
 use crate::compute::system::stack::{DataLayer, Stack};
 
 const CLEAR: Pane = Pane { index: 1.52, thickness: 0.004, absorption: 0.0 };
@@ -180,6 +181,35 @@ fn the_mean_of_single_directions_is_what_is_measured() {
                         apart += (mean - row[i * n + o]).abs() * weight;
                     }
                     assert!(apart < 0.03, "{side:?} {i}: {apart}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pane_before_a_blind_has_the_measured_totals() {
+    let cells = front_basis();
+    let n = cells.len();
+    let blind = || {
+        let sides = [0.8, 0.3].map(Surface::matt);
+        let profile = SlatProfile::Flat { width: 0.08 };
+        let array = SlatArray::new(profile, 0.0, 0.072, 40_f64.to_radians(), sides).unwrap();
+        Box::new(SlatSpecimen::new(array)) as Box<dyn Specimen>
+    };
+    let setting = Setting { incident: &cells, emergent: &cells, error: 0.05, seed: 1 };
+    for layers in [vec![pane(GREY), blind()], vec![blind(), pane(GREY)]] {
+        let made = Stack::new(layers);
+        let measured = made.measure(&setting, &Silent).unwrap();
+        for side in Side::BOTH {
+            let seen = measured.seen(side);
+            for i in [0, 33, 47, 88] {
+                let names: Vec<_> = sub_directions(&cells.cell(i), 4).collect();
+                let found = at_directions(&made, side, &names, &cells, &Silent).unwrap();
+                for (rows, row) in [(&found.transmitted, &seen.transmitted), (&found.reflected, &seen.reflected)] {
+                    let mean = rows.chunks_exact(n).map(|row| flux(&cells, row)).sum::<f64>() / names.len() as f64;
+                    let due = flux(&cells, &row[i * n..(i + 1) * n]);
+                    assert!((mean - due).abs() < 0.01, "{side:?} {i}: {mean} {due}");
                 }
             }
         }
