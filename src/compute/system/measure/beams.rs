@@ -109,7 +109,7 @@ const MOST_PLACES: usize = 24;
 /// Share from which a beam is laid to all of the places of its part; weaker ones to fewer in proportion.
 const STRONG: f64 = 0.2;
 /// How closely the light of a single direction is followed: strong beams to 1e-4 in a few milliseconds.
-const FINE: Effort = Effort { share: 1e-5, seed: 1, surfaces: 5000 };
+const FINE: Effort = Effort { share: 2e-6, seed: 1, surfaces: 5000 };
 /// Share of the incident flux that may be left out of the beams of a single direction.
 const FAINT: f64 = 1e-6;
 

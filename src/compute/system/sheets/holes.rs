@@ -5,11 +5,11 @@ use super::walls::{Lit, Walls, measure_walls};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::measure::kept::Kept;
+use crate::compute::system::measure::kept::{Kept, Once};
 use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen, front_basis};
 use faer::Mat;
 use std::f64::consts::PI;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// Patches through the thickness for single directions; the difference between the two tells the error.
 const DEPTH: [usize; 2] = [4, 8];
@@ -17,7 +17,7 @@ const DEPTH: [usize; 2] = [4, 8];
 /// A perforated sheet with what is known of its walls.
 pub(super) struct Holes {
     sheet: Perforated,
-    walls: OnceLock<[Solved; 2]>,
+    walls: Once<[Solved; 2]>,
     seen: Kept<Seen>,
 }
 
@@ -43,11 +43,11 @@ struct Rest {
 
 impl Holes {
     pub fn new(sheet: Perforated) -> Self {
-        Self { sheet, walls: OnceLock::new(), seen: Kept::default() }
+        Self { sheet, walls: Once::default(), seen: Kept::default() }
     }
 
     fn solved(&self) -> &[Solved; 2] {
-        self.walls.get_or_init(|| {
+        self.walls.get(|| {
             let cells = front_basis();
             DEPTH.map(|depth| {
                 let walls = Walls::new(&self.sheet, depth);

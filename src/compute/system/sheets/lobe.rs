@@ -4,7 +4,6 @@ use crate::compute::basis::{Cell, sub_directions};
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::scaling::by_rounds;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
@@ -56,11 +55,11 @@ impl Lobe {
 
     fn balanced(&self) -> Vec<f64> {
         let spread = self.spread;
+        // By one thread: those that ask for it work side by side and would wait for each other.
         // Half a spread a step keeps the sums over the smooth kernel exact to 1e-8.
         let n = ((2.0 / spread).ceil() as usize).clamp(100, 1000);
         let sine = |i: usize| (i as f64 + 0.5) / n as f64;
         let kernel: Vec<f64> = (0..n * n)
-            .into_par_iter()
             .map(|k| {
                 let (a, b) = (sine(k / n), sine(k % n));
                 let exponent = 0.5 * ((a - b) / spread).powi(2);

@@ -16,7 +16,7 @@ const ENOUGH: f64 = 1e-7;
 const PIECE: f64 = 0.25 * std::f64::consts::PI / 180.0;
 /// Layers asked, each for another direction: up to the first number every beam is followed, up to the second those of at
 /// least [`WEAK`]. Panes and cut panels need a handful; prisms make ever more directions of ever less light.
-const ASKED: [usize; 2] = [64, 400];
+const ASKED: [usize; 2] = [200, 600];
 /// See [`ASKED`].
 const WEAK: f64 = 1e-5;
 

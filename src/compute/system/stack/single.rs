@@ -8,18 +8,18 @@ use super::passage::{Arrival, Passage, Place, follow};
 use crate::compute::basis::{AzimuthMap, Resampling, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::middle;
-use crate::compute::system::measure::kept::Kept;
+use crate::compute::system::measure::kept::{Kept, Once};
 use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen};
 use std::f64::consts::PI;
-use std::sync::OnceLock;
 
-/// Light that reaches a layer from directions of which each brings little: so much of it, in all, is taken for absorbed.
+/// Light that reaches the layers from directions of which each brings little, and beams too many to be followed: so much
+/// of each, in all, is taken for absorbed.
 const NEGLECTED: f64 = 1e-4;
 
 /// What is found once for all directions.
 #[derive(Default)]
 pub(super) struct Singles {
-    flows: OnceLock<Flows>,
+    flows: Once<Flows>,
     emergent: Kept<Emergent>,
 }
 
@@ -50,7 +50,8 @@ impl Singles {
         cells: &RingBasis,
     ) -> ScatteredLight {
         let Passage { mut arrivals, left, .. } = follow(layers, name, side);
-        let mut error = drop_faint(&mut arrivals);
+        let faint = drop_faint(&mut arrivals);
+        let mut error = 0.0;
         // q on the cells asked for, and its names as light from `side`.
         let mut arising: Vec<(Place, Vec<f64>)> = Vec::new();
         let azimuth = cells.azimuth();
@@ -73,10 +74,12 @@ impl Singles {
                 }
             }
         }
-        if arising.is_empty() && left.is_empty() {
-            return ScatteredLight { error, ..ScatteredLight::default() };
+        let unfollowed: f64 = left.iter().map(|(_, beam)| beam.share).sum();
+        if arising.is_empty() && unfollowed <= NEGLECTED {
+            return ScatteredLight { error: error + unfollowed, ..ScatteredLight::default() };
         }
-        let flows = self.flows.get_or_init(|| Flows::new(layers));
+        error += faint;
+        let flows = self.flows.get(|| Flows::new(layers));
         let emergent = self.emergent.get(cells, || Emergent::new(cells, &flows.cells));
         let mut sources = Sources::dark(layers.len(), flows.cells.len());
         // What goes straight out, on the cells asked for; and the same on the coarse ones, to be taken from the whole.
