@@ -86,6 +86,32 @@ pub struct BandLight {
     pub illuminance: f64,
 }
 
+/// Where the sun's beams come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BeamSource {
+    /// There are none to be had: no sun, or nothing that keeps light together.
+    #[default]
+    None,
+    /// The description of the system, or a regular transmittance.
+    Described,
+    /// Taken out of data on cells.
+    Extracted,
+    /// Left on cells.
+    Cells,
+}
+
+impl BeamSource {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Described => "described",
+            Self::Extracted => "extracted",
+            Self::Cells => "cells",
+        }
+    }
+}
+
 /// Everything that an aperture emits.
 #[derive(Debug, Clone)]
 pub struct Emission {
@@ -103,6 +129,8 @@ pub struct Emission {
     pub incident_diffuse: Estimate,
     /// Illuminance of the outside face by the sun. \[lx\]
     pub incident_sun: f64,
+    /// Where the beams come from.
+    pub beam_source: BeamSource,
     /// How it was found where there was a choice, in sentences.
     pub notes: Vec<String>,
 }
@@ -121,9 +149,16 @@ impl Emission {
             beams: Vec::new(),
             incident_diffuse: Estimate::default(),
             incident_sun,
+            beam_source: BeamSource::None,
             notes: Vec::new(),
         };
         emission.beams.extend(BeamLight::regular(btdf.regular.as_ref(), facing));
+        emission.beam_source = match &btdf.scattered {
+            _ if sun_direction.is_none() => BeamSource::None,
+            _ if !emission.beams.is_empty() => BeamSource::Described,
+            None | Some(Scattered::Lambert(_)) => BeamSource::None,
+            Some(_) => BeamSource::Cells,
+        };
         match &btdf.scattered {
             None => {
                 emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum();
@@ -230,6 +265,16 @@ impl Emission {
             };
         }
         sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
+    }
+
+    /// What the data leave open of [`Self::exitance`]. \[lm/m²\]
+    pub fn exitance_doubt(&self) -> f64 {
+        let flux = |light: &CellLight, doubt: &Vec<f64>| -> f64 {
+            light.basis.cells().zip(doubt).map(|(cell, l)| cell.projected_solid_angle() * l).sum()
+        };
+        let on_cells = |light: &CellLight| light.doubts.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
+        let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.doubt).sum();
+        self.cells.iter().map(on_cells).sum::<f64>() + beams
     }
 
     /// As a luminous-intensity distribution (eq 5).

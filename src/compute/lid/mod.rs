@@ -4,10 +4,11 @@ mod beams;
 pub mod c_gamma;
 mod emission;
 mod interpolated;
+pub mod peaks;
 mod sun_through;
 
 pub use beams::BeamLight;
-pub use emission::{BandLight, CellLight, Emission, Facing};
+pub use emission::{BandLight, BeamSource, CellLight, Emission, Facing};
 pub use interpolated::Interpolator;
 pub use sun_through::{sun_beams, sun_cells};
 

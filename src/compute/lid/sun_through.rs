@@ -1,7 +1,7 @@
 //! The very sun through a system that answers for single directions: its beams as means over the disc, and what it
 //! scatters.
 
-use super::{BandLight, BeamLight, CellLight, Emission, Facing};
+use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::sky::SUN_HALF_ANGLE;
@@ -231,6 +231,7 @@ impl Emission {
         let flux: f64 = self.beams.iter().map(|beam| beam.exitance).sum();
         let straight: f64 = self.beams.iter().filter(|beam| beam.straight).map(|beam| beam.exitance).sum();
         if self.incident_sun > 0.0 {
+            self.beam_source = BeamSource::Described;
             let [flux, straight] = [flux, straight].map(|part| 100.0 * part / self.incident_sun);
             self.notes.push(format!(
                 "sun: by the description for this very direction; {straight:.2} % goes straight on, {:.2} % as turned beams",
