@@ -1,6 +1,7 @@
 //! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
+mod emission;
 pub(super) mod interreflected;
 pub(super) mod responses;
 
@@ -9,11 +10,12 @@ use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
+use super::system::VerySystem;
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::{CellMatrix, Dataset, Indicatrices, Scattered};
+use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::peaks::{self, Peaks};
-use crate::compute::lid::{BandLight, BeamSource, Emission, Facing, Interpolator, Lid};
+use crate::compute::lid::peaks::Peaks;
+use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SunThrough};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
@@ -115,6 +117,7 @@ pub struct Session {
     patches: Cache<PatchWeights>,
     bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
+    suns: Cache<(VerySystem, SunThrough)>,
     /// The data stay alive with them, so that no others can have their address.
     peaks: Cache<(Arc<Dataset>, Peaks)>,
 }
@@ -135,6 +138,7 @@ impl Session {
             patches: Cache::new(24),
             bands: Cache::new(16),
             interpolators: Cache::new(6),
+            suns: Cache::new(64),
             peaks: Cache::new(6),
         }
     }
@@ -150,72 +154,6 @@ impl Session {
             flux: emission.exitance(&facing) * geometry.area(),
             incident: (emission.incident_diffuse, emission.incident_sun),
         })
-    }
-
-    /// What an aperture emits under the scene's outside.
-    fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
-        let system = &scene.apertures[aperture].system;
-        let facing = scene.facing(aperture);
-        match system.very.as_ref().filter(|_| scene.beams) {
-            Some(very) => {
-                let mut emission = self.by_data(scene, &system.dataset, &Facing { sun: None, ..facing });
-                emission.add_sun_through(very.0.as_ref(), &facing);
-                emission
-            }
-            None => self.by_data(scene, &system.dataset, &facing),
-        }
-    }
-
-    /// What the data make of the outside.
-    fn by_data(&self, scene: &Scene, dataset: &Arc<Dataset>, facing: &Facing<'_>) -> Emission {
-        let btdf = dataset.transmission().expect("a resolved scene has only systems with transmission data");
-        match &btdf.scattered {
-            // Taken at their word.
-            _ if scene.interpolation == Interpolation::Patch => Emission::new(btdf, facing),
-            Some(Scattered::Directions(data)) => {
-                let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
-                Emission::interpolated(btdf, &self.interpolator(data), schemes, facing)
-            }
-            Some(Scattered::Cells(matrix)) => {
-                let mut emission = Emission::new(btdf, facing);
-                if emission.incident_sun > 0.0
-                    && let Some(peaks) = self.peaks(dataset, matrix, facing)
-                {
-                    emission.take_peaks(&peaks.1, facing, scene.beams);
-                }
-                emission
-            }
-            _ => Emission::new(btdf, facing),
-        }
-    }
-
-    /// The beams in a matrix.
-    fn peaks(
-        &self,
-        dataset: &Arc<Dataset>,
-        matrix: &CellMatrix,
-        facing: &Facing<'_>,
-    ) -> Option<Arc<(Arc<Dataset>, Peaks)>> {
-        let sun = facing.sun_direction()?;
-        let mut key = vec![Arc::as_ptr(dataset) as u64];
-        if matrix.incident().len() > peaks::MOST_CELLS {
-            key.extend(matrix.incident().index(sun).map(|cell| cell as u64));
-        }
-        let compute = || Ok::<_, std::convert::Infallible>((Arc::clone(dataset), Peaks::new(matrix, sun)));
-        match self.peaks.get(key, compute) {
-            Ok(own) => Some(own),
-            Err(never) => match never {},
-        }
-    }
-
-    /// What interpolation between the directions of a dataset needs.
-    pub(super) fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
-        let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
-        // The interpolator keeps the data alive, so that no others can have their address.
-        match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {
-            Ok(own) => own,
-            Err(never) => match never {},
-        }
     }
 
     /// Illuminance at every sensor.

@@ -4,62 +4,18 @@
 //! Linear data on cells (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
 //! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
 
+use super::Facing;
 use super::beams::BeamLight;
 use super::{EmergentLuminance, Lid, SunBeam};
 use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
-use crate::compute::direction::{Dir, Emergent, Facade, Incident, Orientation, Surface};
+use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::sun_disc::{self, Edge};
-use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
+use crate::compute::sky::{Frame, incident_illuminances};
 use crate::compute::system::measure::ProfileLight;
-use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Outside as one aperture faces it.
-#[derive(Debug, Clone, Copy)]
-pub struct Facing<'a> {
-    /// Sky, ground, skyline.
-    pub outside: &'a Outside,
-    /// The disc, if it shines at all.
-    pub sun: Option<&'a Sun>,
-    /// Turns the room to the compass.
-    pub orientation: Orientation,
-    /// The aperture's surface.
-    pub surface: Surface,
-}
-
-impl Facing<'_> {
-    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
-    pub fn luminance(&self, d: Dir<Facade>) -> f64 {
-        self.outside.luminance(self.orientation.world_from_room(self.surface.room_dir(d)))
-    }
-
-    /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
-    pub fn sun_direction(&self) -> Option<Dir<Facade>> {
-        self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
-    }
-
-    /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
-    /// the aperture's frame.
-    pub fn sun_edges(&self) -> [Edge; 2] {
-        let zenith = self.surface.facade_from_room(DVec3::Z);
-        let offset = self.outside.skyline_altitude().sin();
-        [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]
-    }
-
-    /// Illuminance of the aperture's outside by the sun's disc. \[lx\]
-    pub fn sun_illuminance(&self) -> f64 {
-        match (self.sun, self.sun_direction()) {
-            (Some(sun), Some(direction)) => {
-                sun.direct_normal * sun_disc::share(direction.vector(), DVec3::Z, self.sun_edges())
-            }
-            _ => 0.0,
-        }
-    }
-}
 
 /// Luminance on emergent cells, diffuse light and sun apart. \[cd/m²\]
 #[derive(Debug, Clone)]
