@@ -128,7 +128,11 @@ fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     };
     let dataset = |state: &package::PackageState| {
         let blob = package.datasets.get(&state.dataset).map(Vec::as_slice).unwrap_or_default();
-        dataset_blob::decode(blob).map_err(|e| error(format!("state {}: {e}", state.key), "a whole package (.cfsp)"))
+        let read = dataset_blob::decode(blob);
+        let mut dataset = read.map_err(|e| error(format!("state {}: {e}", state.key), "a whole package (.cfsp)"))?;
+        // Kept once, with the product.
+        dataset.described = system_toml::described(&product.system, &state.key);
+        Ok(dataset)
     };
     product.states.iter().map(dataset).collect()
 }

@@ -9,10 +9,10 @@ use crate::compute::system::measure::front_basis;
 use std::sync::Arc;
 
 /// Error allowed in the data that sky, ground and back reflection are computed with.
-pub(super) const ERROR: f64 = 0.005;
+pub const ERROR: f64 = 0.005;
 
 /// What data computed for a scene are asked to be.
-pub(super) fn request() -> Request {
+pub fn request() -> Request {
     let cells = front_basis();
     Request { incident: cells.clone(), emergent: cells, error: ERROR, seed: 1 }
 }

@@ -1,7 +1,7 @@
 //! The very sun through a system that answers for single directions: its beams as means over the disc, and what it
 //! scatters.
 
-use super::{BandLight, BeamLight, CellLight, Emission, Facing};
+use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::sky::SUN_HALF_ANGLE;
@@ -219,22 +219,40 @@ fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> 
     })
 }
 
+/// What a system makes of one very sun: worth keeping as long as the sun stays.
+pub struct SunThrough {
+    illuminance: f64,
+    beams: Vec<BeamLight>,
+    bands: Option<BandLight>,
+    cells: Option<CellLight>,
+}
+
+impl SunThrough {
+    /// Asks a system.
+    pub fn new(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
+        let bands = by_profile(specimen, facing);
+        let cells = if bands.is_none() { scattered(specimen, facing) } else { None };
+        Self { illuminance: facing.sun_illuminance(), beams: sun_beams(specimen, facing), bands, cells }
+    }
+}
+
 impl Emission {
     /// Adds what a system makes of the very sun. `self` is what it makes of the diffuse light alone.
-    pub fn add_sun_through(&mut self, specimen: &dyn Specimen, facing: &Facing<'_>) {
-        self.incident_sun = facing.sun_illuminance();
-        self.beams = sun_beams(specimen, facing);
-        self.bands = by_profile(specimen, facing);
-        if self.bands.is_none() {
-            self.cells.extend(scattered(specimen, facing));
-        }
-        let flux: f64 = self.beams.iter().map(|beam| beam.exitance).sum();
-        let straight: f64 = self.beams.iter().filter(|beam| beam.straight).map(|beam| beam.exitance).sum();
+    pub fn add_sun_through(&mut self, through: &SunThrough) {
+        self.incident_sun = through.illuminance;
+        self.beams.clone_from(&through.beams);
+        self.bands.clone_from(&through.bands);
+        self.cells.extend(through.cells.clone());
         if self.incident_sun > 0.0 {
-            let [flux, straight] = [flux, straight].map(|part| 100.0 * part / self.incident_sun);
+            self.beam_source = BeamSource::Described;
+            let of = |straight: bool| {
+                let beams = self.beams.iter().filter(|beam| beam.straight == straight);
+                100.0 * beams.map(|beam| beam.exitance).sum::<f64>() / self.incident_sun
+            };
             self.notes.push(format!(
-                "sun: by the description for this very direction; {straight:.2} % goes straight on, {:.2} % as turned beams",
-                flux - straight
+                "sun: by the description for this very direction; {:.2} % goes straight on, {:.2} % as turned beams",
+                of(true),
+                of(false)
             ));
         }
     }

@@ -79,7 +79,8 @@ impl<'a> BackReflection<'a> {
 type Mirrors<'a> = [(usize, BackReflection<'a>)];
 
 /// What goes to and fro between apertures and room, for one light: the luminance of every mirroring aperture once it has
-/// settled; `exitance` is brought up to date. [`settled_weights`] serves many lights.
+/// settled; `exitance` is brought up to date. `first`: what the patches receive before they reflect, without the mirrors'
+/// light; `beam`: what of it they reflected before, as seen by the mirrors alone. [`settled_weights`] serves many lights.
 pub fn settled_light(
     radiosity: &Radiosity,
     geometry: &[Aperture],
@@ -106,7 +107,7 @@ pub fn settled_light(
         let change = next.iter().zip(&returned).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         returned = next;
         let all: Vec<f64> = first.iter().zip(&returned).map(|(a, b)| a + b).collect();
-        *exitance = radiosity.exitance(&all, beam);
+        *exitance = radiosity.exitance(&all);
         if change <= 1e-9 * brightest {
             break;
         }
@@ -114,18 +115,32 @@ pub fn settled_light(
     luminances
 }
 
-/// [`settled_light`] read backwards. With l the luminances of all mirroring cells, W what the patches receive of them
-/// and Q what the room returns to them of a first illuminance e, l = Q (e + W l): the rows of (1 − Q W)⁻¹ Q, by patch.
-pub fn settled_weights(radiosity: &Radiosity, geometry: &[Aperture], mirrors: &Mirrors<'_>) -> Vec<Vec<f64>> {
+/// Weights of the luminances of all mirroring cells once they have settled, by patch.
+pub struct Settled {
+    /// Of what the patches receive before they reflect.
+    pub by_first: Vec<Vec<f64>>,
+    /// Of what they receive and throw on the mirrors before all else; what they throw elsewhere is counted elsewhere.
+    pub by_lit: Vec<Vec<f64>>,
+}
+
+/// [`settled_light`] read backwards. With l the luminances of all mirroring cells, W what the patches receive of them,
+/// P what falls back and is reflected of an exitance and Q what the room returns to them of a first illuminance e,
+/// l = Q (e + W l) + Pρ e_lit: the rows of (1 − Q W)⁻¹ Q and (1 − Q W)⁻¹ Pρ, by patch.
+pub fn settled_weights(radiosity: &Radiosity, geometry: &[Aperture], mirrors: &Mirrors<'_>) -> Settled {
     let mesh = &radiosity.nested.fine;
     let by_patch: Vec<Vec<f64>> =
         mirrors.iter().flat_map(|(index, mirror)| mirror.by_patch(mesh, &geometry[*index])).collect();
     let returned: Vec<Vec<f64>> = by_patch.par_iter().map(|weights| radiosity.adjoint_fine(weights)).collect();
     let again: Vec<Vec<f64>> = returned.par_iter().map(|row| gathered(mirrors, row)).collect();
     let (count, patches) = (returned.len(), mesh.patches.len());
-    let balance = Mat::from_fn(count, count, |i, j| f64::from(u8::from(i == j)) - again[i][j]);
-    let settled = balance.partial_piv_lu().solve(&Mat::from_fn(count, patches, |i, j| returned[i][j]));
-    (0..count).map(|i| (0..patches).map(|j| settled[(i, j)]).collect()).collect()
+    let balance = Mat::from_fn(count, count, |i, j| f64::from(u8::from(i == j)) - again[i][j]).partial_piv_lu();
+    let rows = |settled: Mat<f64>| -> Vec<Vec<f64>> {
+        (0..count).map(|i| (0..patches).map(|j| settled[(i, j)]).collect()).collect()
+    };
+    Settled {
+        by_first: rows(balance.solve(&Mat::from_fn(count, patches, |i, j| returned[i][j]))),
+        by_lit: rows(balance.solve(&Mat::from_fn(count, patches, |i, j| by_patch[i][j] * mesh.patches[j].reflectance))),
+    }
 }
 
 /// For weights of the patches' illuminance the weights of the luminances of all mirroring cells.

@@ -1,58 +1,154 @@
 //! The sun's unscattered beam on the surfaces of the room: parallel projection of the opening, exact areas.
 
 use super::aperture::Aperture;
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Wall};
+use super::outline::Outline;
 use crate::compute::polygon::{area, cut_by_all};
 use glam::{DVec2, DVec3};
 
-/// Where a beam lands.
-pub struct Landing {
-    /// Share of every patch's area that lies in the beam.
-    pub shares: Vec<f64>,
-    /// What of the beam is reflected at once, exactly: wall, lit outline in the wall's own coordinates, reflectance. The
-    /// reflectances of outlines that lie in each other add up.
-    pub outlines: Vec<(usize, Vec<DVec2>, f64)>,
+/// Light that crosses an aperture in one direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// The opening.
+    pub aperture: Aperture,
+    /// Unit vector against the light, room frame.
+    pub from: DVec3,
+    /// \[lm\]
+    pub flux: f64,
 }
 
-/// The beam through an aperture, direction given by the unit vector towards the sun (room frame). The disc's penumbra
-/// is left out: its mean over a patch is nil but at the edges.
-pub fn landing(mesh: &Mesh, aperture: &Aperture, sun: DVec3) -> Landing {
-    let mut landing = Landing { shares: vec![0.0; mesh.patches.len()], outlines: Vec::new() };
-    for (number, wall) in mesh.walls.iter().enumerate() {
-        let towards = wall.normal.dot(sun);
-        if towards <= 1e-9 {
-            continue;
-        }
-        let outline: Vec<DVec2> = aperture
-            .corners()
-            .iter()
-            .map(|&corner| {
+/// What of a beam lies on one wall.
+struct Lit {
+    wall: usize,
+    corners: Vec<DVec2>,
+    /// \[lx\]
+    illuminance: f64,
+}
+
+/// Beams of more directions than this through all apertures together are merged before the room reflects them.
+pub const MOST_BEAMS: usize = 24;
+
+impl Beam {
+    /// Where it lands, scaled to its flux. The disc's penumbra is left out: its mean over a patch is nil but at the edges.
+    fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
+        let mut lit = Vec::with_capacity(3);
+        let mut landed = 0.0;
+        for (number, wall) in mesh.walls.iter().enumerate() {
+            let towards = wall.normal.dot(self.from);
+            if towards <= 1e-9 {
+                continue;
+            }
+            let project = |corner: DVec3| {
                 let t = wall.normal.dot(corner - wall.point(0.0, 0.0)) / towards;
-                let hit = corner - sun * t;
+                let hit = corner - self.from * t;
                 DVec2::new(hit[wall.along[0]], hit[wall.along[1]])
-            })
-            .collect();
-        let patches = wall.first..wall.first + (wall.lines[0].len() - 1) * (wall.lines[1].len() - 1);
-        // The bare wall as a whole, then what apertures in it reflect more or less.
-        let bare = mesh.patches[patches.clone()].iter().find(|patch| patch.aperture.is_none());
-        let rho = bare.map_or(0.0, |patch| patch.reflectance);
-        let whole = [0, 1].map(|side| [wall.lines[side][0], wall.lines[side][wall.lines[side].len() - 1]]);
-        let lit = overlap(&outline, whole);
-        if lit.len() >= 3 && rho > 0.0 {
-            landing.outlines.push((number, lit, rho));
+            };
+            let whole = [0, 1].map(|side| [wall.lines[side][0], wall.lines[side][wall.lines[side].len() - 1]]);
+            let corners = overlap(&self.aperture.corners().map(project), whole);
+            if corners.len() >= 3 {
+                landed += area(&corners).abs() * towards;
+                lit.push(Lit { wall: number, corners, illuminance: towards });
+            }
         }
-        for i in patches {
-            let patch = &mesh.patches[i];
-            let lit = overlap(&outline, patch.extent);
-            if lit.len() >= 3 {
-                landing.shares[i] = area(&lit).abs() / patch.area;
-                if patch.reflectance != rho {
-                    landing.outlines.push((number, lit, patch.reflectance - rho));
+        let scale = if landed > 0.0 { self.flux / landed } else { 0.0 };
+        lit.iter_mut().for_each(|one| one.illuminance *= scale);
+        lit
+    }
+
+    /// What of it is reflected at once, exactly. The exitances of outlines that lie in each other add up.
+    pub fn outlines(&self, mesh: &Mesh) -> Vec<Outline> {
+        let mut outlines = Vec::with_capacity(4);
+        for Lit { wall: number, corners, illuminance } in self.lit(mesh) {
+            // The bare wall as a whole, then what apertures in it reflect more or less.
+            let wall = &mesh.walls[number];
+            let bare = mesh.patches[wall.patches()].iter().find(|patch| patch.aperture.is_none());
+            let rho = bare.map_or(0.0, |patch| patch.reflectance);
+            for (extent, reflectance) in set_in(mesh, wall).into_iter().filter(|(_, own)| *own != rho) {
+                let corners = overlap(&corners, extent);
+                if corners.len() >= 3 {
+                    outlines.push(Outline { wall: number, corners, exitance: (reflectance - rho) * illuminance });
+                }
+            }
+            if rho > 0.0 {
+                outlines.push(Outline { wall: number, corners, exitance: rho * illuminance });
+            }
+        }
+        outlines
+    }
+
+    /// Adds the mean illuminance of every patch. \[lx\]
+    pub fn add_to(&self, mesh: &Mesh, illuminance: &mut [f64]) {
+        for lit in self.lit(mesh) {
+            let wall = &mesh.walls[lit.wall];
+            let width = wall.lines[1].len() - 1;
+            let touched = [0, 1].map(|side| {
+                let [low, high] = limits(&lit.corners, side);
+                let lines = &wall.lines[side];
+                let from = lines.partition_point(|line| *line <= low).max(1) - 1;
+                from..lines.partition_point(|line| *line < high).min(lines.len() - 1)
+            });
+            for i in touched[0].clone() {
+                for at in touched[1].clone().map(|j| wall.first + i * width + j) {
+                    let patch = &mesh.patches[at];
+                    let part = overlap(&lit.corners, patch.extent);
+                    if part.len() >= 3 {
+                        illuminance[at] += lit.illuminance * area(&part).abs() / patch.area;
+                    }
                 }
             }
         }
     }
-    landing
+}
+
+/// Fewer beams of the same flux in about the same directions: those of a mirror's fan, whose patches nearly cover each
+/// other. Each aperture keeps several.
+pub fn merged(beams: &[Beam]) -> Vec<Beam> {
+    if beams.len() <= MOST_BEAMS {
+        return beams.to_vec();
+    }
+    let mut width: f64 = 0.005;
+    loop {
+        let mut groups: Vec<(Beam, DVec3)> = Vec::new();
+        for beam in beams {
+            let near = |(own, sum): &&mut (Beam, DVec3)| {
+                own.aperture == beam.aperture && sum.normalize_or_zero().distance(beam.from) < width
+            };
+            match groups.iter_mut().find(near) {
+                Some((own, sum)) => {
+                    own.flux += beam.flux;
+                    *sum += beam.flux * beam.from;
+                }
+                None => groups.push((*beam, beam.flux * beam.from)),
+            }
+        }
+        if groups.len() <= MOST_BEAMS || width > 0.2 {
+            return groups.into_iter().map(|(own, sum)| Beam { from: sum.normalize_or_zero(), ..own }).collect();
+        }
+        width *= 1.5;
+    }
+}
+
+/// The apertures in a wall: their limits in its coordinates, and what they reflect.
+fn set_in(mesh: &Mesh, wall: &Wall) -> Vec<([[f64; 2]; 2], f64)> {
+    let mut found: Vec<(usize, [[f64; 2]; 2], f64)> = Vec::new();
+    for patch in &mesh.patches[wall.patches()] {
+        let Some(number) = patch.aperture else { continue };
+        match found.iter_mut().find(|(own, ..)| *own == number) {
+            Some((_, extent, _)) => {
+                for (own, new) in extent.iter_mut().zip(patch.extent) {
+                    *own = [own[0].min(new[0]), own[1].max(new[1])];
+                }
+            }
+            None => found.push((number, patch.extent, patch.reflectance)),
+        }
+    }
+    found.into_iter().map(|(_, extent, reflectance)| (extent, reflectance)).collect()
+}
+
+/// From and to along one axis.
+fn limits(corners: &[DVec2], side: usize) -> [f64; 2] {
+    let along = corners.iter().map(|p| p[side]);
+    [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// A convex polygon inside a rectangle.
@@ -81,14 +177,19 @@ mod tests {
             let mesh = Nested::with_about(&room, &[aperture], &[0.0], 600).unwrap().fine;
             for sun in [DVec3::new(0.1, -0.8, 0.5), DVec3::new(-0.9, -0.2, 0.3), DVec3::new(0.7, -0.7, 0.05)] {
                 let sun = sun.normalize();
-                let landed: f64 = landing(&mesh, &aperture, sun)
-                    .shares
+                let beam = Beam { aperture, from: sun, flux: 100.0 };
+                let mut illuminance = vec![0.0; mesh.patches.len()];
+                beam.add_to(&mesh, &mut illuminance);
+                let landed: f64 = illuminance.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.area).sum();
+                assert!((landed / 100.0 - 1.0).abs() < 1e-9, "{sun}: {landed}");
+                // Unscaled it is the light that crosses the opening.
+                let found: f64 = beam
+                    .lit(&mesh)
                     .iter()
-                    .zip(&mesh.patches)
-                    .map(|(share, patch)| share * patch.area * mesh.walls[patch.wall].normal.dot(sun).max(0.0))
+                    .map(|lit| area(&lit.corners).abs() * mesh.walls[lit.wall].normal.dot(sun))
                     .sum();
                 let entered = aperture.area() * outward.dot(sun);
-                assert!((landed / entered - 1.0).abs() < 1e-9, "{sun}: {landed} {entered}");
+                assert!((found / entered - 1.0).abs() < 1e-9, "{sun}: {found} {entered}");
             }
         }
     }

@@ -1,10 +1,10 @@
 //! What every surface of the room receives directly from an aperture: the right-hand side of the interreflection.
 
 use super::aperture::{Aperture, View};
-use super::beam::landing;
+use super::beam::{Beam, merged};
 use super::direct::{Reception, Sensor};
-use super::gather::polygon_factor;
 use super::mesh::{Mesh, Patch, Wall};
+use super::outline::{Outline, thrown_on_patches};
 use super::radiosity::{Radiosity, dot};
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::btdf::AngularTransmittance;
@@ -13,7 +13,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::gauss_legendre;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -196,19 +196,35 @@ pub fn merged_basis() -> RingBasis {
 pub struct FirstLight {
     /// Sky, ground and scattered light.
     pub diffuse: Vec<f64>,
-    /// The sun's unscattered beam.
-    pub beam: Vec<f64>,
-    /// Outlines lit by the beam: wall, corners in the wall's own coordinates, and what is reflected there at once.
-    /// \[lm/m²\]
-    pub outlines: Vec<(usize, Vec<DVec2>, f64)>,
+    /// The sun's beams. What they light shines from exact outlines: [`BeamLanding`].
+    pub beams: Vec<Beam>,
     /// Largest relative gap between the flux that left and the flux that was found, before it was closed.
     pub gap: f64,
+}
+
+/// What the beams do in the room.
+pub struct BeamLanding {
+    /// What they light, and reflects at once.
+    pub outlines: Vec<Outline>,
+    /// Mean illuminance of every patch from these outlines: where the balance of the patches takes the beams up. \[lx\]
+    pub thrown: Vec<f64>,
+    /// Mean illuminance of every patch by the beams themselves, for what looks at patches. \[lx\]
+    pub direct: Vec<f64>,
+    /// Share of their flux that was closed.
+    pub gap: f64,
+}
+
+impl BeamLanding {
+    /// What a point gets from the first reflection. \[lx\]
+    pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
+        self.outlines.iter().map(|outline| outline.light_at(mesh, position, normal)).sum()
+    }
 }
 
 impl FirstLight {
     /// None.
     pub fn dark(patches: usize) -> Self {
-        Self { diffuse: vec![0.0; patches], beam: vec![0.0; patches], outlines: Vec::new(), gap: 0.0 }
+        Self { diffuse: vec![0.0; patches], beams: Vec::new(), gap: 0.0 }
     }
 
     /// Adds the light of one aperture.
@@ -247,36 +263,33 @@ impl FirstLight {
         if let Some(tau) = &emission.regular {
             self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
         }
-        emission.beams.iter().for_each(|beam| self.add_beam(mesh, aperture, beam));
+        emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam));
     }
 
     /// Adds a beam of the sun through one aperture.
-    pub fn add_beam(&mut self, mesh: &Mesh, aperture: &Aperture, beam: &BeamLight) {
-        if beam.to.vector().z <= 0.0 {
-            return;
-        }
-        let direction = aperture.surface.room_dir(beam.to).vector();
-        let flux = beam.exitance * aperture.area();
-        let landing = landing(mesh, aperture, direction);
-        let cosine = |i: usize| mesh.walls[mesh.patches[i].wall].normal.dot(direction).max(0.0);
-        let landed: f64 = landing.shares.iter().enumerate().map(|(i, s)| s * mesh.patches[i].area * cosine(i)).sum();
-        if landed > 0.0 {
-            let scale = flux / landed;
-            for (i, share) in landing.shares.iter().enumerate() {
-                self.beam[i] += share * scale * cosine(i);
-            }
-            let reflected = |wall: usize, rho: f64| rho * scale * mesh.walls[wall].normal.dot(direction);
-            self.outlines
-                .extend(landing.outlines.into_iter().map(|(wall, outline, rho)| (wall, outline, reflected(wall, rho))));
+    pub fn add_beam(&mut self, aperture: &Aperture, beam: &BeamLight) {
+        if beam.to.vector().z > 0.0 {
+            let from = aperture.surface.room_dir(beam.to).vector();
+            self.beams.push(Beam { aperture: *aperture, from, flux: beam.exitance * aperture.area() });
         }
     }
 
-    /// What a point gets from the beam's first reflection, by its exact outlines. \[lx\]
-    pub fn reflected_beam(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
-        let part = |(wall, outline, exitance): &(usize, Vec<DVec2>, f64)| {
-            exitance * polygon_factor(&mesh.walls[*wall], outline, position, normal)
+    /// Where the beams land; `None` without any.
+    pub fn landing(&self, mesh: &Mesh) -> Option<BeamLanding> {
+        if self.beams.is_empty() {
+            return None;
+        }
+        let outlines: Vec<Outline> = self.beams.iter().flat_map(|beam| beam.outlines(mesh)).collect();
+        let few = merged(&self.beams);
+        let mut direct = vec![0.0; mesh.patches.len()];
+        few.iter().for_each(|beam| beam.add_to(mesh, &mut direct));
+        // Points see every outline as it is; the patches, from which light is reflected on, see those of a fan together.
+        let (thrown, gap) = if few.len() < self.beams.len() {
+            thrown_on_patches(mesh, &few.iter().flat_map(|beam| beam.outlines(mesh)).collect::<Vec<_>>())
+        } else {
+            thrown_on_patches(mesh, &outlines)
         };
-        self.outlines.iter().map(part).sum()
+        Some(BeamLanding { outlines, thrown, direct, gap })
     }
 
     fn add_diffuse(&mut self, (part, gap): (Vec<f64>, f64)) {

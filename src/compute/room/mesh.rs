@@ -87,6 +87,11 @@ impl Wall {
         point[self.along[1]] = b;
         point
     }
+
+    /// The indices of its patches.
+    pub fn patches(&self) -> std::ops::Range<usize> {
+        self.first..self.first + (self.lines[0].len() - 1) * (self.lines[1].len() - 1)
+    }
 }
 
 impl Patch {
@@ -115,63 +120,76 @@ pub struct Nested {
 impl Nested {
     /// About `count` fine patches; `aperture_reflectance` of the room side of each aperture.
     ///
-    /// The borders of apertures are lines on all walls that share the axis. Where they alone cut a long room into
-    /// rows of more patches than asked for, the step grows until there are at most 2.5 `count`.
+    /// The borders of apertures are lines on all walls that share the axis, up to 2.5 `count` patches. Where that would
+    /// leave too few lines along the other axes (many strips), only the surface that holds an aperture keeps them.
     pub fn with_about(
         room: &BoxRoom,
         apertures: &[Aperture],
         aperture_reflectance: &[f64],
         count: usize,
     ) -> Result<Self, TooManyPatches> {
-        let segments = Segments::new(room, apertures);
+        let s = room.size;
+        let wanted = 0.8 * (2.0 * (s.x * s.y + s.y * s.z + s.z * s.x) / count as f64).sqrt();
+        let mut segments = Segments::new(room, apertures, Cuts::Everywhere);
+        let mut step = segments.step(wanted, (5 * count / 4).min(MOST_PATCHES));
+        if step > COARSENED * wanted {
+            // What the borders add to the bare room's patches is beside the count.
+            segments = Segments::new(room, apertures, Cuts::OwnSurface);
+            let bare = Segments::new(room, apertures, Cuts::None).step(wanted, (5 * count / 4).min(MOST_PATCHES));
+            step = segments.step(bare, (4 * count).min(MOST_PATCHES));
+        }
         let coarsest = segments.patches(f64::INFINITY);
         if coarsest > MOST_PATCHES {
             return Err(TooManyPatches { apertures: apertures.len(), patches: coarsest });
         }
-        let s = room.size;
-        let mut step = 0.8 * (2.0 * (s.x * s.y + s.y * s.z + s.z * s.x) / count as f64).sqrt();
-        let allowed = (5 * count / 4).min(MOST_PATCHES).max(coarsest);
-        while segments.patches(step) > allowed {
-            step *= 1.03;
-        }
         let [coarser, coarse, fine] =
-            segments.lines(step).map(|lines| Mesh::from_lines(room, apertures, aperture_reflectance, &lines));
+            segments.lines(step).map(|lines| Mesh::from_lines(room, apertures, aperture_reflectance, lines));
         let (coarse_of_fine, coarser_of_coarse) = (coarse.holders(&fine), coarser.holders(&coarse));
         Ok(Self { fine, coarse, coarser, coarse_of_fine, coarser_of_coarse })
     }
 }
 
+/// How much wider than wanted the steps may be for the sake of lines that run round the room.
+const COARSENED: f64 = 1.5;
+
+/// The six sides in the order that [`Mesh`] states: axis across, and whether at its far end.
+const SIDES: [(usize, bool); 6] = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
+
+/// The two axes along a side, rising: opposite walls then have theirs in the same order, as exchange areas need.
+const fn along(axis: usize) -> [usize; 2] {
+    [if axis == 0 { 1 } else { 0 }, if axis == 2 { 1 } else { 2 }]
+}
+
+/// Apertures are set into the ceiling (roof lights) and into the façade only.
+fn surface_of(side: usize) -> Option<Surface> {
+    match side {
+        1 => Some(Surface::Roof),
+        4 => Some(Surface::Facade),
+        _ => None,
+    }
+}
+
 impl Mesh {
-    /// Patches between given rising lines along x, y and z, which hold the apertures' borders.
+    /// Patches between given rising lines along both axes of every side, which hold the apertures' borders.
     pub fn from_lines(
         room: &BoxRoom,
         apertures: &[Aperture],
         aperture_reflectance: &[f64],
-        lines: &[Vec<f64>; 3],
+        lines: [[Vec<f64>; 2]; 6],
     ) -> Self {
-        // The order that `Mesh` states; `number` below counts in it.
-        let sides = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
         let mut mesh = Self { walls: Vec::with_capacity(6), patches: Vec::new() };
-        for (number, (axis, high)) in sides.into_iter().enumerate() {
-            // The two other axes, rising: opposite walls then have the same lines in the same order, as exchange areas
-            // need.
-            let along = [if axis == 0 { 1 } else { 0 }, if axis == 2 { 1 } else { 2 }];
+        for (number, ((axis, high), lines)) in SIDES.into_iter().zip(lines).enumerate() {
             let mut normal = DVec3::ZERO;
             normal[axis] = if high { -1.0 } else { 1.0 };
             let wall = Wall {
                 axis,
                 position: if high { room.size[axis] } else { 0.0 },
                 normal,
-                along,
-                lines: along.map(|a| lines[a].clone()),
+                along: along(axis),
+                lines,
                 first: mesh.patches.len(),
             };
-            // Apertures are set into the ceiling (roof lights) and into the façade only.
-            let surface = match number {
-                1 => Some(Surface::Roof),
-                4 => Some(Surface::Facade),
-                _ => None,
-            };
+            let surface = surface_of(number);
             let bare = match number {
                 0 => room.floor,
                 1 => room.ceiling,
@@ -220,9 +238,17 @@ fn holding_intervals(coarse: &[f64], fine: &[f64]) -> Vec<usize> {
     fine.windows(2).map(|pair| coarse.partition_point(|line| *line <= 0.5 * (pair[0] + pair[1])) - 1).collect()
 }
 
-/// The pieces between forced lines along x, y and z.
+/// Which sides the borders of an aperture are lines of.
+#[derive(Clone, Copy, PartialEq)]
+enum Cuts {
+    Everywhere,
+    OwnSurface,
+    None,
+}
+
+/// The pieces between forced lines along both axes of every side.
 struct Segments {
-    axes: [Axis; 3],
+    sides: [[Axis; 2]; 6],
 }
 
 /// One axis: forced lines, and how the step widens away from an end that holds apertures.
@@ -236,16 +262,7 @@ struct Axis {
 }
 
 impl Segments {
-    fn new(room: &BoxRoom, apertures: &[Aperture]) -> Self {
-        let mut cuts: [Vec<f64>; 3] = Default::default();
-        for aperture in apertures {
-            let corners = aperture.corners();
-            for (axis, cuts) in cuts.iter_mut().enumerate() {
-                if (corners[2][axis] - corners[0][axis]).abs() > 0.0 {
-                    cuts.extend([corners[0][axis], corners[2][axis]]);
-                }
-            }
-        }
+    fn new(room: &BoxRoom, apertures: &[Aperture], rule: Cuts) -> Self {
         // The first light falls off over the aperture's own width.
         let near = |surface: Surface, length: f64| {
             apertures
@@ -254,27 +271,47 @@ impl Segments {
                 .map(|aperture| (0.7 * aperture.area().sqrt()).max(0.1 * length))
                 .min_by(f64::total_cmp)
         };
-        let axes = [0, 1, 2].map(|axis| {
+        let axis = |side: usize, axis: usize| {
+            let cuts = apertures
+                .iter()
+                .filter(|aperture| match rule {
+                    Cuts::Everywhere => true,
+                    Cuts::OwnSurface => surface_of(side) == Some(aperture.surface),
+                    Cuts::None => false,
+                })
+                .map(|aperture| aperture.corners())
+                .filter(|corners| (corners[2][axis] - corners[0][axis]).abs() > 0.0)
+                .flat_map(|corners| [corners[0][axis], corners[2][axis]]);
             let length = room.size[axis];
             let (near, reversed) = match axis {
                 1 => (near(Surface::Facade, length), false),
                 2 => (near(Surface::Roof, length), true),
                 _ => (None, false),
             };
-            Axis { cuts: forced_lines(length, &mut cuts[axis]), length, near, reversed }
-        });
-        Self { axes }
+            Axis { cuts: forced_lines(length, cuts.collect()), length, near, reversed }
+        };
+        Self { sides: std::array::from_fn(|side| along(SIDES[side].0).map(|a| axis(side, a))) }
     }
 
     /// Number of fine patches at a step.
     fn patches(&self, step: f64) -> usize {
-        let [x, y, z] = [0, 1, 2].map(|a| self.axes[a].parts(step).iter().sum::<usize>());
-        2 * (x * y + y * z + z * x)
+        let on = |axis: &Axis| axis.parts(step).iter().sum::<usize>();
+        self.sides.iter().map(|[a, b]| on(a) * on(b)).sum()
+    }
+
+    /// The step, from `wanted` on, that makes at most so many patches, or as few as the cuts alone.
+    fn step(&self, wanted: f64, allowed: usize) -> f64 {
+        let allowed = allowed.max(self.patches(f64::INFINITY));
+        let mut step = wanted;
+        while self.patches(step) > allowed {
+            step *= 1.03;
+        }
+        step
     }
 
     /// Lines of the three densities, coarsest first.
-    fn lines(&self, step: f64) -> [[Vec<f64>; 3]; 3] {
-        [4, 2, 1].map(|every| [0, 1, 2].map(|a| self.axes[a].lines(step, every)))
+    fn lines(&self, step: f64) -> [[[Vec<f64>; 2]; 6]; 3] {
+        [4, 2, 1].map(|every| self.sides.each_ref().map(|side| side.each_ref().map(|axis| axis.lines(step, every))))
     }
 }
 
@@ -338,11 +375,11 @@ impl Axis {
 
 /// 0, the apertures' borders, and the length. Borders closer than rounding to each other or to the ends are the same
 /// line.
-fn forced_lines(length: f64, cuts: &mut Vec<f64>) -> Vec<f64> {
+fn forced_lines(length: f64, mut cuts: Vec<f64>) -> Vec<f64> {
     let slack = 1e-9 * length;
     cuts.retain(|c| *c > slack && *c < length - slack);
     cuts.extend([0.0, length]);
     cuts.sort_unstable_by(f64::total_cmp);
     cuts.dedup_by(|b, a| *b - *a < slack);
-    std::mem::take(cuts)
+    cuts
 }

@@ -12,5 +12,6 @@ pub mod form_factor;
 pub mod gather;
 pub mod mesh;
 pub mod near_field;
+pub mod outline;
 pub mod radiosity;
 pub mod through;

@@ -80,21 +80,16 @@ impl Radiosity {
         Ok(Self { nested, level, coarser })
     }
 
-    /// Exitance of every patch from the first illuminance E₀ of the fine ones, with `apart` of that left out of the first
-    /// reflection (but not of the following ones).
-    pub fn exitance(&self, first: &[f64], apart: &[f64]) -> Exitance {
-        let reflected = |level: &MeshBalance, mesh: &Mesh, first: &[f64], apart: &[f64]| -> Vec<f64> {
+    /// Exitance of every patch from the first illuminance E₀ of the fine ones.
+    pub fn exitance(&self, first: &[f64]) -> Exitance {
+        let reflected = |level: &MeshBalance, mesh: &Mesh, first: &[f64]| -> Vec<f64> {
             let after = level.after_reflection(mesh, first);
-            mesh.patches
-                .iter()
-                .enumerate()
-                .map(|(i, patch)| patch.reflectance * (first[i] - apart[i] + after[i]))
-                .collect()
+            let received = first.iter().zip(after).map(|(e, r)| e + r);
+            mesh.patches.iter().zip(received).map(|(patch, e)| patch.reflectance * e).collect()
         };
-        let mean = |values: &[f64]| self.level.means(&self.nested.fine, values);
         Exitance {
-            fine: reflected(&self.level, &self.nested.fine, first, apart),
-            coarse: reflected(&self.coarser, &self.nested.coarse, &mean(first), &mean(apart)),
+            fine: reflected(&self.level, &self.nested.fine, first),
+            coarse: reflected(&self.coarser, &self.nested.coarse, &self.level.means(&self.nested.fine, first)),
         }
     }
 
@@ -108,11 +103,6 @@ impl Radiosity {
     /// the fine patches.
     pub fn adjoint_coarse(&self, gather: &[f64]) -> Vec<f64> {
         self.level.spread(&self.nested.fine, &self.coarser.adjoint(&self.nested.coarse, gather))
-    }
-
-    /// What the coarse patches' weights are on the fine ones, when every coarse value is the mean of the fine ones.
-    pub fn spread(&self, coarse: &[f64]) -> Vec<f64> {
-        self.level.spread(&self.nested.fine, coarse)
     }
 
     /// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection.
@@ -312,7 +302,7 @@ mod tests {
         for rho in [0.3, 0.9, 0.99, 0.999] {
             let radiosity = radiosity(&room(rho), &[window()], rho, 500);
             let patches = radiosity.nested.fine.patches.len();
-            let exitance = radiosity.exitance(&vec![100.0; patches], &vec![0.0; patches]);
+            let exitance = radiosity.exitance(&vec![100.0; patches]);
             for b in exitance.fine.iter().chain(&exitance.coarse) {
                 assert!((b / rho * (1.0 - rho) / 100.0 - 1.0).abs() < 1e-8, "{rho}: {b}");
             }
@@ -334,7 +324,7 @@ mod tests {
         let (fine, coarse) = (radiosity.nested.fine.patches.len(), radiosity.nested.coarse.patches.len());
         for seed in 1..4 {
             let first = noise(fine, seed);
-            let exitance = radiosity.exitance(&first, &vec![0.0; fine]);
+            let exitance = radiosity.exitance(&first);
             let (a, b) = (noise(fine, seed + 10), noise(coarse, seed + 20));
             for (forwards, backwards) in [
                 (dot(&a, &exitance.fine), dot(&radiosity.adjoint_fine(&a), &first)),
@@ -351,7 +341,7 @@ mod tests {
             let radiosity = radiosity(&room(rho), &[window()], 0.2, 700);
             let mut first = radiosity.illuminance_from_aperture(0);
             first.iter_mut().for_each(|e| *e *= 1000.0);
-            let exitance = radiosity.exitance(&first, &vec![0.0; first.len()]);
+            let exitance = radiosity.exitance(&first);
             let absorbed: f64 = radiosity
                 .nested
                 .fine
@@ -369,7 +359,7 @@ mod tests {
         let mirror = BoxRoom { floor: 0.5, ..room(1.0) };
         let radiosity = radiosity(&mirror, &[], 0.0, 400);
         let patches = &radiosity.nested.fine.patches;
-        let exitance = radiosity.exitance(&vec![1.0; patches.len()], &vec![0.0; patches.len()]);
+        let exitance = radiosity.exitance(&vec![1.0; patches.len()]);
         let floor: f64 = patches.iter().zip(&exitance.fine).filter(|(p, _)| p.wall == 0).map(|(p, b)| p.area * b).sum();
         // All that enters, 1 lm/m² on every surface, ends in the floor, which absorbs as much as it emits.
         let entered: f64 = patches.iter().map(|patch| patch.area).sum();

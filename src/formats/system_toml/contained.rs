@@ -3,62 +3,12 @@
 //! `layers = [{ system = { name = "…", kind = "venetian", venetian = { … } }, state = "45" }, …]`. Such a text means the
 //! same wherever it goes, so that it can go with data; [`self_contained`] makes it from one that names files.
 
-use super::checks::wrong;
-use super::{EACH_STATE, Layer, LayerSource, SystemKind, keys, read};
+use super::layers::EACH_STATE;
+use super::read;
 use crate::compute::btdf::DescribedState;
-use crate::formats::location::{FormatError, Location};
+use crate::compute::system::SystemKind;
+use crate::compute::system::stack::LayerSource;
 use toml::{Table, Value};
-
-/// Stacks within stacks, at most.
-pub const MOST_NESTED: usize = 4;
-
-/// The layers of a stack as they are named.
-pub(super) fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
-    if !(1..=10).contains(&stack.layers.len()) {
-        return wrong("stack.layers", format!("{} layers", stack.layers.len()), "1 to 10, outside first");
-    }
-    if stack.layers.iter().filter(|layer| layer.state == EACH_STATE).count() > 1 {
-        return wrong("stack.layers", "state = \"each\" in several layers", "one moving layer at most");
-    }
-    let layer = |(k, layer): (usize, &keys::Layer)| {
-        let key = format!("stack.layers[{k}]");
-        let source = match (&layer.file, &layer.catalogue, &layer.system) {
-            (Some(file), None, None) => LayerSource::File(file.clone()),
-            (None, Some(key), None) => LayerSource::Catalogue(key.clone()),
-            (None, None, Some(system)) => LayerSource::Text(own_text(&format!("{key}.system"), system)?),
-            _ => return wrong(&key, "not one of file, catalogue and system", "file, catalogue or system"),
-        };
-        Ok(Layer { source, state: layer.state.clone() })
-    };
-    stack.layers.iter().enumerate().map(layer).collect()
-}
-
-/// The text of a layer's own description, which is read once to tell what is wrong with it.
-fn own_text(key: &str, system: &Table) -> Result<String, FormatError> {
-    if nested(system) >= MOST_NESTED {
-        return wrong(key, "stacks within stacks within stacks", format!("at most {MOST_NESTED} of them"));
-    }
-    let text = toml::to_string(system).map_err(|error| {
-        FormatError::new(Location::file().in_element(key), error.to_string(), "the keys of a system file")
-    })?;
-    read(text.as_bytes()).map_err(|error| {
-        // Its lines are not those of the file; its keys are.
-        let inner = error.at.element.map(|inner| format!(".{inner}")).unwrap_or_default();
-        FormatError::new(Location::file().in_element(format!("{key}{inner}")), error.found, error.expected)
-    })?;
-    Ok(text)
-}
-
-fn layers_of(system: &Table) -> Option<&Vec<Value>> {
-    system.get("stack")?.get("layers")?.as_array()
-}
-
-/// How many stacks stand one in the other.
-fn nested(system: &Table) -> usize {
-    let Some(layers) = layers_of(system) else { return 0 };
-    let inner = layers.iter().filter_map(|layer| layer.get("system")?.as_table());
-    1 + inner.map(nested).max().unwrap_or(0)
-}
 
 /// A description with all its layers in it. `find` gives the text of a layer that is named, self-contained itself;
 /// `None` where it is measured data or is not found. What needs no other file comes back as it was written.
@@ -114,6 +64,7 @@ pub fn described(text: &str, state: &str) -> Option<DescribedState> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::layers::MOST_NESTED;
     use super::*;
 
     const BLIND: &str = "name = \"Blind\"\nkind = \"venetian\"\nupright = true\n[venetian]\nwidth = 0.08\nspacing = 0.072\n\

@@ -4,10 +4,10 @@ use super::Coefficients;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::direct::beams_through;
-use crate::compute::room::first_bounce::FirstLight;
-use crate::compute::room::radiosity::dot;
+use crate::compute::room::first_bounce::{BeamLanding, FirstLight};
 use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
+use crate::study::session::responses::Responses;
 
 impl Coefficients {
     /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
@@ -22,11 +22,10 @@ impl Coefficients {
             part.transport.sun(direction, sensors, &mut sums, illuminance);
             add_beam(self, index, &facing, &mut first, &mut sums);
         }
-        if let (Some(room), Some(first)) = (&self.room, first.filter(|first| !first.outlines.is_empty())) {
+        if let Some((room, landing)) = landing(self, first) {
             let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
             for (s, response) in room.sensors.iter().enumerate() {
-                sums[s] += dot(&response.value, &first.beam) - dot(&response.apart, &first.beam)
-                    + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
+                sums[s] += response.of_beams(&landing) + landing.light_at(mesh, sensors[s].position, sensors[s].normal);
             }
         }
         sums.iter_mut().for_each(|e| *e = e.max(0.0));
@@ -55,12 +54,15 @@ impl Coefficients {
             }
             add_beam(self, index, &facing, &mut first, &mut own);
         }
-        if let (Some(room), Some(first)) = (&self.room, first.filter(|first| !first.outlines.is_empty())) {
+        if let Some((room, landing)) = landing(self, first) {
             let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
+            let rest = self.rest().hypot(landing.gap);
             for (s, response) in room.sensors.iter().enumerate() {
-                let (value, difference, thrown_back) = response.of(&first.beam, &first.beam);
-                let value = value + first.reflected_beam(mesh, sensors[s].position, sensors[s].normal);
-                estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(self.rest() * value) + UNEVEN * thrown_back;
+                let (through_patches, difference, thrown_back) = response.of(&landing.thrown);
+                let again = response.of_beams(&landing);
+                let thrown_back = thrown_back + (again - through_patches);
+                let value = again + landing.light_at(mesh, sensors[s].position, sensors[s].normal);
+                estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(rest * value) + UNEVEN * thrown_back;
             }
         }
         estimates.iter_mut().for_each(|e| e.error += 1e-6 * e.value);
@@ -72,6 +74,12 @@ fn dark(all: &Coefficients) -> Option<FirstLight> {
     all.room.as_ref().map(|room| FirstLight::dark(room.radiosity.nested.fine.patches.len()))
 }
 
+/// Where the beams land in a room that reflects them.
+fn landing(all: &Coefficients, first: Option<FirstLight>) -> Option<(&Responses, BeamLanding)> {
+    let room = all.room.as_ref()?;
+    Some((room, first?.landing(&room.radiosity.nested.fine)?))
+}
+
 /// The unscattered sun through one aperture: at the sensors, and on the surfaces.
 fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut Option<FirstLight>, sums: &mut [f64]) {
     let Some(beam) = BeamLight::regular(all.parts[index].regular.as_ref(), facing) else { return };
@@ -79,7 +87,7 @@ fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut O
     for (sum, sensor) in sums.iter_mut().zip(&all.scene.sensors) {
         *sum += beams_through(sensor, aperture, &[beam], facing).beam;
     }
-    if let (Some(first), Some(room)) = (first, &all.room) {
-        first.add_beam(&room.radiosity.nested.fine, aperture, &beam);
+    if let Some(first) = first {
+        first.add_beam(aperture, &beam);
     }
 }

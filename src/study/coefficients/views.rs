@@ -125,7 +125,7 @@ impl Views {
 fn doubt(response: &Response, gather: &dyn Fn(&[f64]) -> Vec<f64>, cells: usize) -> Vec<f64> {
     let mut squares = vec![0.0; cells];
     for wall in &response.walls {
-        squares.iter_mut().zip(gather(&wall.value)).for_each(|(sum, x)| *sum += x * x);
+        squares.iter_mut().zip(gather(wall)).for_each(|(sum, x)| *sum += x * x);
     }
     let mut doubt: Vec<f64> = squares.iter().map(|x| DIFFERENCE_ALONE * x.sqrt()).collect();
     if !response.thrown_back.is_empty() {
@@ -149,9 +149,8 @@ pub(super) fn even(
     if let Some(room) = room {
         let mut first = room.radiosity.illuminance_from_aperture(index);
         first.iter_mut().for_each(|e| *e *= std::f64::consts::PI);
-        let none = vec![0.0; first.len()];
         for (s, response) in room.sensors.iter().enumerate() {
-            let (value, difference, thrown_back) = response.of(&first, &none);
+            let (value, difference, thrown_back) = response.of(&first);
             light[s] += value;
             light[sensors + s] = value;
             light[2 * sensors + s] = DIFFERENCE_ALONE * difference + UNEVEN * thrown_back;

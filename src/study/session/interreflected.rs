@@ -8,7 +8,7 @@ use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::{BackReflection, settled_light};
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
 use crate::compute::room::gather::{Reconstruction, reconstruct};
-use crate::compute::room::mesh::{Mesh, Nested};
+use crate::compute::room::mesh::{Mesh, Nested, Wall};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::{Key, bits};
 use crate::study::error::StudyError;
@@ -146,14 +146,21 @@ impl Session {
             first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
         }
         check(progress)?;
-        let all: Vec<f64> = first.diffuse.iter().zip(&first.beam).map(|(d, b)| d + b).collect();
-        // The beam's first reflection comes from sharp outlines, and has a closed form at every sensor.
-        let mut exitance = radiosity.exitance(&all, &first.beam);
+        // What the beams light reflects as the sharp outlines that they are, to sensors and patches; the balance begins
+        // with what these receive.
+        let landing = first.landing(mesh);
+        let gap = landing.as_ref().map_or(0.0, |landing| landing.gap).max(first.gap);
+        let mut all = first.diffuse;
+        if let Some(landing) = &landing {
+            all.iter_mut().zip(&landing.thrown).for_each(|(sum, e)| *sum += e);
+        }
+        let mut exitance = radiosity.exitance(&all);
         let mut thrown_back = vec![0.0; scene.sensors.len()];
         let mirrors = mirrors(scene, weights);
         if !mirrors.is_empty() {
             check(progress)?;
-            let luminances = settled_light(&radiosity, &geometry, &mirrors, &all, &first.beam, &mut exitance);
+            let lit = landing.as_ref().map_or_else(|| vec![0.0; all.len()], |landing| landing.direct.clone());
+            let luminances = settled_light(&radiosity, &geometry, &mirrors, &all, &lit, &mut exitance);
             for ((index, mirror), luminance) in mirrors.iter().zip(luminances) {
                 let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
                 for (sum, reception) in thrown_back.iter_mut().zip(receptions.iter()) {
@@ -174,7 +181,8 @@ impl Session {
             .zip(gather.par_iter())
             .zip(thrown_back.par_iter())
             .map(|((sensor, [fine, coarse]), thrown_back)| {
-                let outlines = first.reflected_beam(mesh, sensor.position, sensor.normal);
+                let outlines =
+                    landing.as_ref().map_or(0.0, |landing| landing.light_at(mesh, sensor.position, sensor.normal));
                 let (mut value, mut difference, mut squares) = (0.0, 0.0, 0.0_f64);
                 for (a, b) in spans(mesh).into_iter().zip(spans(&radiosity.nested.coarse)) {
                     let by_fine = dot(&fine.weights[a.clone()], &exitance.fine[a]);
@@ -184,7 +192,7 @@ impl Session {
                     squares += (by_fine - by_coarse).powi(2);
                 }
                 let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
-                let rest = (REST / mesh.patches.len() as f64).hypot(first.gap) * value;
+                let rest = (REST / mesh.patches.len() as f64).hypot(gap) * value;
                 let near = NEAR * dot(&fine.slopes, &exitance.fine);
                 Estimate::new(
                     value,
@@ -194,7 +202,7 @@ impl Session {
                 )
             })
             .collect();
-        Ok((estimates, first.gap))
+        Ok((estimates, gap))
     }
 }
 
@@ -224,6 +232,5 @@ pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
 
 /// The patches of every wall.
 pub(super) fn spans(mesh: &Mesh) -> Vec<std::ops::Range<usize>> {
-    let firsts: Vec<usize> = mesh.walls.iter().map(|wall| wall.first).chain([mesh.patches.len()]).collect();
-    firsts.windows(2).map(|pair| pair[0]..pair[1]).collect()
+    mesh.walls.iter().map(Wall::patches).collect()
 }

@@ -6,8 +6,8 @@ use super::{Session, check};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
 use crate::compute::room::aperture::Aperture;
-use crate::compute::room::back_reflection::{BackReflection, gathered, settled_weights};
-use crate::compute::room::first_bounce::PatchWeights;
+use crate::compute::room::back_reflection::{BackReflection, Settled, gathered, settled_weights};
+use crate::compute::room::first_bounce::{BeamLanding, PatchWeights};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
@@ -19,20 +19,12 @@ use std::sync::Arc;
 pub(in crate::study) struct Response {
     /// Of all first illuminance. \[lx per lx\]
     pub value: Vec<f64>,
-    /// Of that part of the first illuminance whose first reflection is counted elsewhere: what is to be taken away.
-    pub apart: Vec<f64>,
-    /// Difference of the two densities, wall by wall.
-    pub walls: Vec<Wall>,
+    /// The difference of the two densities, wall by wall.
+    pub walls: Vec<Vec<f64>>,
     /// Of what comes back from apertures that reflect by direction; empty without such.
     pub thrown_back: Vec<f64>,
-}
-
-/// Fine less coarse on one wall.
-pub(in crate::study) struct Wall {
-    /// Of all first illuminance.
-    pub value: Vec<f64>,
-    /// Of the part counted elsewhere.
-    pub apart: Vec<f64>,
+    /// Of what beams light, as far as these apertures alone throw it back; empty without such.
+    pub lit: Vec<f64>,
 }
 
 /// Weights of all sensors.
@@ -87,7 +79,7 @@ impl Session {
         check(progress)?;
         // Solved once for all sensors and lights: the matrix is only as large as the mirroring cells are many.
         let settled = settled_weights(&responses.radiosity, &responses.geometry, &mirrors);
-        let mut seen = vec![Vec::with_capacity(settled.len()); scene.sensors.len()];
+        let mut seen = vec![Vec::with_capacity(settled.by_first.len()); scene.sensors.len()];
         for (index, mirror) in &mirrors {
             // Straight to the sensor as well: a mirror is seen, and not only what it lights.
             let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
@@ -114,9 +106,9 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
     let (mesh, coarser) = (&radiosity.nested.fine, &radiosity.nested.coarse);
     let mut response = Response {
         value: vec![0.0; fine.len()],
-        apart: vec![0.0; fine.len()],
         walls: Vec::with_capacity(6),
         thrown_back: Vec::new(),
+        lit: Vec::new(),
     };
     for (a, b) in spans(mesh).into_iter().zip(spans(coarser)) {
         if fine[a.clone()].iter().chain(&coarse[b.clone()]).all(|w| *w == 0.0) {
@@ -127,45 +119,47 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
             own[range.clone()].copy_from_slice(&weights[range]);
             own
         };
-        let (by_fine, by_coarse) = (only(fine, a), only(coarse, b));
-        let value = [radiosity.adjoint_fine(&by_fine), radiosity.adjoint_coarse(&by_coarse)];
-        let once: Vec<f64> = by_coarse.iter().zip(&coarser.patches).map(|(w, p)| w * p.reflectance).collect();
-        let apart =
-            [by_fine.iter().zip(&mesh.patches).map(|(w, p)| w * p.reflectance).collect(), radiosity.spread(&once)];
+        let by_fine = radiosity.adjoint_fine(&only(fine, a));
+        let by_coarse = radiosity.adjoint_coarse(&only(coarse, b));
         // As the extrapolation of the two densities: fine + (fine − coarse)/3.
-        let add = |sum: &mut [f64], [fine, coarse]: &[Vec<f64>; 2]| {
-            sum.iter_mut().zip(fine.iter().zip(coarse)).for_each(|(s, (f, c))| *s += f + (f - c) / 3.0);
-        };
-        add(&mut response.value, &value);
-        add(&mut response.apart, &apart);
-        let less = |[fine, coarse]: &[Vec<f64>; 2]| fine.iter().zip(coarse).map(|(f, c)| f - c).collect();
-        response.walls.push(Wall { value: less(&value), apart: less(&apart) });
+        let difference: Vec<f64> = by_fine.iter().zip(&by_coarse).map(|(f, c)| f - c).collect();
+        for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
+            *sum += f + d / 3.0;
+        }
+        response.walls.push(difference);
     }
     response
 }
 
 impl Response {
     /// The step of [`Session::add_mirrors`] at one sensor; `seen`: what it sees of every mirroring cell itself.
-    fn add_thrown_back(&mut self, mirrors: &[(usize, BackReflection<'_>)], settled: &[Vec<f64>], seen: &[f64]) {
+    fn add_thrown_back(&mut self, mirrors: &[(usize, BackReflection<'_>)], settled: &Settled, seen: &[f64]) {
         let add = |to: &mut Vec<f64>, part: &[f64]| to.iter_mut().zip(part).for_each(|(sum, x)| *sum += x);
-        let back = through(settled, &gathered(mirrors, &self.value));
+        let own = gathered(mirrors, &self.value);
+        let back = through(&settled.by_first, &own);
         add(&mut self.value, &back);
         // Kept by itself too: that an aperture is not evenly lit puts this part in doubt, and no other.
-        self.thrown_back = through(settled, seen);
+        self.thrown_back = through(&settled.by_first, seen);
         add(&mut self.value, &self.thrown_back);
-        // The part counted elsewhere is left alone: mirrors have their share of all first illuminance in the value.
+        let all: Vec<f64> = own.iter().zip(seen).map(|(a, r)| a + r).collect();
+        self.lit = through(&settled.by_lit, &all);
         for wall in &mut self.walls {
-            let back = through(settled, &gathered(mirrors, &wall.value));
-            add(&mut wall.value, &back);
+            let back = through(&settled.by_first, &gathered(mirrors, wall));
+            add(wall, &back);
         }
     }
 
-    /// Of a first illuminance of which `beam` is reflected elsewhere at first: value, and what the two densities differ by
-    /// together with what comes back from apertures.
-    pub fn of(&self, first: &[f64], beam: &[f64]) -> (f64, f64, f64) {
-        let squares: f64 =
-            self.walls.iter().map(|wall| (dot(&wall.value, first) - dot(&wall.apart, beam)).powi(2)).sum();
+    /// Of a first illuminance: value, what the two densities differ by, and what comes back from apertures.
+    pub fn of(&self, first: &[f64]) -> (f64, f64, f64) {
+        let squares: f64 = self.walls.iter().map(|wall| dot(wall, first).powi(2)).sum();
         let thrown_back = if self.thrown_back.is_empty() { 0.0 } else { dot(&self.thrown_back, first) };
-        (dot(&self.value, first) - dot(&self.apart, beam), squares.sqrt(), thrown_back)
+        (dot(&self.value, first), squares.sqrt(), thrown_back)
+    }
+
+    /// What beams give after they were reflected: through patches, and by way of apertures that reflect by direction. The
+    /// outlines that they light are left to the caller.
+    pub fn of_beams(&self, landing: &BeamLanding) -> f64 {
+        let back = if self.lit.is_empty() { 0.0 } else { dot(&self.lit, &landing.direct) };
+        dot(&self.value, &landing.thrown) + back
     }
 }

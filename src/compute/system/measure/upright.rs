@@ -1,6 +1,6 @@
 //! A system turned by 90° about the normal: vertical louvres from a description of horizontal ones.
 
-use super::{Beam, Measured, ScatteredLight, Setting, Side, Specimen};
+use super::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -20,6 +20,16 @@ impl Specimen for Upright {
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let back = |beam: Beam| Beam { names: beam.names.map(from_described), ..beam };
         self.0.beams(to_described(name), side).into_iter().map(back).collect()
+    }
+
+    fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
+        self.0.straight(to_described(name), side)
+    }
+
+    fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
+        // Turned twice it would stand on its head.
+        let light = self.0.profile_light(to_described(name), side).filter(|light| !light.upright)?;
+        Some(ProfileLight { upright: true, ..light })
     }
 
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
