@@ -17,10 +17,11 @@ use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress, Silent};
 use crate::compute::sequence::recurrence;
+use crate::compute::system::measure::kept::{Kept, Once};
 use crate::compute::system::measure::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 /// Slats with what has been solved of them.
 pub struct SlatSpecimen {
@@ -29,9 +30,8 @@ pub struct SlatSpecimen {
     /// For beams, and for what matt faces send on.
     mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
-    solved: OnceLock<Solved>,
-    /// Of the cells asked for last.
-    weights: Mutex<Option<(RingBasis, Arc<ProfileWeights>)>>,
+    solved: Once<Solved>,
+    weights: Kept<ProfileWeights>,
 }
 
 /// Transport and balance of the section.
@@ -60,8 +60,8 @@ impl SlatSpecimen {
             direct,
             mirrors: OnceLock::new(),
             section: OnceLock::new(),
-            solved: OnceLock::new(),
-            weights: Mutex::new(None),
+            solved: Once::default(),
+            weights: Kept::default(),
         }
     }
 
@@ -79,7 +79,7 @@ impl SlatSpecimen {
     }
 
     fn solved(&self) -> &Solved {
-        self.solved.get_or_init(|| {
+        self.solved.get(|| {
             let grid = ProfileGrid::new(STEP);
             let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
             let transport = match Transport::new(self.section(), grid, SEED, &Silent) {
@@ -98,15 +98,7 @@ impl SlatSpecimen {
     }
 
     fn weights(&self, cells: &RingBasis) -> Arc<ProfileWeights> {
-        let mut kept = self.weights.lock().unwrap_or_else(PoisonError::into_inner);
-        match &*kept {
-            Some((basis, weights)) if basis == cells => Arc::clone(weights),
-            _ => {
-                let weights = Arc::new(ProfileWeights::new(cells, ProfileGrid::new(STEP)));
-                *kept = Some((cells.clone(), Arc::clone(&weights)));
-                weights
-            }
-        }
+        self.weights.get(cells, || ProfileWeights::new(cells, ProfileGrid::new(STEP)))
     }
 }
 
