@@ -28,8 +28,8 @@ impl Described {
         }
         let very = VerySystem(Arc::from(self.specimen(state, library)?));
         let dataset = match need {
-            Need::Everything => self.measure(state, &request(), library, None, &Silent)?.dataset,
-            Need::VerySun => self.dark(state),
+            Need::Light { lit } if !lit || very.answers_for_the_sky() => self.dark(state),
+            Need::Everything | Need::Light { .. } => self.measure(state, &request(), library, None, &Silent)?.dataset,
         };
         let label = if state.is_empty() { dataset.name.clone() } else { format!("{}, {state}", dataset.name) };
         Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), very: Some(very) })
@@ -43,7 +43,7 @@ impl Described {
             description: system.description.clone(),
             state: state.to_owned(),
             structure: system.family().structure(),
-            findings: vec![Finding::info("not-computed", "Nothing in this scene asks for its diffuse light.")],
+            findings: vec![Finding::info("not-computed", "Nothing in this scene asks for them.")],
             ..Dataset::default()
         };
         dataset.visible.transmission_front = Some(Btdf::default());

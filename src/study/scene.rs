@@ -138,8 +138,8 @@ impl Scene {
             })?;
             let picked = if wanted == keys.system { None } else { wanted_state(&wanted) };
             // Without diffuse light, and with nothing that comes back, a description need not become data.
-            let dark = !facing.outside.is_lit() && !(file.compute.interreflection && reflects(file));
-            let need = if dark && beams { Need::VerySun } else { Need::Everything };
+            let back = file.compute.interreflection && reflects(file);
+            let need = if back || !beams { Need::Everything } else { Need::Light { lit: facing.outside.is_lit() } };
             let system = library.load(&wanted, base, need).map_err(|error| in_aperture(index, error))?;
             if system.dataset.transmission().is_none() {
                 return Err(StudyError::key(

@@ -15,7 +15,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::peaks::Peaks;
-use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SunThrough};
+use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
@@ -118,6 +118,7 @@ pub struct Session {
     bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
     suns: Cache<(VerySystem, SunThrough)>,
+    skies: Cache<(VerySystem, SkyThrough)>,
     /// The data stay alive with them, so that no others can have their address.
     peaks: Cache<(Arc<Dataset>, Peaks)>,
 }
@@ -139,6 +140,7 @@ impl Session {
             bands: Cache::new(16),
             interpolators: Cache::new(6),
             suns: Cache::new(64),
+            skies: Cache::new(8),
             peaks: Cache::new(6),
         }
     }
@@ -318,7 +320,7 @@ impl Session {
                 .into_iter()
                 .map(|basis| self.receptions(scene, index, basis, progress))
                 .collect::<Result<_, StudyError>>()?;
-            let bands = match &emission.bands {
+            let bands = match emission.bands.first() {
                 Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
                 None => None,
             };

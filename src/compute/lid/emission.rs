@@ -75,8 +75,8 @@ pub struct Emission {
     pub uniform: Estimate,
     /// Parts on cells, each on its own.
     pub cells: Vec<CellLight>,
-    /// The sun's scattered light where it depends on a profile angle alone.
-    pub bands: Option<BandLight>,
+    /// Scattered light where it depends on a profile angle alone: the same bands in all parts.
+    pub bands: Vec<BandLight>,
     /// The outside seen straight through, with this transmittance.
     pub regular: Option<AngularTransmittance>,
     /// The sun's light that goes on as beams.
@@ -92,6 +92,21 @@ pub struct Emission {
 }
 
 impl Emission {
+    /// No light at all.
+    pub fn dark() -> Self {
+        Self {
+            uniform: Estimate::default(),
+            cells: Vec::new(),
+            bands: Vec::new(),
+            regular: None,
+            beams: Vec::new(),
+            beam_source: BeamSource::None,
+            incident_diffuse: Estimate::default(),
+            incident_sun: 0.0,
+            notes: Vec::new(),
+        }
+    }
+
     /// Computes what the room side of a system emits.
     pub fn new(btdf: &Btdf, facing: &Facing<'_>) -> Self {
         let incident_sun = facing.sun_illuminance();
@@ -100,7 +115,7 @@ impl Emission {
         let mut emission = Self {
             uniform: Estimate::default(),
             cells: Vec::new(),
-            bands: None,
+            bands: Vec::new(),
             regular: btdf.regular.clone(),
             beams: Vec::new(),
             incident_diffuse: Estimate::default(),
@@ -194,7 +209,7 @@ impl Emission {
     /// Flux that leaves into the room per area, beam included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
-        if let Some(bands) = &self.bands {
+        for bands in &self.bands {
             sum += Estimate::new(bands.light.share(), bands.light.error) * bands.illuminance;
         }
         for cells in &self.cells {
@@ -245,8 +260,7 @@ impl Emission {
                 luminance: cells.diffuse.iter().zip(&cells.sun).map(|(a, b)| a + b).collect(),
             });
         }
-        if let Some(bands) = &self.bands {
-            let bands = bands.clone();
+        for bands in self.bands.iter().cloned() {
             parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
                 bands.light.at(twin) * bands.illuminance
             })));

@@ -159,7 +159,7 @@ impl Emission {
         Self {
             uniform: Estimate::default(),
             cells: vec![cells],
-            bands: None,
+            bands: Vec::new(),
             regular: btdf.regular.clone(),
             beams: BeamLight::regular(btdf.regular.as_ref(), facing).into_iter().collect(),
             incident_diffuse,

@@ -6,12 +6,14 @@ mod emission;
 mod facing;
 mod interpolated;
 pub mod peaks;
+mod sky_through;
 mod sun_through;
 
 pub use beams::BeamLight;
 pub use emission::{BandLight, BeamSource, CellLight, Emission};
 pub use facing::Facing;
 pub use interpolated::Interpolator;
+pub use sky_through::SkyThrough;
 pub use sun_through::{SunThrough, sun_beams, sun_cells};
 
 use crate::compute::basis::RingBasis;

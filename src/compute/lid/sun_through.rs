@@ -4,6 +4,7 @@
 use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
+use crate::compute::incidence::superpose::sub_patches;
 use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen};
 use glam::DVec3;
@@ -32,10 +33,10 @@ const LINEAR: f64 = 2e-5;
 /// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
 const GRAZING: f64 = 0.3;
 
-/// The cells that scattered sunlight is put on: the same for all systems, so that what sensors see of them is found once.
+/// The cells that light of described systems is put on: the same for all systems, so that what sensors see of them is found once.
 pub fn sun_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
-    CELLS.get_or_init(|| Arc::new(RingBasis::even(CELL)))
+    CELLS.get_or_init(|| Arc::new(sub_patches(CELL)))
 }
 
 /// Directions evenly over the disc that nothing hides: a sunflower of so many seeds, each with its opposite.
@@ -241,7 +242,7 @@ impl Emission {
     pub fn add_sun_through(&mut self, through: &SunThrough) {
         self.incident_sun = through.illuminance;
         self.beams.clone_from(&through.beams);
-        self.bands.clone_from(&through.bands);
+        self.bands.extend(through.bands.clone());
         self.cells.extend(through.cells.clone());
         if self.incident_sun > 0.0 {
             self.beam_source = BeamSource::Described;

@@ -89,7 +89,7 @@ pub fn illuminance(
         data_error += light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
         sum += Estimate::new(e, e * light.relative_error);
     }
-    if let (Some(bands), Some(weights)) = (&emission.bands, weights) {
+    for (bands, weights) in emission.bands.iter().zip(weights.into_iter().cycle()) {
         let part = weights.of(&bands.light.q) * bands.illuminance;
         let share = bands.light.share();
         let relative = if share > 0.0 { bands.light.error / share } else { 0.0 };

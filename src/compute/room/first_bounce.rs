@@ -255,7 +255,7 @@ impl FirstLight {
             };
             self.add_diffuse(part);
         }
-        if let Some(bands) = &emission.bands {
+        for bands in &emission.bands {
             let merged = Arc::new(merged_basis());
             let luminance: Vec<f64> = bands.light.on(&merged).iter().map(|q| q * bands.illuminance).collect();
             self.add_diffuse(weights(&merged).illuminance(&luminance));
@@ -325,7 +325,7 @@ fn outside_seen(
         .collect();
     // What goes straight on, without the beam and what scatters.
     let mut straight = emission.clone();
-    (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), None);
+    (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), Vec::new());
     straight.uniform = Estimate::default();
     let flux = straight.exitance(facing).value * aperture.area();
     let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();

@@ -3,11 +3,11 @@
 use super::Session;
 use crate::compute::btdf::{CellMatrix, Dataset, Indicatrices, Scattered};
 use crate::compute::lid::peaks::{self, Peaks};
-use crate::compute::lid::{Emission, Facing, Interpolator, SunThrough};
+use crate::compute::lid::{Emission, Facing, Interpolator, SkyThrough, SunThrough};
 use crate::study::cache::bits;
 use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
-use crate::study::system::VerySystem;
+use crate::study::system::{System, VerySystem};
 use std::sync::Arc;
 
 impl Session {
@@ -17,11 +17,27 @@ impl Session {
         let facing = scene.facing(aperture);
         match system.very.as_ref().filter(|_| scene.beams) {
             Some(very) => {
-                let mut emission = self.by_data(scene, &system.dataset, &Facing { sun: None, ..facing });
+                let mut emission = self.diffuse(scene, system, very, &Facing { sun: None, ..facing });
                 emission.add_sun_through(&self.sun_through(very, &facing).1);
                 emission
             }
             None => self.by_data(scene, &system.dataset, &facing),
+        }
+    }
+
+    /// What a described system makes of sky and ground.
+    fn diffuse(&self, scene: &Scene, system: &System, very: &VerySystem, facing: &Facing<'_>) -> Emission {
+        if !facing.outside.is_lit() {
+            return Emission::dark();
+        }
+        if !very.answers_for_the_sky() {
+            return self.by_data(scene, &system.dataset, facing);
+        }
+        let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
+        let compute = || Ok::<_, std::convert::Infallible>((very.clone(), SkyThrough::new(very.0.as_ref())));
+        match self.skies.get(key, compute) {
+            Ok(own) => own.1.emission(facing),
+            Err(never) => match never {},
         }
     }
 

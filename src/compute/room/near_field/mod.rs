@@ -107,7 +107,7 @@ impl<'a> Integrator<'a> {
             }
             let receptions: Vec<&Reception> = receptions.iter().collect();
             let view = self.aperture.view(sensor.position, sensor.normal);
-            let bands = self.emission.bands.as_ref().zip(view);
+            let bands = self.emission.bands.first().zip(view);
             let bands = bands.map(|(bands, view)| BandWeights::new(&view, bands.light.upright, bands.light.q.len()));
             let (light, facing) = (self.emission, self.facing);
             return direct::illuminance(

@@ -79,6 +79,11 @@ pub trait Beams: Send + Sync {
     /// systems that follow very many beams.
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
 
+    /// Is a direction answered in microseconds? Not where light is followed from surface to surface.
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     /// Half of the fewest parts along either side of an incident cell; a power of two.
     fn fewest_parts(&self) -> usize {
         8
@@ -132,6 +137,10 @@ impl<B: Beams> Specimen for SharpBeams<B> {
             Beam { names: [to, to], share: beam.share, transmitted: beam.transmitted }
         });
         without_faint(merged(beams), FAINT)
+    }
+
+    fn is_quick(&self) -> bool {
+        self.0.is_quick()
     }
 
     /// Nothing: all of the light stays in beams.

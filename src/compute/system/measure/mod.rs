@@ -121,6 +121,22 @@ pub trait Specimen: Send + Sync {
         self.beams(name, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
     }
 
+    /// Is what becomes of light a matter of its profile angle alone, the direction cosine along the structure kept? `true`
+    /// inside: of the angle to the right, for a structure along y.
+    fn by_profile_alone(&self) -> Option<bool> {
+        None
+    }
+
+    /// Are single directions answered in microseconds to a millisecond, so that thousands may be asked?
+    fn is_quick(&self) -> bool {
+        true
+    }
+
+    /// Does [`Self::examine`] keep light apart that goes straight on?
+    fn keeps_regular_apart(&self) -> bool {
+        false
+    }
+
     /// What is transmitted besides, where that depends on a profile angle alone; then [`Self::scattered`] gives the same
     /// by cells.
     fn profile_light(&self, _name: Dir<Facade>, _side: Side) -> Option<ProfileLight> {

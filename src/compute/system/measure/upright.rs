@@ -22,6 +22,18 @@ impl Specimen for Upright {
         self.0.beams(to_described(name), side).into_iter().map(back).collect()
     }
 
+    fn by_profile_alone(&self) -> Option<bool> {
+        self.0.by_profile_alone().map(|upright| !upright)
+    }
+
+    fn keeps_regular_apart(&self) -> bool {
+        self.0.keeps_regular_apart()
+    }
+
+    fn is_quick(&self) -> bool {
+        self.0.is_quick()
+    }
+
     fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
         self.0.straight(to_described(name), side)
     }

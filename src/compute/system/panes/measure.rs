@@ -38,6 +38,10 @@ impl Panes {
 
 impl Specimen for Panes {
     /// Straight on and mirrored; both keep the name.
+    fn keeps_regular_apart(&self) -> bool {
+        true
+    }
+
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let shares = self.shares(name.theta());
         let reflected = if side == Side::Front { shares.reflected_front } else { shares.reflected_back };

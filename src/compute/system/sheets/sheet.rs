@@ -89,6 +89,10 @@ impl Specimen for Sheet {
     }
 
     /// Straight on and mirrored, which keep the name.
+    fn keeps_regular_apart(&self) -> bool {
+        true
+    }
+
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let theta = name.theta();
         let [straight, mirrored] = [&self.transmission, self.reflection(side)].map(|part| part.regular.at(theta));

@@ -112,6 +112,10 @@ impl Specimen for Fabric {
         self.sheet.examine(setting, progress)
     }
 
+    fn keeps_regular_apart(&self) -> bool {
+        true
+    }
+
     fn beams(&self, name: Dir<Facade>, _: Side) -> Vec<Beam> {
         let open = self.woven.open(name.theta());
         if open > 0.0 { vec![Beam::through(name, open)] } else { vec![] }

@@ -148,6 +148,10 @@ impl Specimen for SlatSpecimen {
         beams
     }
 
+    fn by_profile_alone(&self) -> Option<bool> {
+        (!self.has(|surface| surface.mirror * surface.spread)).then_some(false)
+    }
+
     fn straight(&self, name: Dir<Facade>, _: Side) -> f64 {
         self.direct.share(section_angles(name).1)
     }

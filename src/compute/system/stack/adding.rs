@@ -66,6 +66,10 @@ impl Specimen for Stack {
         Ok(before.expect("at least one cut was made"))
     }
 
+    fn is_quick(&self) -> bool {
+        self.layers.iter().all(|layer| layer.is_quick())
+    }
+
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         match self.layers.as_slice() {
             [only] => only.beams(name, side),

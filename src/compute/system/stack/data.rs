@@ -53,6 +53,11 @@ impl Specimen for DataLayer {
         Ok(measured)
     }
 
+    /// Its cells say no more when they are asked more often.
+    fn is_quick(&self) -> bool {
+        false
+    }
+
     /// What keeps its name; all else is in the scattered part, what was measured as a narrow peak included.
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let [through, opposite, back] = components(side);
