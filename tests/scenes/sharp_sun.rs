@@ -146,10 +146,12 @@ fn the_sun_on_the_rim_counts_as_far_as_it_shines() {
     assert_eq!(at(edge + 0.3), 0.0);
     let (rim, below) = (at(edge), at(edge - 1.0));
     assert!(rim > 0.0 && below > rim, "{rim} {below}");
-    // The share grows in proportion; over half a disc of radius r its mean is 4r/3π · ½ of the slope.
-    let slope = (at(edge - 1.0) - at(edge - 2.0)).abs();
-    let mean = slope * 0.2665 * 4.0 / (3.0 * std::f64::consts::PI) * 0.5;
-    assert!((rim / mean - 1.0).abs() < 0.1, "{rim} {mean}");
+    // Below the edge the share is 1 − w/s tanψ: from the disc's middle on it grows by w/(s cos²ψ), whose mean over half a disc
+    // of radius r is 4r/3π of it.
+    let slope = 0.08 / 0.072 / edge.to_radians().cos().powi(2);
+    let mean = 0.5 * slope * 0.2665_f64.to_radians() * 4.0 / (3.0 * std::f64::consts::PI);
+    let expected = 70_000.0 * edge.to_radians().sin() * mean;
+    assert!((rim / expected - 1.0).abs() < 0.01, "{rim} {expected}");
 }
 
 #[test]
