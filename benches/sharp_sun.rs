@@ -48,12 +48,14 @@ fn errors() {
     for system in SYSTEMS {
         let session = Session::new();
         let mut scene = scene(system);
-        let run = |scene: &Scene| session.room(scene, &Silent).expect("nothing in these scenes is out of range").sensors;
+        let run =
+            |scene: &Scene| session.room(scene, &Silent).expect("nothing in these scenes is out of range").sensors;
         let ordinary = run(&scene);
         scene.error_target = Some(1e-3);
         let fine = run(&scene);
         let mean = fine.iter().map(|s| s.total().value).sum::<f64>() / fine.len() as f64;
-        let off = ordinary.iter().zip(&fine).map(|(a, b)| (a.total().value - b.total().value).abs()).fold(0.0, f64::max);
+        let off =
+            ordinary.iter().zip(&fine).map(|(a, b)| (a.total().value - b.total().value).abs()).fold(0.0, f64::max);
         let stated = ordinary.iter().map(|s| s.total().error).fold(0.0, f64::max);
         println!(
             "{system:<17} off by at most {:.3} % of the mean from a run to a thousandth, stated {:.3} %",

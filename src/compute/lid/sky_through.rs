@@ -33,6 +33,7 @@ const CELL_ERROR: f64 = 4e-3;
 
 /// Answers of a system for diffuse light from outside.
 pub struct SkyThrough {
+    cells: Arc<RingBasis>,
     /// Mean straight share, a cell.
     straight: Vec<f64>,
     turned: Turned,
@@ -105,9 +106,13 @@ fn centre(beam: &Beam) -> DVec3 {
 }
 
 impl SkyThrough {
-    /// Asks a system, in parallel.
+    /// Asks a system, in parallel; its light is put on [`sun_cells`].
     pub fn new(specimen: &dyn Specimen) -> Self {
-        let cells = sun_cells();
+        Self::on(specimen, Arc::clone(sun_cells()))
+    }
+
+    /// On other cells.
+    fn on(specimen: &dyn Specimen, cells: Arc<RingBasis>) -> Self {
         let list: Vec<_> = cells.cells().collect();
         let straight = list
             .par_iter()
@@ -116,12 +121,13 @@ impl SkyThrough {
                 shares.sum::<f64>() / (POINTS * POINTS) as f64
             })
             .collect();
-        Self { straight, turned: Turned::new(specimen, cells), scattered: Scattered::new(specimen, cells) }
+        let (turned, scattered) = (Turned::new(specimen, &cells), Scattered::new(specimen, &cells));
+        Self { cells, straight, turned, scattered }
     }
 
     /// What an aperture emits under the diffuse light of an outside.
     pub fn emission(&self, facing: &Facing<'_>) -> Emission {
-        let cells = sun_cells();
+        let cells = &self.cells;
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
         let received = incident_illuminances_within(facing.outside, cells, &frame, PATCH);
         let mut emission = Emission::dark();
@@ -264,5 +270,118 @@ impl Scattered {
         }
         let error = made.iter().map(|(_, error)| *error).fold(0.0, f64::max);
         Self::ByCells { incident, rows: made.into_iter().map(|(row, _)| row).collect(), error }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::direction::{Orientation, Surface};
+    use crate::compute::incidence::superpose::sub_patches;
+    use crate::compute::quadrature::Tolerance;
+    use crate::compute::room::aperture::Aperture;
+    use crate::compute::room::band_weights::BandWeights;
+    use crate::compute::room::direct::{Reception, Sensor, illuminance};
+    use crate::compute::sky::{Distribution, Outside};
+    use crate::compute::system::laser_cut::{CutPanel, LaserCutPanel};
+    use crate::compute::system::measure::beams::SharpBeams;
+    use crate::compute::system::measure::upright::Upright;
+    use crate::compute::system::panes::glazing::Pane;
+    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface as Face};
+
+    fn slats(tilt: f64, faces: [Face; 2]) -> SlatSpecimen {
+        let flat = SlatProfile::Flat { width: 0.08 };
+        SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, tilt, faces).unwrap())
+    }
+
+    fn panel() -> Box<dyn Specimen> {
+        let sheet = Pane { index: 1.49, thickness: 0.006, absorption: 0.0 };
+        Box::new(SharpBeams(CutPanel { panel: LaserCutPanel { sheet, spacing: 0.004 }, cut_loss: 0.0 }))
+    }
+
+    fn clear_sky() -> Outside {
+        let sun = Dir::from_altitude_bearing(0.6, Bearing::from_degrees(195.0));
+        let sky = Distribution::cie(12, sun).unwrap();
+        Outside::new(sky, 12_000.0).unwrap().with_ground(0.2, 40_000.0).unwrap()
+    }
+
+    /// At points on the work plane, under the ceiling and beside the window.
+    fn at_sensors(emission: &Emission, facing: &Facing<'_>) -> Vec<Estimate> {
+        let window = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 1.0), size: [3.0, 1.6] };
+        let places = [
+            ([2.0, 0.5, 0.85], DVec3::Z),
+            ([2.0, 3.0, 0.85], DVec3::Z),
+            ([1.0, 2.0, 2.95], DVec3::NEG_Z),
+            ([0.0, 1.0, 1.5], DVec3::X),
+        ];
+        let tolerance = Tolerance::relative(1e-5);
+        places
+            .map(|(position, normal)| {
+                let sensor = Sensor { position: DVec3::from_array(position), normal };
+                let receptions: Vec<Reception> =
+                    emission.cells.iter().map(|light| Reception::new(&sensor, &window, Some(&light.basis))).collect();
+                let view = window.view(sensor.position, normal).unwrap();
+                let bands = emission.bands.first();
+                let bands = bands.map(|bands| BandWeights::new(&view, bands.light.upright, bands.light.q.len()));
+                let receptions: Vec<&Reception> = receptions.iter().collect();
+                illuminance(&sensor, &window, &receptions, bands.as_ref(), emission, facing, tolerance).all
+            })
+            .to_vec()
+    }
+
+    #[test]
+    fn cells_half_as_wide_change_little() {
+        let outside = clear_sky();
+        let facing = Facing {
+            outside: &outside,
+            sun: None,
+            orientation: Orientation::new(Bearing::from_degrees(180.0)),
+            surface: Surface::Facade,
+        };
+        let (matt, mirror) = ([Face::matt(0.7); 2], [Face::mirror(0.8), Face::matt(0.5)]);
+        let systems: [(&str, Box<dyn Specimen>); 5] = [
+            ("matt, open", Box::new(slats(0.0, matt))),
+            ("matt, tilted", Box::new(slats(0.6, matt))),
+            ("mirror", Box::new(slats(0.2, mirror))),
+            ("upright", Box::new(Upright(Box::new(slats(0.5, matt))))),
+            ("panel", panel()),
+        ];
+        let fine = Arc::new(sub_patches(1.5_f64.to_radians()));
+        let (mut held, mut all) = (0, 0);
+        for (name, system) in &systems {
+            let usual = at_sensors(&SkyThrough::new(system.as_ref()).emission(&facing), &facing);
+            let closer = at_sensors(&SkyThrough::on(system.as_ref(), Arc::clone(&fine)).emission(&facing), &facing);
+            for (a, b) in usual.iter().zip(&closer) {
+                println!("{name}: {:.2} ± {:.2}, {:.2}", a.value, a.error, b.value);
+                assert!((a.value - b.value).abs() < 0.012 * b.value, "{name}: {a:?} {b:?}");
+                all += 1;
+                held += usize::from((a.value - b.value).abs() <= a.error);
+            }
+        }
+        assert!(10 * held >= 9 * all, "{held} of {all}");
+    }
+
+    #[test]
+    fn flux_is_that_of_the_measured_cells() {
+        // Under a uniform sky the flux is the hemispherical transmittance, whatever cells it is found on.
+        let sky = Outside::new(Distribution::uniform(), 10_000.0).unwrap();
+        let outside = sky.with_ground(1.0, 0.0).unwrap();
+        let facing = Facing {
+            outside: &outside,
+            sun: None,
+            orientation: Orientation::new(Bearing::from_degrees(180.0)),
+            surface: Surface::Facade,
+        };
+        let cells = front_basis();
+        let setting =
+            crate::compute::system::measure::Setting { incident: &cells, emergent: &cells, error: 1e-3, seed: 1 };
+        for specimen in [Box::new(slats(0.4, [Face::matt(0.7); 2])) as Box<dyn Specimen>, panel()] {
+            let emission = SkyThrough::new(specimen.as_ref()).emission(&facing);
+            let tau = emission.exitance(&facing).value / emission.incident_diffuse.value;
+            let band = specimen.examine(&setting, &crate::compute::estimate::Silent).unwrap().0;
+            let exact = band.transmission_front.unwrap().tau_hemispherical();
+            assert!((tau / exact - 1.0).abs() < 4e-3, "{tau} {exact}");
+        }
     }
 }
