@@ -3,6 +3,7 @@
 
 pub(super) mod interreflected;
 pub(super) mod responses;
+mod thrown_back;
 
 use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
@@ -14,12 +15,14 @@ use crate::compute::btdf::{Btdf, Indicatrices, Scattered};
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{Emission, Facing, Interpolator, Lid};
 use crate::compute::quadrature::Tolerance;
+use crate::compute::room::back_reflection::RoomSide;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
+use responses::{ByCells, Response};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -102,6 +105,10 @@ pub struct Session {
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
+    responses: Cache<Vec<Response>>,
+    by_cells: Cache<ByCells>,
+    sides: Cache<RoomSide>,
+    falling: Cache<Vec<Vec<f64>>>,
     interpolators: Cache<Interpolator>,
 }
 
@@ -119,6 +126,10 @@ impl Session {
             gather: Cache::new(8),
             reception: Cache::new(16),
             patches: Cache::new(24),
+            responses: Cache::new(4),
+            by_cells: Cache::new(12),
+            sides: Cache::new(12),
+            falling: Cache::new(24),
             interpolators: Cache::new(6),
         }
     }
