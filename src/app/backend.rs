@@ -157,16 +157,16 @@ impl SystemLibrary for WindowLibrary<'_> {
         let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
         let dataset =
             self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
-        let very = self
-            .shelf
-            .product(key)
-            .map(|product| self.files.very_of(&product.system, &dataset.state))
-            .map_err(|error| StudyError::Catalogue(error.to_string()))?;
+        let very = self.files.very_of(&dataset);
         Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         self.shelf.controlled_state(product, asked)
+    }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        self.files.controlled_description(path, asked)
     }
 }
 
@@ -193,6 +193,8 @@ impl Engine for StudyEngine {
             positions: result.sensors.iter().map(|sensor| sensor.sensor.position.to_array()).collect(),
             direct: result.sensors.iter().map(|sensor| sensor.direct).collect(),
             interreflected: result.sensors.iter().map(|sensor| sensor.interreflected).collect(),
+            beam: result.sensors.iter().map(|sensor| sensor.beam).collect(),
+            data_error: result.sensors.iter().map(|sensor| sensor.data_error).collect(),
             grid: scene.grid,
             seconds: start.elapsed().as_secs_f64(),
         })

@@ -19,6 +19,10 @@ pub struct RoomFigures {
     pub direct: Vec<Estimate>,
     /// From the room's surfaces. \[lx\]
     pub interreflected: Vec<Estimate>,
+    /// The part of `direct` that is the sun's beams; as long as the sensors are many, or empty without any. \[lx\]
+    pub beam: Vec<f64>,
+    /// What the data leave open besides the errors of the computation; likewise. \[lx\]
+    pub data_error: Vec<f64>,
     /// Columns and rows when the sensors are a grid.
     pub grid: Option<[usize; 2]>,
     /// Wall-clock time that it took. \[s\]
@@ -28,7 +32,7 @@ pub struct RoomFigures {
 impl RoomFigures {
     /// Illuminance at a sensor. \[lx\]
     pub fn total(&self, sensor: usize) -> Estimate {
-        self.direct[sensor] + self.interreflected[sensor]
+        self.direct[sensor] + self.interreflected[sensor] + Estimate::new(0.0, part(&self.data_error, sensor))
     }
 
     /// Greatest error over the greatest illuminance.
@@ -41,6 +45,11 @@ impl RoomFigures {
         }
         if greatest > 0.0 { error / greatest } else { 0.0 }
     }
+}
+
+/// A value of a list that may be left out.
+pub fn part(list: &[f64], sensor: usize) -> f64 {
+    list.get(sensor).copied().unwrap_or(0.0)
 }
 
 /// The light of the first aperture as a luminaire.

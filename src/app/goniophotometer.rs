@@ -213,8 +213,12 @@ pub fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<S
 
 /// What is stored with the states.
 pub fn product(run: &Run) -> NewProduct {
-    // Names hang on the states alone.
-    let named = |finished: &Finished| Dataset { state: finished.dataset.state.clone(), ..Dataset::default() };
+    // Names hang on the states alone, the description on what every state was computed from.
+    let named = |finished: &Finished| Dataset {
+        state: finished.dataset.state.clone(),
+        described: finished.dataset.described.clone(),
+        ..Dataset::default()
+    };
     let names: Vec<Dataset> = run.finished.iter().map(named).collect();
     run.described.product(&run.setup.request(), &names)
 }

@@ -189,10 +189,11 @@ pub(super) fn renew(catalogue: &mut Catalogue, wanted: AtOnce) -> Result<(), Cat
     Ok(())
 }
 
-/// Rank of the built-in product that a computed product is, by its description's text, where the file is still to get
-/// it.
+/// Rank of the built-in product that a computed product is, by the hash of its description, where the file is still to
+/// get it.
 pub(super) fn rank_of(db: &Connection, product: &super::Product) -> Result<Option<i64>, CatalogueError> {
-    let name = SYSTEMS.iter().find(|(_, text)| *text == product.system).map(|(name, _)| *name);
+    let is_it = |text: &str| blake3::hash(text.as_bytes()).to_hex().as_str() == product.provenance.source_hash;
+    let name = SYSTEMS.iter().find(|(_, text)| is_it(text)).map(|(name, _)| *name);
     let Some((name, (file, _))) = name.and_then(|name| Some((name, builtin_system(name)?))) else { return Ok(None) };
     let same = product.key == file.key && product.provenance.method == builtin_method(&file);
     let wanted = same && version(db)? > 0 && store::free_key(db, &product.key)? == product.key;

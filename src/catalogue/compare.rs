@@ -115,6 +115,12 @@ fn diff_products(
     ] {
         field(name.to_owned(), x.clone(), y.clone());
     }
+    // By hash: the texts are long.
+    let short = |text: &str| match text {
+        "" => String::new(),
+        _ => blake3::hash(text.as_bytes()).to_hex()[..12].to_owned(),
+    };
+    field("system".to_owned(), short(&a.system), short(&b.system));
     field("tags".to_owned(), a.tags.join(", "), b.tags.join(", "));
     field("control_curve".to_owned(), curve(a), curve(b));
     let states = |product: &PackageProduct, others: &PackageProduct| -> Vec<String> {

@@ -1,15 +1,16 @@
 //! A described system as a product: where its data come from, how its states are named, its control curve.
 
-use super::systems::blind_of;
+use super::systems::{blind_of, builtin_system};
 use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
-use crate::compute::btdf::{Band, Dataset, Finding};
+use crate::compute::btdf::{Band, Dataset, DescribedState, Finding};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
 use crate::compute::control::cut_off::SlatRow;
 use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::system::SystemDescription;
 use crate::compute::system::measure::Quality;
 use crate::compute::system::slats::Venetian;
-use crate::formats::system_toml::SystemFile;
+use crate::compute::system::stack::LayerSource;
+use crate::formats::system_toml::{self, MOST_NESTED, SystemFile};
 use std::f64::consts::FRAC_PI_2;
 
 /// Elevation to which redirecting slats send the sun: flat enough to reach deep into a room, steep enough to stay on
@@ -19,7 +20,8 @@ const ELEVATION: f64 = 0.611;
 const STEP: u32 = 5;
 
 /// What the catalogue is told about the datasets of a described system. `text`: the description's own text, whose hash
-/// stands for the inputs; `method`: how the datasets were computed.
+/// stands for the inputs; `method`: how the datasets were computed. The product keeps the description that the datasets
+/// carry, which holds the layers of a stack; without one the text as it is.
 pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dataset]) -> NewProduct {
     let system = &file.system;
     NewProduct {
@@ -38,9 +40,34 @@ pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dat
         tags: file.tags.clone(),
         states: datasets.iter().map(state_name).collect(),
         control_curve: blind_of(text).map(|blind| control_curve(&file.control, &blind)).unwrap_or_default(),
-        system: text.to_owned(),
+        system: common_description(datasets).unwrap_or_else(|| text.to_owned()),
         ..NewProduct::default()
     }
+}
+
+/// The description of all the datasets, each a state of it; `None` where one has another or none.
+pub(super) fn common_description(datasets: &[Dataset]) -> Option<String> {
+    let mut all = datasets.iter().map(|dataset| {
+        let own = dataset.described.as_ref()?;
+        (own.state == dataset.state).then_some(&own.text)
+    });
+    let first = all.next()??;
+    all.all(|other| other == Some(first)).then(|| first.clone())
+}
+
+/// The description that goes with a dataset of a product. Stacks of older catalogues name built-in files.
+pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedState> {
+    if system.is_empty() {
+        return None;
+    }
+    system_toml::described(&with_builtins(system, 0)?, state)
+}
+
+fn with_builtins(text: &str, depth: usize) -> Option<String> {
+    system_toml::self_contained(text, &mut |source| match source {
+        LayerSource::File(name) if depth < MOST_NESTED => with_builtins(builtin_system(name)?.1, depth + 1),
+        LayerSource::File(_) | LayerSource::Catalogue(_) | LayerSource::Text(_) => None,
+    })
 }
 
 /// How the values of a described system come to be: the program, its method, what it was asked.

@@ -30,8 +30,12 @@ pub enum CatalogueError {
     #[error("{0} is a database, but no catalogue")]
     NotACatalogue(String),
     /// Written by a newer program.
-    #[error("the catalogue has layout {found}, written by a newer program; this one knows layouts up to {known}")]
+    #[error(
+        "the catalogue {path} was written by a newer version of cfs (layout {found}; this program reads up to {known})"
+    )]
     Newer {
+        /// Which file.
+        path: String,
         /// Layout of the file.
         found: i64,
         /// Newest layout this program knows.

@@ -49,6 +49,9 @@ impl Catalogue {
         let located = |source| CatalogueError::Open { path: path.to_owned(), source };
         Self::prepare(opened.map_err(located)?, at_once).map_err(|error| match error {
             CatalogueError::Sql(source) => located(source),
+            CatalogueError::Newer { found, known, .. } => {
+                CatalogueError::Newer { path: path.display().to_string(), found, known }
+            }
             CatalogueError::NotACatalogue(_) => CatalogueError::NotACatalogue(path.display().to_string()),
             other => other,
         })
@@ -120,7 +123,7 @@ impl Catalogue {
             return Err(CatalogueError::NotACatalogue(String::new()));
         }
         let known = MIGRATIONS.len() as i64;
-        if found > known { Err(CatalogueError::Newer { found, known }) } else { Ok(()) }
+        if found > known { Err(CatalogueError::Newer { path: String::new(), found, known }) } else { Ok(()) }
     }
 
     /// Takes the missing steps, each in one transaction.

@@ -1,12 +1,13 @@
 //! Products in and out of the tables. Every change is one transaction.
 
+use super::described::{common_description, described_state};
 use super::product::slug;
 use super::search::list;
 use super::{
     Catalogue, CatalogueError, CurvePoint, NewProduct, Origin, Product, ProductFinding, Provenance, State, check,
     profile_transmittances,
 };
-use crate::compute::btdf::{Dataset, Finding, Severity};
+use crate::compute::btdf::{Dataset, DescribedState, Finding, Severity};
 use crate::formats::dataset_blob::{content_hash, decode, encode};
 use rayon::prelude::*;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
@@ -104,7 +105,8 @@ fn prepared(
         states,
         control_curve: meta.control_curve,
         findings,
-        system: meta.system,
+        // Data that bring their description make a product that keeps it.
+        system: if meta.system.is_empty() { common_description(datasets).unwrap_or_default() } else { meta.system },
         favourite: false,
         builtin: false,
     };
@@ -359,13 +361,14 @@ impl Catalogue {
                 states.iter().find(|s| s.key == state).ok_or_else(|| wrong(format!("no state \"{state}\"")))?
             }
         };
-        self.dataset_of_hash(&found.dataset)
+        self.dataset_of_hash(&found.dataset, described_state(&product.system, &found.key))
     }
 
-    /// The dataset of a content hash, from memory when it was asked for lately.
-    fn dataset_of_hash(&self, hash: &str) -> Result<Arc<Dataset>, CatalogueError> {
+    /// The dataset of a content hash with its product's description, from memory when it was asked for lately. Products
+    /// of the same content may have different descriptions.
+    fn dataset_of_hash(&self, hash: &str, described: Option<DescribedState>) -> Result<Arc<Dataset>, CatalogueError> {
         let mut recent = self.recent.borrow_mut();
-        if let Some(at) = recent.iter().position(|(known, _)| known == hash)
+        if let Some(at) = recent.iter().position(|(known, dataset)| known == hash && dataset.described == described)
             && let Some(entry) = recent.remove(at)
         {
             let dataset = Arc::clone(&entry.1);
@@ -374,7 +377,8 @@ impl Catalogue {
         }
         let blob: Vec<u8> =
             self.db.prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?.query_row([hash], |row| row.get(0))?;
-        let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.to_owned(), source })?;
+        let mut dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.to_owned(), source })?;
+        dataset.described = described;
         let dataset = Arc::new(dataset);
         if recent.len() >= RECENT {
             recent.pop_front();

@@ -48,6 +48,7 @@ pub fn blind_of(system: &str) -> Option<Venetian> {
             let moving = layers.into_iter().find(|layer| layer.state == EACH_STATE)?;
             match moving.source {
                 LayerSource::File(name) => builtin_system(&name).and_then(|(_, text)| blind_of(text)),
+                LayerSource::Text(text) => blind_of(&text),
                 LayerSource::Catalogue(_) => None,
             }
         }

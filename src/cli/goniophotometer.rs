@@ -199,7 +199,8 @@ fn write_results(
 fn on_cells(dataset: &mut Dataset, request: &Request) {
     for component in dataset.visible.components() {
         let Some(btdf) = dataset.visible.get(component) else { continue };
-        if btdf.regular.is_some() || !matches!(btdf.scattered, Some(Scattered::Cells(_))) {
+        let listed = matches!(btdf.scattered, Some(Scattered::Cells(_) | Scattered::Directions(_)));
+        if btdf.regular.is_some() || !listed {
             let cells = Btdf::from_cells(matrix_on(btdf, &request.incident, &request.emergent));
             dataset.visible.set(component, cells);
         }

@@ -75,6 +75,8 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     object.insert("components".into(), dataset.visible.components().iter().map(key).collect::<Vec<_>>().into());
     // From other components by reciprocity: who wants measured values alone must see which these are.
     object.insert("derived".into(), dataset.derived.iter().map(key).collect::<Vec<_>>().into());
+    // Beams are known by direction, computed anew from the description.
+    object.insert("described".into(), dataset.described.is_some().into());
     object.insert("solar".into(), dataset.solar.is_some().into());
     object.insert("tau_normal_hemispherical".into(), transmission.map(Btdf::tau_normal).into());
     object.insert("tau_hemispherical_hemispherical".into(), transmission.map(Btdf::tau_hemispherical).into());
@@ -204,6 +206,9 @@ fn to_text(dataset: &Dataset) -> String {
     });
     line("Visible", &components.collect::<Vec<_>>().join(", "));
     line("Solar", if dataset.solar.is_some() { "kept" } else { "not in the file" });
+    // Others have them as their cells or their regular part say.
+    let beams = dataset.described.as_ref().map(|_| "by direction, computed anew from the description");
+    line("Beams", beams.unwrap_or_default());
     if let Some(transmission) = dataset.transmission() {
         line("τ normal", &format!("{:.5}", transmission.tau_normal()));
         line("τ hemispherical", &format!("{:.5}", transmission.tau_hemispherical()));

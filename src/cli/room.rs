@@ -2,6 +2,7 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use crate::compute::lid::BeamSource;
 use crate::study::{RoomResult, Scene, Session, files, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
@@ -59,6 +60,9 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Share of the light left open by the data from which on a person is told.
+const UNPLACED: f64 = 0.1;
+
 /// What a person should know beside the numbers, on standard error.
 fn notes(scene: &Scene, result: &RoomResult) {
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
@@ -69,6 +73,18 @@ fn notes(scene: &Scene, result: &RoomResult) {
                 scene.sensors.len(),
                 number + 1,
                 aperture.system.label
+            );
+        }
+    }
+    for (number, (aperture, (source, reason))) in scene.apertures.iter().zip(&result.beams).enumerate() {
+        let doubted = result.data_share();
+        if *source == BeamSource::Cells && doubted > UNPLACED {
+            eprintln!(
+                "note: sun patches cannot be placed with the data of aperture {} ({}): {reason}; {:.0} % of the light at \
+                 the sensors is left open by the data",
+                number + 1,
+                aperture.system.label,
+                100.0 * doubted
             );
         }
     }
@@ -86,11 +102,13 @@ fn to_json(scene: &Scene, result: &RoomResult) -> serde_json::Value {
         "near_field": { "method": scene.near_field.word(), "effort": scene.near_field.effort() },
         "error_target": scene.error_target,
         "reached": result.reached(),
-        "apertures": scene.apertures.iter().zip(scene.too_near()).map(|(one, too_near)| json!({
+        "apertures": scene.apertures.iter().zip(scene.too_near()).zip(&result.beams).map(|((one, too_near), (beam, reason))| json!({
             "system": one.system.label,
             "structure_m": one.structure,
             "homogeneity_distance_m": one.homogeneity_distance(),
             "sensors_nearer": too_near,
+            "beam": beam.word(),
+            "beam_reason": reason,
         })).collect::<Vec<_>>(),
         "flux_lm": result.flux.value,
         "flux_error_lm": result.flux.error,

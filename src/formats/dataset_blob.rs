@@ -25,7 +25,9 @@ pub enum BlobError {
     #[error("not a binary dataset: it does not begin with CFSD")]
     Magic,
     /// Written by a newer program.
-    #[error("binary dataset of version {0}; this program reads versions {FIRST} to {VERSION}")]
+    #[error(
+        "the binary dataset was written by a newer version of cfs (version {0}; this program reads {FIRST} to {VERSION})"
+    )]
     Version(u8),
     /// The bytes end early.
     #[error("binary dataset cut off at byte {0}")]

@@ -19,6 +19,10 @@ pub fn merge_sides(datasets: Vec<Dataset>) -> Vec<Dataset> {
             }
         }
         twin.findings.extend(dataset.findings);
+        if twin.described != dataset.described {
+            // Of one function at least it is not known that the description gives it.
+            twin.described = None;
+        }
         if twin.visible.transmission_front.is_some() {
             // What its own files said of each function alone.
             twin.findings.retain(|finding| finding.code != "one-function");

@@ -3,6 +3,7 @@
 //! A new dataset format is a file here, an arm of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
 //! [`write_dataset`].
 
+mod beams;
 pub mod bsdf_xml;
 pub mod btdf_text;
 pub mod compact_rows;
@@ -127,7 +128,11 @@ fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     };
     let dataset = |state: &package::PackageState| {
         let blob = package.datasets.get(&state.dataset).map(Vec::as_slice).unwrap_or_default();
-        dataset_blob::decode(blob).map_err(|e| error(format!("state {}: {e}", state.key), "a whole package (.cfsp)"))
+        let read = dataset_blob::decode(blob);
+        let mut dataset = read.map_err(|e| error(format!("state {}: {e}", state.key), "a whole package (.cfsp)"))?;
+        // Kept once, with the product.
+        dataset.described = system_toml::described(&product.system, &state.key);
+        Ok(dataset)
     };
     product.states.iter().map(dataset).collect()
 }

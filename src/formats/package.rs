@@ -10,8 +10,10 @@ use std::io::{Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-/// Format word of the manifest.
-pub const FORMAT: &str = "cfs-package 1";
+/// Format word of the manifest, without its version.
+const FORMAT: &str = "cfs-package";
+/// The version that is written, and the newest that is read.
+pub const VERSION: u32 = 1;
 /// Largest manifest. \[bytes\]
 const MOST_MANIFEST: u64 = 16 << 20;
 /// Largest dataset. \[bytes\]
@@ -28,6 +30,12 @@ pub struct Package {
     pub products: Vec<PackageProduct>,
     /// Binary datasets by their hash.
     pub datasets: BTreeMap<String, Vec<u8>>,
+}
+
+/// The word alone: a newer manifest may have any keys beside it.
+#[derive(Deserialize)]
+struct Head {
+    format: String,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -132,6 +140,9 @@ pub enum PackageError {
     /// The manifest is not what it should be.
     #[error("package manifest.json: {0}")]
     Manifest(#[from] serde_json::Error),
+    /// Written by a newer program.
+    #[error("the package was written by a newer version of cfs ({FORMAT} {0}; this program reads up to {VERSION})")]
+    Newer(u32),
     /// Something that must not be.
     #[error("package: {0}")]
     Content(String),
@@ -147,7 +158,7 @@ pub fn write(package: &Package) -> Result<Vec<u8>, PackageError> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // A fixed time in the entries: packages of the same content are the same file.
     let plain = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
-    let manifest = Manifest { format: FORMAT.to_owned(), products: package.products.clone() };
+    let manifest = Manifest { format: format!("{FORMAT} {VERSION}"), products: package.products.clone() };
     let text = serde_json::to_vec_pretty(&manifest)?;
     let mut put = |entry: String, bytes: &[u8], method| {
         zip.start_file(entry.as_str(), plain.compression_method(method))?;
@@ -170,13 +181,18 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
     if zip.len() > MOST_ENTRIES {
         return Err(PackageError::Content(format!("{} entries (at most {MOST_ENTRIES})", zip.len())));
     }
-    let manifest: Manifest = serde_json::from_slice(&entry(&mut zip, "manifest.json", MOST_MANIFEST)?)?;
-    if manifest.format != FORMAT {
-        return Err(PackageError::Content(format!(
-            "format is \"{}\", this program reads \"{FORMAT}\"",
-            manifest.format
-        )));
+    let text = entry(&mut zip, "manifest.json", MOST_MANIFEST)?;
+    let Head { format } = serde_json::from_slice(&text)?;
+    match format.strip_prefix(FORMAT).and_then(|version| version.trim().parse::<u32>().ok()) {
+        Some(1..=VERSION) => {}
+        Some(newer) if newer > VERSION => return Err(PackageError::Newer(newer)),
+        _ => {
+            let word: String = format.chars().take(80).collect();
+            let told = format!("format is \"{word}\", this program reads \"{FORMAT} {VERSION}\"");
+            return Err(PackageError::Content(told));
+        }
     }
+    let manifest: Manifest = serde_json::from_slice(&text)?;
     let mut package = Package { products: manifest.products, datasets: BTreeMap::new() };
     let mut left = MOST_TOTAL;
     for product in &package.products {

@@ -9,10 +9,10 @@ use crate::compute::system::measure::front_basis;
 use std::sync::Arc;
 
 /// Error allowed in the data that sky, ground and back reflection are computed with.
-pub(super) const ERROR: f64 = 0.005;
+pub const ERROR: f64 = 0.005;
 
 /// What data computed for a scene are asked to be.
-pub(super) fn request() -> Request {
+pub fn request() -> Request {
     let cells = front_basis();
     Request { incident: cells.clone(), emergent: cells, error: ERROR, seed: 1 }
 }
@@ -28,8 +28,8 @@ impl Described {
         }
         let very = VerySystem(Arc::from(self.specimen(state, library)?));
         let dataset = match need {
-            Need::Everything => self.measure(state, &request(), library, None, &Silent)?.dataset,
-            Need::VerySun => self.dark(state),
+            Need::Light { lit } if !lit || very.answers_for_the_sky() => self.dark(state),
+            Need::Everything | Need::Light { .. } => self.measure(state, &request(), library, None, &Silent)?.dataset,
         };
         let label = if state.is_empty() { dataset.name.clone() } else { format!("{}, {state}", dataset.name) };
         Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), very: Some(very) })
@@ -43,7 +43,7 @@ impl Described {
             description: system.description.clone(),
             state: state.to_owned(),
             structure: system.family().structure(),
-            findings: vec![Finding::info("not-computed", "Nothing in this scene asks for its diffuse light.")],
+            findings: vec![Finding::info("not-computed", "Nothing in this scene asks for them.")],
             ..Dataset::default()
         };
         dataset.visible.transmission_front = Some(Btdf::default());
@@ -51,12 +51,9 @@ impl Described {
     }
 }
 
-/// What answers for single directions by the text of a description; `None` where the text is empty or names layers that
-/// cannot be found from here: then the data are all that is known.
+/// What answers for single directions by the text of a description; `None` where it names layers that cannot be found
+/// from here.
 pub(super) fn very_system(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<VerySystem> {
-    if text.is_empty() {
-        return None;
-    }
     let described = Described::from_text(text, Base::Builtin).ok()?;
     described.specimen(state, library).ok().map(|specimen| VerySystem(Arc::from(specimen)))
 }

@@ -10,6 +10,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::system::SystemKind;
+use crate::compute::system::measure::directions::measured_at_directions;
 use crate::compute::system::measure::upright::Upright;
 use crate::compute::system::measure::{Quality, Setting, Specimen};
 use crate::compute::system::panes::Panes;
@@ -17,7 +18,7 @@ use crate::compute::system::panes::coated::Layer as Pane;
 use crate::compute::system::stack::{DataLayer, Stack};
 use crate::compute::system::stack::{Layer, LayerSource};
 use crate::formats::dataset_blob;
-use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
+use crate::formats::system_toml::{self, EACH_STATE, MOST_NESTED, SystemFile, is_system_file};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,8 +26,6 @@ use std::time::Instant;
 
 /// Layers of a stack with all stacks in it, at most.
 const MOST_LAYERS: usize = 40;
-/// Stacks within stacks, at most.
-const MOST_NESTED: usize = 4;
 /// Version of the methods: raised whenever computed values change, so that kept states are not mistaken.
 const METHODS: u32 = 3;
 
@@ -61,6 +60,13 @@ pub struct Request {
     pub error: f64,
     /// Seed of what is drawn at random.
     pub seed: u64,
+}
+
+impl Request {
+    /// Are incidences single directions? The 145 of a goniophotometer are; Klems cells are cells.
+    pub fn at_directions(&self) -> bool {
+        self.incident == RingBasis::tregenza()
+    }
 }
 
 /// A computed state.
@@ -124,7 +130,7 @@ impl Described {
     }
 
     /// Another system file that this one names.
-    fn other(&self, name: &str) -> Result<Self, StudyError> {
+    pub(super) fn other(&self, name: &str) -> Result<Self, StudyError> {
         match &self.base {
             Base::Folder(folder) => Self::read(&folder.join(name)),
             Base::Builtin => Self::builtin(name).ok_or_else(|| {
@@ -134,6 +140,12 @@ impl Described {
                 )
             }),
         }
+    }
+
+    /// A layer that is described in this one's own text.
+    fn within(&self, text: &str) -> Result<Self, StudyError> {
+        let told = |error: crate::formats::FormatError| StudyError::key("stack.layers", error.to_string());
+        Self::from_text(text, self.base.clone()).map_err(told)
     }
 
     /// Where dataset files lie that it names.
@@ -169,6 +181,10 @@ impl Described {
                 let systems = library.load_file(&self.folder().join(name))?;
                 Ok(systems.iter().map(|system| system.state.clone()).collect())
             }
+            LayerSource::Text(text) => {
+                not_too_deep(depth)?;
+                self.within(text)?.states_within(library, depth + 1)
+            }
             LayerSource::Catalogue(key) => {
                 Ok(library.product(key)?.states.into_iter().map(|state| state.key).collect())
             }
@@ -182,7 +198,7 @@ impl Described {
         let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(LayerRun::into_specimen).collect();
         Ok(match ready.len() {
             1 => ready.pop().expect("counted"),
-            _ => Box::new(Stack(ready)),
+            _ => Box::new(Stack::new(ready)),
         })
     }
 
@@ -237,6 +253,7 @@ impl Described {
             LayerSource::File(name) if is_system_file(name) => {
                 return self.other(name)?.layers_into(list, state, library, depth + 1);
             }
+            LayerSource::Text(text) => return self.within(text)?.layers_into(list, state, library, depth + 1),
             LayerSource::File(name) => SystemKeys::File { path: name.into(), state: told },
             LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
         };
@@ -258,15 +275,23 @@ impl Described {
         let kept = kept.transpose()?;
         if let Some(path) = &kept
             && let Ok(bytes) = std::fs::read(path)
-            && let Ok(dataset) = dataset_blob::decode(&bytes)
+            && let Ok(mut dataset) = dataset_blob::decode(&bytes)
         {
+            dataset.described = self.described(state, library);
             return Ok(Computed { dataset, quality: None, seconds: 0.0 });
         }
         let start = Instant::now();
         let Request { incident, emergent, error, seed } = request;
         let setting = Setting { incident, emergent, error: *error, seed: *seed };
-        let (visible, quality) = self.specimen(state, library)?.examine(&setting, progress)?;
-        let dataset = described_dataset(&self.file, state.to_owned(), visible, &quality, *error);
+        let specimen = self.specimen(state, library)?;
+        let (visible, quality) = if request.at_directions() {
+            let measured = measured_at_directions(specimen.as_ref(), &setting, progress)?;
+            (measured.band_at_directions(), measured.quality())
+        } else {
+            specimen.examine(&setting, progress)?
+        };
+        let mut dataset = described_dataset(&self.file, state.to_owned(), visible, &quality, *error);
+        dataset.described = self.described(state, library);
         if let Some(path) = &kept {
             // A state that cannot be kept is computed again next time: nothing is lost.
             drop(std::fs::write(path, dataset_blob::encode(&dataset)));
@@ -345,6 +370,7 @@ impl Described {
                 LayerSource::File(name) => {
                     hash.update(&std::fs::read(self.folder().join(name)).unwrap_or_default());
                 }
+                LayerSource::Text(text) => self.within(text)?.sources_into(hash, library, depth + 1)?,
                 LayerSource::Catalogue(key) => {
                     for state in library.product(key)?.states {
                         hash.update(state.dataset.as_bytes());

@@ -8,7 +8,7 @@ use super::goniophotometer::{Described, LayerLibrary};
 use super::scene_file::SystemKeys;
 use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
-use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use crate::formats::system_toml::is_system_file;
@@ -95,10 +95,12 @@ impl Library {
         Ok(system)
     }
 
-    /// What answers for single directions by a description; kept, since what it solves is kept with it.
-    pub fn very_of(&self, text: &str, state: &str) -> Option<VerySystem> {
+    /// What answers for single directions by a dataset's own description; kept, since what it solves is kept with it.
+    /// `None` without one, or where it names layers that are not at hand: then the data are all that is known.
+    pub fn very_of(&self, dataset: &Dataset) -> Option<VerySystem> {
+        let DescribedState { text, state } = dataset.described.as_ref()?;
         let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
-        let key = (hash, state.to_owned());
+        let key = (hash, state.clone());
         let mut list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, very)) = list.iter().find(|(other, _)| *other == key) {
             return very.clone();
@@ -162,21 +164,29 @@ impl SystemLibrary for Library {
             }
             SystemKeys::File { path, state } => {
                 let systems = self.load_file(&base.join(path))?;
-                pick(&systems, state.as_deref(), &path.display().to_string())
+                let found = pick(&systems, state.as_deref(), &path.display().to_string())?;
+                let very = self.very_of(&found.dataset);
+                Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
             }
             SystemKeys::Catalogue { key, state } => {
                 self.provide_builtin(key)?;
-                let (dataset, product) = self.in_catalogue(|catalogue| {
-                    Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?))
+                let (dataset, label) = self.in_catalogue(|catalogue| {
+                    Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?.name))
                 })?;
-                let very = self.very_of(&product.system, &dataset.state);
-                Ok(Arc::new(System { label: product.name, state: dataset.state.clone(), dataset, very }))
+                let very = self.very_of(&dataset);
+                Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
             }
         }
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         pick_state(&Device::of(&self.product(product)?)?, asked)
+    }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        let described = Described::read(path)?;
+        let states = described.states(self)?;
+        pick_state(&Device::described(&described.file, &described.text, states), asked)
     }
 }
 

@@ -20,6 +20,7 @@ pub mod plan;
 pub mod scene;
 pub mod scene_file;
 mod scheme_words;
+mod self_contained;
 pub mod session;
 pub mod sky;
 pub mod sun_position;

@@ -22,6 +22,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
+use crate::formats::system_toml::is_system_file;
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -137,8 +138,8 @@ impl Scene {
             })?;
             let picked = if wanted == keys.system { None } else { wanted_state(&wanted) };
             // Without diffuse light, and with nothing that comes back, a description need not become data.
-            let dark = !facing.outside.is_lit() && !(file.compute.interreflection && reflects(file));
-            let need = if dark && beams { Need::VerySun } else { Need::Everything };
+            let back = file.compute.interreflection && reflects(file);
+            let need = if back || !beams { Need::Everything } else { Need::Light { lit: facing.outside.is_lit() } };
             let system = library.load(&wanted, base, need).map_err(|error| in_aperture(index, error))?;
             if system.dataset.transmission().is_none() {
                 return Err(StudyError::key(
@@ -246,13 +247,19 @@ fn controlled_state(
     asked: Option<&ControlQuestion<'_>>,
     library: &dyn SystemLibrary,
 ) -> Result<SystemKeys, StudyError> {
+    let without = || StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode");
     match &keys.system {
         SystemKeys::Catalogue { key, state: Some(word) } if word == CONTROLLED => {
-            let asked = asked.ok_or_else(|| {
-                StudyError::key("system.state", "\"controlled\" needs a [control] section with a mode")
-            })?;
+            let asked = asked.ok_or_else(without)?;
             let state = library.controlled_state(key, asked)?;
             Ok(SystemKeys::Catalogue { key: key.clone(), state: Some(state) })
+        }
+        SystemKeys::File { path, state: Some(word) }
+            if word == CONTROLLED && is_system_file(&path.to_string_lossy()) =>
+        {
+            let asked = asked.ok_or_else(without)?;
+            let state = library.controlled_description(&asked.base.join(path), asked)?;
+            Ok(SystemKeys::File { path: path.clone(), state: Some(state) })
         }
         other => Ok(other.clone()),
     }

@@ -1,6 +1,7 @@
 //! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
+mod emission;
 pub(super) mod interreflected;
 pub(super) mod responses;
 mod thrown_back;
@@ -10,12 +11,15 @@ use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
+use super::system::VerySystem;
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::{Btdf, Indicatrices, Scattered};
+use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::{Emission, Facing, Interpolator, Lid};
+use crate::compute::lid::peaks::Peaks;
+use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::back_reflection::RoomSide;
+use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
@@ -72,6 +76,8 @@ pub struct RoomResult {
     /// Largest relative gap between the flux that leaves an aperture and the flux found on the surfaces, before it
     /// was closed; 0 without interreflection.
     pub flux_gap: f64,
+    /// How the sun's beams were found, aperture by aperture, and what is to be said of it.
+    pub beams: Vec<(BeamSource, String)>,
     /// What ran, what was left out, and how long it took.
     pub plan: Plan,
 }
@@ -80,6 +86,13 @@ pub struct RoomResult {
 const DARK: f64 = 0.01;
 
 impl RoomResult {
+    /// Share of all light at the sensors that the data leave open.
+    pub fn data_share(&self) -> f64 {
+        let all: f64 = self.sensors.iter().map(|s| s.total().value).sum();
+        let open: f64 = self.sensors.iter().map(|s| s.data_error).sum();
+        if all > 0.0 { open / all } else { 0.0 }
+    }
+
     /// The largest relative error stated among the sensors that are not in the dark (1 % of the mean); 0 without light.
     pub fn reached(&self) -> f64 {
         let mean = self.sensors.iter().map(|s| s.total().value).sum::<f64>() / self.sensors.len().max(1) as f64;
@@ -109,7 +122,12 @@ pub struct Session {
     by_cells: Cache<ByCells>,
     sides: Cache<RoomSide>,
     falling: Cache<Vec<Vec<f64>>>,
+    bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
+    suns: Cache<(VerySystem, SunThrough)>,
+    skies: Cache<(VerySystem, SkyThrough)>,
+    /// The data stay alive with them, so that no others can have their address.
+    peaks: Cache<(Arc<Dataset>, Peaks)>,
 }
 
 impl Default for Session {
@@ -130,7 +148,11 @@ impl Session {
             by_cells: Cache::new(12),
             sides: Cache::new(12),
             falling: Cache::new(24),
+            bands: Cache::new(16),
             interpolators: Cache::new(6),
+            suns: Cache::new(64),
+            skies: Cache::new(8),
+            peaks: Cache::new(6),
         }
     }
 
@@ -147,48 +169,12 @@ impl Session {
         })
     }
 
-    /// What an aperture emits under the scene's outside.
-    fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
-        let system = &scene.apertures[aperture].system;
-        let btdf = system.dataset.transmission().expect("a resolved scene has only systems with transmission data");
-        let facing = scene.facing(aperture);
-        match system.very.as_ref().filter(|_| scene.beams) {
-            Some(very) => {
-                let mut emission = self.by_data(scene, btdf, &Facing { sun: None, ..facing });
-                emission.add_sun_through(very.0.as_ref(), &facing);
-                emission
-            }
-            None => self.by_data(scene, btdf, &facing),
-        }
-    }
-
-    /// What the data make of the outside.
-    fn by_data(&self, scene: &Scene, btdf: &Btdf, facing: &Facing<'_>) -> Emission {
-        match &btdf.scattered {
-            Some(Scattered::Directions(data)) if scene.interpolation != Interpolation::Patch => {
-                let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
-                Emission::interpolated(btdf, &self.interpolator(data), schemes, facing)
-            }
-            _ => Emission::new(btdf, facing),
-        }
-    }
-
-    /// What interpolation between the directions of a dataset needs.
-    pub(super) fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
-        let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
-        // The interpolator keeps the data alive, so that no others can have their address.
-        match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {
-            Ok(own) => own,
-            Err(never) => match never {},
-        }
-    }
-
     /// Illuminance at every sensor.
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
         let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect();
-        let flux = emissions
+        let flux: Estimate = emissions
             .iter()
             .enumerate()
             .map(|(i, emission)| emission.exitance(&scene.facing(i)) * scene.apertures[i].aperture.area())
@@ -221,16 +207,23 @@ impl Session {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
         };
         plan.spend("interreflection", clock.elapsed());
+        // What the data leave open of the flux that comes in, they leave open of what it becomes.
+        let doubted: f64 =
+            emissions.iter().zip(&scene.apertures).map(|(e, one)| e.exitance_doubt() * one.aperture.area()).sum();
+        let open = if flux.value > 0.0 { doubted / flux.value } else { 0.0 };
         let sensors = scene
             .sensors
             .iter()
             .zip(direct.into_iter().zip(interreflected))
             .map(|(&sensor, (direct, interreflected))| {
                 let DirectLight { all, beam, data_error } = direct;
+                let data_error = data_error + open * interreflected.value;
                 SensorResult { sensor, direct: all, interreflected, beam, data_error }
             })
             .collect();
-        Ok(RoomResult { sensors, flux, flux_gap, plan })
+        let beams =
+            emissions.iter().map(|emission| (emission.beam_source, sun_word(emission, scene.interpolation))).collect();
+        Ok(RoomResult { sensors, flux, flux_gap, beams, plan })
     }
 
     /// Is everything there that sensors and apertures are to each other?
@@ -286,6 +279,28 @@ impl Session {
         })
     }
 
+    /// What every sensor receives from one aperture by bands of the profile angle.
+    fn band_weights(
+        &self,
+        scene: &Scene,
+        index: usize,
+        bands: &BandLight,
+        progress: &dyn Progress,
+    ) -> Result<Arc<Vec<BandWeights>>, StudyError> {
+        let aperture = &scene.apertures[index].aperture;
+        let (upright, count) = (bands.light.upright, bands.light.q.len());
+        let mut key = reception_key(scene, index, None);
+        key.extend([u64::from(upright), count as u64]);
+        self.bands.get(key, || {
+            let of = |sensor: &Sensor| {
+                check(progress)?;
+                let view = aperture.view(sensor.position, sensor.normal);
+                Ok(view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count)))
+            };
+            scene.sensors.par_iter().map(of).collect()
+        })
+    }
+
     fn direct(
         &self,
         scene: &Scene,
@@ -316,6 +331,10 @@ impl Session {
                 .into_iter()
                 .map(|basis| self.receptions(scene, index, basis, progress))
                 .collect::<Result<_, StudyError>>()?;
+            let bands = match emission.bands.first() {
+                Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
+                None => None,
+            };
             // Dark corners are not chased beyond what anyone can see.
             let absolute = 1e-7 * (facing.outside.diffuse_horizontal());
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
@@ -326,7 +345,8 @@ impl Session {
                 .map(|(s, sensor)| {
                     check(progress)?;
                     let own: Vec<&Reception> = receptions.iter().map(|all| &all[s]).collect();
-                    Ok(direct::illuminance(sensor, aperture, &own, emission, &facing, tolerance))
+                    let bands = bands.as_ref().map(|all| &all[s]);
+                    Ok(direct::illuminance(sensor, aperture, &own, bands, emission, &facing, tolerance))
                 })
                 .collect::<Result<_, StudyError>>()?;
             for (sum, e) in sums.iter_mut().zip(part) {
@@ -334,6 +354,20 @@ impl Session {
             }
         }
         Ok(sums)
+    }
+}
+
+/// What is to be said of an aperture's beams.
+fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
+    let said = emission.notes.iter().rev().find_map(|note| note.strip_prefix("sun: "));
+    match (said, emission.beam_source) {
+        (Some(said), _) => said.to_owned(),
+        (None, BeamSource::None) => "no sun, or no system that keeps its light together".to_owned(),
+        (None, BeamSource::Described) => "a regular transmittance".to_owned(),
+        (None, _) if interpolation == Interpolation::Patch => {
+            "the data are taken at their word: constant on their cells".to_owned()
+        }
+        (None, _) => "the data's own cells".to_owned(),
     }
 }
 

@@ -26,6 +26,14 @@ pub struct System {
 #[derive(Clone)]
 pub struct VerySystem(pub Arc<dyn Specimen>);
 
+impl VerySystem {
+    /// May sky and ground be computed from its answers? Else its data are: where thousands of answers take too long, and
+    /// where data keep straight light apart, which is better still.
+    pub fn answers_for_the_sky(&self) -> bool {
+        self.0.is_quick() && !self.0.keeps_regular_apart()
+    }
+}
+
 impl fmt::Debug for VerySystem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("VerySystem")
@@ -43,8 +51,12 @@ impl PartialEq for VerySystem {
 pub enum Need {
     /// All that is known of it.
     Everything,
-    /// What it does to the very sun, where its description tells: there is no other light.
-    VerySun,
+    /// What it does to light from outside, as far as its description does not tell by itself; `lit`: is there light from
+    /// sky or ground?
+    Light {
+        /// Sky or ground shine.
+        lit: bool,
+    },
 }
 
 /// Loads what `aperture.system` names.
@@ -54,6 +66,12 @@ pub trait SystemLibrary: Sync {
 
     /// The state that a control picks for a product.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
+
+    /// The state that a control picks for a description in a file.
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        let _ = asked;
+        Err(StudyError::key("system.file", format!("{}: no descriptions are read here", path.display())))
+    }
 }
 
 /// An ideal system.

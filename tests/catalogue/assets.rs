@@ -127,6 +127,7 @@ fn key_of(source: &LayerSource) -> String {
         LayerSource::Catalogue(key) => {
             panic!("layer {key} by its key: the catalogue is not there yet when it is filled")
         }
+        LayerSource::Text(text) => panic!("a layer of its own, which no product shows: {text}"),
     }
 }
 

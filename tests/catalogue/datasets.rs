@@ -122,6 +122,8 @@ pub fn dataset() -> impl Strategy<Value = Dataset> {
                 solar: solar.then_some(infrared),
                 derived: if turned { vec![Component::TransmissionBack] } else { vec![] },
                 findings: vec![Finding::warning("not-reciprocal", t[0].clone())],
+                // The blob does not hold it: products do.
+                described: None,
             }
         },
     )

@@ -3,4 +3,5 @@
 mod assets;
 mod catalogue;
 mod datasets;
+mod described;
 mod packages;

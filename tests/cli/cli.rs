@@ -70,13 +70,16 @@ fn room_writes_the_table_of_the_contract() {
     let output = folder.cfs(&["room", "a.toml", "--out", "a.csv"]);
     assert!(output.status.success() && output.stdout.is_empty(), "{}", text(&output.stderr));
     let table = std::fs::read_to_string(folder.path("a.csv")).unwrap();
-    assert_eq!(table.lines().next().unwrap(), "x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx");
+    let header = "x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx,\
+                  E_error_numerical_lx,E_error_data_lx,E_beam_lx";
+    assert_eq!(table.lines().next().unwrap(), header);
     let rows = csv_rows(&table);
     assert_eq!(rows.len(), 24);
     // x runs fastest, cell centres.
     assert_eq!(rows[1][..6], [1.5, 0.5, 0.85, 0.0, 0.0, 1.0]);
     for row in &rows {
         assert!((row[6] - row[7] - row[8]).abs() < 1e-5 * row[6] && row[9] >= 0.0 && row[7] > 0.0);
+        assert!((row[9] - row[10] - row[11]).abs() <= 1e-6 * row[9] && row[12] == 0.0);
     }
     assert_eq!(folder.names(), ["a.csv", "a.toml"]);
     // The same on standard output.

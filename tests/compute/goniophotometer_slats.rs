@@ -8,7 +8,7 @@ use cfs::compute::basis::{self, RingBasis};
 use cfs::compute::btdf::Component;
 use cfs::compute::direction::Dir;
 use cfs::compute::estimate::Silent;
-use cfs::compute::system::measure::{Measured, Setting, Side, Specimen};
+use cfs::compute::system::measure::{Measured, Setting, Side};
 use cfs::compute::system::slats::{SlatArray, SlatProfile, Surface};
 use flat_slats::FlatSlats;
 use std::f64::consts::PI;

@@ -1,6 +1,7 @@
 //! Parts of the computation by themselves: skies, systems measured numerically, the compact form, ways between
 //! incident directions, the report's figures.
 
+mod beams;
 #[path = "../common/mod.rs"]
 mod common;
 mod compact;

@@ -1,5 +1,6 @@
 //! Readers and writers of datasets and luminaires, and the data doctor.
 
+mod beams;
 mod btdf_text;
 #[path = "../common/mod.rs"]
 mod common;

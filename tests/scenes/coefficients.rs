@@ -49,6 +49,8 @@ fn agree(name: &str, prepared: &Scene, others: &[Scene], bound: f64) {
     let session = Session::new();
     let coefficients = Coefficients::new(&session, prepared, &Silent).unwrap();
     for scene in others {
+        // Columns know the sun by the data's cells.
+        let scene = &Scene { beams: false, ..scene.clone() };
         let ordinary: Vec<Estimate> = session.room(scene, &Silent).unwrap().sensors.iter().map(|s| s.total()).collect();
         let mut quick = coefficients.sky_estimate(&scene.outside);
         let mut bare = coefficients.sky(&scene.outside);

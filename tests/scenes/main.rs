@@ -11,6 +11,7 @@ mod near_field;
 mod plan;
 mod reference_kit;
 mod rooms;
+mod sharp_sun;
 mod stability;
 mod stability_measured;
 mod validation;

@@ -21,7 +21,7 @@ fn emission(scene: &Scene) -> Emission {
 fn by(method: NearField, scene: &Scene, aperture: &Aperture, sensors: &[Sensor]) -> Vec<f64> {
     let (emission, facing) = (emission(scene), scene.facing(0));
     let integrator = Integrator::new(method, aperture, &emission, &facing, TOLERANCE);
-    sensors.iter().map(|sensor| integrator.illuminance(sensor).value).collect()
+    sensors.iter().map(|sensor| integrator.illuminance(sensor).all.value).collect()
 }
 
 fn window() -> Aperture {
@@ -166,7 +166,7 @@ fn monte_carlo_knows_its_standard_error() {
             list.iter()
                 .zip(&exact)
                 .filter(|(sensor, exact)| {
-                    let e = method.illuminance(sensor);
+                    let e = method.illuminance(sensor).all;
                     (e.value - **exact).abs() <= factor * e.error
                 })
                 .count()

@@ -8,6 +8,7 @@ use cfs::compute::estimate::Silent;
 use cfs::compute::room::direct::Sensor;
 use cfs::study::control::ControlQuestion;
 use cfs::study::scene_file::SystemKeys;
+use cfs::study::system::Need;
 use cfs::study::{RoomResult, Scene, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::sync::{Arc, Mutex};

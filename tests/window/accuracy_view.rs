@@ -66,6 +66,7 @@ impl Engine for Scripted {
             interreflected: estimate,
             grid: Some([1, 1]),
             seconds: 0.001,
+            ..RoomFigures::default()
         })
     }
 

@@ -42,7 +42,14 @@ impl Engine for Scripted {
         let sensors = vec![[2.0, 3.0, 0.85]];
         let estimate = vec![Estimate::new(500.0, 2.0)];
         let grid = Some([1, 1]);
-        Ok(RoomFigures { positions: sensors, direct: estimate.clone(), interreflected: estimate, grid, seconds: 0.001 })
+        Ok(RoomFigures {
+            positions: sensors,
+            direct: estimate.clone(),
+            interreflected: estimate,
+            grid,
+            seconds: 0.001,
+            ..RoomFigures::default()
+        })
     }
 
     fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {

@@ -30,6 +30,7 @@ impl Engine for Idle {
             interreflected: estimate,
             grid: Some([1, 1]),
             seconds: 0.001,
+            ..RoomFigures::default()
         })
     }
 

@@ -101,7 +101,13 @@ fn grid(nx: usize, ny: usize) -> Vec<room::CellValue> {
                 }
             }
             let inter = 90.0 - 6.0 * y;
-            room::CellValue { total: direct + inter, error: 0.004 * (direct + inter), direct, inter }
+            room::CellValue {
+                total: direct + inter,
+                error: 0.004 * (direct + inter),
+                direct,
+                inter,
+                ..room::CellValue::default()
+            }
         })
         .collect()
 }
@@ -114,7 +120,11 @@ fn redirecting_lid() -> Lid {
         surface: Surface::Facade,
         size: [2.0, 1.5],
         parts: vec![EmergentLuminance::Cells { basis, luminance }],
-        beam: Some(SunBeam { direction: Emergent::from_through_name(from(42.0, 75.0).0), flux: 2400.0 }),
+        beams: vec![SunBeam {
+            direction: Emergent::from_through_name(from(42.0, 75.0).0),
+            flux: 2400.0,
+            straight: true,
+        }],
     }
 }
 

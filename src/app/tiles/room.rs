@@ -2,7 +2,7 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::engine::RoomFigures;
+use crate::app::engine::{RoomFigures, part};
 use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::{Cache, room};
@@ -42,6 +42,8 @@ fn cells(figures: &RoomFigures) -> Vec<room::CellValue> {
             error: total.error,
             direct: figures.direct[i].value,
             inter: figures.interreflected[i].value,
+            beam: part(&figures.beam, i),
+            data_error: part(&figures.data_error, i),
         }
     };
     (0..figures.positions.len()).map(cell).collect()

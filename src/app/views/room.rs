@@ -25,6 +25,10 @@ pub struct CellValue {
     pub direct: f64,
     /// By way of the room's surfaces.
     pub inter: f64,
+    /// The part of `direct` that is the sun's beams.
+    pub beam: f64,
+    /// The part of `error` that the data leave open.
+    pub data_error: f64,
 }
 
 /// An aperture as a rectangle of its surface.
@@ -204,8 +208,16 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
 }
 
 fn value_text(v: &CellValue) -> String {
-    let error = if v.error > 0.0 { format!(" ± {}", number(v.error, 2)) } else { String::new() };
-    format!("{}{error} lx · direct {} · interreflected {}", number(v.total, 4), si(v.direct, "lx"), si(v.inter, "lx"))
+    let error = match (v.error, v.data_error) {
+        (0.0, _) => String::new(),
+        (all, 0.0) => format!(" ± {}", number(all, 2)),
+        (all, data) => {
+            format!(" ± {} ({} computed, {} data)", number(all, 2), number((all - data).max(0.0), 2), number(data, 2))
+        }
+    };
+    let sun = if v.beam > 0.0 { format!(" (sun's beam {})", si(v.beam, "lx")) } else { String::new() };
+    let (direct, inter) = (si(v.direct, "lx"), si(v.inter, "lx"));
+    format!("{}{error} lx · direct {direct}{sun} · interreflected {inter}", number(v.total, 4))
 }
 
 fn summary(input: &Input<'_>, short: bool) -> String {
@@ -373,14 +385,14 @@ fn section_ui(
 /// All sensors with position and parts.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
-    let mut out = String::from("x_m,y_m,z_m,total_lx,error_lx,direct_lx,interreflected_lx\n");
+    let mut out = String::from("x_m,y_m,z_m,total_lx,error_lx,direct_lx,interreflected_lx,error_data_lx,beam_lx\n");
     for (k, c) in input.cells.iter().enumerate() {
         let x = ((k % input.nx) as f64 + 0.5) / input.nx as f64 * input.room[0];
         let y = ((k / input.nx) as f64 + 0.5) / input.ny as f64 * input.room[1];
         let _ = writeln!(
             out,
-            "{x:.4},{y:.4},{:.4},{:.4},{:.4},{:.4},{:.4}",
-            input.plane_z, c.total, c.error, c.direct, c.inter
+            "{x:.4},{y:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4}",
+            input.plane_z, c.total, c.error, c.direct, c.inter, c.data_error, c.beam
         );
     }
     out

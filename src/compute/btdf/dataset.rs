@@ -1,6 +1,6 @@
 //! Everything known photometrically about one state of one system.
 
-use super::{Btdf, Finding, Thermal};
+use super::{Btdf, DescribedState, Finding, Thermal};
 
 /// Which of the four functions of a band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -137,6 +137,8 @@ pub struct Dataset {
     pub derived: Vec<Component>,
     /// What the reader and the checks have to say.
     pub findings: Vec<Finding>,
+    /// The description that it was computed from, where all of it is known; `None` for measured and mended data.
+    pub described: Option<DescribedState>,
 }
 
 impl Dataset {

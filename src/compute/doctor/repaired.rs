@@ -67,6 +67,8 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
         out.thermal = out.thermal.swapped();
     }
     out.description = record(&out.description, &[repair]);
+    // What was mended is no longer what the description gives.
+    out.described = None;
     Ok(out)
 }
 

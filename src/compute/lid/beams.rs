@@ -16,6 +16,8 @@ pub struct BeamLight {
     pub normal: f64,
     /// Straight on: what hides a part of the sun hides the same part of it.
     pub straight: bool,
+    /// Error of its strength, a share of it.
+    pub error: f64,
     /// What is not known of its strength, a share of it: how far the data tell apart neighbouring suns.
     pub doubt: f64,
 }
@@ -26,7 +28,14 @@ impl BeamLight {
         let incident = facing.sun_illuminance();
         let (sun, to) = (facing.sun?, facing.sun_direction()?);
         let tau = tau?.at(to.theta().min(0.5 * PI));
-        let beam = Self { to, exitance: tau * incident, normal: tau * sun.direct_normal, straight: true, doubt: 0.0 };
+        let beam = Self {
+            to,
+            exitance: tau * incident,
+            normal: tau * sun.direct_normal,
+            straight: true,
+            error: 0.0,
+            doubt: 0.0,
+        };
         (beam.exitance > 0.0).then_some(beam)
     }
 }

@@ -4,61 +4,18 @@
 //! Linear data on cells (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
 //! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
 
+use super::Facing;
 use super::beams::BeamLight;
 use super::{EmergentLuminance, Lid, SunBeam};
 use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
-use crate::compute::direction::{Dir, Emergent, Facade, Incident, Orientation, Surface};
+use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::sun_disc::{self, Edge};
-use crate::compute::sky::{Frame, Outside, Sun, incident_illuminances};
-use glam::DVec3;
+use crate::compute::sky::{Frame, incident_illuminances};
+use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Outside as one aperture faces it.
-#[derive(Debug, Clone, Copy)]
-pub struct Facing<'a> {
-    /// Sky, ground, skyline.
-    pub outside: &'a Outside,
-    /// The disc, if it shines at all.
-    pub sun: Option<&'a Sun>,
-    /// Turns the room to the compass.
-    pub orientation: Orientation,
-    /// The aperture's surface.
-    pub surface: Surface,
-}
-
-impl Facing<'_> {
-    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
-    pub fn luminance(&self, d: Dir<Facade>) -> f64 {
-        self.outside.luminance(self.orientation.world_from_room(self.surface.room_dir(d)))
-    }
-
-    /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
-    pub fn sun_direction(&self) -> Option<Dir<Facade>> {
-        self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
-    }
-
-    /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
-    /// the aperture's frame.
-    pub fn sun_edges(&self) -> [Edge; 2] {
-        let zenith = self.surface.facade_from_room(DVec3::Z);
-        let offset = self.outside.skyline_altitude().sin();
-        [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]
-    }
-
-    /// Illuminance of the aperture's outside by the sun's disc. \[lx\]
-    pub fn sun_illuminance(&self) -> f64 {
-        match (self.sun, self.sun_direction()) {
-            (Some(sun), Some(direction)) => {
-                sun.direct_normal * sun_disc::share(direction.vector(), DVec3::Z, self.sun_edges())
-            }
-            _ => 0.0,
-        }
-    }
-}
 
 /// Luminance on emergent cells, diffuse light and sun apart. \[cd/m²\]
 #[derive(Debug, Clone)]
@@ -76,6 +33,41 @@ pub struct CellLight {
     pub relative_error: f64,
 }
 
+/// Luminance by profile angle: q times illuminance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandLight {
+    /// Per illuminance.
+    pub light: ProfileLight,
+    /// Of the aperture's outside. \[lx\]
+    pub illuminance: f64,
+}
+
+/// Where the sun's beams come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BeamSource {
+    /// There are none to be had: no sun, or nothing that keeps light together.
+    #[default]
+    None,
+    /// The description of the system, or a regular transmittance.
+    Described,
+    /// Taken out of data on cells.
+    Extracted,
+    /// Left on cells.
+    Cells,
+}
+
+impl BeamSource {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Described => "described",
+            Self::Extracted => "extracted",
+            Self::Cells => "cells",
+        }
+    }
+}
+
 /// Everything that an aperture emits.
 #[derive(Debug, Clone)]
 pub struct Emission {
@@ -83,6 +75,8 @@ pub struct Emission {
     pub uniform: Estimate,
     /// Parts on cells, each on its own.
     pub cells: Vec<CellLight>,
+    /// Scattered light where it depends on a profile angle alone: the same bands in all parts.
+    pub bands: Vec<BandLight>,
     /// The outside seen straight through, with this transmittance.
     pub regular: Option<AngularTransmittance>,
     /// The sun's light that goes on as beams.
@@ -91,11 +85,28 @@ pub struct Emission {
     pub incident_diffuse: Estimate,
     /// Illuminance of the outside face by the sun. \[lx\]
     pub incident_sun: f64,
+    /// Where the beams come from.
+    pub beam_source: BeamSource,
     /// How it was found where there was a choice, in sentences.
     pub notes: Vec<String>,
 }
 
 impl Emission {
+    /// No light at all.
+    pub fn dark() -> Self {
+        Self {
+            uniform: Estimate::default(),
+            cells: Vec::new(),
+            bands: Vec::new(),
+            regular: None,
+            beams: Vec::new(),
+            beam_source: BeamSource::None,
+            incident_diffuse: Estimate::default(),
+            incident_sun: 0.0,
+            notes: Vec::new(),
+        }
+    }
+
     /// Computes what the room side of a system emits.
     pub fn new(btdf: &Btdf, facing: &Facing<'_>) -> Self {
         let incident_sun = facing.sun_illuminance();
@@ -104,13 +115,21 @@ impl Emission {
         let mut emission = Self {
             uniform: Estimate::default(),
             cells: Vec::new(),
+            bands: Vec::new(),
             regular: btdf.regular.clone(),
             beams: Vec::new(),
             incident_diffuse: Estimate::default(),
             incident_sun,
+            beam_source: BeamSource::None,
             notes: Vec::new(),
         };
         emission.beams.extend(BeamLight::regular(btdf.regular.as_ref(), facing));
+        emission.beam_source = match &btdf.scattered {
+            _ if sun_direction.is_none() => BeamSource::None,
+            _ if !emission.beams.is_empty() => BeamSource::Described,
+            None | Some(Scattered::Lambert(_)) => BeamSource::None,
+            Some(_) => BeamSource::Cells,
+        };
         match &btdf.scattered {
             None => {
                 emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum();
@@ -190,6 +209,9 @@ impl Emission {
     /// Flux that leaves into the room per area, beam included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
+        for bands in &self.bands {
+            sum += Estimate::new(bands.light.share(), bands.light.error) * bands.illuminance;
+        }
         for cells in &self.cells {
             let total: f64 = cells
                 .basis
@@ -216,6 +238,16 @@ impl Emission {
         sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
     }
 
+    /// What the data leave open of [`Self::exitance`]. \[lm/m²\]
+    pub fn exitance_doubt(&self) -> f64 {
+        let flux = |light: &CellLight, doubt: &Vec<f64>| -> f64 {
+            light.basis.cells().zip(doubt).map(|(cell, l)| cell.projected_solid_angle() * l).sum()
+        };
+        let on_cells = |light: &CellLight| light.doubts.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
+        let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.doubt).sum();
+        self.cells.iter().map(on_cells).sum::<f64>() + beams
+    }
+
     /// As a luminous-intensity distribution (eq 5).
     pub fn lid(&self, facing: &Facing<'_>, size: [f64; 2]) -> Lid {
         let mut parts = Vec::new();
@@ -227,6 +259,11 @@ impl Emission {
                 basis: Arc::clone(&cells.basis),
                 luminance: cells.diffuse.iter().zip(&cells.sun).map(|(a, b)| a + b).collect(),
             });
+        }
+        for bands in self.bands.iter().cloned() {
+            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
+                bands.light.at(twin) * bands.illuminance
+            })));
         }
         if let Some(tau) = &self.regular {
             let (tau, outside) = (tau.clone(), facing.outside.clone());

@@ -1,7 +1,7 @@
 //! What an aperture emits when the data are known at single incident directions only: sky and ground in sub-patches
 //! finer than these directions, the sun exactly where it is, each through an interpolated indicatrix.
 
-use super::{BeamLight, CellLight, Emission, Facing};
+use super::{BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Indicatrices};
 use crate::compute::direction::{Dir, Facade};
@@ -159,10 +159,12 @@ impl Emission {
         Self {
             uniform: Estimate::default(),
             cells: vec![cells],
+            bands: Vec::new(),
             regular: btdf.regular.clone(),
             beams: BeamLight::regular(btdf.regular.as_ref(), facing).into_iter().collect(),
             incident_diffuse,
             incident_sun,
+            beam_source: if incident_sun > 0.0 { BeamSource::Cells } else { BeamSource::None },
             notes,
         }
     }

@@ -3,13 +3,18 @@
 mod beams;
 pub mod c_gamma;
 mod emission;
+mod facing;
 mod interpolated;
+pub mod peaks;
+mod sky_through;
 mod sun_through;
 
 pub use beams::BeamLight;
-pub use emission::{CellLight, Emission, Facing};
+pub use emission::{BandLight, BeamSource, CellLight, Emission};
+pub use facing::Facing;
 pub use interpolated::Interpolator;
-pub use sun_through::{sun_beams, sun_cells};
+pub use sky_through::SkyThrough;
+pub use sun_through::{SunThrough, sun_beams, sun_cells};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};

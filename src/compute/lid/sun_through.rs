@@ -1,11 +1,12 @@
 //! The very sun through a system that answers for single directions: its beams as means over the disc, and what it
 //! scatters.
 
-use super::{BeamLight, CellLight, Emission, Facing};
+use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
+use crate::compute::incidence::superpose::sub_patches;
 use crate::compute::sky::SUN_HALF_ANGLE;
-use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen};
+use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -21,34 +22,33 @@ const SAME: f64 = 1e-9;
 const PIECE: f64 = 0.15 * PI / 180.0;
 /// Pieces of fans that fall together within this are one. \[rad\]
 const TOGETHER: f64 = 0.1 * PI / 180.0;
-/// Points of the disc that tell whether its middle can stand for it, and those that take its place where it cannot.
-const POINTS: [usize; 2] = [7, 127];
+/// Pairs of directions over the disc for the straight beam, one number after the other until its share stands ...
+const SEEDS: [usize; 4] = [16, 64, 256, 1024];
+/// ... to this, relative.
+const STANDS: f64 = 1e-5;
+/// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
+const PARTS: [usize; 2] = [3, 64];
 /// Shares that are as near as this to linear over the disc are.
 const LINEAR: f64 = 2e-5;
 /// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
 const GRAZING: f64 = 0.3;
 
-/// The cells that scattered sunlight is put on: the same for all systems, so that what sensors see of them is found once.
+/// The cells that light of described systems is put on: the same for all systems, so that what sensors see of them is found once.
 pub fn sun_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
-    CELLS.get_or_init(|| Arc::new(RingBasis::even(CELL)))
+    CELLS.get_or_init(|| Arc::new(sub_patches(CELL)))
 }
 
-/// A point of the sun's disc that nothing hides, as the aperture faces it.
-struct DiscPoint {
-    name: Dir<Facade>,
-    beams: Vec<Beam>,
-}
-
-/// Directions evenly over the disc that are not hidden: the middle, then rings of equal shares (a sunflower).
-fn disc(facing: &Facing<'_>, sun: Dir<Facade>, points: usize) -> Vec<Dir<Facade>> {
+/// Directions evenly over the disc that nothing hides: a sunflower of so many seeds, each with its opposite.
+fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
     let (u, v) = sun.vector().any_orthonormal_pair();
     let edges = facing.sun_edges();
     let golden = PI * (3.0 - 5.0_f64.sqrt());
-    (0..points)
+    (0..2 * seeds)
         .map(|k| {
-            let (sin, cos) = (golden * k as f64).sin_cos();
-            let at = SUN_HALF_ANGLE.tan() * ((k as f64 + 0.5) / points as f64).sqrt();
+            let (sin, cos) = (golden * (k / 2) as f64).sin_cos();
+            let at = SUN_HALF_ANGLE.tan() * (((k / 2) as f64 + 0.5) / seeds as f64).sqrt();
+            let at = if k % 2 == 0 { at } else { -at };
             (sun.vector() + at * (cos * u + sin * v)).normalize()
         })
         .filter(|d| edges.iter().all(|edge| edge.normal.dot(*d) > edge.offset))
@@ -56,72 +56,83 @@ fn disc(facing: &Facing<'_>, sun: Dir<Facade>, points: usize) -> Vec<Dir<Facade>
         .collect()
 }
 
-impl DiscPoint {
-    fn straight(&self) -> f64 {
-        self.beams.iter().filter(|beam| self.is_straight(beam)).map(|beam| beam.share).sum()
-    }
-
-    fn is_straight(&self, beam: &Beam) -> bool {
-        beam.names.iter().all(|name| name.vector().distance(self.name.vector()) < SAME)
-    }
-
-    fn turned(&self) -> impl Iterator<Item = &Beam> {
-        self.beams.iter().filter(|beam| !self.is_straight(beam))
-    }
-
-    fn cosine(&self) -> f64 {
-        self.name.vector().z.max(0.0)
-    }
+fn cosine(name: Dir<Facade>) -> f64 {
+    name.vector().z.max(0.0)
 }
 
-/// Points of the disc with what the system makes of each, as many as its shares ask for.
-fn points(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<DiscPoint> {
-    let ask = |name: Dir<Facade>| {
-        let beams = specimen.beams(name, Side::Front).into_iter().filter(|beam| beam.transmitted).collect();
-        DiscPoint { name, beams }
+/// The straight beam as a mean over the disc, by more and more directions until it stands.
+fn straight(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
+    let (incident, normal) = (facing.sun_illuminance(), facing.sun?.direct_normal);
+    let mut found: Option<BeamLight> = None;
+    for seeds in SEEDS {
+        let names = disc(facing, sun, seeds);
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        if cosines <= 0.0 {
+            continue;
+        }
+        let shares: Vec<f64> = names.iter().map(|name| specimen.straight(*name, Side::Front)).collect();
+        let [flux, mean] = [
+            names.iter().zip(&shares).map(|(name, share)| share * cosine(*name)).sum::<f64>() / cosines,
+            shares.iter().sum::<f64>() / shares.len() as f64,
+        ];
+        // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is
+        // hidden in part is cut by what hides it, later.
+        let centre: DVec3 = names.iter().zip(&shares).map(|(name, share)| *share * name.vector()).sum();
+        let to = if names.len() == 2 * seeds { Dir::new(centre).unwrap_or(sun) } else { sun };
+        let change = found.map_or(f64::INFINITY, |before| (flux * incident - before.exitance).abs());
+        let error = if flux > 0.0 { change / (flux * incident) } else { 0.0 };
+        found =
+            Some(BeamLight { to, exitance: flux * incident, normal: mean * normal, straight: true, error, doubt: 0.0 });
+        if change <= STANDS * incident * flux.max(STANDS) {
+            break;
+        }
+    }
+    found.filter(|beam| beam.exitance > 0.0)
+}
+
+/// The beams that do not go straight on: by the disc's middle where the shares of its parts are as good as linear, else
+/// by many parts.
+fn turned(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<BeamLight> {
+    let incident = facing.sun_illuminance();
+    let ask = |name: Dir<Facade>| -> Vec<Beam> {
+        let turned = |beam: &Beam| beam.names.iter().any(|other| other.vector().distance(name.vector()) > SAME);
+        specimen.beams(name, Side::Front).into_iter().filter(|beam| beam.transmitted && turned(beam)).collect()
     };
-    let few: Vec<DiscPoint> = disc(facing, sun, POINTS[0]).into_iter().map(ask).collect();
+    let share = |beams: &[Beam]| beams.iter().map(|beam| beam.share).sum::<f64>();
+    let laid = |names: &[Dir<Facade>], of: &[Vec<Beam>]| {
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        let mut pieces = Pieces::default();
+        for (name, beams) in names.iter().zip(of) {
+            let weight = incident * cosine(*name) / cosines.max(f64::MIN_POSITIVE);
+            beams.iter().for_each(|beam| pieces.add(beam, weight));
+        }
+        pieces
+    };
+    let few = disc(facing, sun, PARTS[0]);
+    let of: Vec<Vec<Beam>> = few.iter().map(|name| ask(*name)).collect();
     let middle = ask(sun);
-    let shares = |point: &DiscPoint| [point.straight(), point.turned().map(|beam| beam.share).sum()];
-    let own = shares(&middle);
-    let linear = few.len() == POINTS[0]
-        && [0, 1].into_iter().all(|k| {
-            // Opposite points of a linear function have the middle as their mean.
-            let mirror = |p: &DiscPoint| {
-                let c = sun.vector();
-                let across = p.name.vector() - c * p.name.vector().dot(c);
-                Dir::new(c - across).map(|name| shares(&ask(name))[k])
-            };
-            few.iter().all(|p| mirror(p).is_some_and(|other| (0.5 * (shares(p)[k] + other) - own[k]).abs() < LINEAR))
-        });
-    if linear { vec![middle] } else { disc(facing, sun, POINTS[1]).into_iter().map(ask).collect() }
+    let own = share(&middle);
+    let opposite = of.chunks_exact(2).all(|pair| (0.5 * (share(&pair[0]) + share(&pair[1])) - own).abs() < LINEAR);
+    if few.len() == 2 * PARTS[0] && opposite {
+        return laid(&[sun], &[middle]).beams(0.0);
+    }
+    let many = disc(facing, sun, PARTS[1]);
+    let parts: Vec<Vec<Beam>> = many.iter().map(|name| ask(*name)).collect();
+    // Every other pair of directions against all of them.
+    let mean = |pairs: usize| {
+        let some = parts.chunks(2).step_by(pairs).flatten();
+        let count = some.clone().count().max(1);
+        some.map(|beams| share(beams)).sum::<f64>() / count as f64
+    };
+    let error = (mean(1) - mean(2)).abs() / mean(1).max(f64::MIN_POSITIVE);
+    laid(&many, &parts).beams(error)
 }
 
 /// The sun's beams behind a system.
 pub fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
-    let incident = facing.sun_illuminance();
-    let (Some(light), Some(sun)) = (facing.sun, facing.sun_direction()) else { return Vec::new() };
-    if incident <= 0.0 {
-        return Vec::new();
-    }
-    let points = points(specimen, facing, sun);
-    let cosines: f64 = points.iter().map(DiscPoint::cosine).sum();
-    if cosines <= 0.0 {
-        return Vec::new();
-    }
-    let mut beams = Vec::new();
-    let straight = points.iter().map(|p| p.straight() * p.cosine()).sum::<f64>() / cosines;
-    if straight > 0.0 {
-        let mean = points.iter().map(DiscPoint::straight).sum::<f64>() / points.len() as f64;
-        let (exitance, normal) = (straight * incident, mean * light.direct_normal);
-        beams.push(BeamLight { to: sun, exitance, normal, straight: true, doubt: 0.0 });
-    }
-    let mut turned = Pieces::default();
-    for point in &points {
-        let weight = incident * point.cosine() / cosines;
-        point.turned().for_each(|beam| turned.add(beam, weight));
-    }
-    beams.extend(turned.beams());
+    let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
+    let mut beams: Vec<BeamLight> = straight(specimen, facing, sun).into_iter().collect();
+    beams.extend(turned(specimen, facing, sun));
     beams
 }
 
@@ -143,14 +154,44 @@ impl Pieces {
         }
     }
 
-    fn beams(self) -> impl Iterator<Item = BeamLight> {
-        self.0.into_values().filter_map(|(sum, exitance)| {
+    fn beams(self, error: f64) -> Vec<BeamLight> {
+        let beam = |(sum, exitance): (DVec3, f64)| {
             let to = Dir::<Facade>::new(sum)?;
             let cosine = to.vector().z;
             let normal = exitance / cosine;
-            (cosine > 1e-6 && exitance > 0.0).then_some(BeamLight { to, exitance, normal, straight: false, doubt: 0.0 })
-        })
+            let beam = BeamLight { to, exitance, normal, straight: false, error, doubt: 0.0 };
+            (cosine > 1e-6 && exitance > 0.0).then_some(beam)
+        };
+        self.0.into_values().filter_map(beam).collect()
     }
+}
+
+/// Directions of the disc that what is scattered is a mean over.
+fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
+    if sun.vector().z < GRAZING { disc(facing, sun, PARTS[0]) } else { vec![sun] }
+}
+
+/// What a system scatters of the sun where that depends on a profile angle alone.
+fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight> {
+    let illuminance = facing.sun_illuminance();
+    let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
+    let names = standing_for(facing, sun);
+    let cosines: f64 = names.iter().map(|name| name.vector().z.max(0.0)).sum();
+    let mut mean: Option<ProfileLight> = None;
+    for name in &names {
+        let weight = name.vector().z.max(0.0) / cosines;
+        let own = specimen.profile_light(*name, Side::Front)?;
+        let sum = mean.get_or_insert_with(|| ProfileLight { q: vec![0.0; own.q.len()], error: 0.0, ..own });
+        sum.q.iter_mut().zip(&own.q).for_each(|(sum, q)| *sum += weight * q);
+        sum.error += weight * own.error;
+    }
+    let mut light = mean?;
+    if names.len() > 1 {
+        // A few directions stand for a disc that covers degrees of the profile angle.
+        let middle = specimen.profile_light(sun, Side::Front)?;
+        light.error += middle.apart(&light);
+    }
+    Some(BandLight { light, illuminance })
 }
 
 /// What a system scatters of the sun, on [`sun_cells`]; `None` where it scatters nothing.
@@ -158,7 +199,7 @@ fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> 
     let incident = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
     let cells = sun_cells();
-    let names = if sun.vector().z < GRAZING { disc(facing, sun, POINTS[0]) } else { vec![sun] };
+    let names = standing_for(facing, sun);
     let lights: Vec<(ScatteredLight, f64)> =
         names.iter().map(|name| (specimen.scattered(*name, Side::Front, cells), name.vector().z.max(0.0))).collect();
     let cosines: f64 = lights.iter().map(|(_, cosine)| cosine).sum();
@@ -179,19 +220,40 @@ fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> 
     })
 }
 
+/// What a system makes of one very sun: worth keeping as long as the sun stays.
+pub struct SunThrough {
+    illuminance: f64,
+    beams: Vec<BeamLight>,
+    bands: Option<BandLight>,
+    cells: Option<CellLight>,
+}
+
+impl SunThrough {
+    /// Asks a system.
+    pub fn new(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
+        let bands = by_profile(specimen, facing);
+        let cells = if bands.is_none() { scattered(specimen, facing) } else { None };
+        Self { illuminance: facing.sun_illuminance(), beams: sun_beams(specimen, facing), bands, cells }
+    }
+}
+
 impl Emission {
     /// Adds what a system makes of the very sun. `self` is what it makes of the diffuse light alone.
-    pub fn add_sun_through(&mut self, specimen: &dyn Specimen, facing: &Facing<'_>) {
-        self.incident_sun = facing.sun_illuminance();
-        self.beams = sun_beams(specimen, facing);
-        self.cells.extend(scattered(specimen, facing));
-        let flux: f64 = self.beams.iter().map(|beam| beam.exitance).sum();
-        let straight: f64 = self.beams.iter().filter(|beam| beam.straight).map(|beam| beam.exitance).sum();
+    pub fn add_sun_through(&mut self, through: &SunThrough) {
+        self.incident_sun = through.illuminance;
+        self.beams.clone_from(&through.beams);
+        self.bands.extend(through.bands.clone());
+        self.cells.extend(through.cells.clone());
         if self.incident_sun > 0.0 {
-            let [flux, straight] = [flux, straight].map(|part| 100.0 * part / self.incident_sun);
+            self.beam_source = BeamSource::Described;
+            let of = |straight: bool| {
+                let beams = self.beams.iter().filter(|beam| beam.straight == straight);
+                100.0 * beams.map(|beam| beam.exitance).sum::<f64>() / self.incident_sun
+            };
             self.notes.push(format!(
-                "sun: by the description for this very direction; {straight:.2} % goes straight on, {:.2} % as turned beams",
-                flux - straight
+                "sun: by the description for this very direction; {:.2} % goes straight on, {:.2} % as turned beams",
+                of(true),
+                of(false)
             ));
         }
     }

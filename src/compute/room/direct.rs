@@ -2,6 +2,7 @@
 //! exact or error-controlled way.
 
 use super::aperture::{Aperture, View};
+use super::band_weights::BandWeights;
 use super::cell_weights::for_each_cell;
 use super::through;
 use crate::compute::basis::RingBasis;
@@ -65,12 +66,16 @@ impl std::ops::AddAssign for DirectLight {
     }
 }
 
+/// What the width of the bands costs, relative; seen on matt slats against exact integrals along them.
+const BAND_ERROR: f64 = 1e-3;
+
 /// Illuminance at a sensor from one aperture, sun included. `receptions`: one for every part on cells, the first of them
-/// for what is uniform, too.
+/// for what is uniform, too; `weights`: for the part in bands.
 pub fn illuminance(
     sensor: &Sensor,
     aperture: &Aperture,
     receptions: &[&Reception],
+    weights: Option<&BandWeights>,
     emission: &Emission,
     facing: &Facing<'_>,
     tolerance: Tolerance,
@@ -84,25 +89,30 @@ pub fn illuminance(
         data_error += light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
         sum += Estimate::new(e, e * light.relative_error);
     }
+    for (bands, weights) in emission.bands.iter().zip(weights.into_iter().cycle()) {
+        let part = weights.of(&bands.light.q) * bands.illuminance;
+        let share = bands.light.share();
+        let relative = if share > 0.0 { bands.light.error / share } else { 0.0 };
+        sum += Estimate::new(part, part * (relative + BAND_ERROR));
+    }
     if let (Some(tau), Some(view)) = (&emission.regular, aperture.view(sensor.position, sensor.normal)) {
         sum += through::illuminance(&view, facing, tau, tolerance);
     }
-    let (beam, doubt) = beams_through(sensor, aperture, &emission.beams, facing);
-    sum += Estimate::exact(beam);
+    let beams = beams_through(sensor, aperture, &emission.beams, facing);
+    sum += beams.all;
     // Rounding of the closed forms and of the weights' sums.
     let all = Estimate::new(sum.value.max(0.0), sum.error + 1e-9 * sum.value.abs());
-    DirectLight { all, beam, data_error: data_error + doubt }
+    DirectLight { all, beam: beams.beam, data_error: data_error + beams.data_error }
 }
 
-/// What a sensor gets from the sun's beams through an aperture, with the sun's penumbra, and what is not known of it.
-/// \[lx\]
-pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> (f64, f64) {
+/// What a sensor gets from the sun's beams through an aperture, with the sun's penumbra.
+pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> DirectLight {
     let Some(view) = aperture.view(sensor.position, sensor.normal).filter(|_| !beams.is_empty()) else {
-        return (0.0, 0.0);
+        return DirectLight::default();
     };
     let corners = view.corners();
     let mut opening: Option<Vec<Edge>> = None;
-    let (mut sum, mut doubt) = (0.0, 0.0);
+    let (mut sum, mut data_error) = (Estimate::default(), 0.0);
     for beam in beams {
         let e = match clearly_seen(&view, beam.to.vector()) {
             Some(false) => continue,
@@ -118,10 +128,11 @@ pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], 
                 sun_disc::share(beam.to.vector(), view.normal, edges.iter().copied().chain(outside))
             }
         };
-        sum += beam.normal * e;
-        doubt += beam.normal * e * beam.doubt;
+        let e = beam.normal * e;
+        sum += Estimate::new(e, e * beam.error);
+        data_error += e * beam.doubt;
     }
-    (sum, doubt)
+    DirectLight { all: sum, beam: sum.value, data_error }
 }
 
 /// Is a beam seen as a whole disc through the opening, or none of it? `None` where an edge may cut it.

@@ -9,6 +9,7 @@ use super::radiosity::{Radiosity, dot};
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Surface};
+use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::gauss_legendre;
@@ -253,6 +254,11 @@ impl FirstLight {
             };
             self.add_diffuse(part);
         }
+        for bands in &emission.bands {
+            let merged = Arc::new(merged_basis());
+            let luminance: Vec<f64> = bands.light.on(&merged).iter().map(|q| q * bands.illuminance).collect();
+            self.add_diffuse(weights(&merged).illuminance(&luminance));
+        }
         if let Some(tau) = &emission.regular {
             self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
         }
@@ -318,7 +324,8 @@ fn outside_seen(
         .collect();
     // What goes straight on, without the beam and what scatters.
     let mut straight = emission.clone();
-    (straight.beams, straight.cells, straight.uniform) = (Vec::new(), Vec::new(), Default::default());
+    (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), Vec::new());
+    straight.uniform = Estimate::default();
     let flux = straight.exitance(facing).value * aperture.area();
     let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
     if received <= 0.0 {

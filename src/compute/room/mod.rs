@@ -2,6 +2,7 @@
 
 pub mod aperture;
 pub mod back_reflection;
+pub mod band_weights;
 pub mod beam;
 pub mod cell_weights;
 pub mod direct;

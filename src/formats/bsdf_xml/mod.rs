@@ -5,11 +5,17 @@
 //! "Front" is the outside. Azimuths and squares are taken over as [`crate::compute::basis::AzimuthMap::KLEMS_FRONT`]
 //! and `KLEMS_BACK` say, so that nothing is reordered.
 //!
+//! Numbers that were computed from a description (`.system.toml`) are written with it, in a processing instruction that
+//! other readers pass over (`beams`): the file is the standard's, with beams in their cells, and what this program wrote it
+//! knows again: the dataset has its [`described`](Dataset::described) and the key of its state. Where numbers were
+//! changed since, or a newer version wrote the instruction, it is left out and the finding `beams-not-restored` tells.
+//!
 //! Not read: geometry (MGF), other bands and CIE X/Z or u′/v′ colour data (a finding tells),
 //! more than one layer of a file, document type declarations. Nothing is repaired silently: see the findings.
 
 mod assess;
 mod basis;
+mod beams;
 mod document;
 mod material;
 mod numbers;
@@ -101,6 +107,14 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
             held,
             "a WavelengthData element with <Wavelength>Visible</Wavelength>",
         ));
+    }
+    match beams::described(root) {
+        Some(Ok(described)) => {
+            dataset.state.clone_from(&described.state);
+            dataset.described = Some(described);
+        }
+        Some(Err(finding)) => dataset.findings.push(finding),
+        None => {}
     }
     assess::assess(&mut dataset)?;
     Ok(dataset)

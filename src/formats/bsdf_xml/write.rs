@@ -9,6 +9,7 @@
 //! both bands where there are two, each with its spectra; reflection under the data type "BTDF", the only one that the
 //! schema has; thermal data as the source told them, else as defaults that are named as such ([`super::material`]).
 
+use super::beams;
 use super::document::escaped;
 use super::material;
 use crate::compute::basis::{AzimuthMap, RingBasis};
@@ -33,7 +34,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
         band(&mut xml, solar, "Solar", &basis);
     }
     xml.push_str("\t\t</Layer>\n\t</Optical>\n</WindowElement>\n");
-    Ok(Written { bytes: xml.into_bytes(), findings: changes(dataset, &basis, defaults) })
+    Ok(Written { bytes: beams::added(xml, dataset).into_bytes(), findings: changes(dataset, &basis, defaults) })
 }
 
 /// What the file does not hold as the dataset did, and the `findings` of its head.
@@ -70,7 +71,7 @@ fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> 
             "There is no solar band; WINDOW needs one for heat gains, and none is invented.".to_owned(),
         );
     }
-    if !dataset.state.is_empty() {
+    if !dataset.state.is_empty() && !beams::tells_state(dataset) {
         tell("state-not-written", format!("The state key '{}' has no place in the format.", dataset.state));
     }
     findings

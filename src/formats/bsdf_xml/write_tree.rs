@@ -6,6 +6,7 @@
 //! them the same way: a file that is read and written again holds the blocks that it had. Radiance does not derive them
 //! for rank 3. The Geometry element is empty.
 
+use super::beams;
 use super::material;
 use super::write::opening;
 use crate::compute::btdf::{
@@ -88,13 +89,13 @@ pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatEr
         }
     }
     xml.push_str("\t\t</Layer>\n\t</Optical>\n</WindowElement>\n");
-    if !dataset.state.is_empty() {
+    if !dataset.state.is_empty() && !beams::tells_state(dataset) {
         findings.push(Finding::info(
             "state-not-written",
             format!("The state key '{}' has no place in the format.", dataset.state),
         ));
     }
-    Ok(Written { bytes: xml.into_bytes(), findings })
+    Ok(Written { bytes: beams::added(xml, dataset).into_bytes(), findings })
 }
 
 const fn axes_of(component: Component) -> TreeAxes {

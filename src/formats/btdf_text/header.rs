@@ -1,7 +1,8 @@
 //! The TOML header: found between its two lines, checked key by key.
 
-use super::FORMAT;
-use crate::compute::btdf::Component;
+use super::{FAMILY, FORMAT};
+use crate::compute::btdf::{Component, DescribedState};
+use crate::formats::beams::{NAME, Told, VERSION};
 use crate::formats::location::{FormatError, Location, excerpt};
 use serde::Deserialize;
 use toml::Spanned;
@@ -143,6 +144,12 @@ struct Keys {
     date: Option<Date>,
     #[serde(default)]
     inside_face: String,
+    /// Checked before all other keys.
+    #[serde(rename = "beams")]
+    _beams: Option<String>,
+    system: Option<String>,
+    system_state: Option<String>,
+    fingerprint: Option<String>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -179,6 +186,8 @@ pub(super) struct Header {
     pub description: String,
     pub thickness: Option<f64>,
     pub fields: CatalogueFields,
+    /// The description that the header holds.
+    pub told: Option<Told>,
 }
 
 /// A header and the text behind it.
@@ -270,12 +279,20 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
         let found = table
             .get("format")
             .map_or_else(|| "no key format".to_owned(), |v| format!("format = {}", excerpt(&v.to_string())));
+        let version = table.get("format").and_then(toml::Value::as_str).and_then(|word| word.strip_prefix(FAMILY));
+        let newer = version.and_then(|version| version.trim().parse::<u32>().ok()).is_some_and(|version| version > 1);
+        let (by, newest) = if newer {
+            (", written by a newer version of cfs", ", the newest that this program reads")
+        } else {
+            ("", "")
+        };
         return Err(FormatError::new(
             Location::line(first_line).in_element("header"),
-            found,
-            format!("format = \"{FORMAT}\""),
+            format!("{found}{by}"),
+            format!("format = \"{FORMAT}\"{newest}"),
         ));
     }
+    let beams = beams(&table, first_line)?;
     let keys: Keys = toml::from_str(text).map_err(|error| told(&error))?;
     let at = |byte: usize, key: &str| Location::line(line_of(byte)).in_element(key);
     let incidence = *keys.incidence.get_ref();
@@ -301,6 +318,22 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
             "rings = [[θ from, θ to, number of sectors], …]",
         ));
     }
+    let state = keys.state.map(Key::text).unwrap_or_default();
+    let described = match (beams, keys.system) {
+        (true, Some(text)) => Some(Told {
+            described: DescribedState { text, state: keys.system_state.unwrap_or_else(|| state.clone()) },
+            fingerprint: keys.fingerprint.unwrap_or_default(),
+        }),
+        (false, None) => None,
+        (beams, _) => {
+            let [there, missing] = if beams { ["beams", "system"] } else { ["system", "beams"] };
+            return Err(FormatError::new(
+                Location::line(first_line).in_element("header"),
+                format!("the key {there} without {missing}"),
+                format!("both: beams = \"{NAME} {VERSION}\" and the text of a .system.toml"),
+            ));
+        }
+    };
     Ok(Header {
         component: match (keys.quantity, keys.light_from) {
             (Quantity::Btdf, LightFrom::Outside) => Component::TransmissionFront,
@@ -317,7 +350,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
         incident_mean,
         mean_not_told: keys.incident_mean.is_none(),
         symmetry: keys.symmetry,
-        state: keys.state.map(Key::text).unwrap_or_default(),
+        state,
         name: keys.name,
         manufacturer: keys.manufacturer,
         description: keys.description,
@@ -339,5 +372,24 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
             },
             inside_face: keys.inside_face,
         },
+        told: described,
     })
+}
+
+/// Does the header hold a description? Of a version that this program knows: others may have any keys.
+fn beams(table: &toml::Table, first_line: usize) -> Result<bool, FormatError> {
+    let Some(value) = table.get("beams") else { return Ok(false) };
+    let word = value.as_str().unwrap_or_default();
+    let version = word.strip_prefix(NAME).and_then(|version| version.trim().parse::<u32>().ok());
+    let told = |found: String, expected: String| {
+        Err(FormatError::new(Location::line(first_line).in_element("header"), found, expected))
+    };
+    match version {
+        Some(VERSION) => Ok(true),
+        Some(newer) if newer > VERSION => told(
+            format!("beams = \"{NAME} {newer}\", written by a newer version of cfs"),
+            format!("{NAME} {VERSION}, the newest that this program reads"),
+        ),
+        _ => told(format!("beams = {}", excerpt(&value.to_string())), format!("beams = \"{NAME} {VERSION}\"")),
+    }
 }

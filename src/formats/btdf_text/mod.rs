@@ -11,12 +11,22 @@
 //! side. Missing incidences stay missing unless the header declares a symmetry. A file holds one function of one
 //! state; [`crate::formats::merge_sides`] joins the files of one state.
 //!
+//! An addition to the header, for numbers that were computed from a description (`.system.toml`): `beams =
+//! "cfs-beams 1"` with `system` (its text, in which stacks hold their layers themselves), `system_state` where the key of
+//! its state is not the file's own `state`, and `fingerprint`. Where the fingerprint is that of the file, the description
+//! becomes the dataset's [`described`](crate::compute::btdf::Dataset::described), so that beams are computed and not
+//! guessed from cells. Where it is not, somebody changed the numbers: they are read, the description is left out, and the
+//! finding `beams-not-restored` tells. A newer version of the addition is refused by its name. Who writes files by hand
+//! leaves all four keys out.
+//!
 //! Not read: other bands than the visible one, several headers in a file, records broken over lines.
 
+mod beams;
 mod frame;
 mod header;
 mod incidence;
 mod points;
+mod quote;
 mod read;
 mod records;
 mod rings;

@@ -1,5 +1,6 @@
 //! From text to a dataset: header, records, symmetry, order, plausibility.
 
+use super::beams::fingerprint;
 use super::frame::Naming;
 use super::header::{CatalogueFields, Header, Layout, Split, split};
 use super::points::resample;
@@ -31,7 +32,8 @@ const ROUNDING: f64 = 1.001;
 /// unknown keys or words, counts that do not fit, values that are below zero by more than noise or no finite numbers, incidences that are
 /// given twice or lie off the lattice that the header names, more light than came.
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
-    let Split { header, body, body_line } = split(text(bytes)?)?;
+    let Split { mut header, body, body_line } = split(text(bytes)?)?;
+    let told = header.told.take();
     let Measured { list, rows, basis, mut findings } = records(&header, body, body_line)?;
     plausible(&header, &list, &rows, &basis, &mut findings)?;
     let (names, rows, lattice) = complete(&header, &list, rows, &basis, &mut findings)?;
@@ -39,6 +41,10 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
         let told = "The header does not say incident_mean; values are taken at the incident directions, not as means.";
         findings.push(Finding::info("incident-mean-not-told", told));
     }
+    let described = told.and_then(|told| {
+        let now = fingerprint(&header, body, &told.described);
+        told.restored(&now).map_err(|finding| findings.push(finding)).ok()
+    });
     let cells = basis.len();
     let scattered = match lattice {
         Some(lattice) if header.incident_mean => {
@@ -68,6 +74,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
         incident_basis: header.incidence.word().to_owned(),
         emergent_basis: format!("{layout}, {cells} cells"),
         findings,
+        described,
         ..Dataset::default()
     };
     dataset.visible.set(header.component, Btdf { regular: None, scattered: Some(scattered) });

@@ -5,8 +5,10 @@
 //! emergence over rings of 5° or the own rings with turned sectors; a finding tells.
 
 use super::FORMAT;
+use super::beams::added;
 use super::frame::{Naming, tidy};
 use super::points::even_rings;
+use super::quote::quoted;
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis, same_cells};
 use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Scattered, matrix_on};
 use crate::compute::direction::{Dir, Facade};
@@ -66,7 +68,7 @@ pub fn write_component(dataset: &Dataset, component: Component) -> Result<Writte
     let mut text = String::new();
     head(&mut text, dataset, component, &table);
     table.records(&mut text, Naming::incident(component));
-    Ok(Written { bytes: text.into_bytes(), findings })
+    Ok(Written { bytes: added(text, dataset)?.into_bytes(), findings })
 }
 
 /// What the file will hold: in its own order.
@@ -236,24 +238,4 @@ fn head(text: &mut String, dataset: &Dataset, component: Component, table: &Tabl
     line("incident_mean", if table.mean { "true" } else { "false" });
     text.insert_str(0, "---\n");
     text.push_str("---\n");
-}
-
-/// A TOML basic string on one line.
-fn quoted(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + 2);
-    out.push('"');
-    for c in text.chars() {
-        match c {
-            '"' => out.push_str("\\\""),
-            '\\' => out.push_str("\\\\"),
-            '\n' => out.push_str("\\n"),
-            '\t' => out.push_str("\\t"),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
 }

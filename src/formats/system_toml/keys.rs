@@ -189,6 +189,8 @@ pub(super) struct Stack {
 pub(super) struct Layer {
     pub file: Option<String>,
     pub catalogue: Option<String>,
+    /// The layer's own description, with the keys of a system file.
+    pub system: Option<toml::Table>,
     #[serde(default)]
     pub state: String,
 }

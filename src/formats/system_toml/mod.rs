@@ -3,9 +3,14 @@
 //! Keys, defaults and ranges; every wrong value is told by its key and by what would be right.
 
 mod checks;
+mod contained;
 mod keys;
+mod layers;
 mod sheets;
 mod transparent;
+
+pub use contained::{described, self_contained, states};
+pub use layers::{EACH_STATE, MOST_NESTED};
 
 use super::location::{FormatError, Location, excerpt};
 use crate::compute::system::slats::{SlatProfile, Surface, Venetian};
@@ -13,6 +18,7 @@ use crate::compute::system::stack::{Layer, LayerSource};
 use crate::compute::system::{SystemDescription, SystemKind};
 use checks::{length, outline, share, within, wrong};
 use keys::Angles;
+use layers::stack;
 use serde::Deserialize;
 use sheets::{diffuser, perforated, woven};
 use transparent::{laser_cut, pane, prismatic, redirecting};
@@ -21,8 +27,6 @@ use transparent::{laser_cut, pane, prismatic, redirecting};
 const MOST_BYTES: usize = 1 << 20;
 /// Most states of a family.
 const MOST_STATES: usize = 361;
-/// Word of a layer's state that stands for all states of the layer.
-pub const EACH_STATE: &str = "each";
 
 /// A system file: the system, and what it tells the catalogue.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,6 +66,11 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
         }
     })?;
     let kind = kind(&keys)?;
+    if let SystemKind::Stack(layers) = &kind {
+        for (k, layer) in layers.iter().enumerate() {
+            layer_is_right(k, layer)?;
+        }
+    }
     let catalogue = keys.catalogue;
     if catalogue.key.chars().any(|c| !(c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')) {
         return wrong("catalogue.key", excerpt(&catalogue.key), "lower-case letters, digits and hyphens");
@@ -71,6 +80,17 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
         key: catalogue.key,
         tags: catalogue.tags,
         control: catalogue.control,
+    })
+}
+
+/// Reads what describes a layer itself, to tell what is wrong with it.
+fn layer_is_right(k: usize, layer: &Layer) -> Result<(), FormatError> {
+    let LayerSource::Text(text) = &layer.source else { return Ok(()) };
+    read(text.as_bytes()).map(drop).map_err(|error| {
+        // Its lines are not those of the file; its keys are.
+        let inner = error.at.element.map(|inner| format!(".{inner}")).unwrap_or_default();
+        let at = Location::file().in_element(format!("stack.layers[{k}].system{inner}"));
+        FormatError::new(at, error.found, error.expected)
     })
 }
 
@@ -184,24 +204,6 @@ fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {
         upper: face("venetian.upper", blind.upper)?,
         lower: face("venetian.lower", blind.lower)?,
     })
-}
-
-fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
-    if !(1..=10).contains(&stack.layers.len()) {
-        return wrong("stack.layers", format!("{} layers", stack.layers.len()), "1 to 10, outside first");
-    }
-    if stack.layers.iter().filter(|layer| layer.state == EACH_STATE).count() > 1 {
-        return wrong("stack.layers", "state = \"each\" in several layers", "one moving layer at most");
-    }
-    let layer = |(k, layer): (usize, &keys::Layer)| {
-        let source = match (&layer.file, &layer.catalogue) {
-            (Some(file), None) => LayerSource::File(file.clone()),
-            (None, Some(key)) => LayerSource::Catalogue(key.clone()),
-            _ => return wrong(&format!("stack.layers[{k}]"), "not one of file and catalogue", "file or catalogue"),
-        };
-        Ok(Layer { source, state: layer.state.clone() })
-    };
-    stack.layers.iter().enumerate().map(layer).collect()
 }
 
 #[cfg(test)]

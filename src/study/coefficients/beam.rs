@@ -82,7 +82,7 @@ fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut O
     let Some(beam) = BeamLight::regular(all.parts[index].regular.as_ref(), facing) else { return };
     let aperture = &all.scene.apertures[index].aperture;
     for (sum, sensor) in sums.iter_mut().zip(&all.scene.sensors) {
-        *sum += beams_through(sensor, aperture, &[beam], facing).0;
+        *sum += beams_through(sensor, aperture, &[beam], facing).beam;
     }
     if let Some(first) = first {
         first.add_beam(aperture, &beam);

@@ -8,6 +8,9 @@
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
 //! | `beam` | the sun |
 //!
+//! The sun is known by the data's own cells or directions, as with `[compute] beam = "cells"`; only what the data keep apart
+//! as regular goes as a sharp beam.
+//!
 //! Prepared are the room, its apertures and sensors, the systems in their present states and the altitude of the skyline.
 //! A measured sky, constant over patches with jumps between them, and a skyline of another altitude have no fixed
 //! directions that suit them: their light is integrated anew and takes milliseconds.

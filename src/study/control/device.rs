@@ -2,9 +2,10 @@
 
 use super::super::error::StudyError;
 use super::keys::SlatKeys;
-use crate::catalogue::{Product, blind_of};
+use crate::catalogue::{Product, blind_of, control_curve};
 use crate::compute::control::cut_off::SlatRow;
 use crate::compute::system::slats::SlatProfile;
+use crate::formats::system_toml::SystemFile;
 
 /// A device that a controller can set.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,19 @@ impl Device {
             curve: product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect(),
             section: section_of(product),
         })
+    }
+
+    /// Of a description with the keys of its states.
+    pub fn described(file: &SystemFile, text: &str, keys: Vec<String>) -> Self {
+        let blind = blind_of(text);
+        let curve = blind.as_ref().map(|blind| control_curve(&file.control, blind)).unwrap_or_default();
+        Self {
+            name: file.system.name.clone(),
+            values: keys.iter().map(|key| key.parse().ok().filter(|value: &f64| value.is_finite())).collect(),
+            keys,
+            curve: curve.iter().map(|point| [point.profile_angle, point.value]).collect(),
+            section: blind.as_ref().and_then(SlatRow::of),
+        }
     }
 
     /// Index of a state by its key; the error names the key of the scene.

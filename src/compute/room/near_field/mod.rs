@@ -13,6 +13,7 @@ pub mod profile_table;
 pub mod subdivision;
 
 use super::aperture::Aperture;
+use super::band_weights::BandWeights;
 use super::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent};
@@ -105,7 +106,19 @@ impl<'a> Integrator<'a> {
                 receptions.push(on(None));
             }
             let receptions: Vec<&Reception> = receptions.iter().collect();
-            return direct::illuminance(sensor, self.aperture, &receptions, self.emission, self.facing, self.tolerance);
+            let view = self.aperture.view(sensor.position, sensor.normal);
+            let bands = self.emission.bands.first().zip(view);
+            let bands = bands.map(|(bands, view)| BandWeights::new(&view, bands.light.upright, bands.light.q.len()));
+            let (light, facing) = (self.emission, self.facing);
+            return direct::illuminance(
+                sensor,
+                self.aperture,
+                &receptions,
+                bands.as_ref(),
+                light,
+                facing,
+                self.tolerance,
+            );
         }
         let Some(view) = self.aperture.view(sensor.position, sensor.normal) else {
             return DirectLight::default();
@@ -121,9 +134,9 @@ impl<'a> Integrator<'a> {
             (_, Some([fine, coarse])) => profile_table::illuminance(&view, fine, coarse),
             (_, None) => Estimate::default(),
         };
-        let (beam, data_error) = direct::beams_through(sensor, self.aperture, &self.emission.beams, self.facing);
-        let rounding = 1e-12 * (diffuse.value + beam).abs();
-        let error = diffuse.error + self.relative_error * diffuse.value.abs() + rounding;
-        DirectLight { all: Estimate::new(diffuse.value + beam, error), beam, data_error }
+        let beams = direct::beams_through(sensor, self.aperture, &self.emission.beams, self.facing);
+        let rounding = 1e-12 * (diffuse.value + beams.beam).abs();
+        let error = self.relative_error * diffuse.value.abs() + rounding;
+        DirectLight { all: diffuse + beams.all + Estimate::new(0.0, error), ..beams }
     }
 }

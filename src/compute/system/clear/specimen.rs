@@ -13,6 +13,10 @@ thread_local! {
 }
 
 impl Beams for ClearSection {
+    fn is_quick(&self) -> bool {
+        false
+    }
+
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
         // Light from outside travels against its name, light from inside along it; so does what it becomes.
         let sign = if side == Side::Front { -1.0 } else { 1.0 };

@@ -13,11 +13,17 @@
 
 pub mod beams;
 mod cells;
+pub mod directions;
+pub mod fan;
+pub mod kept;
+pub mod merged;
 mod parallel;
+mod profile_light;
 mod reciprocal;
 pub mod upright;
 
 pub use parallel::{Beam, ScatteredLight};
+pub use profile_light::ProfileLight;
 
 use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
 use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
@@ -83,6 +89,9 @@ pub struct Measured {
     pub back: OneSide,
 }
 
+/// Names of directions nearer than this are the same. \[rad\]
+const SAME_NAME: f64 = 1e-9;
+
 /// Something whose scattering can be computed.
 pub trait Specimen: Send + Sync {
     /// The four functions on the cells of `setting`, to its error.
@@ -103,14 +112,39 @@ pub trait Specimen: Send + Sync {
 
     /// The beams that parallel light of one name from a side becomes, exactly: straight on (the name kept), deflected,
     /// mirrored. What mirrors or edges spread is not among them.
-    fn beams(&self, _name: Dir<Facade>, _side: Side) -> Vec<Beam> {
-        Vec::new()
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam>;
+
+    /// Share of parallel light that goes straight on.
+    fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
+        let same = |other: &Dir<Facade>| other.vector().distance(name.vector()) < SAME_NAME;
+        let on = |beam: &Beam| beam.transmitted && beam.names.iter().all(same);
+        self.beams(name, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
+    }
+
+    /// Is what becomes of light a matter of its profile angle alone, the direction cosine along the structure kept? `true`
+    /// inside: of the angle to the right, for a structure along y.
+    fn by_profile_alone(&self) -> Option<bool> {
+        None
+    }
+
+    /// Are single directions answered in microseconds to a millisecond, so that thousands may be asked?
+    fn is_quick(&self) -> bool {
+        true
+    }
+
+    /// Does [`Self::examine`] keep light apart that goes straight on?
+    fn keeps_regular_apart(&self) -> bool {
+        false
+    }
+
+    /// What is transmitted besides, where that depends on a profile angle alone; then [`Self::scattered`] gives the same
+    /// by cells.
+    fn profile_light(&self, _name: Dir<Facade>, _side: Side) -> Option<ProfileLight> {
+        None
     }
 
     /// What else becomes of it, on emergent cells.
-    fn scattered(&self, _name: Dir<Facade>, _side: Side, _emergent: &RingBasis) -> ScatteredLight {
-        ScatteredLight::default()
-    }
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
 }
 
 /// Balance and reciprocity of a measurement.

@@ -1,8 +1,10 @@
 //! A system turned by 90° about the normal: vertical louvres from a description of horizontal ones.
 
-use super::{Measured, Setting, Specimen};
+use super::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
 use crate::compute::basis::{AzimuthMap, RingBasis};
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
+use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
 /// What was up points to the right as seen from outside.
@@ -10,15 +12,59 @@ pub struct Upright(pub Box<dyn Specimen>);
 
 impl Specimen for Upright {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        // The turned system at φ is the described one at φ + 90°, cell by cell.
-        let turned = |basis: &RingBasis| {
-            let azimuth = basis.azimuth();
-            basis.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + FRAC_PI_2, ..azimuth })
-        };
         let (incident, emergent) = (turned(setting.incident), turned(setting.emergent));
         let made = self.0.measure(&Setting { incident: &incident, emergent: &emergent, ..*setting }, progress)?;
         Ok(Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), ..made })
     }
+
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let back = |beam: Beam| Beam { names: beam.names.map(from_described), ..beam };
+        self.0.beams(to_described(name), side).into_iter().map(back).collect()
+    }
+
+    fn by_profile_alone(&self) -> Option<bool> {
+        self.0.by_profile_alone().map(|upright| !upright)
+    }
+
+    fn keeps_regular_apart(&self) -> bool {
+        self.0.keeps_regular_apart()
+    }
+
+    fn is_quick(&self) -> bool {
+        self.0.is_quick()
+    }
+
+    fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
+        self.0.straight(to_described(name), side)
+    }
+
+    fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
+        // Turned twice it would stand on its head.
+        let light = self.0.profile_light(to_described(name), side).filter(|light| !light.upright)?;
+        Some(ProfileLight { upright: true, ..light })
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.0.scattered(to_described(name), side, &turned(emergent))
+    }
+}
+
+/// Cells as the described system has them: the turned system at φ is the described one at φ + 90°, cell by cell.
+fn turned(basis: &RingBasis) -> RingBasis {
+    let azimuth = basis.azimuth();
+    basis.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + FRAC_PI_2, ..azimuth })
+}
+
+/// φ + 90°.
+fn to_described(name: Dir<Facade>) -> Dir<Facade> {
+    let v = name.vector();
+    Dir::from_unit(DVec3::new(-v.y, v.x, v.z))
+}
+
+/// φ − 90°.
+fn from_described(name: Dir<Facade>) -> Dir<Facade> {
+    let v = name.vector();
+    Dir::from_unit(DVec3::new(v.y, -v.x, v.z))
 }
 
 #[cfg(test)]
@@ -27,8 +73,49 @@ mod tests {
     use crate::compute::direction::Dir;
     use crate::compute::estimate::Silent;
     use crate::compute::system::measure::front_basis;
-    use crate::compute::system::slats::{SlatArray, SlatProfile, Surface};
+    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
     use crate::compute::system::stack::DataLayer;
+
+    #[test]
+    fn a_panel_with_upright_cuts_turns_light_to_the_other_side() {
+        use crate::compute::system::laser_cut::{CutPanel, LaserCutPanel};
+        use crate::compute::system::measure::beams::SharpBeams;
+        let sheet = crate::compute::system::panes::glazing::Pane { index: 1.5, thickness: 0.01, absorption: 0.0 };
+        let panel = LaserCutPanel { sheet, spacing: 0.007 };
+        let upright = Upright(Box::new(SharpBeams(CutPanel { panel, cut_loss: 0.0 })));
+        let name = Dir::from_theta_phi(0.8, 0.3);
+        let shares = panel.shares(Dir::from_theta_phi(0.8, 0.3 + FRAC_PI_2), 0.0);
+        for side in Side::BOTH {
+            let beams = upright.beams(name, side);
+            let at = |x: f64, transmitted: bool| {
+                let v = DVec3::new(x * name.vector().x, name.vector().y, name.vector().z);
+                let found =
+                    |beam: &&Beam| beam.transmitted == transmitted && (beam.names[0].vector() - v).length() < 1e-9;
+                beams.iter().find(found).map_or(0.0, |beam| beam.share)
+            };
+            assert!((at(1.0, true) - shares.straight).abs() < 1e-9 && (at(-1.0, true) - shares.deflected).abs() < 1e-9);
+            assert!(
+                (at(1.0, false) - shares.mirrored).abs() < 1e-9 && (at(-1.0, false) - shares.returned).abs() < 1e-9
+            );
+        }
+    }
+
+    #[test]
+    fn scattered_light_is_turned_as_the_measured_one() {
+        let cells = front_basis();
+        // Light that depends on the cell: a matrix of any values.
+        let values = (0..145 * 145).map(|k| 0.001 * ((k * 7919) % 101) as f64).collect();
+        let matrix = crate::compute::btdf::CellMatrix::new(cells.clone(), cells.clone(), values).unwrap();
+        let mut band = crate::compute::btdf::Band::default();
+        band.set(crate::compute::btdf::Component::TransmissionFront, crate::compute::btdf::Btdf::from_cells(matrix));
+        let upright = Upright(Box::new(DataLayer(band)));
+        let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
+        let made = upright.measure(&setting, &Silent).unwrap();
+        // A ring whose sectors are turned into each other by 90°.
+        let i = cells.index(Dir::from_theta_phi(0.7, 0.4)).unwrap();
+        let row = upright.scattered(cells.cell(i).centre(), Side::Front, &cells).transmitted;
+        assert!(row.iter().zip(&made.front.transmitted[i * 145..]).all(|(a, b)| (a - b).abs() < 1e-12));
+    }
 
     #[test]
     fn outer_edges_lowered_become_outer_edges_turned_left() {
@@ -36,7 +123,7 @@ mod tests {
             SlatArray::new(SlatProfile::Flat { width: 0.08 }, 0.0, 0.072, 0.6, [Surface::matt(0.5); 2]).unwrap();
         let cells = front_basis();
         let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
-        let flat = DataLayer(slats.examine(&setting, &Silent).unwrap().0);
+        let flat = DataLayer(SlatSpecimen::new(slats).examine(&setting, &Silent).unwrap().0);
         let lying = flat.measure(&setting, &Silent).unwrap();
         let standing = Upright(Box::new(flat)).measure(&setting, &Silent).unwrap();
         let (a, b) = (lying.shares(&lying.front.transmitted), standing.shares(&standing.front.transmitted));

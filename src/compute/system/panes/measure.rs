@@ -4,11 +4,12 @@
 
 use super::coated::{Layer, stack};
 use super::glazing::Share;
-use crate::compute::basis::Cell;
+use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::system::measure::{Measured, Quality, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
 use std::f64::consts::PI;
 
 /// Panes one behind the other, outside first, air between.
@@ -36,6 +37,22 @@ impl Panes {
 }
 
 impl Specimen for Panes {
+    /// Straight on and mirrored; both keep the name.
+    fn keeps_regular_apart(&self) -> bool {
+        true
+    }
+
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let shares = self.shares(name.theta());
+        let reflected = if side == Side::Front { shares.reflected_front } else { shares.reflected_back };
+        vec![Beam::through(name, shares.transmitted), Beam::back(name, reflected)]
+    }
+
+    /// Nothing: panes are clear.
+    fn scattered(&self, _: Dir<Facade>, _: Side, _: &RingBasis) -> ScatteredLight {
+        ScatteredLight::default()
+    }
+
     fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
         let quality = self.measure(setting, progress)?.quality();
         let table = |part: fn(&Share) -> f64| {

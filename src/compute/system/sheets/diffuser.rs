@@ -4,6 +4,7 @@
 //! surfaces lets light in and out through the same kind of surface, so that
 //! q = t F(θ_e) F(θ_a) / (π F̄), F the share that one surface lets through and F̄ its hemispherical mean.
 
+use super::lobe::Lobe;
 use super::sheet::{Sheet, Spread};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
 use crate::compute::system::family::{Family, NoSpecimen, PIECE, Polygons, rectangle};
@@ -151,7 +152,7 @@ impl Spreading {
         let transmission = Spread {
             regular: part(self.regular),
             diffuse: part(haze),
-            lobe: (self.lobe > 0.0).then(|| (part(self.lobe), self.spread)),
+            lobe: (self.lobe > 0.0).then(|| Lobe::new(part(self.lobe), self.spread)),
         };
         // What a clear sheet mirrors stays mirrored; the rest of what does not pass is absorbed or thrown back.
         let kept = 1.0 - self.absorbed;

@@ -1,11 +1,14 @@
 //! Thin sheets: diffusers, fabrics, perforated and expanded metal.
 
 pub mod diffuser;
+mod hole;
+mod holes;
+mod lobe;
 mod perforated;
 pub mod sheet;
 mod walls;
 mod woven;
 
 pub use diffuser::Diffuser;
-pub use perforated::{Hole, Perforated};
+pub use hole::{Hole, Perforated};
 pub use woven::Woven;

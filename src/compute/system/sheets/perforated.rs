@@ -1,58 +1,9 @@
-//! Perforated and expanded metal, grids of webs, as described.
+//! Perforated and expanded metal, grids of webs, as a family.
 
+use super::hole::Perforated;
+use super::holes::Holes;
 use crate::compute::system::family::{Family, NoSpecimen, Polygons};
 use crate::compute::system::measure::Specimen;
-
-/// Pattern and shape of holes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Hole {
-    /// Round, given by its diameter. \[m\]
-    Round {
-        /// Diameter. \[m\]
-        diameter: f64,
-    },
-    /// A rectangle, width and height. \[m\]
-    Rectangle {
-        /// Width along x. \[m\]
-        width: f64,
-        /// Height along y. \[m\]
-        height: f64,
-    },
-    /// A rhombus with horizontal and vertical diagonals, as in expanded metal. \[m\]
-    Rhombus {
-        /// Horizontal diagonal. \[m\]
-        width: f64,
-        /// Vertical diagonal. \[m\]
-        height: f64,
-    },
-}
-
-/// An opaque Lambertian sheet with equal holes; their walls may run obliquely upwards.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Perforated {
-    /// The hole.
-    pub hole: Hole,
-    /// Area of the sheet per hole. \[m²\]
-    pub area: f64,
-    /// Thickness of the sheet. \[m\]
-    pub thickness: f64,
-    /// How much higher the hole lies on the room side, > 0 = its walls rise inwards (strands of expanded metal). \[m\]
-    pub rise: f64,
-    /// Diffuse reflectance of the outer face, the inner face and the walls.
-    pub reflectance: [f64; 3],
-}
-
-impl Perforated {
-    /// Height of a hole and the distance from one to the next above it. \[m\] The description knows the area per hole
-    /// alone: a square of it, or more where the holes would touch.
-    fn pattern(&self) -> [f64; 2] {
-        let height = match self.hole {
-            Hole::Round { diameter } => diameter,
-            Hole::Rectangle { height, .. } | Hole::Rhombus { height, .. } => height,
-        };
-        [height, self.area.sqrt().max(1.1 * height)]
-    }
-}
 
 impl Family for Perforated {
     fn word(&self) -> &'static str {
@@ -84,13 +35,14 @@ impl Family for Perforated {
     }
 
     fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        Ok(Box::new(*self))
+        Ok(Box::new(Holes::new(*self)))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::system::sheets::Hole;
 
     #[test]
     fn what_is_solid_of_a_sheet_with_holes() {

@@ -6,28 +6,30 @@
 //! direction cosines, so that the kernel is symmetric in both directions; d is found such that the total is the τ(θ_e)
 //! asked for (Sinkhorn's iteration in its symmetric form).
 
-use crate::compute::basis::{Cell, RingBasis, sub_directions};
+use super::lobe::{Fineness, Lobe};
+use crate::compute::basis::{Cell, Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::midpoints;
 use crate::compute::scaling::by_rounds;
-use crate::compute::system::measure::{Measured, Quality, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Where the light of one incidence goes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Spread {
     /// Straight on, or mirrored.
     pub regular: AngularTransmittance,
     /// Diffuse, separable.
     pub diffuse: AngularTransmittance,
-    /// In a lobe about the regular direction, with its standard deviation along either direction cosine.
-    pub lobe: Option<(AngularTransmittance, f64)>,
+    /// In a lobe about the regular direction.
+    pub lobe: Option<Lobe>,
 }
 
 /// A sheet: transmission is the same from both sides, reflection may differ.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Sheet {
     /// Transmission.
     pub transmission: Spread,
@@ -85,7 +87,46 @@ impl Specimen for Sheet {
         };
         Ok((band, quality))
     }
+
+    /// Straight on and mirrored, which keep the name.
+    fn keeps_regular_apart(&self) -> bool {
+        true
+    }
+
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let theta = name.theta();
+        let [straight, mirrored] = [&self.transmission, self.reflection(side)].map(|part| part.regular.at(theta));
+        let beams = [Beam::through(name, straight), Beam::back(name, mirrored)];
+        beams.into_iter().filter(|beam| beam.share > 0.0).collect()
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered_with(name, side, emergent, self.transmission.diffuse.at(name.theta()))
+    }
 }
+
+impl Sheet {
+    /// Reflection of light from a side.
+    const fn reflection(&self, side: Side) -> &Spread {
+        match side {
+            Side::Front => &self.reflection[0],
+            Side::Back => &self.reflection[1],
+        }
+    }
+
+    /// What is scattered, so much of it transmitted diffusely.
+    pub fn scattered_with(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
+        let back = self.reflection(side);
+        ScatteredLight {
+            transmitted: self.transmission.of(name, emergent, diffuse),
+            reflected: back.of(name, emergent, back.diffuse.at(name.theta())),
+            error: TOTALS,
+        }
+    }
+}
+
+/// Error of the totals of single directions: they are scaled to the tables, which hold what they were made from to this.
+const TOTALS: f64 = 1e-4;
 
 /// Angles across a ring over which functions of θ are averaged.
 const RING: usize = 128;
@@ -93,13 +134,39 @@ const RING: usize = 128;
 /// Means over the cells of a function of θ.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
     let rule = midpoints(RING);
-    basis.cells().map(|cell| share.ring_mean(cell.theta_min, cell.theta_max, &rule)).collect()
+    let mean = |ring: &Ring| std::iter::repeat_n(share.ring_mean(ring.theta_min, ring.theta_max, &rule), ring.sectors);
+    basis.rings().iter().flat_map(mean).collect()
 }
 
 impl Spread {
     /// Scatters nothing?
     fn is_dark(&self) -> bool {
         self.diffuse.hemispherical() == 0.0 && self.lobe.is_none()
+    }
+
+    /// Mean q over the emergent cells of what is scattered of one very direction, so much of it diffusely. \[1/sr\] Empty:
+    /// nothing.
+    fn of(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> Vec<f64> {
+        if self.is_dark() {
+            return vec![];
+        }
+        let weight = emergent.projected_solid_angles();
+        let flux = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+        let mut values = vec![0.0; emergent.len()];
+        // Each part has its shape from the cells and its total from the direction.
+        let mut add = |shape: Vec<f64>, total: f64| {
+            let found = flux(&shape);
+            if found > 0.0 {
+                values.iter_mut().zip(shape).for_each(|(q, shape)| *q += shape * (total / found));
+            }
+        };
+        add(ring_means(emergent, &self.diffuse), diffuse.max(0.0));
+        if let Some(lobe) = &self.lobe {
+            let from = [lobe.point(name)];
+            let shape = emergent.cells().map(|to| lobe.mean(&from, &to, Fineness::DIRECTION)).collect();
+            add(shape, lobe.share().at(name.theta()));
+        }
+        values
     }
 
     /// Values on the cells, and the error of every incident cell's total.
@@ -119,11 +186,10 @@ impl Spread {
         }
         // What the averages over rings leave open.
         let mut error = vec![1e-6; incident.len()];
-        if let Some((share, spread)) = &self.lobe {
-            let lobe = Lobe::new(share, *spread);
+        if let Some(lobe) = &self.lobe {
             let weight = emergent.projected_solid_angles();
             let cells: Vec<Cell> = emergent.cells().collect();
-            let totals = ring_means(incident, share);
+            let totals = ring_means(incident, lobe.share());
             let rows: Vec<Vec<f64>> = incident
                 .cells()
                 .collect::<Vec<_>>()
@@ -132,8 +198,8 @@ impl Spread {
                     if progress.cancelled() {
                         return Err(Cancelled);
                     }
-                    let from = lobe.points(from);
-                    Ok(cells.iter().map(|to| lobe.mean(&from, to)).collect())
+                    let from = lobe.points(from, Fineness::CELLS);
+                    Ok(cells.iter().map(|to| lobe.mean(&from, to, Fineness::CELLS)).collect())
                 })
                 .collect::<Result<_, Cancelled>>()?;
             // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
@@ -164,128 +230,17 @@ impl Spread {
     }
 }
 
-/// The balanced Gaussian kernel.
-struct Lobe {
-    spread: f64,
-    /// d over equal steps of sinθ, at their middles.
-    factor: Vec<f64>,
-}
-
-/// exp(−x) of this and above counts as nothing.
-const MOST_EXPONENT: f64 = 30.0;
-
-impl Lobe {
-    fn new(share: &AngularTransmittance, spread: f64) -> Self {
-        // Half a spread a step keeps the sums over the smooth kernel exact to 1e-8.
-        let n = ((2.0 / spread).ceil() as usize).clamp(100, 1000);
-        let sine = |i: usize| (i as f64 + 0.5) / n as f64;
-        let kernel: Vec<f64> = (0..n * n)
-            .into_par_iter()
-            .map(|k| {
-                let (a, b) = (sine(k / n), sine(k % n));
-                let exponent = 0.5 * ((a - b) / spread).powi(2);
-                let around = 2.0 * PI * (-exponent).exp() * scaled_bessel(a * b / (spread * spread));
-                around * b / n as f64
-            })
-            .collect();
-        let sums = |factor: &[f64]| -> Vec<f64> {
-            kernel.chunks_exact(n).map(|row| row.iter().zip(factor).map(|(k, d)| k * d).sum()).collect()
-        };
-        let wanted: Vec<_> = (0..n).map(|i| Some(share.at(sine(i).asin()))).collect();
-        Self { spread, factor: by_rounds(sums, &wanted, 400, 1e-9, f64::INFINITY) }
-    }
-
-    fn factor(&self, sine: f64) -> f64 {
-        let x = (sine * self.factor.len() as f64 - 0.5).max(0.0);
-        let k = (x as usize).min(self.factor.len() - 2);
-        let t = x - k as f64;
-        (self.factor[k] * (1.0 - t) + self.factor[k + 1] * t).max(0.0)
-    }
-
-    /// Direction cosines and d of points that share the cell evenly, close enough for the lobe.
-    fn points(&self, cell: &Cell) -> Vec<([f64; 2], f64)> {
-        let high = cell.theta_max.sin() - cell.theta_min.sin();
-        let wide = cell.width * cell.theta_max.sin();
-        let n = ((high.max(wide) / (0.8 * self.spread)).ceil() as usize).clamp(1, 24);
-        sub_directions(cell, n)
-            .map(|d| {
-                let k = d.vector().truncate();
-                ([k.x, k.y], self.factor(k.length()))
-            })
-            .collect()
-    }
-
-    /// Mean of the lobe over an emergent cell for light from the given points.
-    fn mean(&self, from: &[([f64; 2], f64)], to: &Cell) -> f64 {
-        let exponent = |a: [f64; 2], b: [f64; 2]| {
-            0.5 * ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / (self.spread * self.spread)
-        };
-        let centre = to.centre().vector().truncate();
-        let middle = from[from.len() / 2].0;
-        // Far cells need no points: both are smaller than their distance allows.
-        let reach = (to.width * to.theta_max.sin()).max(to.theta_max.sin() - to.theta_min.sin()) + 0.25;
-        if (exponent([centre.x, centre.y], middle).sqrt() - reach / self.spread).max(0.0).powi(2) > MOST_EXPONENT {
-            return 0.0;
-        }
-        let points = self.points(to);
-        let sum: f64 = from
-            .iter()
-            .map(|(a, d)| {
-                let inner: f64 = points
-                    .iter()
-                    .map(|(b, e)| {
-                        let x = exponent(*a, *b);
-                        if x < MOST_EXPONENT { e * (-x).exp() } else { 0.0 }
-                    })
-                    .sum();
-                d * inner
-            })
-            .sum();
-        sum / (from.len() * points.len()) as f64
-    }
-}
-
-/// e⁻ˣ I₀(x), x ≥ 0, to 2e-7 (Abramowitz and Stegun 9.8.1 and 9.8.2).
-fn scaled_bessel(x: f64) -> f64 {
-    let polynomial = |c: &[f64], t: f64| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
-    if x < 3.75 {
-        let t = (x / 3.75).powi(2);
-        let c = [1.0, 3.515_622_9, 3.089_942_4, 1.206_749_2, 0.265_973_2, 0.036_076_8, 0.004_581_3];
-        (-x).exp() * polynomial(&c, t)
-    } else {
-        let c = [
-            0.398_942_28,
-            0.013_285_92,
-            0.002_253_19,
-            -0.001_575_65,
-            0.009_162_81,
-            -0.020_577_06,
-            0.026_355_37,
-            -0.016_476_33,
-            0.003_923_77,
-        ];
-        polynomial(&c, 3.75 / x) / x.sqrt()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::basis::{AzimuthMap, cell_mean};
+    use crate::compute::basis::{AzimuthMap, cell_mean, sub_directions};
     use crate::compute::estimate::Silent;
     use crate::compute::system::measure::front_basis;
-
-    #[test]
-    fn bessel_at_known_places() {
-        // I₀(1) = 1.2660658777520084, I₀(5) = 27.239871823604442.
-        assert!((scaled_bessel(1.0) * 1_f64.exp() - 1.266_065_877_752).abs() < 1e-6);
-        assert!((scaled_bessel(5.0) * 5_f64.exp() - 27.239_871_823_6).abs() < 1e-5);
-    }
 
     fn sheet(spread: f64) -> Sheet {
         let tau =
             |share: f64| AngularTransmittance::sample(90, move |theta| share * (1.0 - (1.0 - theta.cos()).powi(5)));
-        let transmission = Spread { regular: tau(0.1), diffuse: tau(0.2), lobe: Some((tau(0.5), spread)) };
+        let transmission = Spread { regular: tau(0.1), diffuse: tau(0.2), lobe: Some(Lobe::new(tau(0.5), spread)) };
         Sheet { transmission, reflection: [Spread::lambertian(0.1), Spread::lambertian(0.15)] }
     }
 
@@ -318,7 +273,7 @@ mod tests {
         let made = Spread {
             regular: AngularTransmittance::Constant(0.0),
             diffuse: AngularTransmittance::Constant(0.0),
-            lobe: Some((AngularTransmittance::Constant(1.0), spread)),
+            lobe: Some(Lobe::new(AngularTransmittance::Constant(1.0), spread)),
         };
         let (values, _) = made.on(&setting, &Silent).unwrap();
         // Near the normal, d² = 1/(2πσ²), and q falls as the Gaussian does.
@@ -329,6 +284,50 @@ mod tests {
             let found = values[i * emergent.len() + o];
             // Cells beside the normal are sectors: their means are not quite the values at their centres.
             assert!((found - exact).abs() < 0.04 * 16.0, "{o}: {found} {exact}");
+        }
+    }
+
+    #[test]
+    fn single_directions_have_their_shares_and_the_measured_mean() {
+        let cells = front_basis();
+        let weight = cells.projected_solid_angles();
+        let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+        let sheet = sheet(0.15);
+        let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
+        let made = sheet.measure(&setting, &Silent).unwrap();
+        for i in [0, 40, 100, 125] {
+            let mut mean = vec![0.0; cells.len()];
+            for name in sub_directions(&cells.cell(i), 6) {
+                let beams = sheet.beams(name, Side::Front);
+                let found = sheet.scattered(name, Side::Front, &cells);
+                let all = beams.iter().map(|beam| beam.share).sum::<f64>() + share(&found.transmitted);
+                let exact = 0.8 * (1.0 - (1.0 - name.theta().cos()).powi(5));
+                assert!((all - exact).abs() < 2e-4, "{i}: {all} {exact}");
+                assert!(beams.len() == 1 && (share(&found.reflected) - 0.1).abs() < 1e-12);
+                mean.iter_mut().zip(&found.transmitted).for_each(|(mean, q)| *mean += q / 36.0);
+                mean[i] += beams[0].share / weight[i] / 36.0;
+            }
+            let apart: f64 = (0..145).map(|o| (mean[o] - made.front.transmitted[i * 145 + o]).abs() * weight[o]).sum();
+            assert!(apart < 0.015, "{i}: {apart}");
+        }
+    }
+
+    #[test]
+    fn a_lobe_of_one_direction_is_cut_by_cells_where_the_gaussian_is() {
+        let cells = RingBasis::even(0.05);
+        let spread = 0.08;
+        let nothing = AngularTransmittance::Constant(0.0);
+        let lobe = Some(Lobe::new(AngularTransmittance::Constant(1.0), spread));
+        let made = Spread { regular: nothing.clone(), diffuse: nothing, lobe };
+        let name = Dir::from_theta_phi(0.2, 0.7);
+        let centre = name.vector().truncate();
+        for (cell, q) in cells.cells().zip(made.of(name, &cells, 0.0)) {
+            let density = |d: Dir<Facade>| {
+                let apart = (d.vector().truncate() - centre).length();
+                (-0.5 * (apart / spread).powi(2)).exp() / (2.0 * PI * spread * spread)
+            };
+            let exact = cell_mean(&cell, 12, density);
+            assert!((q - exact).abs() * cell.projected_solid_angle() < 2e-4, "{q} {exact}");
         }
     }
 }

@@ -6,14 +6,14 @@
 //! two polygons' overlap, exactly; and what a patch sends towards a direction is what that direction would light.
 //! No light goes from one hole to another, because the faces are plane.
 
-use super::perforated::{Hole, Perforated};
+use super::hole::{Hole, Perforated};
 use crate::compute::basis::{Cell, RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::polygon::{area, cut_by_all};
 use crate::compute::scaling::by_rounds;
 use crate::compute::sequence::recurrence;
-use crate::compute::system::measure::{Measured, Setting, Side, Specimen};
+use crate::compute::system::measure::{Measured, Setting, Side};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use glam::{DVec2, DVec3};
@@ -31,35 +31,41 @@ const RAYS: usize = 2048;
 /// Rounds of scaling that make the exchange reciprocal.
 const ROUNDS: usize = 50;
 
-impl Specimen for Perforated {
-    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        let mut coarse: Option<Measured> = None;
-        let mut depth = DEPTH[0];
-        loop {
-            let mut made = Walls::new(self, depth).measure(setting, progress)?;
-            let mut worst = f64::INFINITY;
-            if let Some(last) = &coarse {
-                worst = 0.0;
-                for side in Side::BOTH {
-                    let (t, r) = (made.shares(&made.seen(side).transmitted), made.shares(&made.seen(side).reflected));
-                    let (t0, r0) = (last.shares(&last.seen(side).transmitted), last.shares(&last.seen(side).reflected));
-                    for (i, error) in made.seen_mut(side).error.iter_mut().enumerate() {
-                        *error += (t[i] - t0[i]).abs().max((r[i] - r0[i]).abs());
-                        worst = worst.max(*error);
-                    }
+/// Means over the cells of a setting, the walls cut finer until its error is met.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
+pub(super) fn measure_walls(
+    sheet: &Perforated,
+    setting: &Setting<'_>,
+    progress: &dyn Progress,
+) -> Result<Measured, Cancelled> {
+    let mut coarse: Option<Measured> = None;
+    let mut depth = DEPTH[0];
+    loop {
+        let mut made = Walls::new(sheet, depth).measure(setting, progress)?;
+        let mut worst = f64::INFINITY;
+        if let Some(last) = &coarse {
+            worst = 0.0;
+            for side in Side::BOTH {
+                let (t, r) = (made.shares(&made.seen(side).transmitted), made.shares(&made.seen(side).reflected));
+                let (t0, r0) = (last.shares(&last.seen(side).transmitted), last.shares(&last.seen(side).reflected));
+                for (i, error) in made.seen_mut(side).error.iter_mut().enumerate() {
+                    *error += (t[i] - t0[i]).abs().max((r[i] - r0[i]).abs());
+                    worst = worst.max(*error);
                 }
             }
-            if worst <= setting.error || depth >= DEPTH[1] {
-                return Ok(made);
-            }
-            coarse = Some(made);
-            depth *= 2;
         }
+        if worst <= setting.error || depth >= DEPTH[1] {
+            return Ok(made);
+        }
+        coarse = Some(made);
+        depth *= 2;
     }
 }
 
 /// A hole cut into patches. Lengths over the square root of the sheet's area per hole; z = 0 is the outer face.
-struct Walls {
+pub(super) struct Walls {
     outer: Vec<DVec2>,
     inner: Vec<DVec2>,
     thickness: f64,
@@ -71,15 +77,22 @@ struct Walls {
 
 /// What the cells of a basis light, when light comes from one side.
 #[derive(Clone)]
-struct Lit {
+pub(super) struct Lit {
     /// Straight through, a cell.
     straight: Vec<f64>,
     /// On every patch (column) for every cell (row), per light on the sheet.
-    walls: Mat<f64>,
+    pub walls: Mat<f64>,
+}
+
+impl Lit {
+    /// Number of cells.
+    pub const fn cells(&self) -> usize {
+        self.straight.len()
+    }
 }
 
 impl Walls {
-    fn new(sheet: &Perforated, depth: usize) -> Self {
+    pub fn new(sheet: &Perforated, depth: usize) -> Self {
         let unit = sheet.area.sqrt();
         let corners: Vec<DVec2> = match sheet.hole {
             Hole::Round { diameter } => {
@@ -121,6 +134,27 @@ impl Walls {
         Self { open: area(&outer), outer, inner, thickness, patches, areas, reflectance: sheet.reflectance }
     }
 
+    /// Number of patches.
+    pub const fn len(&self) -> usize {
+        self.patches.len()
+    }
+
+    /// Area of every patch, over that of the sheet per hole.
+    pub fn areas(&self) -> &[f64] {
+        &self.areas
+    }
+
+    /// The share that leaves each patch through the ends of the hole, by what cells light it from both sides.
+    pub fn escaping(&self, cells: &RingBasis, through: &[Lit; 2]) -> Vec<f64> {
+        let weight = cells.projected_solid_angles();
+        let flux = |lit: &Lit, j: usize| (0..weight.len()).map(|o| lit.walls[(o, j)] * weight[o]).sum::<f64>();
+        self.areas
+            .iter()
+            .enumerate()
+            .map(|(j, area)| (flux(&through[0], j) + flux(&through[1], j)) / (PI * area))
+            .collect()
+    }
+
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let n = self.patches.len();
@@ -140,13 +174,7 @@ impl Walls {
         let back = Side::BOTH.map(|side| self.lit(setting.emergent, side, true));
         step(2)?;
         let weight = setting.emergent.projected_solid_angles();
-        let escaping: Vec<f64> = (0..n)
-            .map(|j| {
-                let flux = |lit: &Lit| (0..weight.len()).map(|o| lit.walls[(o, j)] * weight[o]).sum::<f64>();
-                (flux(&through[0]) + flux(&through[1])) / (PI * self.areas[j])
-            })
-            .collect();
-        let response = self.response(&escaping);
+        let response = self.response(&self.escaping(setting.emergent, &through));
         step(3)?;
         let wall = self.reflectance[2];
         for (k, side) in Side::BOTH.into_iter().enumerate() {
@@ -184,7 +212,7 @@ impl Walls {
 
     /// The straight share and the lighting of the walls by every cell, from one side; `turned`: by the names turned by
     /// 180° about the normal.
-    fn lit(&self, cells: &RingBasis, side: Side, turned: bool) -> Lit {
+    pub fn lit(&self, cells: &RingBasis, side: Side, turned: bool) -> Lit {
         let list: Vec<Cell> = cells.cells().collect();
         let rows: Vec<(f64, Vec<f64>)> = list
             .par_iter()
@@ -208,7 +236,7 @@ impl Walls {
     }
 
     /// Adds what one direction lights, times `share`; returns its straight share.
-    fn light(&self, name: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
+    pub fn light(&self, name: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
         let mut v = name.vector();
         if turned {
             (v.x, v.y) = (-v.x, -v.y);
@@ -238,7 +266,7 @@ impl Walls {
 
     /// Light landed on patch j in the end per light that patch i gets first: (1 − K ρ)⁻¹. `escaping`: the share that
     /// leaves each patch through the ends of the hole.
-    fn response(&self, escaping: &[f64]) -> Mat<f64> {
+    pub fn response(&self, escaping: &[f64]) -> Mat<f64> {
         let n = self.patches.len();
         let rows: Vec<Vec<f64>> = (0..n).into_par_iter().map(|k| self.exchange(k)).collect();
         // Area × factor both ways alike, and what does not escape lands: rays count either only to their noise.
@@ -340,76 +368,4 @@ fn shared(subject: &[DVec2], within: &[DVec2], [polygon, spare]: &mut [Vec<DVec2
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::compute::estimate::Silent;
-    use crate::compute::system::measure::front_basis;
-
-    fn sheet(hole: Hole, thickness: f64, rise: f64, wall: f64) -> Perforated {
-        Perforated { hole, area: 1e-4, thickness, rise, reflectance: [0.6, 0.4, wall] }
-    }
-
-    fn measure(sheet: &Perforated) -> Measured {
-        let cells = front_basis();
-        sheet.measure(&Setting { incident: &cells, emergent: &cells, error: 0.005, seed: 1 }, &Silent).unwrap()
-    }
-
-    #[test]
-    fn balance_and_reciprocity_of_every_shape() {
-        let side = 0.007;
-        for (hole, rise) in [
-            (Hole::Round { diameter: side }, 0.0),
-            (Hole::Rectangle { width: side, height: 0.5 * side }, 0.0),
-            (Hole::Rhombus { width: 0.012, height: side }, 0.002),
-        ] {
-            for wall in [0.0, 0.9] {
-                let quality = measure(&sheet(hole, 0.004, rise, wall)).quality();
-                assert!(quality.balance < 1e-3, "{hole:?} {wall}: {quality:?}");
-                assert!(quality.reciprocity.unwrap() < 0.01, "{hole:?} {wall}: {quality:?}");
-                assert!(quality.error < 0.005, "{hole:?} {wall}: {quality:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn straight_share_of_a_square_hole_is_a_product() {
-        // Open (a − t|x|/z)(a − t|y|/z) of the unit area.
-        let (a, t) = (0.8, 0.3);
-        let hole = Hole::Rectangle { width: 0.008, height: 0.008 };
-        let walls = Walls::new(&sheet(hole, 0.003, 0.0, 0.0), 3);
-        let mut dump = vec![0.0; walls.patches.len()];
-        for (theta, phi) in [(0.2, 0.3), (0.7, 1.2), (1.1, 4.0), (1.4, 5.5)] {
-            let d = Dir::from_theta_phi(theta, phi);
-            let v = d.vector();
-            let exact = (a - t * (v.x / v.z).abs()).max(0.0) * (a - t * (v.y / v.z).abs()).max(0.0);
-            for side in Side::BOTH {
-                let found = walls.light(d, side, false, 1.0, &mut dump);
-                assert!((found - exact).abs() < 1e-12, "{theta} {phi}: {found} {exact}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_deep_hole_with_white_walls_is_a_pipe_that_loses_nothing() {
-        let made = measure(&sheet(Hole::Round { diameter: 0.008 }, 0.004, 0.0, 1.0));
-        let (t, r) = (made.shares(&made.front.transmitted), made.shares(&made.front.reflected));
-        let open = 0.25 * PI * 0.64;
-        for (t, r) in t.iter().zip(&r) {
-            assert!((t + r - open - 0.6 * (1.0 - open)).abs() < 1e-3, "{t} {r}");
-        }
-        // Clausing's probability of a tube as long as its radius: 0.6720 (Clausing 1932; exact 0.67198).
-        let cells = front_basis();
-        let uniform: f64 = cells.projected_solid_angles().iter().zip(&t).map(|(w, t)| w * t).sum::<f64>() / PI;
-        assert!((uniform / open - 0.6720).abs() < 0.01, "{}", uniform / open);
-    }
-
-    #[test]
-    fn walls_that_rise_inwards_let_low_light_through() {
-        let made = measure(&sheet(Hole::Rhombus { width: 0.018, height: 0.008 }, 0.004, 0.003, 0.0));
-        let cells = front_basis();
-        let at = |phi: f64| cells.index(Dir::from_theta_phi(0.6, phi)).unwrap();
-        let tau = made.shares(&made.front.transmitted);
-        // Light from below travels upwards and inwards.
-        assert!(tau[at(-PI / 2.0)] > 2.0 * tau[at(PI / 2.0)], "{} {}", tau[at(-PI / 2.0)], tau[at(PI / 2.0)]);
-    }
-}
+mod tests;

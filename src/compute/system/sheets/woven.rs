@@ -6,9 +6,12 @@
 //! Lambertian, as the model has it.
 
 use super::sheet::{Sheet, Spread};
-use crate::compute::btdf::AngularTransmittance;
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{AngularTransmittance, Band};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::family::{Family, NoSpecimen, Polygons};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Pitch of the yarns as drawn; the description has none. \[m\]
@@ -89,13 +92,64 @@ impl Family for Woven {
     }
 
     fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        Ok(Box::new(self.sheet()))
+        Ok(Box::new(Fabric { woven: *self, sheet: self.sheet() }))
+    }
+}
+
+/// A fabric as a specimen: the sheet, and for single directions the model itself, whose steep end at the cut-off angle no
+/// table holds.
+struct Fabric {
+    woven: Woven,
+    sheet: Sheet,
+}
+
+impl Specimen for Fabric {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        self.sheet.measure(setting, progress)
+    }
+
+    fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
+        self.sheet.examine(setting, progress)
+    }
+
+    fn keeps_regular_apart(&self) -> bool {
+        true
+    }
+
+    fn beams(&self, name: Dir<Facade>, _: Side) -> Vec<Beam> {
+        let open = self.woven.open(name.theta());
+        if open > 0.0 { vec![Beam::through(name, open)] } else { vec![] }
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let theta = name.theta();
+        let through_yarns = self.woven.total(theta) - self.woven.open(theta);
+        self.sheet.scattered_with(name, side, emergent, through_yarns)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::system::measure::front_basis;
+
+    #[test]
+    fn single_directions_have_the_totals_of_the_model() {
+        let fabric = Woven { openness: 0.05, reflectance: [0.7, 0.3], transmittance: 0.1 };
+        let specimen = fabric.specimen("").unwrap();
+        let cells = front_basis();
+        let weight = cells.projected_solid_angles();
+        let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+        for k in 0..890 {
+            let theta = (0.1 * f64::from(k)).to_radians();
+            let name = Dir::from_theta_phi(theta, 0.1 * f64::from(k));
+            let beams: f64 = specimen.beams(name, Side::Front).iter().map(|beam| beam.share).sum();
+            assert!((beams - fabric.open(theta)).abs() < 1e-12);
+            let found = specimen.scattered(name, Side::Back, &cells);
+            assert!((share(&found.transmitted) + beams - fabric.total(theta)).abs() < 1e-12);
+            assert!((share(&found.reflected) - 0.3 * 0.95).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn yarns_leave_the_openness() {

@@ -163,7 +163,6 @@ mod tests {
     use crate::compute::basis::AzimuthMap;
     use crate::compute::direction::{Dir, Facade};
     use crate::compute::estimate::Silent;
-    use crate::compute::system::measure::Specimen;
     use crate::compute::system::slats::SlatProfile;
     use crate::compute::system::slats::{SlatArray, Surface};
     use std::f64::consts::FRAC_PI_2;

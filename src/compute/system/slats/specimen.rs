@@ -10,25 +10,28 @@ use super::direct::Direct;
 use super::flows::{Lobe, Transport, index};
 use super::measure::PARTS_BY_DIRECTION;
 use super::outline::SlatSection;
+use super::profile::SlatProfile;
 use super::profile_weights::{ProfileGrid, ProfileWeights};
 use super::transport::{Node, beam};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress, Silent};
 use crate::compute::sequence::recurrence;
-use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::measure::kept::{Kept, Once};
+use crate::compute::system::measure::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 /// Slats with what has been solved of them.
 pub struct SlatSpecimen {
     array: SlatArray,
     direct: Direct,
+    /// For beams, and for what matt faces send on.
+    mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
-    solved: OnceLock<Solved>,
-    /// Of the cells asked for last.
-    weights: Mutex<Option<(RingBasis, Arc<ProfileWeights>)>>,
+    solved: Once<Solved>,
+    weights: Kept<ProfileWeights>,
 }
 
 /// Transport and balance of the section.
@@ -37,6 +40,8 @@ struct Solved {
     balance: Balance,
 }
 
+/// Parts of a curved mirror, each of which throws a fan of its own.
+const FANS: usize = 128;
 /// Step of the profile angle where matt light leaves. \[rad\]
 const STEP: f64 = 0.25 * PI / 180.0;
 /// Rays are drawn by this seed: the same light gives the same beams.
@@ -50,7 +55,23 @@ impl SlatSpecimen {
     /// Of an array.
     pub fn new(array: SlatArray) -> Self {
         let direct = Direct::without_knots(&array);
-        Self { array, direct, section: OnceLock::new(), solved: OnceLock::new(), weights: Mutex::new(None) }
+        Self {
+            array,
+            direct,
+            mirrors: OnceLock::new(),
+            section: OnceLock::new(),
+            solved: Once::default(),
+            weights: Kept::default(),
+        }
+    }
+
+    /// A fan lies evenly between the rays at its ends: where mirrors are curved, they are cut finely.
+    fn mirrors(&self) -> &SlatSection {
+        if matches!(self.array.profile(), SlatProfile::Arc { .. }) {
+            self.mirrors.get_or_init(|| SlatSection::new(&self.array, FANS))
+        } else {
+            self.section()
+        }
     }
 
     fn section(&self) -> &SlatSection {
@@ -58,7 +79,7 @@ impl SlatSpecimen {
     }
 
     fn solved(&self) -> &Solved {
-        self.solved.get_or_init(|| {
+        self.solved.get(|| {
             let grid = ProfileGrid::new(STEP);
             let hat: Vec<f64> = (0..grid.len()).map(|node| grid.hat(node)).collect();
             let transport = match Transport::new(self.section(), grid, SEED, &Silent) {
@@ -77,15 +98,7 @@ impl SlatSpecimen {
     }
 
     fn weights(&self, cells: &RingBasis) -> Arc<ProfileWeights> {
-        let mut kept = self.weights.lock().unwrap_or_else(PoisonError::into_inner);
-        match &*kept {
-            Some((basis, weights)) if basis == cells => Arc::clone(weights),
-            _ => {
-                let weights = Arc::new(ProfileWeights::new(cells, ProfileGrid::new(STEP)));
-                *kept = Some((cells.clone(), Arc::clone(&weights)));
-                weights
-            }
-        }
+        self.weights.get(cells, || ProfileWeights::new(cells, ProfileGrid::new(STEP)))
     }
 }
 
@@ -116,7 +129,7 @@ impl Specimen for SlatSpecimen {
         if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
             return beams;
         }
-        let node = beam(self.section(), psi, SEED);
+        let node = beam(self.mirrors(), psi, SEED);
         let thrown = &node.thrown[index(side)];
         for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
             let from = beams.len();
@@ -133,6 +146,32 @@ impl Specimen for SlatSpecimen {
             }
         }
         beams
+    }
+
+    fn by_profile_alone(&self) -> Option<bool> {
+        (!self.has(|surface| surface.mirror * surface.spread)).then_some(false)
+    }
+
+    fn straight(&self, name: Dir<Facade>, _: Side) -> f64 {
+        self.direct.share(section_angles(name).1)
+    }
+
+    fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
+        let (_, psi) = section_angles(name);
+        // Rough mirrors spread along the slats, too.
+        if psi.cos() <= 0.0
+            || !self.has(|surface| surface.diffuse)
+            || self.has(|surface| surface.mirror * surface.spread)
+        {
+            return None;
+        }
+        let node = beam(self.section(), psi, SEED);
+        let sent = self.sent(&node, psi, side);
+        Some(ProfileLight {
+            upright: false,
+            q: self.luminance(&self.solved().transport.landed[1 - index(side)], &sent),
+            error: self.doubt(&node, psi, side),
+        })
     }
 
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
@@ -154,38 +193,57 @@ impl Specimen for SlatSpecimen {
 }
 
 impl SlatSpecimen {
-    /// What matt faces send on of what has landed on them.
-    fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        let solved = self.solved();
+    /// What faces send out of parallel light that has landed on them, per illuminance: M g/π as over cells.
+    fn sent(&self, node: &Node, psi: f64, side: Side) -> Vec<f64> {
         let landed = &node.landed[index(side)];
-        let response = &solved.balance.response;
+        let response = &self.solved().balance.response;
         let n = landed.len();
-        // Per unit of what falls on the array; M g/π as over cells.
         let scale = FRAC_1_PI / psi.cos();
-        let sent: Vec<f64> =
-            (0..n).map(|i| scale * (0..n).map(|j| response[(i, j)] * landed[j]).sum::<f64>()).collect();
+        (0..n).map(|i| scale * (0..n).map(|j| response[(i, j)] * landed[j]).sum::<f64>()).collect()
+    }
+
+    /// Error of the shares that leave so.
+    fn doubt(&self, node: &Node, psi: f64, side: Side) -> f64 {
+        let landed = &node.landed[index(side)];
+        let one = |doubt: &[f64]| landed.iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs() / psi.cos();
+        let [inside, outside] = &self.solved().balance.doubt;
+        one(inside).max(one(outside))
+    }
+
+    /// Luminance at the nodes of the profile angle, from the width of parallel light of each that comes to the faces.
+    fn luminance(&self, landed: &[Vec<f64>], sent: &[f64]) -> Vec<f64> {
+        let at = |(node, row): (usize, &Vec<f64>)| {
+            // Along the slats the pitch is seen foreshortened; at ±90° nothing of it is seen.
+            let cosine = ProfileGrid::new(STEP).psi(node).cos();
+            let width: f64 = row.iter().zip(sent).map(|(h, s)| h * s).sum();
+            // The extrapolation to endless strips may fall below 0 where nothing arrives.
+            if cosine > 1e-9 { (width / cosine).max(0.0) } else { 0.0 }
+        };
+        landed.iter().enumerate().map(at).collect()
+    }
+
+    /// What matt faces send on, by cells.
+    fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let sent = self.sent(node, psi, side);
         let weights = self.weights(emergent);
         let by_cell = |rows: &[Vec<f64>], turned: bool| -> Vec<f64> {
-            let mut luminance: Vec<f64> =
-                rows.iter().map(|row| row.iter().zip(&sent).map(|(h, s)| h * s).sum::<f64>()).collect();
+            let width = |row: &Vec<f64>| row.iter().zip(&sent).map(|(h, s)| h * s).sum::<f64>();
+            let mut widths: Vec<f64> = rows.iter().map(width).collect();
             if turned {
-                luminance.reverse();
+                widths.reverse();
             }
             let of = |(cell, solid): (usize, f64)| {
                 let (first, row) = weights.cell(cell);
-                let sum: f64 = row.iter().zip(&luminance[first..]).map(|(w, l)| w * l).sum();
-                // The extrapolation to endless strips may fall below 0 where nothing arrives.
+                let sum: f64 = row.iter().zip(&widths[first..]).map(|(w, l)| w * l).sum();
                 (sum / solid).max(0.0)
             };
             emergent.projected_solid_angles().into_iter().enumerate().map(of).collect()
         };
-        let landed_of = &solved.transport.landed;
-        let doubt =
-            |k: usize| landed.iter().zip(&solved.balance.doubt[k]).map(|(g, d)| g * d).sum::<f64>().abs() / psi.cos();
+        let landed = &self.solved().transport.landed;
         ScatteredLight {
-            transmitted: by_cell(&landed_of[1 - index(side)], false),
-            reflected: by_cell(&landed_of[index(side)], true),
-            error: doubt(0).max(doubt(1)),
+            transmitted: by_cell(&landed[1 - index(side)], false),
+            reflected: by_cell(&landed[index(side)], true),
+            error: self.doubt(node, psi, side),
         }
     }
 }

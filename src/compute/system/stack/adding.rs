@@ -6,59 +6,28 @@
 //! only the sum is averaged. The error of what is still forgotten is told by the change from the next coarser cut.
 
 use super::halves::{Flux, Halves};
+use super::single::Singles;
 use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
-use crate::compute::btdf::{Band, CellMatrix, Component, matrix_on, resample_matrix};
+use crate::compute::btdf::{CellMatrix, resample_matrix};
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
-use crate::compute::system::measure::{Measured, OneSide, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen};
 use std::f64::consts::PI;
 
 /// Layers from outside to inside.
-pub struct Stack(pub Vec<Box<dyn Specimen>>);
-
-/// Data of a file as a layer: means over the cells asked for.
-pub struct DataLayer(pub Band);
+pub struct Stack {
+    layers: Vec<Box<dyn Specimen>>,
+    /// What single directions need.
+    singles: Singles,
+}
 
 /// Finest cut of the cells: 9 parts of a Klems cell are 3.3° wide; 1300 cells are solved in a second.
 const MOST_PARTS: usize = 3;
 
-impl Specimen for DataLayer {
-    /// Functions that are missing count as: transmission from the other side by reciprocity, reflection none, all that
-    /// does not pass being absorbed.
-    fn measure(&self, setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        let mut measured = Measured::dark(setting);
-        let on = |component| {
-            let btdf = self.0.get(component)?;
-            Some(matrix_on(btdf, setting.incident, setting.emergent).values().into_owned())
-        };
-        let other = |component| {
-            let matrix = matrix_on(self.0.get(component)?, setting.emergent, setting.incident);
-            Some(matrix.reversed().values().into_owned())
-        };
-        for (side, through, opposite, back) in [
-            (Side::Front, Component::TransmissionFront, Component::TransmissionBack, Component::ReflectionFront),
-            (Side::Back, Component::TransmissionBack, Component::TransmissionFront, Component::ReflectionBack),
-        ] {
-            let seen = measured.seen_mut(side);
-            if let Some(values) = on(through).or_else(|| other(opposite)) {
-                seen.transmitted = values;
-            }
-            if let Some(values) = on(back) {
-                seen.reflected = values;
-            }
-            let (tau, rho) = (measured.shares(&measured.seen(side).transmitted), {
-                let seen = measured.seen(side);
-                measured.shares(&seen.reflected)
-            });
-            measured.seen_mut(side).absorbed = tau.iter().zip(&rho).map(|(t, r)| (1.0 - t - r).max(0.0)).collect();
-        }
-        Ok(measured)
-    }
-}
-
 impl Specimen for Stack {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        if let [only] = self.0.as_slice() {
+        if let [only] = self.layers.as_slice() {
             return only.measure(setting, progress);
         }
         // Cells that can be turned by 180° and are finer than or equal to those asked for.
@@ -96,9 +65,32 @@ impl Specimen for Stack {
         }
         Ok(before.expect("at least one cut was made"))
     }
+
+    fn is_quick(&self) -> bool {
+        self.layers.iter().all(|layer| layer.is_quick())
+    }
+
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        match self.layers.as_slice() {
+            [only] => only.beams(name, side),
+            layers => self.singles.beams(layers, name, side),
+        }
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        match self.layers.as_slice() {
+            [only] => only.scattered(name, side, emergent),
+            layers => self.singles.scattered(layers, name, side, emergent),
+        }
+    }
 }
 
 impl Stack {
+    /// From at least one layer, the outermost first.
+    pub fn new(layers: Vec<Box<dyn Specimen>>) -> Self {
+        Self { layers, singles: Singles::default() }
+    }
+
     /// All layers on the same cells, incident and emergent.
     fn on_cells(
         &self,
@@ -109,12 +101,12 @@ impl Stack {
         let share = Setting {
             incident: cells,
             emergent: cells,
-            error: setting.error / (2.0 * self.0.len() as f64),
+            error: setting.error / (2.0 * self.layers.len() as f64),
             seed: setting.seed,
         };
-        let mut layers = Vec::with_capacity(self.0.len());
-        for (k, layer) in self.0.iter().enumerate() {
-            progress.advance("layers", k, self.0.len());
+        let mut layers = Vec::with_capacity(self.layers.len());
+        for (k, layer) in self.layers.iter().enumerate() {
+            progress.advance("layers", k, self.layers.len());
             if progress.cancelled() {
                 return Err(Cancelled);
             }

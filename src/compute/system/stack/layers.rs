@@ -6,7 +6,8 @@ use crate::compute::system::measure::Specimen;
 /// One layer of a stack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// What it is, as the description names it: a system file, a dataset file or `catalogue:KEY`.
+    /// What it is, as the description names it: a system file, a dataset file, a product of the catalogue, or the
+    /// description itself.
     pub source: LayerSource,
     /// Key of its state; empty for the only one.
     pub state: String,
@@ -19,6 +20,8 @@ pub enum LayerSource {
     File(String),
     /// A product of the catalogue.
     Catalogue(String),
+    /// The layer's own description: text of a system file. Text, since layers are what descriptions are made of.
+    Text(String),
 }
 
 impl Family for Vec<Layer> {

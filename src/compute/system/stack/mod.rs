@@ -1,8 +1,13 @@
 //! Layers one behind the other.
 
 mod adding;
+mod data;
+mod flows;
 mod halves;
 mod layers;
+mod passage;
+mod single;
 
-pub use adding::{DataLayer, Stack};
+pub use adding::Stack;
+pub use data::DataLayer;
 pub use layers::{Layer, LayerSource};

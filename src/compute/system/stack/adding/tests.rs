@@ -1,13 +1,14 @@
 //! Stacks beside closed forms, and their balance.
 
+use super::super::DataLayer;
 use super::*;
-use crate::compute::btdf::Btdf;
+use crate::compute::btdf::{Band, Btdf};
 use crate::compute::direction::Dir;
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
 use crate::compute::system::panes::{Panes, coated, glazing};
 use crate::compute::system::sheets::diffuser;
-use crate::compute::system::slats::{SlatArray, SlatProfile, Surface};
+use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
 
 const CLEAR: glazing::Pane = glazing::Pane { index: 1.52, thickness: 0.004, absorption: 10.0 };
 
@@ -24,12 +25,13 @@ fn pane() -> Box<dyn Specimen> {
 
 fn blind(tilt: f64) -> Box<dyn Specimen> {
     let sides = [0.8, 0.3].map(Surface::matt);
-    as_data(&SlatArray::new(SlatProfile::Flat { width: 0.08 }, 0.0, 0.072, tilt.to_radians(), sides).unwrap())
+    let flat = SlatProfile::Flat { width: 0.08 };
+    as_data(&SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, tilt.to_radians(), sides).unwrap()))
 }
 
 fn measure(layers: Vec<Box<dyn Specimen>>, error: f64) -> Measured {
     let cells = front_basis();
-    Stack(layers).measure(&Setting { incident: &cells, emergent: &cells, error, seed: 1 }, &Silent).unwrap()
+    Stack::new(layers).measure(&Setting { incident: &cells, emergent: &cells, error, seed: 1 }, &Silent).unwrap()
 }
 
 #[test]
@@ -80,7 +82,7 @@ fn order_and_up_and_down_matter() {
         reflection_back: Some(Btdf::ideal_transparent(1.0)),
     })) as Box<dyn Specimen>;
     let open = SlatArray::new(SlatProfile::Flat { width: 0.02 }, 0.0, 0.1, 0.0, [Surface::matt(0.0); 2]).unwrap();
-    let made = measure(vec![as_data(&open), mirror], 0.05);
+    let made = measure(vec![as_data(&SlatSpecimen::new(open)), mirror], 0.05);
     let cells = front_basis();
     let above = cells.index(Dir::from_theta_phi(0.7, PI / 2.0)).unwrap();
     let below = cells.index(Dir::from_theta_phi(0.7, -PI / 2.0)).unwrap();

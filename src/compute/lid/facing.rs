@@ -1,0 +1,49 @@
+//! The outside as one aperture faces it: sky, ground, skyline, and the sun.
+
+use crate::compute::direction::{Dir, Facade, Orientation, Surface};
+use crate::compute::sky::sun_disc::{self, Edge};
+use crate::compute::sky::{Outside, Sun};
+use glam::DVec3;
+
+/// Outside as one aperture faces it.
+#[derive(Debug, Clone, Copy)]
+pub struct Facing<'a> {
+    /// Sky, ground, skyline.
+    pub outside: &'a Outside,
+    /// The disc, if it shines at all.
+    pub sun: Option<&'a Sun>,
+    /// Turns the room to the compass.
+    pub orientation: Orientation,
+    /// The aperture's surface.
+    pub surface: Surface,
+}
+
+impl Facing<'_> {
+    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
+    pub fn luminance(&self, d: Dir<Facade>) -> f64 {
+        self.outside.luminance(self.orientation.world_from_room(self.surface.room_dir(d)))
+    }
+
+    /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
+    pub fn sun_direction(&self) -> Option<Dir<Facade>> {
+        self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
+    }
+
+    /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
+    /// the aperture's frame.
+    pub fn sun_edges(&self) -> [Edge; 2] {
+        let zenith = self.surface.facade_from_room(DVec3::Z);
+        let offset = self.outside.skyline_altitude().sin();
+        [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]
+    }
+
+    /// Illuminance of the aperture's outside by the sun's disc. \[lx\]
+    pub fn sun_illuminance(&self) -> f64 {
+        match (self.sun, self.sun_direction()) {
+            (Some(sun), Some(direction)) => {
+                sun.direct_normal * sun_disc::share(direction.vector(), DVec3::Z, self.sun_edges())
+            }
+            _ => 0.0,
+        }
+    }
+}

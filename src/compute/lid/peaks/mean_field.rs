@@ -1,0 +1,264 @@
+//! A function of direction of which only means over cells are known: the smoothest that gives these means, and how far
+//! the means leave it open. Gaussian-process regression with integrals as observations (Rasmussen & Williams 2006, ch. 2,
+//! 4 and 5).
+//!
+//! What lets light through unscattered is mostly simple: slats know the profile angle alone, panes the angle of incidence,
+//! holes both. The covariance is a product over the two profile angles and θ, each with its own length, and the data
+//! choose the lengths by their likelihood: an endless length makes a function that does not depend on that angle, and
+//! then 145 cells that overlap in the other angles resolve the one that matters far below their own width.
+
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::quadrature::gauss_legendre;
+use rayon::prelude::*;
+
+/// Lengths on trial, in radians; 0 stands for an endless one.
+const LENGTHS: [f64; 6] = [0.0, 3.0, 1.5, 0.75, 0.4, 0.2];
+/// Where the search begins: by the one profile angle, the other, θ, and mixtures. Numbers of [`LENGTHS`].
+const STARTS: [[usize; 3]; 6] = [[3, 0, 0], [0, 3, 0], [0, 0, 2], [3, 3, 0], [3, 0, 2], [0, 3, 2]];
+/// Variances of the function itself on trial.
+const VARIANCES: [f64; 7] = [3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0];
+/// Points across and along a cell for its mean; more in cells wider than this, over which profile angles go far. \[rad\]
+const POINTS: [[usize; 2]; 2] = [[2, 3], [3, 5]];
+const WIDE: f64 = 0.3;
+
+/// A weighted direction, by its profile angles and θ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    pub(super) direction: Dir<Facade>,
+    at: [f64; 3],
+    weight: f64,
+}
+
+impl Point {
+    /// Its share of the cell.
+    pub(super) fn weight(&self) -> f64 {
+        self.weight
+    }
+}
+
+/// The angles that the covariance knows: profile angles about x and about y, and θ. \[rad\]
+fn angles(direction: Dir<Facade>) -> [f64; 3] {
+    let v = direction.vector();
+    [v.y.atan2(v.z), v.x.atan2(v.z), direction.theta()]
+}
+
+/// Points of a cell whose weights add up to 1, even in projected solid angle.
+pub(super) fn points(basis: &RingBasis, cell: usize) -> Vec<Point> {
+    let own = basis.cell(cell);
+    let wide = own.theta_max - own.theta_min > 0.21 || own.width * own.theta().sin() > WIDE;
+    let [across, along] = if own.is_cap() { [1, 6] } else { POINTS[usize::from(wide)] };
+    let [low, high] = [own.theta_min, own.theta_max].map(|theta| theta.sin().powi(2));
+    let round = gauss_legendre(along);
+    let mut list = Vec::with_capacity(across * along);
+    for (s, ws) in gauss_legendre(across) {
+        let theta = (low + (high - low) * s).sqrt().asin();
+        for (k, &(t, wt)) in round.iter().enumerate() {
+            let (t, wt) = if own.is_cap() { (k as f64 / along as f64, 1.0 / along as f64) } else { (t, wt) };
+            let direction = Dir::from_theta_phi(theta, own.phi + (t - 0.5) * own.width);
+            list.push(Point { direction, at: angles(direction), weight: ws * wt });
+        }
+    }
+    list
+}
+
+/// What is known of the functions: the sum of their integrals over points, with an error.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Observation {
+    /// By function.
+    pub(super) points: [Vec<Point>; 2],
+    pub(super) value: f64,
+    /// Standard error.
+    pub(super) noise: f64,
+}
+
+/// Lengths and variance of one function's covariance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Covariance {
+    lengths: [f64; 3],
+    variance: f64,
+}
+
+impl Covariance {
+    /// Matérn 3/2: continuous with its slope, so that the kinks of a cut-off are not forbidden.
+    fn between(&self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
+        let (mut product, mut sum) = (self.variance, 0.0);
+        for k in 0..3 {
+            if self.lengths[k] > 0.0 {
+                let r = 3.0_f64.sqrt() * (a[k] - b[k]).abs() / self.lengths[k];
+                product *= 1.0 + r;
+                sum += r;
+            }
+        }
+        product * (-sum).exp()
+    }
+
+    fn integral(&self, a: &[Point], b: &[Point]) -> f64 {
+        a.iter().map(|p| p.weight * b.iter().map(|q| q.weight * self.between(&p.at, &q.at)).sum::<f64>()).sum()
+    }
+
+    /// By the likelihood of what is known of one function (its number `of`), alone.
+    pub(super) fn most_likely(observations: &[Observation], of: usize) -> Self {
+        let judge = |pick: [usize; 3]| -> (f64, Self) {
+            let own = Self { lengths: pick.map(|k| LENGTHS[k]), variance: 1.0 };
+            let unit = gram(observations, |a, b| own.integral(&a.points[of], &b.points[of]));
+            let by_variance = VARIANCES.iter().filter_map(|&variance| {
+                let matrix: Vec<f64> = unit.iter().map(|c| variance * c).collect();
+                Some((likelihood(observations, matrix)?, Self { variance, ..own }))
+            });
+            by_variance.fold((f64::NEG_INFINITY, own), |best, one| if one.0 > best.0 { one } else { best })
+        };
+        let mut tried: Vec<([usize; 3], (f64, Self))> = STARTS.iter().map(|&pick| (pick, judge(pick))).collect();
+        let best = |tried: &[([usize; 3], (f64, Self))]| {
+            tried.iter().fold(tried[0], |best, one| if one.1.0 > best.1.0 { *one } else { best })
+        };
+        loop {
+            let (at, (value, own)) = best(&tried);
+            for k in 0..3 {
+                for next in [at[k].wrapping_sub(1), at[k] + 1].into_iter().filter(|n| *n < LENGTHS.len()) {
+                    let mut pick = at;
+                    pick[k] = next;
+                    if tried.iter().all(|one| one.0 != pick) {
+                        tried.push((pick, judge(pick)));
+                    }
+                }
+            }
+            if best(&tried).1.0 <= value {
+                return own;
+            }
+        }
+    }
+}
+
+/// Symmetric matrix over the observations, row by row.
+fn gram(observations: &[Observation], entry: impl Fn(&Observation, &Observation) -> f64 + Sync) -> Vec<f64> {
+    let n = observations.len();
+    let rows: Vec<Vec<f64>> =
+        (0..n).into_par_iter().map(|i| (0..=i).map(|j| entry(&observations[i], &observations[j])).collect()).collect();
+    let mut all = vec![0.0; n * n];
+    for (i, row) in rows.iter().enumerate() {
+        for (j, &value) in row.iter().enumerate() {
+            (all[i * n + j], all[j * n + i]) = (value, value);
+        }
+    }
+    all
+}
+
+/// Lower triangle L of the matrix and the observations' noise, LLᵀ; `None` where rounding leaves it indefinite.
+fn factor(observations: &[Observation], mut matrix: Vec<f64>) -> Option<Vec<f64>> {
+    let n = observations.len();
+    for (i, one) in observations.iter().enumerate() {
+        matrix[i * n + i] += one.noise * one.noise;
+    }
+    for i in 0..n {
+        for j in 0..=i {
+            let (upper, lower) = matrix.split_at_mut(i * n);
+            let own = &mut lower[..n];
+            let dot: f64 = if j < i {
+                own[..j].iter().zip(&upper[j * n..j * n + j]).map(|(a, b)| a * b).sum()
+            } else {
+                own[..j].iter().map(|a| a * a).sum()
+            };
+            let rest = own[j] - dot;
+            if j < i {
+                own[j] = rest / upper[j * n + j];
+            } else if rest > 0.0 {
+                own[j] = rest.sqrt();
+            } else {
+                return None;
+            }
+        }
+    }
+    Some(matrix)
+}
+
+/// Solves L x = b in place.
+fn forward(factor: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    for i in 0..n {
+        let dot: f64 = factor[i * n..i * n + i].iter().zip(&x[..i]).map(|(a, b)| a * b).sum();
+        x[i] = (x[i] - dot) / factor[i * n + i];
+    }
+}
+
+/// Solves Lᵀ x = b in place.
+fn backward(factor: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    for i in (0..n).rev() {
+        x[i] /= factor[i * n + i];
+        let own = x[i];
+        x[..i].iter_mut().zip(&factor[i * n..i * n + i]).for_each(|(x, l)| *x -= l * own);
+    }
+}
+
+/// Logarithm of the likelihood but for a constant.
+fn likelihood(observations: &[Observation], matrix: Vec<f64>) -> Option<f64> {
+    let n = observations.len();
+    let factor = factor(observations, matrix)?;
+    let mut x: Vec<f64> = observations.iter().map(|one| one.value).collect();
+    forward(&factor, &mut x);
+    let log: f64 = (0..n).map(|i| factor[i * n + i].ln()).sum();
+    Some(-0.5 * x.iter().map(|x| x * x).sum::<f64>() - log)
+}
+
+/// The functions, as far as the observations tell.
+pub(super) struct MeanField {
+    observations: Vec<Observation>,
+    covariances: [Covariance; 2],
+    factor: Vec<f64>,
+    /// How far each observation is off what all the others say, squared, in units of what they should know it to.
+    surprise: Vec<f64>,
+}
+
+/// Value at a direction.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct At {
+    pub(super) value: f64,
+    /// Standard error.
+    pub(super) error: f64,
+    /// Weights of the observations in the value.
+    pub(super) weights: Vec<f64>,
+}
+
+impl MeanField {
+    /// `None` where the observations contradict each other beyond arithmetic.
+    pub(super) fn new(observations: Vec<Observation>, covariances: [Covariance; 2]) -> Option<Self> {
+        let n = observations.len();
+        let entry = |a: &Observation, b: &Observation| {
+            covariances.iter().enumerate().map(|(k, c)| c.integral(&a.points[k], &b.points[k])).sum()
+        };
+        let factor = factor(&observations, gram(&observations, entry))?;
+        let mut solved: Vec<f64> = observations.iter().map(|one| one.value).collect();
+        forward(&factor, &mut solved);
+        backward(&factor, &mut solved);
+        // Leaving one out: its residual is [C⁻¹y]ᵢ/[C⁻¹]ᵢᵢ, its variance 1/[C⁻¹]ᵢᵢ.
+        let surprise = (0..n)
+            .into_par_iter()
+            .map(|i| {
+                let mut unit = vec![0.0; n];
+                unit[i] = 1.0;
+                forward(&factor, &mut unit);
+                solved[i] * solved[i] / unit.iter().map(|u| u * u).sum::<f64>()
+            })
+            .collect();
+        Some(Self { observations, covariances, factor, surprise })
+    }
+
+    /// One of the functions at a direction.
+    pub(super) fn at(&self, of: usize, direction: Dir<Facade>) -> At {
+        let (here, covariance) = (angles(direction), &self.covariances[of]);
+        let covered = |one: &Observation| -> f64 {
+            one.points[of].iter().map(|p| p.weight * covariance.between(&p.at, &here)).sum()
+        };
+        let known: Vec<f64> = self.observations.iter().map(covered).collect();
+        let mut weights = known.clone();
+        forward(&self.factor, &mut weights);
+        let variance = covariance.variance - weights.iter().map(|w| w * w).sum::<f64>();
+        backward(&self.factor, &mut weights);
+        let value = weights.iter().zip(&self.observations).map(|(w, one)| w * one.value).sum();
+        // Where the function has kinks its neighbourhood is worse known than lengths chosen for the whole say.
+        let near: f64 = weights.iter().map(|w| w * w).sum();
+        let surprise = weights.iter().zip(&self.surprise).map(|(w, s)| w * w * s).sum::<f64>() / near.max(1e-300);
+        At { value, error: (variance.max(0.0) * surprise.max(1.0)).sqrt(), weights }
+    }
+}

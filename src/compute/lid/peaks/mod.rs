@@ -1,0 +1,307 @@
+//! The sun through data on cells. A Klems cell is 10–15° wide, and what a file keeps of a beam is the mean over an incident
+//! cell of its strength, lying in the emergent cell that it leads to. From these means, all of them together, comes the
+//! beam for this very sun, as sharp as the disc, with how far the data leave its strength open; the rest stays on cells.
+//!
+//! After Radiance's `aBSDF`, which takes the peak straight on out of the data; that it is a mean, and what may be said of
+//! its strength between the cells, is not in there.
+
+mod mean_field;
+mod separation;
+
+use super::{BeamLight, BeamSource, Emission, Facing};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::CellMatrix;
+use crate::compute::direction::{Dir, Facade};
+use mean_field::{Covariance, MeanField, Observation};
+use separation::{Path, Reached, Separation};
+
+/// A cell stands out when it holds this much of what surrounds it: as Radiance has it.
+const STANDS_OUT: f64 = 1.5;
+/// Of the flux in peaks, what the cells around them hold above their own surroundings: from here on it is a wide lobe
+/// and no beam.
+const LOBE: f64 = 0.5;
+/// What a beam's flux in a cell is known to: noise of the data, a share of it, a share of the background taken off.
+const NOISE: [f64; 3] = [2e-3, 0.01, 0.3];
+/// The same for the background itself, relative.
+const ROUGH: f64 = 0.02;
+/// Standard errors that are stated: about 95 % of normal ones lie within.
+const ERRORS: f64 = 2.0;
+/// Least relative doubt of anything that comes out of cells.
+const LEAST: f64 = 0.01;
+/// Share of the difference between interpolated and stored row, and between a cell and its surroundings, that is doubted.
+const DIFFERENCE: f64 = 0.5;
+/// Beams of incident cells beyond this number are looked for among the nearest alone: finer cells need no farther help.
+pub const MOST_CELLS: usize = 200;
+/// Strength of a beam that is nothing but doubted: a doubt is a share of it.
+const NOTHING: f64 = 1e-9;
+const LEFT: &str = "sun: the beam is left on the data's cells";
+
+/// The sun through data on cells: beams, the rest on cells, and what was done.
+pub struct SunOnCells {
+    /// The beams.
+    pub beams: Vec<BeamLight>,
+    /// Luminance by emergent cell. \[cd/m²\]
+    pub luminance: Vec<f64>,
+    /// Doubts of it, as in [`super::CellLight::doubts`].
+    pub doubts: Vec<Vec<f64>>,
+    /// What was done, a sentence.
+    pub note: String,
+}
+
+/// What of a matrix is beams, and what is not.
+pub struct Peaks {
+    matrix: CellMatrix,
+    around: Vec<Vec<usize>>,
+    paths: Vec<Path>,
+    beams: Option<MeanField>,
+    /// What is not beams, row by row: even light, and what stands out of it in single cells. \[1/sr\]
+    rest: Vec<Rest>,
+    /// Transmittance of the even part.
+    even: Option<MeanField>,
+    /// Incident cells that the fields stand for.
+    used: Vec<usize>,
+    /// How much of the peaks' flux leaks into the cells around them.
+    leak: f64,
+    /// How far the peaks stand out of their surroundings.
+    contrast: f64,
+}
+
+/// The part of a row that is no beam.
+struct Rest {
+    even: Vec<f64>,
+    uneven: Vec<f64>,
+}
+
+impl Peaks {
+    /// Looks for beams in a matrix. `sun`: where it stands, should there be too many cells to look at all of them.
+    pub fn new(matrix: &CellMatrix, sun: Dir<Facade>) -> Self {
+        let parts = Separation::new(matrix);
+        let n = matrix.incident().len();
+        let mut used: Vec<usize> = (0..n).collect();
+        if n > MOST_CELLS {
+            let near = |i: &usize| -matrix.incident().cell(*i).centre().vector().dot(sun.vector());
+            used.sort_by(|a, b| near(a).total_cmp(&near(b)));
+            used.truncate(MOST_CELLS);
+            used.sort_unstable();
+        }
+        let straight: Vec<Reached> = (0..n).map(|i| parts.reached(Path::Straight, i)).collect();
+        let mut own = Self {
+            matrix: matrix.clone(),
+            around: parts.around.clone(),
+            paths: Vec::new(),
+            beams: None,
+            rest: Vec::new(),
+            even: None,
+            used,
+            leak: 0.0,
+            contrast: 0.0,
+        };
+        let mut reached: Vec<Vec<Reached>> = Vec::new();
+        if parts.aligned() {
+            own.paths.push(Path::Straight);
+            reached.push(straight.clone());
+            if let Some(path) = parts.mirrors(&straight) {
+                own.paths.push(path);
+                reached.push((0..n).map(|i| parts.reached(path, i)).collect());
+            }
+            own.find_beams(&parts, &reached);
+        }
+        if own.beams.is_none() {
+            own.paths.clear();
+            reached.clear();
+        }
+        own.split_rest(&parts, &reached);
+        own
+    }
+
+    /// Sets up what the beams' cells hold above their surroundings.
+    fn find_beams(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
+        let mut observations = Vec::new();
+        let (mut above, mut below, mut leaked, mut held) = (0.0, 0.0, 0.0, 0.0);
+        for &i in &self.used {
+            let row = self.matrix.row(i);
+            let straight = &reached[0][i].cells;
+            let turned: &[usize] = reached.get(1).map_or(&[], |all| &all[i].cells);
+            for (k, cells) in [straight.as_slice(), turned].into_iter().enumerate() {
+                // Cells that both paths lead to count as the straight one's: there both are seen together.
+                let cells: Vec<usize> = cells.iter().copied().filter(|o| k == 0 || !straight.contains(o)).collect();
+                if cells.is_empty() {
+                    continue;
+                }
+                let level = parts.background(&row, &cells, if k == 0 { turned } else { straight });
+                let weight: f64 = cells.iter().map(|&o| parts.weight[o]).sum();
+                let all: f64 = cells.iter().map(|&o| parts.weight[o] * row[o]).sum();
+                let background = (level * weight).min(all);
+                let value = all - background;
+                let share = parts.incident_weight[i];
+                above += share * value;
+                below += share * background;
+                if k == 0 {
+                    let near: Vec<usize> =
+                        self.around[cells[0]].iter().copied().filter(|o| !turned.contains(o)).collect();
+                    let but: Vec<usize> = cells.iter().chain(turned).copied().collect();
+                    let outer = parts.background(&row, &near, &but);
+                    let leak = |&o: &usize| (row[o] - outer).max(0.0) * parts.weight[o];
+                    // What leaks out of a lobe does so on all sides: twice the lesser half of it.
+                    let mut leaks: Vec<f64> = near.iter().map(leak).collect();
+                    leaks.sort_unstable_by(f64::total_cmp);
+                    leaked += share * 2.0 * leaks[..leaks.len() / 2].iter().sum::<f64>();
+                    held += share * value;
+                }
+                let noise = NOISE[0].hypot(NOISE[1] * value).hypot(NOISE[2] * background);
+                let mut one = Observation { value, noise, ..Observation::default() };
+                for (path, list) in reached.iter().enumerate() {
+                    let inside = list[i].points.iter().filter(|(_, o)| cells.contains(o));
+                    one.points[path] = inside.map(|(point, _)| *point).collect();
+                }
+                observations.push(one);
+            }
+        }
+        self.contrast = (above + below) / below.max(1e-9 * above).max(1e-300);
+        self.leak = leaked / held.max(1e-300);
+        if above <= 1e-6 || self.contrast < STANDS_OUT || self.leak > LOBE {
+            return;
+        }
+        let alone = |of: usize| -> Vec<Observation> {
+            let pure = |one: &&Observation| !one.points[of].is_empty() && one.points[1 - of].is_empty();
+            observations.iter().filter(pure).cloned().collect()
+        };
+        let covariances = [0, 1].map(|of| Covariance::most_likely(&alone(of), of));
+        self.beams = MeanField::new(observations, covariances);
+    }
+
+    /// Splits what is no beam into even light and what stands out of it.
+    fn split_rest(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
+        let n = self.matrix.incident().len();
+        self.rest = (0..n)
+            .map(|i| {
+                let mut row = self.matrix.row(i).into_owned();
+                let sets: Vec<&[usize]> = reached.iter().map(|all| all[i].cells.as_slice()).collect();
+                let taken: Vec<usize> = sets.concat();
+                for cells in &sets {
+                    let level = parts.background(&row, cells, &taken);
+                    cells.iter().for_each(|&o| row[o] = row[o].min(level));
+                }
+                let even: Vec<f64> =
+                    (0..row.len()).map(|o| row[o].min(STANDS_OUT * parts.background(&row, &[o], &[]))).collect();
+                let uneven = row.iter().zip(&even).map(|(all, even)| all - even).collect();
+                Rest { even, uneven }
+            })
+            .collect();
+        let observations: Vec<Observation> = self
+            .used
+            .iter()
+            .map(|&i| {
+                let value: f64 = self.rest[i].even.iter().zip(&parts.weight).map(|(q, w)| q * w).sum();
+                let points = mean_field::points(self.matrix.incident(), i);
+                Observation { points: [points, Vec::new()], value, noise: 1e-4_f64.hypot(ROUGH * value) }
+            })
+            .collect();
+        let covariance = Covariance::most_likely(&observations, 0);
+        self.even = MeanField::new(observations, [covariance; 2]);
+    }
+
+    /// Emergent cells.
+    pub fn basis(&self) -> &RingBasis {
+        self.matrix.emergent()
+    }
+
+    /// What the sun makes behind it; `None` where it is in no incident cell.
+    pub fn sun(&self, facing: &Facing<'_>) -> Option<SunOnCells> {
+        let incident = facing.sun_illuminance();
+        let (light, sun) = (facing.sun?, facing.sun_direction().filter(|_| incident > 0.0)?);
+        let cell = self.matrix.incident().index(sun)?;
+        let weight = self.basis().projected_solid_angles();
+        let mut beams = Vec::new();
+        let mut words = Vec::new();
+        let mut spread = vec![0.0; weight.len()];
+        // How much of a beam may be a lobe instead.
+        let lobe = (2.0 * self.leak).min(1.0);
+        for (of, path) in self.paths.iter().enumerate() {
+            let (Some(field), Some(to)) = (&self.beams, path.of(sun)) else { continue };
+            let at = field.at(of, sun);
+            let strength = at.value.clamp(0.0, 1.0);
+            let error = (ERRORS * at.error).hypot(LEAST * strength);
+            if strength + error < 1e-6 {
+                continue;
+            }
+            let strength = strength.max(NOTHING);
+            let straight = *path == Path::Straight;
+            let exitance = strength * incident;
+            let normal = if straight { strength * light.direct_normal } else { exitance / to.vector().z };
+            beams.push(BeamLight { to, exitance, normal, straight, error: 0.0, doubt: error / strength + lobe });
+            if let Some(o) = self.basis().index(to) {
+                spread[o] += lobe * exitance / weight[o];
+            }
+            let way = if straight { "straight on" } else { "mirrored" };
+            words.push(format!("{:.1} % ± {:.1} % {way}", 100.0 * strength, 100.0 * error));
+        }
+        let own = &self.rest[cell];
+        let even = self.even.as_ref().map(|field| field.at(0, sun));
+        let mut smooth = own.even.clone();
+        let mut relative = 0.0;
+        if let Some(at) = even.filter(|at| at.value > 0.0) {
+            smooth.fill(0.0);
+            for (&i, w) in self.used.iter().zip(&at.weights) {
+                smooth.iter_mut().zip(&self.rest[i].even).for_each(|(sum, q)| *sum += w * q);
+            }
+            smooth.iter_mut().for_each(|q| *q = q.max(0.0));
+            relative = (ERRORS * at.error / at.value).min(1.0);
+        }
+        let luminance: Vec<f64> = smooth.iter().zip(&own.uneven).map(|(a, b)| incident * (a + b)).collect();
+        let surroundings = |o: usize| {
+            let near = &self.around[o];
+            near.iter().map(|&n| smooth[n]).sum::<f64>() / near.len().max(1) as f64
+        };
+        let doubts = vec![
+            smooth.iter().map(|q| incident * relative.max(LEAST) * q).collect(),
+            smooth.iter().zip(&own.even).map(|(a, b)| DIFFERENCE * incident * (a - b)).collect(),
+            smooth.iter().enumerate().map(|(o, q)| DIFFERENCE * incident * (q - surroundings(o))).collect(),
+            // Light that stands out and is followed nowhere: a beam or a fan of beams that may be anywhere in its cells.
+            own.uneven.iter().map(|q| incident * q).collect(),
+            spread,
+        ];
+        let width = (self.matrix.incident().cell(cell).solid_angle()).sqrt().to_degrees();
+        let note = if beams.is_empty() {
+            format!("sun: no beam stands out in these data; light stays on cells, incident ones of {width:.0}°")
+        } else {
+            let word = words.join(", ");
+            format!(
+                "sun: a beam of {word} extracted from cells of {width:.0}° where it stands out {:.0} ×",
+                self.contrast.min(999.0)
+            )
+        };
+        Some(SunOnCells { beams, luminance, doubts, note })
+    }
+}
+
+impl SunOnCells {
+    /// The same light with its beams left on cells: what they are is then a doubt.
+    fn on_cells(mut self, row: &[f64]) -> Self {
+        for beam in &mut self.beams {
+            let whole = 1.0 + beam.doubt;
+            beam.exitance *= NOTHING;
+            beam.normal *= NOTHING;
+            beam.doubt = whole / NOTHING;
+        }
+        // A beam spread in its cell is off by itself everywhere: in its patch, and where the cell shines beside it.
+        self.doubts.push(row.iter().zip(&self.luminance).map(|(stored, apart)| stored - apart).collect());
+        self.luminance = row.to_vec();
+        self
+    }
+}
+
+impl Emission {
+    /// Puts the sun through data on cells in the place of the stored row of its cell. `sharp`: its beams are taken out of
+    /// the cells; else they are only doubted.
+    pub fn take_peaks(&mut self, peaks: &Peaks, facing: &Facing<'_>, sharp: bool) {
+        let (Some(sun), Some(light)) = (peaks.sun(facing), self.cells.first_mut()) else { return };
+        let found = !sun.beams.is_empty();
+        let sun = if sharp { sun } else { sun.on_cells(&light.sun) };
+        light.sun = sun.luminance;
+        light.doubts.extend(sun.doubts);
+        self.beams.extend(sun.beams);
+        self.beam_source = if sharp && found { BeamSource::Extracted } else { BeamSource::Cells };
+        self.notes.push(if sharp { sun.note } else { format!("{}, as asked for", LEFT) });
+    }
+}

@@ -1,0 +1,170 @@
+//! What in the rows of a matrix is a beam: flux of the cells that a beam through an incident cell can reach, above what
+//! surrounds them.
+
+use super::mean_field::{Point, points};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::CellMatrix;
+use crate::compute::direction::{Dir, Facade};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Where a beam goes, by through-names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Path {
+    /// Straight on.
+    Straight,
+    /// By mirrors with this normal: faces of slats, cuts of a panel.
+    Mirrored(DVec3),
+}
+
+impl Path {
+    /// Where light of a direction goes; `None` where it would not come through.
+    pub(super) fn of(self, from: Dir<Facade>) -> Option<Dir<Facade>> {
+        match self {
+            Self::Straight => Some(from),
+            Self::Mirrored(normal) => {
+                let v = from.vector();
+                let to = v - 2.0 * v.dot(normal) * normal;
+                (to.z > 1e-6).then(|| Dir::from_unit(to))
+            }
+        }
+    }
+}
+
+/// Tilts of mirrors on trial, in steps of this. \[rad\]
+const STEP: f64 = 2.5 * PI / 180.0;
+/// Number of steps to both sides.
+const STEPS: i32 = 20;
+/// Share of all the light that stands out beside the straight beam that mirrors must explain to be believed: curved ones
+/// spread it over a fan.
+const EXPLAINED: f64 = 0.7;
+/// As good as the best: then the rounder number is taken.
+const EQUAL: f64 = 0.98;
+
+/// The beams of one path through every incident cell.
+#[derive(Debug, Clone)]
+pub(super) struct Reached {
+    /// Points of the incident cell with the emergent cell that each goes to.
+    pub(super) points: Vec<(Point, usize)>,
+    /// Emergent cells reached, each once.
+    pub(super) cells: Vec<usize>,
+}
+
+/// What a matrix holds, cell by cell, when beams are looked for.
+pub(super) struct Separation<'a> {
+    pub(super) matrix: &'a CellMatrix,
+    /// Emergent cells that touch each emergent cell.
+    pub(super) around: Vec<Vec<usize>>,
+    pub(super) incident_weight: Vec<f64>,
+    pub(super) weight: Vec<f64>,
+    points: Vec<Vec<Point>>,
+}
+
+impl<'a> Separation<'a> {
+    pub(super) fn new(matrix: &'a CellMatrix) -> Self {
+        Self {
+            matrix,
+            around: around(matrix.emergent()),
+            incident_weight: matrix.incident().projected_solid_angles(),
+            weight: matrix.emergent().projected_solid_angles(),
+            points: (0..matrix.incident().len()).map(|i| points(matrix.incident(), i)).collect(),
+        }
+    }
+
+    /// Do incident and emergent cells have the same borders? Else a beam's cell does not hold all of it.
+    pub(super) fn aligned(&self) -> bool {
+        let emergent = self.matrix.emergent();
+        self.points.iter().zip(&self.incident_weight).all(|(points, weight)| {
+            let own = emergent.index(points[0].direction);
+            own.is_some_and(|o| (self.weight[o] - weight).abs() < 1e-6 * weight)
+                && points.iter().all(|p| emergent.index(p.direction) == own)
+        })
+    }
+
+    /// Emergent cells that a path leads to from an incident cell.
+    pub(super) fn reached(&self, path: Path, incident: usize) -> Reached {
+        let emergent = self.matrix.emergent();
+        let to = |p: &Point| Some((*p, emergent.index(path.of(p.direction)?)?));
+        let points: Vec<(Point, usize)> = self.points[incident].iter().filter_map(to).collect();
+        let mut cells: Vec<usize> = points.iter().map(|p| p.1).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        Reached { points, cells }
+    }
+
+    /// Luminance coefficient that surrounds emergent cells: the median of what touches them, `but` left out. \[1/sr\]
+    pub(super) fn background(&self, row: &[f64], cells: &[usize], but: &[usize]) -> f64 {
+        let mut near: Vec<usize> = cells.iter().flat_map(|&o| self.around[o].iter().copied()).collect();
+        near.sort_unstable();
+        near.dedup();
+        let mut values: Vec<f64> =
+            near.into_iter().filter(|o| !cells.contains(o) && !but.contains(o)).map(|o| row[o]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        match values.len() {
+            0 => 0.0,
+            n => 0.5 * (values[(n - 1) / 2] + values[n / 2]),
+        }
+    }
+
+    /// The mirrors that best explain what stands out beside the straight beam, if any do.
+    pub(super) fn mirrors(&self, straight: &[Reached]) -> Option<Path> {
+        let n = straight.len();
+        let mut excess: Vec<Vec<f64>> = Vec::with_capacity(n);
+        let (mut total, mut all) = (0.0, 0.0);
+        for (i, own) in straight.iter().enumerate() {
+            let row = self.matrix.row(i);
+            let stands_out = |o: usize| {
+                let above = row[o] - 1.5 * self.background(&row, &[o], &own.cells);
+                if own.cells.contains(&o) { 0.0 } else { above.max(0.0) * self.weight[o] }
+            };
+            let by_cell: Vec<f64> = (0..self.weight.len()).map(stands_out).collect();
+            total += self.incident_weight[i] * by_cell.iter().sum::<f64>();
+            all += self.incident_weight[i] * self.matrix.tau_by_cell()[i];
+            excess.push(by_cell);
+        }
+        // Nothing that anyone would see.
+        if total <= 0.01 * all {
+            return None;
+        }
+        // Overlap of what stands out with where these mirrors would send as much light.
+        let explained = |normal: DVec3| -> f64 {
+            let one = |i: usize| {
+                let reached = self.reached(Path::Mirrored(normal), i);
+                let found: f64 = reached.cells.iter().map(|&o| excess[i][o]).sum();
+                let share = |o: usize| reached.points.iter().filter(|p| p.1 == o).map(|p| p.0.weight()).sum::<f64>();
+                reached.cells.iter().map(|&o| excess[i][o].min(2.0 * found * share(o))).sum::<f64>()
+            };
+            (0..n).map(|i| self.incident_weight[i] * one(i)).sum::<f64>() / total
+        };
+        let mut best = (0.0, DVec3::Y);
+        // From upright outwards, so that of equals the rounder stays.
+        for step in 0..=STEPS {
+            for tilt in [step, -step].into_iter().take(if step == 0 { 1 } else { 2 }) {
+                let (sin, cos) = (f64::from(tilt) * STEP).sin_cos();
+                for normal in [DVec3::new(0.0, cos, sin), DVec3::new(cos, 0.0, sin)] {
+                    let own = explained(normal);
+                    if EQUAL * own > best.0 {
+                        best = (own, normal);
+                    }
+                }
+            }
+        }
+        (best.0 > EXPLAINED).then_some(Path::Mirrored(best.1))
+    }
+}
+
+/// Cells that touch each cell, by borders in common.
+fn around(basis: &RingBasis) -> Vec<Vec<usize>> {
+    let cells: Vec<_> = basis.cells().collect();
+    let touch = |a: usize, b: usize| {
+        let (p, q) = (&cells[a], &cells[b]);
+        let apart = (p.phi - q.phi).rem_euclid(2.0 * PI);
+        let apart = apart.min(2.0 * PI - apart);
+        let slack = 1e-6;
+        let same_ring = (p.theta_min - q.theta_min).abs() < slack;
+        let next_ring = (p.theta_max - q.theta_min).abs() < slack || (q.theta_max - p.theta_min).abs() < slack;
+        let half = 0.5 * (p.width + q.width);
+        a != b && ((same_ring && apart < half + slack) || (next_ring && apart < half - slack))
+    };
+    (0..cells.len()).map(|a| (0..cells.len()).filter(|&b| touch(a, b)).collect()).collect()
+}

@@ -1,0 +1,268 @@
+//! Sky and ground through a system that answers for single directions: what does not depend on the sky is found once.
+//!
+//! | part | how |
+//! | --- | --- |
+//! | straight on | the flux of every patch stays in its own cell, by the mean share of the patch |
+//! | turned beams | backwards: a cell's luminance is that of the outside where its light comes from, times the share (reciprocity) |
+//! | scattered | by profile angle where it depends on that alone; else on cells, an answer an incident cell |
+
+use super::sun_through::sun_cells;
+use super::{BandLight, CellLight, Emission, Facing};
+use crate::compute::basis::{RingBasis, sub_directions};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::Estimate;
+use crate::compute::sky::{Frame, incident_illuminances_within};
+use crate::compute::system::measure::{Beam, ProfileLight, Side, Specimen, front_basis};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+/// Directions a side of a cell for its mean share.
+const POINTS: usize = 3;
+/// Bands of the profile angle of incidence: 1°.
+const BANDS: usize = 181;
+/// Turned light is gathered in bins of this width. \[rad\]
+const BIN: f64 = PI / 180.0;
+/// Shares below this are not worth a luminance.
+const FAINT: f64 = 1e-5;
+/// Relative accuracy of the illuminance through every patch.
+const PATCH: f64 = 1e-4;
+/// What the width of the cells and bands costs, relative; seen against cells half as wide.
+const CELL_ERROR: f64 = 4e-3;
+
+/// Answers of a system for diffuse light from outside.
+pub struct SkyThrough {
+    /// Mean straight share, a cell.
+    straight: Vec<f64>,
+    turned: Turned,
+    scattered: Scattered,
+}
+
+/// Where the light of emergent directions comes from by turned beams.
+enum Turned {
+    None,
+    /// For every cell.
+    ByCell(Vec<Vec<Source>>),
+    /// By profile angle of the emergent name, `BANDS` of them; sources are profile angles of the same direction cosine
+    /// along the structure.
+    ByProfile {
+        upright: bool,
+        sources: Vec<Vec<(f64, f64)>>,
+    },
+}
+
+/// Light of a direction outside, as a share of its luminance.
+struct Source {
+    name: Dir<Facade>,
+    share: f64,
+}
+
+/// q of what is scattered, and the error of its share.
+enum Scattered {
+    None,
+    ByProfile { upright: bool, rows: Vec<ProfileLight> },
+    ByCells { incident: RingBasis, rows: Vec<Vec<f64>>, error: f64 },
+}
+
+/// The name of a profile angle with the direction cosine `along` the structure.
+fn name_of(upright: bool, along: f64, psi: f64) -> Dir<Facade> {
+    let across = (1.0 - along * along).max(0.0).sqrt();
+    let (sin, cos) = psi.sin_cos();
+    Dir::from_unit(if upright {
+        DVec3::new(across * sin, along, across * cos)
+    } else {
+        DVec3::new(along, across * sin, across * cos)
+    })
+}
+
+/// Direction cosine along the structure, and profile angle.
+fn angles(upright: bool, name: Dir<Facade>) -> (f64, f64) {
+    let v = name.vector();
+    if upright { (v.y, v.x.atan2(v.z)) } else { (v.x, v.y.atan2(v.z)) }
+}
+
+/// Middle of a band. \[rad\]
+fn middle(band: usize) -> f64 {
+    // The outermost bands end at ±90°, where nothing comes from.
+    let psi = PI * (band as f64 / (BANDS - 1) as f64) - FRAC_PI_2;
+    psi.clamp(0.25 * BIN - FRAC_PI_2, FRAC_PI_2 - 0.25 * BIN)
+}
+
+fn band_of(psi: f64) -> usize {
+    (((psi + FRAC_PI_2) / PI * (BANDS - 1) as f64).round().max(0.0) as usize).min(BANDS - 1)
+}
+
+/// Beams of light from inside that are transmitted other than straight on.
+fn turned_back(specimen: &dyn Specimen, name: Dir<Facade>) -> impl Iterator<Item = Beam> {
+    let same = move |other: &Dir<Facade>| other.vector().distance(name.vector()) < 1e-9;
+    let beams = specimen.beams(name, Side::Back).into_iter();
+    beams.filter(move |beam| beam.transmitted && !beam.names.iter().all(same) && beam.share > FAINT)
+}
+
+fn centre(beam: &Beam) -> DVec3 {
+    beam.names[0].vector() + beam.names[1].vector()
+}
+
+impl SkyThrough {
+    /// Asks a system, in parallel.
+    pub fn new(specimen: &dyn Specimen) -> Self {
+        let cells = sun_cells();
+        let list: Vec<_> = cells.cells().collect();
+        let straight = list
+            .par_iter()
+            .map(|cell| {
+                let shares = sub_directions(cell, POINTS).map(|name| specimen.straight(name, Side::Front));
+                shares.sum::<f64>() / (POINTS * POINTS) as f64
+            })
+            .collect();
+        Self { straight, turned: Turned::new(specimen, cells), scattered: Scattered::new(specimen, cells) }
+    }
+
+    /// What an aperture emits under the diffuse light of an outside.
+    pub fn emission(&self, facing: &Facing<'_>) -> Emission {
+        let cells = sun_cells();
+        let frame = Frame::of_aperture(facing.orientation, facing.surface);
+        let received = incident_illuminances_within(facing.outside, cells, &frame, PATCH);
+        let mut emission = Emission::dark();
+        emission.incident_diffuse = received.iter().copied().sum();
+        let values: Vec<f64> = received.iter().map(|e| e.value).collect();
+        let mut luminance = self.turned.luminance(cells, facing);
+        for (((sum, share), e), cell) in luminance.iter_mut().zip(&self.straight).zip(&values).zip(cells.cells()) {
+            *sum += share * e / cell.projected_solid_angle();
+        }
+        let relative = |e: Estimate| if e.value > 0.0 { e.error / e.value } else { 0.0 };
+        let mut relative_error = relative(emission.incident_diffuse) + CELL_ERROR;
+        match &self.scattered {
+            Scattered::None => {}
+            Scattered::ByProfile { upright, rows } => {
+                emission.bands.extend(through_bands(*upright, rows, cells, &values));
+            }
+            Scattered::ByCells { incident, rows, error } => {
+                let mut by_cell = vec![0.0; incident.len()];
+                spread(cells, &values, |name, e| {
+                    if let Some(cell) = incident.index(name) {
+                        by_cell[cell] += e;
+                    }
+                });
+                for (row, e) in rows.iter().zip(&by_cell) {
+                    luminance.iter_mut().zip(row).for_each(|(sum, q)| *sum += q * e);
+                }
+                let total: f64 = luminance.iter().zip(cells.projected_solid_angles()).map(|(l, w)| l * w).sum::<f64>();
+                if total > 0.0 {
+                    relative_error += error * emission.incident_diffuse.value / total;
+                }
+            }
+        }
+        if luminance.iter().any(|l| *l > 0.0) {
+            emission.cells.push(CellLight {
+                basis: Arc::clone(cells),
+                sun: vec![0.0; cells.len()],
+                diffuse: luminance,
+                doubts: Vec::new(),
+                relative_error,
+            });
+        }
+        emission.notes.push("diffuse light: by the description, patch by patch of 3°".to_owned());
+        emission
+    }
+}
+
+/// Lays the illuminance of every patch evenly on its directions.
+fn spread(cells: &RingBasis, illuminance: &[f64], mut lay: impl FnMut(Dir<Facade>, f64)) {
+    for (cell, e) in cells.cells().zip(illuminance).filter(|(_, e)| **e > 0.0) {
+        let each = e / (POINTS * POINTS) as f64;
+        sub_directions(&cell, POINTS).for_each(|name| lay(name, each));
+    }
+}
+
+/// Bands of emergent light from illuminance by bands of incidence.
+fn through_bands(upright: bool, rows: &[ProfileLight], cells: &RingBasis, illuminance: &[f64]) -> Option<BandLight> {
+    let mut incident = vec![0.0; BANDS];
+    spread(cells, illuminance, |name, e| incident[band_of(angles(upright, name).1)] += e);
+    let mut sum = ProfileLight { upright, q: vec![0.0; rows.first()?.q.len()], error: 0.0 };
+    for (row, e) in rows.iter().zip(&incident) {
+        sum.q.iter_mut().zip(&row.q).for_each(|(sum, q)| *sum += q * e);
+        sum.error += row.error * e;
+    }
+    sum.error += CELL_ERROR * sum.share();
+    Some(BandLight { light: sum, illuminance: 1.0 })
+}
+
+impl Turned {
+    fn new(specimen: &dyn Specimen, cells: &RingBasis) -> Self {
+        if let Some(upright) = specimen.by_profile_alone() {
+            let sources: Vec<Vec<(f64, f64)>> = (0..BANDS)
+                .into_par_iter()
+                .map(|band| {
+                    // Fans come in many pieces: those that fall together are one source.
+                    let mut bins = std::collections::BTreeMap::<i64, (f64, f64)>::new();
+                    for beam in turned_back(specimen, name_of(upright, 0.0, middle(band))) {
+                        let Some(name) = Dir::new(centre(&beam)) else { continue };
+                        let psi = angles(upright, name).1;
+                        let bin = bins.entry((psi / BIN).round() as i64).or_default();
+                        *bin = (bin.0 + beam.share * psi, bin.1 + beam.share);
+                    }
+                    bins.into_values().map(|(sum, share)| (sum / share, share)).collect()
+                })
+                .collect();
+            let any = sources.iter().any(|list| !list.is_empty());
+            return if any { Self::ByProfile { upright, sources } } else { Self::None };
+        }
+        let list: Vec<_> = cells.cells().collect();
+        let sources: Vec<Vec<Source>> = list
+            .par_iter()
+            .map(|cell| {
+                let source = |beam: Beam| Some(Source { name: Dir::new(centre(&beam))?, share: beam.share });
+                turned_back(specimen, cell.centre()).filter_map(source).collect()
+            })
+            .collect();
+        if sources.iter().any(|list| !list.is_empty()) { Self::ByCell(sources) } else { Self::None }
+    }
+
+    /// Of every cell. \[cd/m²\]
+    fn luminance(&self, cells: &RingBasis, facing: &Facing<'_>) -> Vec<f64> {
+        let list: Vec<_> = cells.cells().collect();
+        list.par_iter()
+            .enumerate()
+            .map(|(index, cell)| match self {
+                Self::None => 0.0,
+                Self::ByCell(sources) => {
+                    sources[index].iter().map(|source| source.share * facing.luminance(source.name)).sum()
+                }
+                Self::ByProfile { upright, sources } => {
+                    let (along, psi) = angles(*upright, cell.centre());
+                    let of = |(psi, share): &(f64, f64)| share * facing.luminance(name_of(*upright, along, *psi));
+                    sources[band_of(psi)].iter().map(of).sum()
+                }
+            })
+            .collect()
+    }
+}
+
+impl Scattered {
+    fn new(specimen: &dyn Specimen, cells: &RingBasis) -> Self {
+        let upright = specimen.profile_light(name_of(false, 0.0, 0.0), Side::Front).map(|light| light.upright);
+        if let Some(upright) = upright {
+            let row = |band: usize| specimen.profile_light(name_of(upright, 0.0, middle(band)), Side::Front);
+            let rows: Option<Vec<ProfileLight>> = (0..BANDS).into_par_iter().map(row).collect();
+            if let Some(rows) = rows {
+                return Self::ByProfile { upright, rows };
+            }
+        }
+        let incident = front_basis();
+        let list: Vec<_> = incident.cells().collect();
+        let made: Vec<(Vec<f64>, f64)> = list
+            .par_iter()
+            .map(|cell| {
+                let light = specimen.scattered(cell.centre(), Side::Front, cells);
+                (light.transmitted, light.error)
+            })
+            .collect();
+        if made.iter().all(|(row, _)| row.is_empty()) {
+            return Self::None;
+        }
+        let error = made.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+        Self::ByCells { incident, rows: made.into_iter().map(|(row, _)| row).collect(), error }
+    }
+}

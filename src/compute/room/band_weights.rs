@@ -1,0 +1,60 @@
+//! What a sensor receives through an aperture by bands of the profile angle: every band is a strip of the opening, and
+//! strips have closed forms.
+
+use super::aperture::View;
+use crate::compute::polygon::projected_solid_angle;
+use crate::compute::system::measure::ProfileLight;
+
+/// Projected solid angles of the bands that a sensor sees. \[sr\]
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BandWeights {
+    first: usize,
+    weights: Vec<f64>,
+}
+
+impl BandWeights {
+    /// For a view and so many bands; `upright`: by the angle to the right instead of upwards.
+    pub fn new(view: &View, upright: bool, bands: usize) -> Self {
+        let limits = if upright { view.x } else { view.y };
+        let strip = |[low, high]: [f64; 2]| {
+            let part = if upright { View { x: [low, high], ..*view } } else { View { y: [low, high], ..*view } };
+            projected_solid_angle(&part.corners(), view.normal)
+        };
+        let borders: Vec<f64> = ProfileLight::borders(bands)
+            .map(|angle| (view.distance * angle.tan()).clamp(limits[0], limits[1]))
+            .collect();
+        let parts = borders.windows(2).map(|pair| if pair[1] > pair[0] { strip([pair[0], pair[1]]) } else { 0.0 });
+        let weights: Vec<f64> = parts.collect();
+        let first = weights.iter().position(|w| *w != 0.0).unwrap_or(0);
+        let end = weights.iter().rposition(|w| *w != 0.0).map_or(first, |last| last + 1);
+        Self { first, weights: weights[first..end].to_vec() }
+    }
+
+    /// Σ weight · value over the bands.
+    pub fn of(&self, values: &[f64]) -> f64 {
+        self.weights.iter().zip(&values[self.first..]).map(|(w, v)| w * v).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn bands_make_the_whole_opening() {
+        for (x, y, distance) in
+            [([-1.0, 2.0], [0.3, 1.9], 2.0), ([0.1, 3.0], [-0.5, 1.1], 1e-3), ([0.0, 3.0], [-1.0, 1.0], 0.2)]
+        {
+            for normal in [DVec3::Y, DVec3::Z, DVec3::new(1.0, -0.3, 0.4).normalize()] {
+                let view = View { x, y, distance, normal };
+                let whole = projected_solid_angle(&view.corners(), normal);
+                for upright in [false, true] {
+                    let weights = BandWeights::new(&view, upright, 721);
+                    let sum = weights.of(&vec![1.0; 721]);
+                    assert!((sum - whole).abs() < 1e-9, "{view:?}: {sum} {whole}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! What light of single incident directions becomes, on emergent cells: what a goniophotometer finds at the directions
+//! of its list, not means over incident cells.
+
+use super::cells::CellFinder;
+use super::fan::{middle, pieces};
+use super::{Measured, OneSide, Setting, Side, Specimen};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{Band, Btdf, Component, Indicatrices, Scattered};
+use crate::compute::direction::{Dir, Facade, Incident};
+use crate::compute::estimate::{Cancelled, Progress};
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Width of the parts of a fan that are laid into a cell each. \[rad\]
+const PIECE: f64 = 0.002;
+
+/// Rows for light of the given names from a side: q of every emergent cell, beams laid into the cells that they fall in.
+/// What is neither transmitted nor thrown back counts as absorbed.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
+pub fn at_directions(
+    specimen: &dyn Specimen,
+    side: Side,
+    names: &[Dir<Facade>],
+    emergent: &RingBasis,
+    progress: &dyn Progress,
+) -> Result<OneSide, Cancelled> {
+    let finder = CellFinder::new(emergent);
+    let weight = emergent.projected_solid_angles();
+    let done = AtomicUsize::new(0);
+    let rows: Vec<OneSide> = names
+        .par_iter()
+        .map(|&name| {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let row = row(specimen, side, name, emergent, &finder, &weight);
+            progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, names.len());
+            Ok(row)
+        })
+        .collect::<Result<_, Cancelled>>()?;
+    let mut made = OneSide::default();
+    for row in rows {
+        made.transmitted.extend(row.transmitted);
+        made.reflected.extend(row.reflected);
+        made.absorbed.extend(row.absorbed);
+        made.error.extend(row.error);
+    }
+    Ok(made)
+}
+
+/// The four functions at the centres of the incident cells of a setting.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
+pub fn measured_at_directions(
+    specimen: &dyn Specimen,
+    setting: &Setting<'_>,
+    progress: &dyn Progress,
+) -> Result<Measured, Cancelled> {
+    let names: Vec<_> = setting.incident.cells().map(|cell| cell.centre()).collect();
+    let side = |side| at_directions(specimen, side, &names, setting.emergent, progress);
+    let (front, back) = (side(Side::Front)?, side(Side::Back)?);
+    Ok(Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back })
+}
+
+impl Measured {
+    /// The four functions as the rest of the program holds them, known at the centres of the incident cells alone.
+    pub fn band_at_directions(&self) -> Band {
+        let incident: Vec<Incident> = self.incident.cells().map(|cell| Incident(cell.centre())).collect();
+        let mut band = Band::default();
+        let mut set = |component, values: &[f64]| {
+            let made = Indicatrices::new(incident.clone(), self.emergent.clone(), values.to_vec());
+            let scattered = Scattered::Directions(Arc::new(made.expect("values are counted by these cells")));
+            band.set(component, Btdf { regular: None, scattered: Some(scattered) });
+        };
+        set(Component::TransmissionFront, &self.front.transmitted);
+        set(Component::TransmissionBack, &self.back.transmitted);
+        set(Component::ReflectionFront, &self.front.reflected);
+        set(Component::ReflectionBack, &self.back.reflected);
+        band
+    }
+}
+
+/// The row of one direction.
+fn row(
+    specimen: &dyn Specimen,
+    side: Side,
+    name: Dir<Facade>,
+    emergent: &RingBasis,
+    finder: &CellFinder,
+    weight: &[f64],
+) -> OneSide {
+    let scattered = specimen.scattered(name, side, emergent);
+    let filled = |q: Vec<f64>| if q.is_empty() { vec![0.0; weight.len()] } else { q };
+    let mut transmitted = filled(scattered.transmitted);
+    let mut reflected = filled(scattered.reflected);
+    for beam in specimen.beams(name, side) {
+        let to = if beam.transmitted { &mut transmitted } else { &mut reflected };
+        for piece in pieces(&beam, PIECE) {
+            let at = middle(&piece).vector();
+            if let Some(cell) = finder.find(at.x, at.y) {
+                to[cell] += piece.share / weight[cell];
+            }
+        }
+    }
+    let share = |q: &[f64]| q.iter().zip(weight).map(|(q, w)| q * w).sum::<f64>();
+    let absorbed = (1.0 - share(&transmitted) - share(&reflected)).max(0.0);
+    OneSide { transmitted, reflected, absorbed: vec![absorbed], error: vec![scattered.error] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::estimate::Silent;
+    use crate::compute::system::laser_cut::{CutPanel, LaserCutPanel};
+    use crate::compute::system::measure::beams::SharpBeams;
+    use crate::compute::system::measure::front_basis;
+    use crate::compute::system::panes::glazing::Pane;
+
+    #[test]
+    fn a_panel_at_single_directions_fills_two_cells() {
+        let sheet = Pane { index: 1.5, thickness: 0.01, absorption: 0.0 };
+        let panel = LaserCutPanel { sheet, spacing: 0.007 };
+        let cells = front_basis();
+        let names: Vec<_> = RingBasis::tregenza().cells().map(|cell| cell.centre()).collect();
+        let specimen = SharpBeams(CutPanel { panel, cut_loss: 0.0 });
+        let made = at_directions(&specimen, Side::Back, &names, &cells, &Silent).unwrap();
+        assert!(made.transmitted.len() == 145 * 145 && made.absorbed.len() == 145);
+        let weight = cells.projected_solid_angles();
+        for (i, &name) in names.iter().enumerate() {
+            let exact = panel.shares(name, 0.0);
+            let v = name.vector();
+            let turned = Dir::from_unit(glam::DVec3::new(v.x, -v.y, v.z));
+            let [straight, deflected] = [name, turned].map(|name| cells.index(name).unwrap());
+            let row = &made.transmitted[i * 145..(i + 1) * 145];
+            if straight == deflected {
+                continue;
+            }
+            assert!((row[straight] * weight[straight] - exact.straight).abs() < 2e-6, "{i}");
+            assert!((row[deflected] * weight[deflected] - exact.deflected).abs() < 2e-6, "{i}");
+            assert!(made.absorbed[i] < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Pieces of a fan: the light of a curved mirror, which lies evenly between two names.
+
+use super::parallel::Beam;
+use crate::compute::direction::{Dir, Facade};
+use glam::DVec3;
+
+/// Direction cosines that are taken for equal.
+const EQUAL: f64 = 1e-9;
+
+/// Equal parts of a fan, none wider than `step` \[rad\]; a parallel beam is a part by itself.
+pub fn pieces(beam: &Beam, step: f64) -> Vec<Beam> {
+    let count = (wide(beam) / step).ceil().max(1.0) as usize;
+    if count == 1 {
+        return vec![*beam];
+    }
+    let at = |k: usize| between(beam, k as f64 / count as f64);
+    let share = beam.share / count as f64;
+    (0..count).map(|k| Beam { names: [at(k), at(k + 1)], share, ..*beam }).collect()
+}
+
+/// The name in the middle.
+pub fn middle(beam: &Beam) -> Dir<Facade> {
+    if beam.names[0] == beam.names[1] { beam.names[0] } else { between(beam, 0.5) }
+}
+
+/// The angle between the ends. \[rad\]
+pub fn wide(beam: &Beam) -> f64 {
+    let [a, b] = beam.names.map(|name| name.vector());
+    a.cross(b).length().atan2(a.dot(b))
+}
+
+/// The name at a part 0 … 1 of the way. What is endless along an axis keeps the direction cosine along it, and turns the
+/// light evenly about it.
+fn between(beam: &Beam, part: f64) -> Dir<Facade> {
+    let [a, b] = beam.names.map(|name| name.vector());
+    let axis = if (a.x - b.x).abs() < EQUAL {
+        DVec3::X
+    } else if (a.y - b.y).abs() < EQUAL {
+        DVec3::Y
+    } else {
+        a.cross(b)
+    };
+    let Some(axis) = axis.try_normalize() else { return beam.names[0] };
+    let across = a - axis * a.dot(axis);
+    let aside = axis.cross(across);
+    let angle = (b.dot(aside)).atan2(b.dot(across));
+    let (sin, cos) = (part * angle).sin_cos();
+    Dir::new(axis * a.dot(axis) + across * cos + aside * sin).unwrap_or(beam.names[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_fill_the_fan_evenly_and_keep_what_its_axis_keeps() {
+        let name = |x: f64, angle: f64| {
+            let rest = (1.0 - x * x).sqrt();
+            Dir::from_unit(DVec3::new(x, rest * angle.sin(), rest * angle.cos()))
+        };
+        let fan = Beam { names: [name(0.4, -0.3), name(0.4, 0.5)], share: 0.2, transmitted: true };
+        let parts = pieces(&fan, 0.1);
+        assert_eq!(parts.len(), 8);
+        for (k, part) in parts.iter().enumerate() {
+            let [from, to] = [k, k + 1].map(|k| name(0.4, -0.3 + 0.1 * k as f64).vector());
+            assert!((part.names[0].vector() - from).length() < 1e-12 && (part.names[1].vector() - to).length() < 1e-12);
+            assert!((part.share - 0.025).abs() < 1e-15 && part.transmitted);
+        }
+        assert!((middle(&fan).vector() - name(0.4, 0.1).vector()).length() < 1e-12);
+        let beam = Beam::back(name(0.1, 0.2), 0.3);
+        assert_eq!(pieces(&beam, 0.01), [beam]);
+    }
+}

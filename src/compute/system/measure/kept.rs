@@ -1,0 +1,82 @@
+//! What is made once and kept for the next direction.
+//!
+//! Making it is parallel work, and so may be asking for it. A thread of the common pool that waits for its parts takes up
+//! other work meanwhile: perhaps another direction, which would wait for what this very thread is making. So it is made
+//! in a pool of its own, while the thread that asked for it rests.
+
+use crate::compute::basis::RingBasis;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Divisions of the hemisphere that are kept; the oldest goes first.
+const MOST: usize = 4;
+
+/// Something made once.
+#[derive(Debug)]
+pub struct Once<T>(OnceLock<T>);
+
+impl<T> Default for Once<T> {
+    fn default() -> Self {
+        Self(OnceLock::new())
+    }
+}
+
+impl<T: Send> Once<T> {
+    /// What was made. Others wait while it is.
+    pub fn get(&self, make: impl FnOnce() -> T + Send) -> &T {
+        self.0.get_or_init(|| apart(make))
+    }
+}
+
+/// Things made for some cells, each with its cells.
+pub struct Kept<T>(Mutex<Vec<(RingBasis, Arc<T>)>>);
+
+impl<T> Default for Kept<T> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<T: Send> Kept<T> {
+    /// What belongs to these cells. Others wait while it is made.
+    pub fn get(&self, cells: &RingBasis, make: impl FnOnce() -> T + Send) -> Arc<T> {
+        // What is kept is whole even if another thread has failed while it held the lock.
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = kept.iter().find(|(known, _)| known == cells) {
+            return found.clone();
+        }
+        let made = Arc::new(apart(make));
+        if kept.len() == MOST {
+            kept.remove(0);
+        }
+        kept.push((cells.clone(), made.clone()));
+        made
+    }
+}
+
+/// Makes something in threads of its own.
+fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
+    let threads = rayon::current_num_threads();
+    let work = move || match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(make),
+        // No more threads to be had: one has to do.
+        Err(_) => make(),
+    };
+    let made = std::thread::scope(|scope| scope.spawn(work).join());
+    made.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rayon::prelude::*;
+
+    #[test]
+    fn parallel_work_may_ask_for_what_is_made_in_parallel() {
+        let (once, kept) = (Once::default(), Kept::default());
+        let cells = RingBasis::tregenza();
+        let make = || (0..2000_u64).into_par_iter().map(|k| (0..500).fold(k, |a, b| a ^ (b * k))).sum::<u64>();
+        let found: Vec<(u64, u64)> =
+            (0..100).into_par_iter().map(|_| (*once.get(make), *kept.get(&cells, make))).collect();
+        assert!(found.iter().all(|pair| *pair == (make(), make())));
+    }
+}

@@ -1,0 +1,54 @@
+//! Beams of equal names as one.
+
+use super::parallel::Beam;
+use std::collections::BTreeMap;
+
+/// Direction cosines within which names are taken for the same.
+pub const SAME: f64 = 1e-9;
+
+/// Beams that go the same way, from and to, as one with the sum of their shares. In an order that depends on the names
+/// alone.
+pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
+    let mut found: BTreeMap<(bool, [i64; 4]), Beam> = BTreeMap::new();
+    for beam in beams {
+        let [a, b] = beam.names.map(|name| name.vector());
+        let place = [a.x, a.y, b.x, b.y].map(|cosine| (cosine / SAME).round() as i64);
+        found.entry((beam.transmitted, place)).and_modify(|sum| sum.share += beam.share).or_insert(beam);
+    }
+    found.into_values().collect()
+}
+
+/// The beams without the faintest, which together carry no more than this share.
+pub fn without_faint(mut beams: Vec<Beam>, share: f64) -> Vec<Beam> {
+    beams.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let mut left = share;
+    while let Some(last) = beams.last().filter(|last| last.share <= left) {
+        left -= last.share;
+        beams.pop();
+    }
+    beams
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Dir;
+
+    #[test]
+    fn equal_names_make_one_beam_and_the_faintest_go() {
+        let name = |theta: f64| Dir::from_theta_phi(theta, 1.0);
+        let beams = [
+            Beam::through(name(0.5), 0.3),
+            Beam::back(name(0.5), 0.1),
+            Beam::through(name(0.5 + 1e-12), 0.2),
+            Beam::through(name(0.6), 4e-7),
+            Beam::through(name(0.7), 5e-7),
+            Beam { names: [name(0.5), name(0.6)], share: 0.05, transmitted: true },
+        ];
+        let made = without_faint(merged(beams), 6e-7);
+        let shares: Vec<f64> = made.iter().map(|beam| beam.share).collect();
+        assert_eq!(made.len(), 4);
+        assert!((shares[0] - 0.5).abs() < 1e-15 && made[0].transmitted);
+        assert!(shares[1..] == [0.1, 0.05, 5e-7]);
+    }
+}

@@ -1,0 +1,88 @@
+//! Scattered light that depends on the profile angle alone, as matt faces endless along one direction send it out.
+
+use crate::compute::basis::{RingBasis, sub_directions};
+use crate::compute::direction::{Dir, Facade};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// q of transmitted light by the profile angle of its name. \[1/sr\]
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProfileLight {
+    /// The angle is measured to the right instead of upwards: faces endless along y.
+    pub upright: bool,
+    /// Values in bands of equal width about −90° … 90°, the first and the last band half as wide.
+    pub q: Vec<f64>,
+    /// Estimated absolute error of the share that they make.
+    pub error: f64,
+}
+
+/// Points a side of a cell that its mean is taken from.
+const POINTS: usize = 6;
+
+impl ProfileLight {
+    /// Borders of the bands in the profile angle, rising; one more than there are bands. \[rad\]
+    pub fn borders(bands: usize) -> impl Iterator<Item = f64> {
+        let step = PI / (bands.max(2) - 1) as f64;
+        (0..=bands).map(move |k| ((k as f64 - 0.5) * step - FRAC_PI_2).clamp(-FRAC_PI_2, FRAC_PI_2))
+    }
+
+    /// Profile angle that a name has for these bands. \[rad\]
+    pub fn angle(&self, name: Dir<Facade>) -> f64 {
+        let v = name.vector();
+        if self.upright { v.x } else { v.y }.atan2(v.z)
+    }
+
+    /// q of a name. \[1/sr\]
+    pub fn at(&self, name: Dir<Facade>) -> f64 {
+        let place = (self.angle(name) + FRAC_PI_2) / PI * (self.q.len() - 1) as f64;
+        self.q.get(place.round().max(0.0) as usize).copied().unwrap_or(0.0)
+    }
+
+    /// Share of the incident light.
+    pub fn share(&self) -> f64 {
+        Self::weights(self.q.len()).zip(&self.q).map(|(weight, q)| weight * q).sum()
+    }
+
+    /// Share that another one has elsewhere: Σ |q − q′| over the bands.
+    pub fn apart(&self, other: &Self) -> f64 {
+        let apart = self.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs());
+        Self::weights(self.q.len()).zip(apart).map(|(weight, apart)| weight * apart).sum()
+    }
+
+    /// Projected solid angles of the bands: on a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected solid angle is
+    /// that times cosψ dψ. \[sr\]
+    fn weights(bands: usize) -> impl Iterator<Item = f64> {
+        let borders: Vec<f64> = Self::borders(bands).collect();
+        (0..bands).map(move |k| FRAC_PI_2 * (borders[k + 1].sin() - borders[k].sin()))
+    }
+
+    /// Means over cells, to about a tenth of a per cent of the largest. \[1/sr\]
+    pub fn on(&self, cells: &RingBasis) -> Vec<f64> {
+        let mean = |cell| {
+            let sum: f64 = sub_directions(&cell, POINTS).map(|d| self.at(d)).sum();
+            sum / (POINTS * POINTS) as f64
+        };
+        cells.cells().map(mean).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_those_of_the_cells() {
+        let even = ProfileLight { upright: false, q: vec![0.5 / PI; 181], error: 0.0 };
+        assert!((even.share() - 0.5).abs() < 1e-12);
+        let upwards: Vec<f64> = (0..721).map(|k| if k > 360 { f64::from(k - 360) / 1000.0 } else { 0.0 }).collect();
+        let cells = RingBasis::even(3_f64.to_radians());
+        for upright in [false, true] {
+            let light = ProfileLight { upright, q: upwards.clone(), error: 0.0 };
+            let on = light.on(&cells);
+            let sum: f64 = on.iter().zip(cells.projected_solid_angles()).map(|(q, w)| q * w).sum();
+            assert!((sum / light.share() - 1.0).abs() < 1e-3, "{sum} {}", light.share());
+            let up = Dir::from_theta_phi(0.7, if upright { 0.0 } else { FRAC_PI_2 });
+            let down = Dir::from_theta_phi(0.7, if upright { PI } else { -FRAC_PI_2 });
+            assert!((light.at(up) - 0.7_f64.to_degrees() / 0.25 / 1000.0).abs() < 1e-3 && light.at(down) == 0.0);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Sheets with holes as described, and what goes straight through them for one very direction: the overlap of the two
+//! ends of a hole as seen along the light, in closed form.
+
+use crate::compute::direction::{Dir, Facade};
+
+/// Pattern and shape of holes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Hole {
+    /// Round, given by its diameter. \[m\]
+    Round {
+        /// Diameter. \[m\]
+        diameter: f64,
+    },
+    /// A rectangle, width and height. \[m\]
+    Rectangle {
+        /// Width along x. \[m\]
+        width: f64,
+        /// Height along y. \[m\]
+        height: f64,
+    },
+    /// A rhombus with horizontal and vertical diagonals, as in expanded metal. \[m\]
+    Rhombus {
+        /// Horizontal diagonal. \[m\]
+        width: f64,
+        /// Vertical diagonal. \[m\]
+        height: f64,
+    },
+}
+
+/// An opaque Lambertian sheet with equal holes; their walls may run obliquely upwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Perforated {
+    /// The hole.
+    pub hole: Hole,
+    /// Area of the sheet per hole. \[m²\]
+    pub area: f64,
+    /// Thickness of the sheet. \[m\]
+    pub thickness: f64,
+    /// How much higher the hole lies on the room side, > 0 = its walls rise inwards (strands of expanded metal). \[m\]
+    pub rise: f64,
+    /// Diffuse reflectance of the outer face, the inner face and the walls.
+    pub reflectance: [f64; 3],
+}
+
+impl Hole {
+    /// Area. \[m²\]
+    pub fn area(&self) -> f64 {
+        self.overlap([0.0, 0.0])
+    }
+
+    /// Area that the hole has in common with itself moved by (x, y). \[m²\]
+    pub fn overlap(&self, [x, y]: [f64; 2]) -> f64 {
+        match *self {
+            Self::Round { diameter } => {
+                // Two segments of the circle, on both sides of the common chord.
+                let part = x.hypot(y) / diameter;
+                if part >= 1.0 {
+                    0.0
+                } else {
+                    0.5 * diameter * diameter * (part.acos() - part * (1.0 - part * part).sqrt())
+                }
+            }
+            Self::Rectangle { width, height } => (width - x.abs()).max(0.0) * (height - y.abs()).max(0.0),
+            Self::Rhombus { width, height } => {
+                // In halves of its diagonals a square on its corner; along its sides a product.
+                let (u, v) = (2.0 * x / width, 2.0 * y / height);
+                let side = |moved: f64| (2.0 - moved.abs()).max(0.0);
+                0.125 * width * height * side(u + v) * side(u - v)
+            }
+        }
+    }
+}
+
+impl Perforated {
+    /// Height of a hole and the distance from one to the next above it. \[m\] The description knows the area per hole
+    /// alone: a square of it, or more where the holes would touch.
+    pub(super) fn pattern(&self) -> [f64; 2] {
+        let height = match self.hole {
+            Hole::Round { diameter } => diameter,
+            Hole::Rectangle { height, .. } | Hole::Rhombus { height, .. } => height,
+        };
+        [height, self.area.sqrt().max(1.1 * height)]
+    }
+
+    /// Open share of the sheet.
+    pub fn open(&self) -> f64 {
+        self.hole.area() / self.area
+    }
+
+    /// Share of light of a name that goes straight through; the same from both sides.
+    pub fn straight(&self, name: Dir<Facade>) -> f64 {
+        let v = name.vector();
+        if v.z <= 0.0 {
+            return 0.0;
+        }
+        let depth = self.thickness / v.z;
+        self.hole.overlap([depth * v.x, depth * v.y + self.rise]) / self.area
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::polygon::{area, cut_by_all};
+    use glam::DVec2;
+    use std::f64::consts::PI;
+
+    /// The overlap of polygons by cutting one at the other's edges.
+    fn cut(corners: &[DVec2], by: DVec2) -> f64 {
+        let mut moved: Vec<DVec2> = corners.iter().map(|&p| p + by).collect();
+        let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+        cut_by_all(&mut moved, edges.map(|(&a, &b)| move |p: DVec2| (b - a).perp_dot(p - a)), &mut vec![]);
+        area(&moved)
+    }
+
+    #[test]
+    fn closed_forms_are_the_areas_of_polygons() {
+        let (w, h) = (0.05, 0.018);
+        let n = 4000;
+        let circle: Vec<DVec2> =
+            (0..n).map(|k| 0.5 * w * DVec2::from_angle(2.0 * PI * f64::from(k) / f64::from(n))).collect();
+        let (x, y) = (0.5 * w, 0.5 * h);
+        let rectangle = [(x, -y), (x, y), (-x, y), (-x, -y)].map(|(x, y)| DVec2::new(x, y));
+        let rhombus = [(x, 0.0), (0.0, y), (-x, 0.0), (0.0, -y)].map(|(x, y)| DVec2::new(x, y));
+        for (hole, corners) in [
+            (Hole::Round { diameter: w }, circle.as_slice()),
+            (Hole::Rectangle { width: w, height: h }, &rectangle),
+            (Hole::Rhombus { width: w, height: h }, &rhombus),
+        ] {
+            for (dx, dy) in [(0.0, 0.0), (0.01, 0.0), (0.0, -0.008), (-0.013, 0.004), (0.03, 0.01), (0.049, 0.001)] {
+                let (found, exact) = (hole.overlap([dx, dy]), cut(corners, DVec2::new(dx, dy)));
+                assert!((found - exact).abs() < 2e-6 * w * w, "{hole:?} {dx} {dy}: {found} {exact}");
+            }
+        }
+        assert!((Hole::Round { diameter: 2.0 }.area() - PI).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_rising_hole_is_widest_for_light_that_rises_with_it() {
+        let hole = Hole::Rhombus { width: 0.052, height: 0.018 };
+        let sheet = Perforated { hole, area: 0.0008, thickness: 0.008, rise: 0.006, reflectance: [0.0; 3] };
+        // Light from below along the walls passes whole.
+        let along = Dir::from_theta_phi((0.006_f64 / 0.008).atan(), -0.5 * PI);
+        assert!((sheet.straight(along) - sheet.open()).abs() < 1e-15);
+        assert!(
+            sheet.straight(Dir::from_theta_phi(0.3, 0.5 * PI)) < sheet.straight(Dir::from_theta_phi(0.3, -0.5 * PI))
+        );
+    }
+}

@@ -1,0 +1,163 @@
+//! Perforated sheets as specimens. For single directions the walls of the hole are solved once and kept.
+
+use super::hole::Perforated;
+use super::walls::{Lit, Walls, measure_walls};
+use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::system::measure::kept::{Kept, Once};
+use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen, front_basis};
+use faer::Mat;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Patches through the thickness for single directions; the difference between the two tells the error.
+const DEPTH: [usize; 2] = [4, 8];
+
+/// A perforated sheet with what is known of its walls.
+pub(super) struct Holes {
+    sheet: Perforated,
+    walls: Once<[Solved; 2]>,
+    seen: Kept<Seen>,
+}
+
+/// The walls of a hole with all light between them.
+struct Solved {
+    walls: Walls,
+    /// Light landed on a patch in the end per light that each gets first.
+    response: Mat<f64>,
+}
+
+/// What emergent cells see of the walls.
+struct Seen {
+    /// By depth, then by side: through the sheet, thrown back.
+    ways: [[[Lit; 2]; 2]; 2],
+}
+
+/// What becomes of light that does not go straight through.
+struct Rest {
+    transmitted: Vec<f64>,
+    reflected: Vec<f64>,
+    absorbed: f64,
+}
+
+impl Holes {
+    pub fn new(sheet: Perforated) -> Self {
+        Self { sheet, walls: Once::default(), seen: Kept::default() }
+    }
+
+    fn solved(&self) -> &[Solved; 2] {
+        self.walls.get(|| {
+            let cells = front_basis();
+            DEPTH.map(|depth| {
+                let walls = Walls::new(&self.sheet, depth);
+                let through = Side::BOTH.map(|side| walls.lit(&cells, side, false));
+                let response = walls.response(&walls.escaping(&cells, &through));
+                Solved { walls, response }
+            })
+        })
+    }
+
+    /// What these cells see, made once.
+    fn seen(&self, cells: &RingBasis) -> Arc<Seen> {
+        self.seen.get(cells, || Seen {
+            ways: self
+                .solved()
+                .each_ref()
+                .map(|solved| [false, true].map(|turned| Side::BOTH.map(|side| solved.walls.lit(cells, side, turned)))),
+        })
+    }
+
+    /// The light of one direction that meets the sheet or the walls, these in one of both depths.
+    fn rest(&self, name: Dir<Facade>, side: Side, depth: usize, seen: &Seen) -> Rest {
+        let Solved { walls, response } = &self.solved()[depth];
+        let n = walls.len();
+        let mut first = vec![0.0; n];
+        walls.light(name, side, false, 1.0, &mut first);
+        // Polygons stand for circles: what they let fall on the walls is made what the circle does.
+        let (got, due) = (first.iter().sum::<f64>(), self.sheet.open() - self.sheet.straight(name));
+        let scale = if got > 1e-12 { due.max(0.0) / got } else { 0.0 };
+        let wall = self.sheet.reflectance[2];
+        let landed: Vec<f64> =
+            (0..n).map(|j| (0..n).map(|i| response[(j, i)] * first[i]).sum::<f64>() * scale).collect();
+        let exitance: Vec<f64> = landed.iter().zip(walls.areas()).map(|(l, area)| wall * l / (PI * area)).collect();
+        let k = usize::from(side == Side::Back);
+        let sent = |lit: &Lit, o: usize| exitance.iter().enumerate().map(|(j, e)| lit.walls[(o, j)] * e).sum::<f64>();
+        let face = self.sheet.reflectance[k];
+        let solid = 1.0 - self.sheet.open();
+        let [through, back] = &seen.ways[depth];
+        let cells = 0..through[0].cells();
+        Rest {
+            // Leaving light is named as what would light the walls from the other side.
+            transmitted: cells.clone().map(|o| sent(&through[1 - k], o)).collect(),
+            reflected: cells.map(|o| face * solid / PI + sent(&back[k], o)).collect(),
+            absorbed: (1.0 - face) * solid + (1.0 - wall) * landed.iter().sum::<f64>(),
+        }
+    }
+}
+
+impl Specimen for Holes {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        measure_walls(&self.sheet, setting, progress)
+    }
+
+    fn beams(&self, name: Dir<Facade>, _: Side) -> Vec<Beam> {
+        let share = self.sheet.straight(name);
+        if share > 0.0 { vec![Beam::through(name, share)] } else { vec![] }
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let face = self.sheet.reflectance[usize::from(side == Side::Back)] * (1.0 - self.sheet.open());
+        if self.sheet.reflectance[2] == 0.0 {
+            let reflected = if face > 0.0 { vec![face / PI; emergent.len()] } else { vec![] };
+            return ScatteredLight { reflected, ..ScatteredLight::default() };
+        }
+        let seen = self.seen(emergent);
+        let [coarse, fine] = [0, 1].map(|depth| self.rest(name, side, depth, &seen));
+        let weight = emergent.projected_solid_angles();
+        let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+        let [t, r] = [share(&fine.transmitted), share(&fine.reflected)];
+        let apart = (t - share(&coarse.transmitted)).abs().max((r - share(&coarse.reflected)).abs());
+        let missing = (1.0 - self.sheet.straight(name) - t - r - fine.absorbed).abs();
+        ScatteredLight { transmitted: fine.transmitted, reflected: fine.reflected, error: apart + missing }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::sub_directions;
+    use crate::compute::estimate::Silent;
+    use crate::compute::system::sheets::Hole;
+
+    #[test]
+    fn single_directions_have_the_mean_that_is_measured_and_lose_nothing() {
+        let cells = front_basis();
+        let weight = cells.projected_solid_angles();
+        let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+        for (hole, rise) in
+            [(Hole::Round { diameter: 0.007 }, 0.0), (Hole::Rhombus { width: 0.012, height: 0.007 }, 0.002)]
+        {
+            let holes =
+                Holes::new(Perforated { hole, area: 1e-4, thickness: 0.003, rise, reflectance: [0.6, 0.4, 0.8] });
+            let setting = Setting { incident: &cells, emergent: &cells, error: 0.005, seed: 1 };
+            let made = holes.measure(&setting, &Silent).unwrap();
+            for side in Side::BOTH {
+                for i in [30, 95, 120] {
+                    let (mut t, mut r, mut error, mut beam) = (0.0, 0.0, 0.0_f64, 0.0);
+                    for name in sub_directions(&cells.cell(i), 3) {
+                        let found = holes.scattered(name, side, &cells);
+                        t += share(&found.transmitted) / 9.0;
+                        r += share(&found.reflected) / 9.0;
+                        error = error.max(found.error);
+                        beam += holes.beams(name, side).iter().map(|beam| beam.share).sum::<f64>() / 9.0;
+                    }
+                    let row = |q: &[f64]| share(&q[i * 145..(i + 1) * 145]);
+                    let (t0, r0) = (row(&made.seen(side).transmitted), row(&made.seen(side).reflected));
+                    assert!(error < 0.01, "{error}");
+                    assert!((t + beam - t0).abs() < 0.006 && (r - r0).abs() < 0.006, "{i} {t} {beam} {t0} {r} {r0}");
+                }
+            }
+        }
+    }
+}

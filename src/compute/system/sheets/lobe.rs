@@ -1,0 +1,162 @@
+//! A lobe about the straight direction: the balanced Gaussian kernel in direction cosines, see [`super::sheet`].
+
+use crate::compute::basis::{Cell, sub_directions};
+use crate::compute::btdf::AngularTransmittance;
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::scaling::by_rounds;
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Light in a lobe about the regular direction.
+#[derive(Debug, Clone)]
+pub struct Lobe {
+    share: AngularTransmittance,
+    spread: f64,
+    /// d over equal steps of sinθ, at their middles; found when it is first asked for.
+    factor: OnceLock<Vec<f64>>,
+}
+
+/// Direction cosines, and d.
+type Point = ([f64; 2], f64);
+
+/// How closely points fill a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fineness {
+    /// Distance in standard deviations of the lobe.
+    step: f64,
+    /// Most points along either side.
+    most: usize,
+}
+
+impl Fineness {
+    /// Between two cells: both ends are averaged.
+    pub const CELLS: Self = Self { step: 0.8, most: 24 };
+    /// From a single direction to a cell, whose edge may cut the lobe where it is steepest.
+    pub const DIRECTION: Self = Self { step: 0.2, most: 100 };
+}
+
+/// exp(−x) of this and above counts as nothing.
+const MOST_EXPONENT: f64 = 30.0;
+
+impl Lobe {
+    /// From its share of the light and its standard deviation along either direction cosine.
+    pub const fn new(share: AngularTransmittance, spread: f64) -> Self {
+        Self { share, spread, factor: OnceLock::new() }
+    }
+
+    /// Share of the light of every incidence.
+    pub const fn share(&self) -> &AngularTransmittance {
+        &self.share
+    }
+
+    fn factors(&self) -> &[f64] {
+        self.factor.get_or_init(|| self.balanced())
+    }
+
+    fn balanced(&self) -> Vec<f64> {
+        let spread = self.spread;
+        // By one thread: those that ask for it work side by side and would wait for each other.
+        // Half a spread a step keeps the sums over the smooth kernel exact to 1e-8.
+        let n = ((2.0 / spread).ceil() as usize).clamp(100, 1000);
+        let sine = |i: usize| (i as f64 + 0.5) / n as f64;
+        let kernel: Vec<f64> = (0..n * n)
+            .map(|k| {
+                let (a, b) = (sine(k / n), sine(k % n));
+                let exponent = 0.5 * ((a - b) / spread).powi(2);
+                let around = 2.0 * PI * (-exponent).exp() * scaled_bessel(a * b / (spread * spread));
+                around * b / n as f64
+            })
+            .collect();
+        let sums = |factor: &[f64]| -> Vec<f64> {
+            kernel.chunks_exact(n).map(|row| row.iter().zip(factor).map(|(k, d)| k * d).sum()).collect()
+        };
+        let wanted: Vec<_> = (0..n).map(|i| Some(self.share.at(sine(i).asin()))).collect();
+        by_rounds(sums, &wanted, 400, 1e-9, f64::INFINITY)
+    }
+
+    fn factor(&self, sine: f64) -> f64 {
+        let factor = self.factors();
+        let x = (sine * factor.len() as f64 - 0.5).max(0.0);
+        let k = (x as usize).min(factor.len() - 2);
+        let t = x - k as f64;
+        (factor[k] * (1.0 - t) + factor[k + 1] * t).max(0.0)
+    }
+
+    /// A direction as a point.
+    pub fn point(&self, d: Dir<Facade>) -> Point {
+        let k = d.vector().truncate();
+        ([k.x, k.y], self.factor(k.length()))
+    }
+
+    /// Points that share the cell evenly, close enough for the lobe.
+    pub fn points(&self, cell: &Cell, fineness: Fineness) -> Vec<Point> {
+        let high = cell.theta_max.sin() - cell.theta_min.sin();
+        let wide = cell.width * cell.theta_max.sin();
+        let n = ((high.max(wide) / (fineness.step * self.spread)).ceil() as usize).clamp(1, fineness.most);
+        sub_directions(cell, n).map(|d| self.point(d)).collect()
+    }
+
+    /// Mean of the lobe over an emergent cell for light from the given points.
+    pub fn mean(&self, from: &[Point], to: &Cell, fineness: Fineness) -> f64 {
+        let exponent = |a: [f64; 2], b: [f64; 2]| {
+            0.5 * ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / (self.spread * self.spread)
+        };
+        let centre = to.centre().vector().truncate();
+        let middle = from[from.len() / 2].0;
+        // Far cells need no points: both are smaller than their distance allows.
+        let reach = (to.width * to.theta_max.sin()).max(to.theta_max.sin() - to.theta_min.sin()) + 0.25;
+        if (exponent([centre.x, centre.y], middle).sqrt() - reach / self.spread).max(0.0).powi(2) > MOST_EXPONENT {
+            return 0.0;
+        }
+        let points = self.points(to, fineness);
+        let sum: f64 = from
+            .iter()
+            .map(|(a, d)| {
+                let inner: f64 = points
+                    .iter()
+                    .map(|(b, e)| {
+                        let x = exponent(*a, *b);
+                        if x < MOST_EXPONENT { e * (-x).exp() } else { 0.0 }
+                    })
+                    .sum();
+                d * inner
+            })
+            .sum();
+        sum / (from.len() * points.len()) as f64
+    }
+}
+
+/// e⁻ˣ I₀(x), x ≥ 0, to 2e-7 (Abramowitz and Stegun 9.8.1 and 9.8.2).
+fn scaled_bessel(x: f64) -> f64 {
+    let polynomial = |c: &[f64], t: f64| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
+    if x < 3.75 {
+        let t = (x / 3.75).powi(2);
+        let c = [1.0, 3.515_622_9, 3.089_942_4, 1.206_749_2, 0.265_973_2, 0.036_076_8, 0.004_581_3];
+        (-x).exp() * polynomial(&c, t)
+    } else {
+        let c = [
+            0.398_942_28,
+            0.013_285_92,
+            0.002_253_19,
+            -0.001_575_65,
+            0.009_162_81,
+            -0.020_577_06,
+            0.026_355_37,
+            -0.016_476_33,
+            0.003_923_77,
+        ];
+        polynomial(&c, 3.75 / x) / x.sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bessel_at_known_places() {
+        // I₀(1) = 1.2660658777520084, I₀(5) = 27.239871823604442.
+        assert!((scaled_bessel(1.0) * 1_f64.exp() - 1.266_065_877_752).abs() < 1e-6);
+        assert!((scaled_bessel(5.0) * 5_f64.exp() - 27.239_871_823_6).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,149 @@
+//! Data of a file as a layer.
+
+use crate::compute::basis::{Resampling, RingBasis, sub_directions};
+use crate::compute::btdf::{AngularTransmittance, Band, Btdf, Component, matrix_on};
+use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen};
+
+/// Data of a file as a layer: means over the cells asked for; for single directions what the data say there, without
+/// anything between their incident cells.
+pub struct DataLayer(pub Band);
+
+/// Directions along either side of an emergent cell that transmission read backwards is averaged over.
+const BACKWARDS: usize = 3;
+
+/// The functions for light from a side: transmission, its reverse, reflection. Bands name directions as
+/// [`crate::compute::system::measure`] does.
+const fn components(side: Side) -> [Component; 3] {
+    match side {
+        Side::Front => [Component::TransmissionFront, Component::TransmissionBack, Component::ReflectionFront],
+        Side::Back => [Component::TransmissionBack, Component::TransmissionFront, Component::ReflectionBack],
+    }
+}
+
+impl Specimen for DataLayer {
+    /// Functions that are missing count as: transmission from the other side by reciprocity, reflection none, all that
+    /// does not pass being absorbed.
+    fn measure(&self, setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        let mut measured = Measured::dark(setting);
+        let on = |component| {
+            let btdf = self.0.get(component)?;
+            Some(matrix_on(btdf, setting.incident, setting.emergent).values().into_owned())
+        };
+        let other = |component| {
+            let matrix = matrix_on(self.0.get(component)?, setting.emergent, setting.incident);
+            Some(matrix.reversed().values().into_owned())
+        };
+        for side in Side::BOTH {
+            let [through, opposite, back] = components(side);
+            let seen = measured.seen_mut(side);
+            if let Some(values) = on(through).or_else(|| other(opposite)) {
+                seen.transmitted = values;
+            }
+            if let Some(values) = on(back) {
+                seen.reflected = values;
+            }
+            let (tau, rho) = (measured.shares(&measured.seen(side).transmitted), {
+                let seen = measured.seen(side);
+                measured.shares(&seen.reflected)
+            });
+            measured.seen_mut(side).absorbed = tau.iter().zip(&rho).map(|(t, r)| (1.0 - t - r).max(0.0)).collect();
+        }
+        Ok(measured)
+    }
+
+    /// Its cells say no more when they are asked more often.
+    fn is_quick(&self) -> bool {
+        false
+    }
+
+    /// What keeps its name; all else is in the scattered part, what was measured as a narrow peak included.
+    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let [through, opposite, back] = components(side);
+        let share = |btdf: Option<&Btdf>| {
+            let regular: Option<&AngularTransmittance> = btdf.and_then(|btdf| btdf.regular.as_ref());
+            regular.map_or(0.0, |tau| tau.at(name.theta()))
+        };
+        // What goes straight on has the same share from both sides.
+        let tau = share(self.0.get(through).or_else(|| self.0.get(opposite)));
+        let beams = [Beam::through(name, tau), Beam::back(name, share(self.0.get(back)))];
+        beams.into_iter().filter(|beam| beam.share > 0.0).collect()
+    }
+
+    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let [through, opposite, back] = components(side);
+        let forwards = |btdf: &Btdf| {
+            let found = btdf.indicatrix(Incident(name))?;
+            Some(if &found.basis == emergent {
+                found.q
+            } else {
+                Resampling::new(&found.basis, emergent).apply(&found.q)
+            })
+        };
+        let backwards = |btdf: &Btdf| {
+            btdf.scattered.as_ref()?;
+            let q = |d| btdf.q(Incident(d), Emergent::from_through_name(name));
+            let mean = |cell| sub_directions(&cell, BACKWARDS).map(q).sum::<f64>() / (BACKWARDS * BACKWARDS) as f64;
+            Some(emergent.cells().map(mean).collect())
+        };
+        let transmitted = match (self.0.get(through), self.0.get(opposite)) {
+            (Some(btdf), _) => forwards(btdf),
+            (None, other) => other.and_then(backwards),
+        };
+        ScatteredLight {
+            transmitted: transmitted.unwrap_or_default(),
+            reflected: self.0.get(back).and_then(forwards).unwrap_or_default(),
+            error: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::btdf::CellMatrix;
+    use crate::compute::estimate::Silent;
+    use crate::compute::system::measure::front_basis;
+
+    #[test]
+    fn rows_of_cells_and_the_regular_part_come_back() {
+        let cells = front_basis();
+        let n = cells.len();
+        let matrix = |seed: usize| {
+            let values = (0..n * n).map(|k| 1e-3 * ((k * 7919 + seed) % 101) as f64).collect();
+            CellMatrix::new(cells.clone(), cells.clone(), values).unwrap()
+        };
+        let mut band = Band::default();
+        let regular = Some(AngularTransmittance::sample(180, |theta| 0.3 * theta.cos()));
+        band.set(Component::TransmissionBack, Btdf { regular, ..Btdf::from_cells(matrix(1)) });
+        band.set(Component::ReflectionFront, Btdf::from_cells(matrix(2)));
+        let layer = DataLayer(band);
+        let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
+        let made = layer.measure(&setting, &Silent).unwrap();
+        let weight = cells.projected_solid_angles();
+        for side in Side::BOTH {
+            for i in [3, 77, 110] {
+                let name = cells.cell(i).centre();
+                let beams = layer.beams(name, side);
+                assert!(beams.len() == 1 && beams[0].names[0] == name && beams[0].transmitted);
+                assert!((beams[0].share - 0.3 * name.theta().cos()).abs() < 1e-4);
+                let found = layer.scattered(name, side, &cells);
+                for o in (0..n).filter(|&o| o != i) {
+                    assert!(
+                        (found.transmitted[o] - made.seen(side).transmitted[i * n + o]).abs() < 1e-12,
+                        "{side:?} {i} {o}"
+                    );
+                }
+                // Here the mean over the cell is near the value at its centre.
+                let all = found.transmitted[i] + beams[0].share / weight[i];
+                assert!((all - made.seen(side).transmitted[i * n + i]).abs() * weight[i] < 0.01);
+                if side == Side::Front {
+                    assert!(found.reflected == made.front.reflected[i * n..(i + 1) * n]);
+                } else {
+                    assert!(found.reflected.is_empty());
+                }
+            }
+        }
+    }
+}

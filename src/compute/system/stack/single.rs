@@ -1,0 +1,138 @@
+//! A stack for single directions: its beams, and what its layers scatter of them.
+//!
+//! What a layer scatters is known on the cells asked for. Where it goes straight on through the layers that are left, it
+//! stays on those; the rest, what goes to and fro and what is scattered again, is followed on coarser cells by matrices.
+
+use super::flows::{Flows, Sources};
+use super::passage::{Arrival, Passage, Place, follow};
+use crate::compute::basis::{AzimuthMap, Resampling, RingBasis};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::system::measure::fan::middle;
+use crate::compute::system::measure::kept::{Kept, Once};
+use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen};
+use std::f64::consts::PI;
+
+/// Light that reaches the layers from directions of which each brings little, and beams too many to be followed: so much
+/// of each, in all, is taken for absorbed.
+const NEGLECTED: f64 = 1e-4;
+
+/// What is found once for all directions.
+#[derive(Default)]
+pub(super) struct Singles {
+    flows: Once<Flows>,
+    emergent: Kept<Emergent>,
+}
+
+/// Emergent cells beside those of the matrices.
+struct Emergent {
+    to_coarse: Resampling,
+    from_coarse: Resampling,
+}
+
+impl Emergent {
+    fn new(cells: &RingBasis, coarse: &RingBasis) -> Self {
+        Self { to_coarse: Resampling::new(cells, coarse), from_coarse: Resampling::new(coarse, cells) }
+    }
+}
+
+impl Singles {
+    /// Beams that leave the layers.
+    pub fn beams(&self, layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side) -> Vec<Beam> {
+        follow(layers, name, side).leaving
+    }
+
+    /// What is scattered.
+    pub fn scattered(
+        &self,
+        layers: &[Box<dyn Specimen>],
+        name: Dir<Facade>,
+        side: Side,
+        cells: &RingBasis,
+    ) -> ScatteredLight {
+        let Passage { mut arrivals, left, .. } = follow(layers, name, side);
+        let faint = drop_faint(&mut arrivals);
+        let mut error = 0.0;
+        // q on the cells asked for, and its names as light from `side`.
+        let mut arising: Vec<(Place, Vec<f64>)> = Vec::new();
+        let azimuth = cells.azimuth();
+        // A layer that is met from the other side has the names turned by 180°: so do its cells, in the same order.
+        let turned = cells.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + PI, ..azimuth });
+        for arrival in &arrivals {
+            let own = if arrival.side == side { cells } else { &turned };
+            let made = layers[arrival.layer].scattered(arrival.name, arrival.side, own);
+            error += arrival.share * made.error;
+            let inwards = arrival.side == Side::Front;
+            let beyond = if inwards { (arrival.layer + 1, true) } else { (arrival.layer, false) };
+            let before = if inwards { (arrival.layer, false) } else { (arrival.layer + 1, true) };
+            for (place, q) in [(beyond, made.transmitted), (before, made.reflected)] {
+                if q.is_empty() {
+                    continue;
+                }
+                match arising.iter_mut().find(|(known, _)| *known == place) {
+                    Some((_, sum)) => sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += arrival.share * q),
+                    None => arising.push((place, q.into_iter().map(|q| arrival.share * q).collect())),
+                }
+            }
+        }
+        let unfollowed: f64 = left.iter().map(|(_, beam)| beam.share).sum();
+        if arising.is_empty() && unfollowed <= NEGLECTED {
+            return ScatteredLight { error: error + unfollowed, ..ScatteredLight::default() };
+        }
+        error += faint;
+        let flows = self.flows.get(|| Flows::new(layers));
+        let emergent = self.emergent.get(cells, || Emergent::new(cells, &flows.cells));
+        let mut sources = Sources::dark(layers.len(), flows.cells.len());
+        // What goes straight out, on the cells asked for; and the same on the coarse ones, to be taken from the whole.
+        let mut straight = [true, false].map(|_| vec![0.0; cells.len()]);
+        let mut known = [true, false].map(|_| vec![0.0; flows.cells.len()]);
+        for (place, q) in &arising {
+            let shares = flows.straight_out(*place, side);
+            let sense = usize::from(!place.1);
+            let coarse = emergent.to_coarse.apply(q);
+            for (c, q) in coarse.iter().enumerate() {
+                let flux = q * flows.weight[c];
+                sources.at(*place)[c] += flux;
+                known[sense][c] += flux * shares[c];
+            }
+            // The shares of the coarse cells that each cell overlaps: the flux is that of the coarse ones.
+            for ((out, q), share) in straight[sense].iter_mut().zip(q).zip(emergent.from_coarse.apply(&shares)) {
+                *out += q * share;
+            }
+        }
+        for (place, beam) in &left {
+            if let Some(c) = flows.cells.index(middle(beam)) {
+                sources.at(*place)[c] += beam.share;
+            }
+        }
+        let leaving = flows.leaving(&sources, side);
+        let mut followed = 0.0;
+        let mut whole = |sense: usize| -> Vec<f64> {
+            let rest: Vec<f64> = (0..flows.cells.len())
+                .map(|c| {
+                    let rest = (leaving[sense][c] - known[sense][c]).max(0.0);
+                    followed += rest;
+                    rest / flows.weight[c]
+                })
+                .collect();
+            let rest = emergent.from_coarse.apply(&rest);
+            straight[sense].iter().zip(rest).map(|(a, b)| a + b).collect()
+        };
+        let [inwards, outwards] = [whole(0), whole(1)];
+        let (transmitted, reflected) = if side == Side::Front { (inwards, outwards) } else { (outwards, inwards) };
+        ScatteredLight { transmitted, reflected, error: error + flows.error * followed }
+    }
+}
+
+/// Leaves out the arrivals that bring least, and says how much light they are.
+fn drop_faint(arrivals: &mut Vec<Arrival>) -> f64 {
+    arrivals.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let mut dropped = 0.0;
+    while let Some(last) = arrivals.last().filter(|last| dropped + last.share <= NEGLECTED) {
+        dropped += last.share;
+        arrivals.pop();
+    }
+    dropped
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,121 @@
+//! The description that goes with the numbers, see [`crate::formats::beams`], as a processing instruction.
+//!
+//! `<?cfs-system version="1" state="45" fingerprint="…" text="…"?>`, first in the root element. The standard knows none,
+//! so that whoever reads the standard passes over it (Radiance's ezxml keeps instructions apart from elements, and
+//! schemas do not mention them). A comment would do too, but comments of this format are words for people, and are read
+//! as such. Of the values everything that could end them or look like markup is written as `%` and two hexadecimal
+//! digits a byte of UTF-8.
+
+use super::document::children;
+use crate::compute::btdf::{Dataset, DescribedState, Finding};
+use crate::formats::beams::{Fingerprint, Told, VERSION, not_restored};
+use roxmltree::{Document, Node};
+
+/// Target of the instruction.
+const TARGET: &str = "cfs-system";
+
+/// Of all that says what light does: the bases and every block of numbers, of both bands.
+fn fingerprint(root: Node<'_, '_>, described: &DescribedState) -> String {
+    let mut print = Fingerprint::new(described);
+    let parts = root.descendants().filter(|node| {
+        let name = node.tag_name().name();
+        node.is_element() && ["DataDefinition", "WavelengthData"].iter().any(|known| name.eq_ignore_ascii_case(known))
+    });
+    for text in parts.flat_map(|part| part.descendants()).filter(|node| node.is_text()).filter_map(|node| node.text()) {
+        print.text(text);
+    }
+    print.finish()
+}
+
+/// The description of the file's numbers, or why it is not believed. `None` for files without.
+pub(super) fn described(root: Node<'_, '_>) -> Option<Result<DescribedState, Finding>> {
+    let instruction = root.children().filter_map(|node| node.pi()).find(|pi| pi.target == TARGET)?;
+    let value = |key: &str| value(instruction.value.unwrap_or_default(), key);
+    let version = value("version").unwrap_or_default();
+    if version != VERSION.to_string() {
+        let newer = version.parse::<u32>().is_ok_and(|version| version > VERSION);
+        let by = if newer { "was written by a newer version of cfs" } else { "has no known version" };
+        return Some(Err(not_restored(&format!(
+            "<?{TARGET} version=\"{version}\"?> {by}; this program reads {VERSION}"
+        ))));
+    }
+    let told = (|| {
+        let described = DescribedState { text: value("text")?, state: value("state")? };
+        Some(Told { described, fingerprint: value("fingerprint")? })
+    })();
+    let Some(told) = told else { return Some(Err(not_restored("its instruction is not whole"))) };
+    let now = fingerprint(root, &told.described);
+    Some(told.restored(&now))
+}
+
+/// The file with the description of its dataset in it.
+pub(super) fn added(mut xml: String, dataset: &Dataset) -> String {
+    let Some(described) = &dataset.described else { return xml };
+    // Read as any reader will, so that both count the same numbers.
+    let Ok(document) = Document::parse(&xml) else { return xml };
+    let root = document.root_element();
+    let Some(first) = children(root, "WindowElementType").next() else { return xml };
+    let (at, fingerprint) = (first.range().start, fingerprint(root, described));
+    let instruction = format!(
+        "<?{TARGET} version=\"{VERSION}\" state=\"{}\" fingerprint=\"{fingerprint}\" text=\"{}\"?>\n\t",
+        escaped(&described.state),
+        escaped(&described.text)
+    );
+    xml.insert_str(at, &instruction);
+    xml
+}
+
+/// The state key that the description tells, of which the format itself has no place.
+pub(super) fn tells_state(dataset: &Dataset) -> bool {
+    dataset.described.as_ref().is_some_and(|described| described.state == dataset.state)
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        // Line ends stay: the text can be read where it stands.
+        if (c.is_control() && c != '\n') || "%?<>&\"'".contains(c) || ('\u{fffe}'..='\u{ffff}').contains(&c) {
+            let mut bytes = [0; 4];
+            c.encode_utf8(&mut bytes).bytes().for_each(|byte| out.push_str(&format!("%{byte:02X}")));
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
+/// A value of the instruction as it was before it was escaped.
+fn value(instruction: &str, key: &str) -> Option<String> {
+    let quoted = instruction.split_once(&format!("{key}=\""))?.1;
+    let (text, _) = quoted.split_once('"')?;
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.bytes().filter(|byte| *byte != b'\r');
+    while let Some(byte) = rest.next() {
+        if byte == b'%' {
+            let digits = [rest.next()?, rest.next()?];
+            bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).ok()?, 16).ok()?);
+        } else {
+            bytes.push(byte);
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_text_goes_through_an_instruction() {
+        for text in
+            ["", "a = \"b\"\n[x]\n", "?> <a> & %3F --> ]]> '", "ψ = 45°\t\r\n\u{1}\u{fffe}", "state=\"0\" text=\"\""]
+        {
+            let xml = format!("<a><?{TARGET} state=\"{0}\" text=\"{0}\"?></a>", escaped(text));
+            let document = Document::parse(&xml).unwrap();
+            let pi = document.root_element().first_child().unwrap().pi().unwrap();
+            for key in ["state", "text"] {
+                assert_eq!(value(pi.value.unwrap(), key).as_deref(), Some(text), "{xml}");
+            }
+        }
+    }
+}

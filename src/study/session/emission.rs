@@ -1,0 +1,113 @@
+//! What an aperture emits: by its description for the very sun, by its data for all other light; and what of both is kept.
+
+use super::Session;
+use crate::compute::btdf::{CellMatrix, Dataset, Indicatrices, Scattered};
+use crate::compute::lid::peaks::{self, Peaks};
+use crate::compute::lid::{Emission, Facing, Interpolator, SkyThrough, SunThrough};
+use crate::study::cache::bits;
+use crate::study::scene::Scene;
+use crate::study::scene_file::Interpolation;
+use crate::study::system::{System, VerySystem};
+use std::sync::Arc;
+
+impl Session {
+    /// What an aperture emits under the scene's outside.
+    pub(super) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
+        let system = &scene.apertures[aperture].system;
+        let facing = scene.facing(aperture);
+        match system.very.as_ref().filter(|_| scene.beams) {
+            Some(very) => {
+                let mut emission = self.diffuse(scene, system, very, &Facing { sun: None, ..facing });
+                emission.add_sun_through(&self.sun_through(very, &facing).1);
+                emission
+            }
+            None => self.by_data(scene, &system.dataset, &facing),
+        }
+    }
+
+    /// What a described system makes of sky and ground.
+    fn diffuse(&self, scene: &Scene, system: &System, very: &VerySystem, facing: &Facing<'_>) -> Emission {
+        if !facing.outside.is_lit() {
+            return Emission::dark();
+        }
+        if !very.answers_for_the_sky() {
+            return self.by_data(scene, &system.dataset, facing);
+        }
+        let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
+        let compute = || Ok::<_, std::convert::Infallible>((very.clone(), SkyThrough::new(very.0.as_ref())));
+        match self.skies.get(key, compute) {
+            Ok(own) => own.1.emission(facing),
+            Err(never) => match never {},
+        }
+    }
+
+    /// What a described system makes of the sun.
+    fn sun_through(&self, very: &VerySystem, facing: &Facing<'_>) -> Arc<(VerySystem, SunThrough)> {
+        let mut key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64, facing.surface as u64];
+        // Everything that decides how much of the disc shines from where.
+        let edges = facing.sun_edges().map(|edge| edge.normal.extend(edge.offset).to_array());
+        key.extend(bits(edges.into_iter().flatten()));
+        if let (Some(sun), Some(direction)) = (facing.sun, facing.sun_direction()) {
+            key.extend(bits(direction.vector().to_array()));
+            key.extend(bits([sun.direct_normal]));
+        }
+        // The answer keeps the system alive, so that no other can have its address.
+        let compute = || Ok::<_, std::convert::Infallible>((very.clone(), SunThrough::new(very.0.as_ref(), facing)));
+        match self.suns.get(key, compute) {
+            Ok(own) => own,
+            Err(never) => match never {},
+        }
+    }
+
+    /// What the data make of the outside.
+    fn by_data(&self, scene: &Scene, dataset: &Arc<Dataset>, facing: &Facing<'_>) -> Emission {
+        let btdf = dataset.transmission().expect("a resolved scene has only systems with transmission data");
+        match &btdf.scattered {
+            // Taken at their word.
+            _ if scene.interpolation == Interpolation::Patch => Emission::new(btdf, facing),
+            Some(Scattered::Directions(data)) => {
+                let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
+                Emission::interpolated(btdf, &self.interpolator(data), schemes, facing)
+            }
+            Some(Scattered::Cells(matrix)) => {
+                let mut emission = Emission::new(btdf, facing);
+                if emission.incident_sun > 0.0
+                    && let Some(peaks) = self.peaks(dataset, matrix, facing)
+                {
+                    emission.take_peaks(&peaks.1, facing, scene.beams);
+                }
+                emission
+            }
+            _ => Emission::new(btdf, facing),
+        }
+    }
+
+    /// The beams in a matrix.
+    fn peaks(
+        &self,
+        dataset: &Arc<Dataset>,
+        matrix: &CellMatrix,
+        facing: &Facing<'_>,
+    ) -> Option<Arc<(Arc<Dataset>, Peaks)>> {
+        let sun = facing.sun_direction()?;
+        let mut key = vec![Arc::as_ptr(dataset) as u64];
+        if matrix.incident().len() > peaks::MOST_CELLS {
+            key.extend(matrix.incident().index(sun).map(|cell| cell as u64));
+        }
+        let compute = || Ok::<_, std::convert::Infallible>((Arc::clone(dataset), Peaks::new(matrix, sun)));
+        match self.peaks.get(key, compute) {
+            Ok(own) => Some(own),
+            Err(never) => match never {},
+        }
+    }
+
+    /// What interpolation between the directions of a dataset needs.
+    pub(in crate::study) fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
+        let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
+        // The interpolator keeps the data alive, so that no others can have their address.
+        match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {
+            Ok(own) => own,
+            Err(never) => match never {},
+        }
+    }
+}
