@@ -92,15 +92,19 @@ impl Plan {
         let weight =
             scene.apertures.iter().map(|a| a.reflectance * a.aperture.area()).sum::<f64>() / surface(&scene.room);
         let share = format!("{:.2} % of the room's surface times reflectance are apertures", 100.0 * weight);
-        plan.add(
-            "back reflection",
-            directional > 0 && scene.interreflection,
-            &if directional > 0 {
-                format!("{share}: {directional} of them by direction, from the dataset's own cells")
-            } else {
-                format!("{share}: too little for its direction to matter, asked for, or no cells: taken as diffuse")
-            },
-        );
+        let by_cells = directional > 0 && scene.interreflection;
+        let reason = if by_cells {
+            format!(
+                "{share}; {directional} of {} by direction, from the dataset's own cells; the room without them is kept \
+                 for other states",
+                scene.apertures.len()
+            )
+        } else if scene.interreflection {
+            format!("{share}; no cells of it in the data, or asked for: taken as diffuse")
+        } else {
+            String::from("the scene asks for the direct component alone")
+        };
+        plan.add("back reflection", by_cells, &reason);
         plan
     }
 

@@ -162,14 +162,11 @@ impl Scene {
                 None => system.dataset.structure,
             };
             let by_dataset = matches!(keys.reflectance, ApertureReflectance::Dataset);
-            let target = file.compute.error_target.unwrap_or(0.01);
+            // A state costs little more by its cells than as diffuse: the room is black to it and shared by all states.
             let directional = by_dataset
+                && file.compute.interreflection
                 && reflects_by_cells(&system)
-                && match file.compute.back_reflection {
-                    BackReflectionMode::Diffuse => false,
-                    BackReflectionMode::Directional => true,
-                    BackReflectionMode::Auto => reflectance * aperture.area() / surface(&room) > 2.0 * target,
-                };
+                && file.compute.back_reflection != BackReflectionMode::Diffuse;
             list.push(SceneAperture { aperture, system, reflectance, structure, directional, controlled: picked });
         }
         if let Some(target) = file.compute.error_target {

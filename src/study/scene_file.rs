@@ -434,12 +434,12 @@ impl BeamMode {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BackReflectionMode {
-    /// By direction where that can matter more than the error asked for, else diffuse.
+    /// By the dataset's own back reflection wherever it is given on cells, else diffuse.
     #[default]
     Auto,
     /// Diffuse.
     Diffuse,
-    /// By the dataset's own back reflection wherever it is given on cells.
+    /// The same, said aloud.
     Directional,
 }
 

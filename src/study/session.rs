@@ -4,6 +4,7 @@
 mod emission;
 pub(super) mod interreflected;
 pub(super) mod responses;
+mod thrown_back;
 
 use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
@@ -17,6 +18,7 @@ use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::peaks::Peaks;
 use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
+use crate::compute::room::back_reflection::RoomSide;
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::first_bounce::PatchWeights;
@@ -24,6 +26,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
+use responses::{ByCells, Response};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -115,6 +118,10 @@ pub struct Session {
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
+    responses: Cache<Vec<Response>>,
+    by_cells: Cache<ByCells>,
+    sides: Cache<RoomSide>,
+    falling: Cache<Vec<Vec<f64>>>,
     bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
     suns: Cache<(VerySystem, SunThrough)>,
@@ -137,6 +144,10 @@ impl Session {
             gather: Cache::new(8),
             reception: Cache::new(16),
             patches: Cache::new(24),
+            responses: Cache::new(4),
+            by_cells: Cache::new(12),
+            sides: Cache::new(12),
+            falling: Cache::new(24),
             bands: Cache::new(16),
             interpolators: Cache::new(6),
             suns: Cache::new(64),

@@ -153,6 +153,38 @@ fn apertures_that_reflect_by_direction_are_part_of_it() {
 }
 
 #[test]
+fn beams_reach_apertures_that_reflect_by_direction() {
+    let mut dataset = klems(rough);
+    let mirror = klems(|i, o| if i.vector().distance(o.vector()) < 0.3 { 4.0 } else { 0.2 });
+    dataset.visible.reflection_back = mirror.visible.transmission_front;
+    let make = |sky: &str| {
+        let apertures = vec![facade([0.3, 0.5], [1.6, 2.2], MADE), facade([2.2, 0.5], [1.5, 2.0], TRANSPARENT)];
+        text(apertures, 0.0, sky).scene_with(dataset.clone())
+    };
+    let scene = make(OVERCAST);
+    assert!(scene.apertures[0].back_reflection().is_some(), "by cells wherever there are any");
+    agree("sun before mirrors", &scene, &[make(&clear(41.0, 190.0, 50_000.0))], 6e-3);
+}
+
+#[test]
+fn another_state_in_a_session_is_what_it_is_by_itself() {
+    let state = |strength: f64| {
+        let mut dataset = klems(rough);
+        let mirror = klems(|i, o| if i.vector().distance(o.vector()) < 0.3 { strength } else { 0.1 });
+        dataset.visible.reflection_back = mirror.visible.transmission_front;
+        text(vec![facade([0.3, 0.5], [3.4, 2.2], MADE)], 0.0, OVERCAST).scene_with(dataset)
+    };
+    let session = Session::new();
+    let light =
+        |session: &Session, scene: &Scene| Coefficients::new(session, scene, &Silent).unwrap().sky(&scene.outside);
+    let (first, second) = (state(4.0), state(1.0));
+    let before = light(&session, &first);
+    let after = light(&session, &second);
+    assert_eq!(after, light(&Session::new(), &second));
+    assert!(before.iter().zip(&after).all(|(a, b)| a > b), "more is thrown back by the first");
+}
+
+#[test]
 fn light_adds_up_and_scales() {
     let prepared = text(vec![facade([0.5, 1.0], [3.0, 1.5], MADE)], 0.0, OVERCAST).scene_with(klems(rough));
     let coefficients = Coefficients::new(&Session::new(), &prepared, &Silent).unwrap();

@@ -159,6 +159,12 @@ fn interreflection() {
     every_sensor("inter", |_| Some(Bar { relative: 0.01, absolute: 0.01 }));
 }
 
+/// Openings that are tiny beside their room, many strips: the light there is is small, so that only shares of it count.
+#[test]
+fn extreme_openings() {
+    every_sensor("extreme", |_| Some(Bar { relative: 5e-3, absolute: 0.0 }));
+}
+
 #[test]
 fn matrices_of_makers() {
     every_sensor("systems", |name| {

@@ -8,7 +8,7 @@
 use super::aperture::Aperture;
 use super::first_bounce::PatchWeights;
 use super::mesh::Mesh;
-use super::radiosity::{Exitance, Radiosity};
+use super::radiosity::{Exitance, Radiosity, dot};
 use crate::compute::btdf::{CellMatrix, Scattered};
 use crate::compute::direction::Dir;
 use faer::Mat;
@@ -60,13 +60,9 @@ impl<'a> BackReflection<'a> {
         self.source.iter().map(|&cell| reflected[cell]).collect()
     }
 
-    /// For every cell of [`Self::weights`] the weights of the patches' exitance that make its luminance.
-    pub fn by_patch(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
-        let incident = self.matrix.incident().len();
-        let rows: Vec<_> = (0..incident).map(|i| self.matrix.row(i)).collect();
-        let matrix: Vec<Vec<f64>> =
-            self.source.iter().map(|&cell| rows.iter().map(|row| row[cell]).collect()).collect();
-        self.weights.returning(mesh, aperture, &matrix)
+    /// Luminance of the cell of [`Self::weights`] per illuminance through an incident one. \[1/sr\]
+    fn value(&self, incident: usize, cell: usize) -> f64 {
+        self.matrix.value(incident, self.source[cell])
     }
 
     /// The patches' weights.
@@ -80,7 +76,7 @@ type Mirrors<'a> = [(usize, BackReflection<'a>)];
 
 /// What goes to and fro between apertures and room, for one light: the luminance of every mirroring aperture once it has
 /// settled; `exitance` is brought up to date. `first`: what the patches receive before they reflect, without the mirrors'
-/// light; `beam`: what of it they reflected before, as seen by the mirrors alone. [`settled_weights`] serves many lights.
+/// light; `beam`: what of it they reflected before, as seen by the mirrors alone. [`settled`] serves many lights.
 pub fn settled_light(
     radiosity: &Radiosity,
     geometry: &[Aperture],
@@ -115,37 +111,56 @@ pub fn settled_light(
     luminances
 }
 
-/// Weights of the luminances of all mirroring cells once they have settled, by patch.
-pub struct Settled {
-    /// Of what the patches receive before they reflect.
-    pub by_first: Vec<Vec<f64>>,
-    /// Of what they receive and throw on the mirrors before all else; what they throw elsewhere is counted elsewhere.
-    pub by_lit: Vec<Vec<f64>>,
+/// The room as an aperture's side that reflects by cells sees it, whatever it reflects: rows by cell that light falls in
+/// through. Geometry and the room's own reflectances only: shared by all systems and states on the same cells.
+pub struct RoomSide {
+    /// Weights of the patches' exitance.
+    falling: Vec<Vec<f64>>,
+    /// Weights of what the patches receive before they reflect, with all reflections but those of mirrors.
+    returned: Vec<Vec<f64>>,
 }
 
-/// [`settled_light`] read backwards. With l the luminances of all mirroring cells, W what the patches receive of them,
-/// P what falls back and is reflected of an exitance and Q what the room returns to them of a first illuminance e,
-/// l = Q (e + W l) + Pρ e_lit: the rows of (1 − Q W)⁻¹ Q and (1 − Q W)⁻¹ Pρ, by patch.
-pub fn settled_weights(radiosity: &Radiosity, geometry: &[Aperture], mirrors: &Mirrors<'_>) -> Settled {
-    let mesh = &radiosity.nested.fine;
-    let by_patch: Vec<Vec<f64>> =
-        mirrors.iter().flat_map(|(index, mirror)| mirror.by_patch(mesh, &geometry[*index])).collect();
-    let returned: Vec<Vec<f64>> = by_patch.par_iter().map(|weights| radiosity.adjoint_fine(weights)).collect();
-    let again: Vec<Vec<f64>> = returned.par_iter().map(|row| gathered(mirrors, row)).collect();
-    let (count, patches) = (returned.len(), mesh.patches.len());
-    let balance = Mat::from_fn(count, count, |i, j| f64::from(u8::from(i == j)) - again[i][j]).partial_piv_lu();
-    let rows = |settled: Mat<f64>| -> Vec<Vec<f64>> {
-        (0..count).map(|i| (0..patches).map(|j| settled[(i, j)]).collect()).collect()
-    };
-    Settled {
-        by_first: rows(balance.solve(&Mat::from_fn(count, patches, |i, j| returned[i][j]))),
-        by_lit: rows(balance.solve(&Mat::from_fn(count, patches, |i, j| by_patch[i][j] * mesh.patches[j].reflectance))),
+impl RoomSide {
+    /// By the cells of `weights`.
+    pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
+        let falling = weights.falling(&radiosity.nested.fine, aperture);
+        let returned = falling.par_iter().map(|weights| radiosity.adjoint_fine(weights)).collect();
+        Self { falling, returned }
+    }
+
+    /// What falls in through every cell by way of the room: of what the patches receive (`first`), and of what they
+    /// throw on the aperture before all else (`lit`, as illuminance), which is counted elsewhere where it goes elsewhere.
+    pub fn incident(&self, mesh: &Mesh, first: &[f64], lit: Option<&[f64]>) -> Vec<f64> {
+        let exitance: Option<Vec<f64>> =
+            lit.map(|lit| lit.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.reflectance).collect());
+        let rows = self.returned.iter().zip(&self.falling);
+        rows.map(|(returned, falling)| dot(returned, first) + exitance.as_ref().map_or(0.0, |b| dot(falling, b)))
+            .collect()
+    }
+
+    /// What falls in per luminance of every cell of emergent light: a row for each cell that light falls in through.
+    pub fn by_cells(&self, emergent: &PatchWeights) -> Vec<Vec<f64>> {
+        self.returned.par_iter().map(|row| emergent.gathered(row)).collect()
     }
 }
 
-/// For weights of the patches' illuminance the weights of the luminances of all mirroring cells.
-pub fn gathered(mirrors: &Mirrors<'_>, weights: &[f64]) -> Vec<f64> {
-    mirrors.iter().flat_map(|(_, mirror)| mirror.weights().gathered(weights)).collect()
+/// [`settled_light`] solved once for every light: with R what the mirrors make of light that falls in by cells, and G what
+/// of their own luminances falls in again, l = R (e + G l): the matrix (1 − R G)⁻¹ R. `again`: G, by mirror that light
+/// falls on and mirror that it comes from.
+pub fn settled(mirrors: &Mirrors<'_>, again: &[Vec<Arc<Vec<Vec<f64>>>>]) -> Mat<f64> {
+    let counts: Vec<usize> = mirrors.iter().map(|(_, mirror)| mirror.weights.basis.len()).collect();
+    // Mirror and own cell of every cell of all.
+    let cells: Vec<(usize, usize)> =
+        counts.iter().enumerate().flat_map(|(mirror, &count)| (0..count).map(move |cell| (mirror, cell))).collect();
+    let reflect = Mat::from_fn(cells.len(), cells.len(), |o, i| {
+        let ((to, cell), (from, incident)) = (cells[o], cells[i]);
+        if to == from { mirrors[to].1.value(incident, cell) } else { 0.0 }
+    });
+    let again = Mat::from_fn(cells.len(), cells.len(), |i, o| again[cells[i].0][cells[o].0][cells[i].1][cells[o].1]);
+    // One thread: the result must not depend on their number.
+    faer::set_global_parallelism(faer::Par::Seq);
+    let balance = Mat::<f64>::identity(cells.len(), cells.len()) - &reflect * again;
+    balance.partial_piv_lu().solve(&reflect)
 }
 
 #[cfg(test)]

@@ -193,4 +193,46 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_fan_keeps_its_flux_and_its_reflection_when_it_is_merged() {
+        let room = BoxRoom { size: DVec3::new(4.0, 6.0, 3.0), floor: 0.2, walls: 0.5, ceiling: 0.7 };
+        let aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.7), size: [2.5, 1.9] };
+        let mesh = Nested::with_about(&room, &[aperture], &[0.3], 600).unwrap().fine;
+        let fan: Vec<Beam> = (0..150)
+            .map(|k| {
+                let rise = 0.1 + 0.006 * f64::from(k);
+                Beam {
+                    aperture,
+                    from: DVec3::new(0.2, -rise.cos(), -rise.sin()).normalize(),
+                    flux: 1.0 + f64::from(k % 7),
+                }
+            })
+            .collect();
+        let few = merged(&fan);
+        assert!(few.len() <= MOST_BEAMS && few.len() > MOST_BEAMS / 3, "{}", few.len());
+        let flux = |beams: &[Beam]| beams.iter().map(|beam| beam.flux).sum::<f64>();
+        assert!((flux(&few) / flux(&fan) - 1.0).abs() < 1e-12);
+        let reflected = |beams: &[Beam]| -> f64 {
+            let outlines = beams.iter().flat_map(|beam| beam.outlines(&mesh));
+            outlines.map(|outline| outline.exitance * area(&outline.corners).abs()).sum()
+        };
+        let (one, all) = (reflected(&few), reflected(&fan));
+        assert!((one / all - 1.0).abs() < 2e-3, "{one} {all}");
+    }
+
+    #[test]
+    fn apertures_in_a_lit_wall_reflect_their_own_share() {
+        let room = BoxRoom { size: DVec3::new(4.0, 6.0, 3.0), floor: 0.2, walls: 0.5, ceiling: 0.7 };
+        let facade = Aperture { surface: Surface::Facade, corner: DVec3::new(0.0, 0.0, 0.5), size: [4.0, 2.0] };
+        let roof = Aperture { surface: Surface::Roof, corner: DVec3::new(0.5, 0.2, 3.0), size: [3.0, 3.0] };
+        let mesh = Nested::with_about(&room, &[facade, roof], &[0.1, 0.4], 600).unwrap().fine;
+        // Thrown up by a mirror: onto the ceiling and the light in it.
+        let beam = Beam { aperture: facade, from: DVec3::new(0.1, -0.7, -0.8).normalize(), flux: 50.0 };
+        let mut illuminance = vec![0.0; mesh.patches.len()];
+        beam.add_to(&mesh, &mut illuminance);
+        let by_patches: f64 = illuminance.iter().zip(&mesh.patches).map(|(e, p)| e * p.area * p.reflectance).sum();
+        let by_outlines: f64 = beam.outlines(&mesh).iter().map(|o| o.exitance * area(&o.corners).abs()).sum();
+        assert!((by_outlines / by_patches - 1.0).abs() < 1e-9, "{by_outlines} {by_patches}");
+    }
 }

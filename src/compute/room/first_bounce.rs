@@ -142,17 +142,16 @@ impl PatchWeights {
         if received > 0.0 { gaps.map(|(r, c)| r * (1.0 / c - 1.0).abs()).sum::<f64>() / received } else { 0.0 }
     }
 
-    /// For every cell of emergent light (rows of `matrix`, by cell that light falls on) the weights of the patches'
-    /// exitance: what [`Self::falling_back`] and a back reflection make of it.
-    pub fn returning(&self, mesh: &Mesh, aperture: &Aperture, matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    /// [`Self::falling_back`] as weights: for every cell those of the patches' exitance.
+    pub fn falling(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
         let scale = 1.0 / (PI * aperture.area());
-        let weight = |row: &Vec<f64>, patch: &Patch, reflected: &Vec<f64>| -> f64 {
-            let parts = row.iter().zip(&self.closure).zip(reflected);
-            patch.area * scale * parts.map(|((w, c), m)| if *c > 0.0 { m * w / c } else { 0.0 }).sum::<f64>()
+        let share = |cell: usize, row: &Vec<f64>, patch: &Patch| {
+            let closure = self.closure[cell];
+            if row.is_empty() || closure <= 0.0 { 0.0 } else { patch.area * scale * row[cell] / closure }
         };
-        matrix
-            .par_iter()
-            .map(|reflected| self.rows.iter().zip(&mesh.patches).map(|(row, p)| weight(row, p, reflected)).collect())
+        (0..self.basis.len())
+            .into_par_iter()
+            .map(|cell| self.rows.iter().zip(&mesh.patches).map(|(row, patch)| share(cell, row, patch)).collect())
             .collect()
     }
 

@@ -37,10 +37,10 @@ const MOST_POINTS: usize = 6;
 fn points(size: f64, distance: f64) -> usize {
     // The slack keeps decisions the same for a room in another unit.
     match size / distance.max(1e-12 * size) - 1e-9 {
-        r if r < 0.2 => 1,
-        r if r < 0.6 => 2,
-        r if r < 1.2 => 3,
-        r if r < 2.5 => 4,
+        r if r < 0.14 => 1,
+        r if r < 0.5 => 2,
+        r if r < 1.0 => 3,
+        r if r < 2.0 => 4,
         _ => MOST_POINTS,
     }
 }
@@ -157,4 +157,105 @@ fn samples(wall: &Wall, corners: &[DVec2], rule: &[(f64, f64)]) -> Vec<(DVec3, f
         }
     }
     samples
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mesh::{BoxRoom, Nested};
+    use super::super::radiosity::Radiosity;
+    use super::*;
+
+    fn room(scale: f64) -> BoxRoom {
+        BoxRoom { size: scale * DVec3::new(4.0, 6.0, 3.0), floor: 0.2, walls: 0.5, ceiling: 0.7 }
+    }
+
+    fn mesh(scale: f64) -> Mesh {
+        Nested::with_about(&room(scale), &[], &[], 640).unwrap().fine
+    }
+
+    /// A rectangle on the floor, turned a little unless it is to fill it.
+    fn on_floor(corners: [[f64; 2]; 4]) -> Outline {
+        Outline { wall: 0, corners: corners.map(DVec2::from_array).to_vec(), exitance: 100.0 }
+    }
+
+    fn largest_gap(a: &[f64], b: &[f64]) -> f64 {
+        let mean = b.iter().sum::<f64>() / b.len() as f64;
+        a.iter().zip(b).map(|(a, b)| (a - b).abs() / b.max(0.1 * mean)).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn an_outline_that_fills_a_wall_is_that_wall() {
+        let nested = Nested::with_about(&room(1.0), &[], &[], 640).unwrap();
+        let (thrown, gap) =
+            thrown_on_patches(&nested.fine, &[on_floor([[0.0, 0.0], [4.0, 0.0], [4.0, 6.0], [0.0, 6.0]])]);
+        // Seen from the middle of a patch in closed form: near enough away from the edges of the floor.
+        for (patch, e) in nested.fine.patches.iter().zip(&thrown).filter(|(patch, _)| patch.wall == 1) {
+            let wall = &nested.fine.walls[1];
+            let [low, _, high, _] = patch.corners(wall);
+            let floor = [DVec2::ZERO, DVec2::new(4.0, 0.0), DVec2::new(4.0, 6.0), DVec2::new(0.0, 6.0)];
+            let exact = 100.0 * polygon_factor(&nested.fine.walls[0], &floor, 0.5 * (low + high), wall.normal);
+            assert!((e / exact - 1.0).abs() < 0.01, "{e} {exact}");
+        }
+        assert!(gap < 3e-3, "{gap}");
+    }
+
+    #[test]
+    fn halves_make_the_whole() {
+        let mesh = mesh(1.0);
+        for size in [0.01, 0.3, 2.0] {
+            let corner = |x: f64, y: f64| [1.0 + size * (x + 0.2 * y), 2.0 + size * (y - 0.1 * x)];
+            let part =
+                |from: f64, to: f64| on_floor([corner(from, 0.0), corner(to, 0.0), corner(to, 1.0), corner(from, 1.0)]);
+            let (whole, _) = thrown_on_patches(&mesh, &[part(0.0, 1.0)]);
+            let (halves, _) = thrown_on_patches(&mesh, &[part(0.0, 0.5), part(0.5, 1.0)]);
+            assert!(largest_gap(&halves, &whole) < 8e-3, "{size}: {}", largest_gap(&halves, &whole));
+        }
+    }
+
+    #[test]
+    fn whatever_an_outline_throws_arrives() {
+        let mesh = mesh(1.0);
+        // Small and in the open, a sliver along the wall, one in a corner.
+        for corners in [
+            [[2.0, 3.0], [2.05, 3.0], [2.05, 3.05], [2.0, 3.05]],
+            [[0.0, 1.0], [0.02, 1.0], [0.02, 5.0], [0.0, 5.0]],
+            [[3.5, 5.3], [4.0, 5.3], [4.0, 6.0], [3.5, 6.0]],
+        ] {
+            let outline = on_floor(corners);
+            let (thrown, gap) = thrown_on_patches(&mesh, std::slice::from_ref(&outline));
+            let arrived: f64 = thrown.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.area).sum();
+            let left = outline.exitance * area(&outline.corners);
+            assert!((arrived / left - 1.0).abs() < 1e-12, "{arrived} {left}");
+            assert!(gap < 0.03, "{corners:?}: {gap}");
+            assert!(mesh.patches.iter().zip(&thrown).all(|(patch, e)| if patch.wall == 0 {
+                *e == 0.0
+            } else {
+                *e >= 0.0
+            }));
+        }
+    }
+
+    #[test]
+    fn the_unit_of_length_does_not_matter() {
+        let corners = [[1.0, 2.0], [1.4, 2.1], [1.4, 3.0], [1.0, 3.2]];
+        let (small, _) = thrown_on_patches(&mesh(1.0), &[on_floor(corners)]);
+        let (large, _) = thrown_on_patches(&mesh(1024.0), &[on_floor(corners.map(|p| p.map(|x| 1024.0 * x)))]);
+        assert!(largest_gap(&large, &small) < 1e-11);
+    }
+
+    #[test]
+    fn what_an_outline_reflects_is_absorbed_in_the_end() {
+        let radiosity = Radiosity::new(Nested::with_about(&room(1.0), &[], &[], 640).unwrap()).unwrap();
+        let patches = &radiosity.nested.fine.patches;
+        let outline = on_floor([[1.0, 2.0], [1.07, 2.0], [1.07, 2.4], [1.0, 2.4]]);
+        let (thrown, _) = thrown_on_patches(&radiosity.nested.fine, std::slice::from_ref(&outline));
+        let exitance = radiosity.exitance(&thrown);
+        let absorbed: f64 = patches
+            .iter()
+            .zip(&exitance.fine)
+            .map(|(patch, b)| patch.area * b * (1.0 - patch.reflectance) / patch.reflectance)
+            .sum();
+        let reflected = outline.exitance * area(&outline.corners);
+        assert!((absorbed / reflected - 1.0).abs() < 1e-9, "{absorbed} {reflected}");
+    }
 }

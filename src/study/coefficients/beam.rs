@@ -24,8 +24,8 @@ impl Coefficients {
         }
         if let Some((room, landing)) = landing(self, first) {
             let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
-            for (s, response) in room.sensors.iter().enumerate() {
-                sums[s] += response.of_beams(&landing) + landing.light_at(mesh, sensors[s].position, sensors[s].normal);
+            for (s, reflected) in room.of_beams(&landing, false).into_iter().enumerate() {
+                sums[s] += reflected.value + landing.light_at(mesh, sensors[s].position, sensors[s].normal);
             }
         }
         sums.iter_mut().for_each(|e| *e = e.max(0.0));
@@ -55,14 +55,11 @@ impl Coefficients {
             add_beam(self, index, &facing, &mut first, &mut own);
         }
         if let Some((room, landing)) = landing(self, first) {
-            let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
             let rest = self.rest().hypot(landing.gap);
-            for (s, response) in room.sensors.iter().enumerate() {
-                let (through_patches, difference, thrown_back) = response.of(&landing.thrown);
-                let again = response.of_beams(&landing);
-                let thrown_back = thrown_back + (again - through_patches);
-                let value = again + landing.light_at(mesh, sensors[s].position, sensors[s].normal);
-                estimates[s].error += (DIFFERENCE_ALONE * difference).hypot(rest * value) + UNEVEN * thrown_back;
+            for (s, reflected) in room.of_beams(&landing, true).into_iter().enumerate() {
+                // The outlines are seen in closed form.
+                estimates[s].error += (DIFFERENCE_ALONE * reflected.difference).hypot(rest * reflected.value)
+                    + UNEVEN * reflected.thrown_back;
             }
         }
         estimates.iter_mut().for_each(|e| e.error += 1e-6 * e.value);

@@ -6,9 +6,7 @@ use crate::compute::room::first_bounce::{MOST_CELLS, merged_basis};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
-use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
-use crate::study::session::responses::{Response, Responses};
-use rayon::prelude::*;
+use crate::study::session::responses::Responses;
 use std::sync::Arc;
 
 /// Three rows of one number a sensor, one behind the other: all light, the interreflected part of it, and what that part
@@ -60,28 +58,16 @@ impl Views {
         let mut gap = 0.0;
         if let Some(room) = room {
             let merged = if basis.len() > MOST_CELLS { Arc::new(merged_basis()) } else { Arc::clone(&basis) };
-            let weights = room.weights(session, index, &merged);
-            gap = weights.gap();
-            // Sensor by sensor, by cell: value and doubt.
-            let by_sensor: Vec<[Vec<f64>; 2]> = room
-                .sensors
-                .par_iter()
-                .map(|response| {
-                    let value = weights.gathered(&response.value);
-                    if width == sensors {
-                        return [value, Vec::new()];
-                    }
-                    let doubt = doubt(response, &|list| weights.gathered(list), value.len());
-                    [value, doubt]
-                })
-                .collect();
+            gap = room.weights(session, index, &merged).gap();
+            let by_sensor = room.of_cells(session, index, &merged, width > sensors);
             let mut add = |cell: usize, from: usize, share: f64| {
                 let row = &mut rows[cell * width..(cell + 1) * width];
-                for (s, [value, doubt]) in by_sensor.iter().enumerate() {
-                    row[s] += (share * value[from]) as f32;
-                    if let Some(doubt) = doubt.get(from) {
-                        row[sensors + s] += (share * value[from]) as f32;
-                        row[2 * sensors + s] += (share * doubt) as f32;
+                for (s, by_cell) in by_sensor.iter().enumerate() {
+                    let light = by_cell[from];
+                    row[s] += (share * light.value) as f32;
+                    if width > sensors {
+                        row[sensors + s] += (share * light.value) as f32;
+                        row[2 * sensors + s] += (share * light.doubt()) as f32;
                     }
                 }
             };
@@ -121,19 +107,6 @@ impl Views {
     }
 }
 
-/// What the interreflected light of a response is in doubt by: the two densities, and light thrown back by apertures.
-fn doubt(response: &Response, gather: &dyn Fn(&[f64]) -> Vec<f64>, cells: usize) -> Vec<f64> {
-    let mut squares = vec![0.0; cells];
-    for wall in &response.walls {
-        squares.iter_mut().zip(gather(wall)).for_each(|(sum, x)| *sum += x * x);
-    }
-    let mut doubt: Vec<f64> = squares.iter().map(|x| DIFFERENCE_ALONE * x.sqrt()).collect();
-    if !response.thrown_back.is_empty() {
-        doubt.iter_mut().zip(gather(&response.thrown_back)).for_each(|(sum, x)| *sum += UNEVEN * x);
-    }
-    doubt
-}
-
 /// The light of an aperture of even luminance 1.
 pub(super) fn even(
     session: &Session,
@@ -149,11 +122,10 @@ pub(super) fn even(
     if let Some(room) = room {
         let mut first = room.radiosity.illuminance_from_aperture(index);
         first.iter_mut().for_each(|e| *e *= std::f64::consts::PI);
-        for (s, response) in room.sensors.iter().enumerate() {
-            let (value, difference, thrown_back) = response.of(&first);
-            light[s] += value;
-            light[sensors + s] = value;
-            light[2 * sensors + s] = DIFFERENCE_ALONE * difference + UNEVEN * thrown_back;
+        for (s, reflected) in room.of(&first).into_iter().enumerate() {
+            light[s] += reflected.value;
+            light[sensors + s] = reflected.value;
+            light[2 * sensors + s] = reflected.doubt();
         }
     }
     Ok(light)

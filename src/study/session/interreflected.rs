@@ -192,7 +192,8 @@ impl Session {
                     squares += (by_fine - by_coarse).powi(2);
                 }
                 let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
-                let rest = (REST / mesh.patches.len() as f64).hypot(gap) * value;
+                // The outlines are seen in closed form.
+                let rest = (REST / mesh.patches.len() as f64).hypot(gap) * (value - outlines);
                 let near = NEAR * dot(&fine.slopes, &exitance.fine);
                 Estimate::new(
                     value,

@@ -1,12 +1,13 @@
 //! What every sensor's interreflected light hangs on: weights of the first illuminance of every patch, from the room's
-//! balance read backwards. One set serves every sky, sun and system of a room.
+//! balance read backwards. One set serves every sky, sun and system of a room; what apertures throw back by direction
+//! comes in by cells, see [`super::thrown_back`].
 
-use super::interreflected::{mirrors, room_key, spans};
-use super::{Session, check};
+use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key, spans};
+use super::thrown_back::ThrownBack;
+use super::{Session, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
 use crate::compute::room::aperture::Aperture;
-use crate::compute::room::back_reflection::{BackReflection, Settled, gathered, settled_weights};
 use crate::compute::room::first_bounce::{BeamLanding, PatchWeights};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
@@ -21,27 +22,44 @@ pub(in crate::study) struct Response {
     pub value: Vec<f64>,
     /// The difference of the two densities, wall by wall.
     pub walls: Vec<Vec<f64>>,
-    /// Of what comes back from apertures that reflect by direction; empty without such.
-    pub thrown_back: Vec<f64>,
-    /// Of what beams light, as far as these apertures alone throw it back; empty without such.
-    pub lit: Vec<f64>,
 }
 
 /// Weights of all sensors.
 pub(in crate::study) struct Responses {
     /// The balance.
     pub radiosity: Arc<Radiosity>,
-    /// In the order of the scene.
-    pub sensors: Vec<Response>,
-    key: Key,
-    geometry: Vec<Aperture>,
+    /// In the order of the scene; apertures that reflect by direction are black to them.
+    sensors: Arc<Vec<Response>>,
+    /// What these apertures throw back.
+    pub(super) mirrors: Option<ThrownBack>,
+    pub(super) key: Key,
+    pub(super) geometry: Vec<Aperture>,
+    sensor_key: Key,
 }
 
-impl Responses {
-    /// What the patches receive from an aperture by the cells of a basis.
-    pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
-        session.patch_weights(&self.key, &self.radiosity.nested.fine, index, &self.geometry, basis)
+/// Interreflected light at a sensor, or weights that make it.
+#[derive(Clone, Copy, Default)]
+pub(in crate::study) struct Reflected {
+    /// All of it.
+    pub value: f64,
+    /// What the two densities differ by.
+    pub difference: f64,
+    /// The part that comes straight from apertures that reflect by direction.
+    pub thrown_back: f64,
+}
+
+impl Reflected {
+    /// How far it may be off.
+    pub fn doubt(&self) -> f64 {
+        DIFFERENCE_ALONE * self.difference + UNEVEN * self.thrown_back
     }
+}
+
+/// Sensor by sensor weights of the luminance of cells.
+pub(in crate::study) struct ByCells {
+    pub value: Vec<Vec<f64>>,
+    /// Wall by wall; empty where not asked for.
+    pub walls: Vec<Vec<Vec<f64>>>,
 }
 
 impl Session {
@@ -54,62 +72,30 @@ impl Session {
     ) -> Result<Responses, StudyError> {
         let radiosity = self.radiosity(scene, count)?;
         check(progress)?;
-        let gather = self.gathering(scene, count, &radiosity)?;
-        let sensors = gather
-            .par_iter()
-            .map(|[fine, coarse]| {
-                check(progress)?;
-                Ok(response(&radiosity, &fine.weights, &coarse.weights))
-            })
-            .collect::<Result<_, StudyError>>()?;
         let key = room_key(scene, count);
+        let sensor_key: Key = sensor_key(scene).collect();
+        let of_sensors = [key.clone(), sensor_key.clone()].concat();
+        let sensors = self.responses.get(of_sensors, || {
+            let gather = self.gathering(scene, count, &radiosity)?;
+            gather
+                .par_iter()
+                .map(|[fine, coarse]| {
+                    check(progress)?;
+                    Ok(response(&radiosity, &fine.weights, &coarse.weights))
+                })
+                .collect::<Result<Vec<_>, StudyError>>()
+        })?;
         let geometry = scene.apertures.iter().map(|a| a.aperture).collect();
-        let mut responses = Responses { radiosity, sensors, key, geometry };
-        self.add_mirrors(scene, &mut responses, progress)?;
+        let mut responses = Responses { radiosity, sensors, mirrors: None, key, geometry, sensor_key };
+        responses.mirrors = ThrownBack::new(self, scene, &responses, progress)?;
         Ok(responses)
     }
-
-    /// What goes to and fro between the room and apertures that reflect by direction: with the symbols of
-    /// [`settled_weights`], every sensor's weights a become a + (a W + r) (1 − Q W)⁻¹ Q, r what it sees of l itself.
-    fn add_mirrors(&self, scene: &Scene, responses: &mut Responses, progress: &dyn Progress) -> Result<(), StudyError> {
-        let mirrors = mirrors(scene, |index, basis| responses.weights(self, index, basis));
-        if mirrors.is_empty() {
-            return Ok(());
-        }
-        check(progress)?;
-        // Solved once for all sensors and lights: the matrix is only as large as the mirroring cells are many.
-        let settled = settled_weights(&responses.radiosity, &responses.geometry, &mirrors);
-        let mut seen = vec![Vec::with_capacity(settled.by_first.len()); scene.sensors.len()];
-        for (index, mirror) in &mirrors {
-            // Straight to the sensor as well: a mirror is seen, and not only what it lights.
-            let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
-            seen.iter_mut().zip(receptions.iter()).for_each(|(list, reception)| list.extend(&reception.cells));
-        }
-        check(progress)?;
-        let sensors = responses.sensors.par_iter_mut().zip(seen);
-        sensors.for_each(|(sensor, seen)| sensor.add_thrown_back(&mirrors, &settled, &seen));
-        Ok(())
-    }
 }
 
-/// Weights of the mirroring cells' settled luminances as weights of the first illuminance.
-fn through(settled: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
-    let mut sums = vec![0.0; settled.first().map_or(0, Vec::len)];
-    for (w, row) in weights.iter().zip(settled).filter(|(w, _)| **w != 0.0) {
-        sums.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
-    }
-    sums
-}
-
-/// Without mirrors.
+/// Of one sensor, from what it sees of the patches of both densities.
 fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
     let (mesh, coarser) = (&radiosity.nested.fine, &radiosity.nested.coarse);
-    let mut response = Response {
-        value: vec![0.0; fine.len()],
-        walls: Vec::with_capacity(6),
-        thrown_back: Vec::new(),
-        lit: Vec::new(),
-    };
+    let mut response = Response { value: vec![0.0; fine.len()], walls: Vec::with_capacity(6) };
     for (a, b) in spans(mesh).into_iter().zip(spans(coarser)) {
         if fine[a.clone()].iter().chain(&coarse[b.clone()]).all(|w| *w == 0.0) {
             continue;
@@ -131,35 +117,83 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
     response
 }
 
-impl Response {
-    /// The step of [`Session::add_mirrors`] at one sensor; `seen`: what it sees of every mirroring cell itself.
-    fn add_thrown_back(&mut self, mirrors: &[(usize, BackReflection<'_>)], settled: &Settled, seen: &[f64]) {
-        let add = |to: &mut Vec<f64>, part: &[f64]| to.iter_mut().zip(part).for_each(|(sum, x)| *sum += x);
-        let own = gathered(mirrors, &self.value);
-        let back = through(&settled.by_first, &own);
-        add(&mut self.value, &back);
-        // Kept by itself too: that an aperture is not evenly lit puts this part in doubt, and no other.
-        self.thrown_back = through(&settled.by_first, seen);
-        add(&mut self.value, &self.thrown_back);
-        let all: Vec<f64> = own.iter().zip(seen).map(|(a, r)| a + r).collect();
-        self.lit = through(&settled.by_lit, &all);
-        for wall in &mut self.walls {
-            let back = through(&settled.by_first, &gathered(mirrors, wall));
-            add(wall, &back);
+impl Responses {
+    /// What the patches receive from an aperture by the cells of a basis.
+    pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
+        session.patch_weights(&self.key, &self.radiosity.nested.fine, index, &self.geometry, basis)
+    }
+
+    /// The sensors' weights of the luminance of an aperture's cells, by way of the room alone; without `doubts` values
+    /// only.
+    pub(super) fn through_room(
+        &self,
+        session: &Session,
+        index: usize,
+        basis: &Arc<RingBasis>,
+        doubts: bool,
+    ) -> Arc<ByCells> {
+        let mut key = [&self.key[..], &self.sensor_key].concat();
+        key.extend([index as u64, u64::from(doubts)]);
+        key.extend(basis_key(Some(basis)));
+        let compute = || {
+            let weights = self.weights(session, index, basis);
+            let value = self.sensors.par_iter().map(|sensor| weights.gathered(&sensor.value)).collect();
+            let walls = |sensor: &Response| sensor.walls.iter().map(|wall| weights.gathered(wall)).collect();
+            let walls = if doubts { self.sensors.par_iter().map(walls).collect() } else { Vec::new() };
+            Ok::<_, std::convert::Infallible>(ByCells { value, walls })
+        };
+        match session.by_cells.get(key, compute) {
+            Ok(by_cells) => by_cells,
+            Err(never) => match never {},
         }
     }
 
-    /// Of a first illuminance: value, what the two densities differ by, and what comes back from apertures.
-    pub fn of(&self, first: &[f64]) -> (f64, f64, f64) {
-        let squares: f64 = self.walls.iter().map(|wall| dot(wall, first).powi(2)).sum();
-        let thrown_back = if self.thrown_back.is_empty() { 0.0 } else { dot(&self.thrown_back, first) };
-        (dot(&self.value, first), squares.sqrt(), thrown_back)
+    /// Sensor by sensor, cell by cell, what light of luminance 1 from an aperture's cells gives after reflection.
+    pub fn of_cells(
+        &self,
+        session: &Session,
+        index: usize,
+        basis: &Arc<RingBasis>,
+        doubts: bool,
+    ) -> Vec<Vec<Reflected>> {
+        let room = self.through_room(session, index, basis, doubts);
+        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of_cells(session, self, index, basis));
+        let sensor = |s: usize| {
+            let added = mirrored.as_ref().map(|all| &all[s]);
+            let cell = |c: usize| {
+                let value = room.value[s][c] + added.map_or(0.0, |added| added.value[c]);
+                let walls = room.walls.get(s).map_or(&[][..], |walls| walls);
+                let gap = |(w, wall): (usize, &Vec<f64>)| wall[c] + added.map_or(0.0, |added| added.walls[w][c]);
+                let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
+                let thrown_back = added.map_or(0.0, |added| added.straight[c]);
+                Reflected { value, difference: squares.sqrt(), thrown_back }
+            };
+            (0..basis.len()).map(cell).collect()
+        };
+        (0..self.sensors.len()).into_par_iter().map(sensor).collect()
     }
 
-    /// What beams give after they were reflected: through patches, and by way of apertures that reflect by direction. The
-    /// outlines that they light are left to the caller.
-    pub fn of_beams(&self, landing: &BeamLanding) -> f64 {
-        let back = if self.lit.is_empty() { 0.0 } else { dot(&self.lit, &landing.direct) };
-        dot(&self.value, &landing.thrown) + back
+    /// What every sensor gets of a first illuminance of the patches.
+    pub fn of(&self, first: &[f64]) -> Vec<Reflected> {
+        self.reflected(first, None, true)
+    }
+
+    /// What every sensor gets of beams after they were reflected, but what the outlines that they light send to it
+    /// straight. Without `doubts` values only.
+    pub fn of_beams(&self, landing: &BeamLanding, doubts: bool) -> Vec<Reflected> {
+        self.reflected(&landing.thrown, Some(&landing.direct), doubts)
+    }
+
+    fn reflected(&self, first: &[f64], lit: Option<&[f64]>, doubts: bool) -> Vec<Reflected> {
+        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(&self.radiosity.nested.fine, first, lit));
+        let one = |(s, sensor): (usize, &Response)| {
+            let added = mirrored.as_ref().map(|all| &all[s]);
+            let value = dot(&sensor.value, first) + added.map_or(0.0, |added| added.value);
+            let gap = |(w, wall): (usize, &Vec<f64>)| dot(wall, first) + added.map_or(0.0, |added| added.walls[w]);
+            let walls = if doubts { &sensor.walls[..] } else { &[] };
+            let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
+            Reflected { value, difference: squares.sqrt(), thrown_back: added.map_or(0.0, |added| added.straight) }
+        };
+        self.sensors.iter().enumerate().map(one).collect()
     }
 }

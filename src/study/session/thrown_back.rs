@@ -1,0 +1,176 @@
+//! What apertures that reflect by direction add to the sensors' light, V = V₀ + V₀b (1 − R G)⁻¹ R Gₜ: all but the
+//! system's own reflection R belongs to the room and is kept, so that another system or state costs one small matrix.
+
+use super::interreflected::mirrors;
+use super::responses::{ByCells, Responses};
+use super::{Session, basis_key, check};
+use crate::compute::basis::RingBasis;
+use crate::compute::estimate::Progress;
+use crate::compute::room::back_reflection::{RoomSide, settled};
+use crate::compute::room::direct::Reception;
+use crate::compute::room::mesh::Mesh;
+use crate::study::cache::Key;
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+use faer::Mat;
+use std::sync::Arc;
+
+/// All mirroring apertures of a scene.
+pub(in crate::study) struct ThrownBack {
+    sides: Vec<Side>,
+    /// Luminances of all mirroring cells, once they have settled, by what falls in through each: (1 − R G)⁻¹ R.
+    settled: Mat<f64>,
+    /// Rows of all mirroring cells' weights: every sensor's, see [`Rows`].
+    seen: Mat<f64>,
+    rows: Rows,
+}
+
+/// One of them.
+struct Side {
+    index: usize,
+    basis: Arc<RingBasis>,
+    room: Arc<RoomSide>,
+}
+
+/// Where the rows of a sensor stand: value, what is straight, then the walls.
+struct Rows {
+    first: Vec<usize>,
+    walls: Vec<usize>,
+}
+
+/// What is added at a sensor, by cell or for one light.
+pub(super) struct Added<T> {
+    /// All that is thrown back.
+    pub value: T,
+    /// What of it comes straight.
+    pub straight: T,
+    /// What the two densities differ by, wall by wall.
+    pub walls: Vec<T>,
+}
+
+impl ThrownBack {
+    /// `None` where no aperture reflects by direction.
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        responses: &Responses,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, StudyError> {
+        let mirrors = mirrors(scene, |index, basis| responses.weights(session, index, basis));
+        if mirrors.is_empty() {
+            return Ok(None);
+        }
+        check(progress)?;
+        let sides: Vec<Side> = mirrors
+            .iter()
+            .map(|(index, mirror)| {
+                let basis = Arc::clone(&mirror.weights().basis);
+                let room = session.room_side(responses, *index, &basis);
+                Side { index: *index, basis, room }
+            })
+            .collect();
+        check(progress)?;
+        let again: Vec<Vec<_>> = sides
+            .iter()
+            .map(|to| sides.iter().map(|from| session.falling_in(responses, to, from.index, &from.basis)).collect())
+            .collect();
+        let settled = settled(&mirrors, &again);
+        // What the sensors see of the mirrors, by way of the room and straight.
+        let by_room: Vec<Arc<ByCells>> =
+            sides.iter().map(|side| responses.through_room(session, side.index, &side.basis, true)).collect();
+        let straight: Vec<Arc<Vec<Reception>>> = sides
+            .iter()
+            .map(|side| session.receptions(scene, side.index, Some(&side.basis), progress))
+            .collect::<Result<_, _>>()?;
+        let cells: Vec<(usize, usize)> =
+            sides.iter().enumerate().flat_map(|(k, side)| (0..side.basis.len()).map(move |cell| (k, cell))).collect();
+        let walls: Vec<usize> =
+            (0..scene.sensors.len()).map(|s| by_room.first().map_or(0, |by_room| by_room.walls[s].len())).collect();
+        let mut rows = Rows { first: Vec::with_capacity(walls.len()), walls };
+        let mut list: Vec<(usize, usize)> = Vec::new();
+        for (s, walls) in rows.walls.iter().enumerate() {
+            rows.first.push(list.len());
+            list.extend((0..2 + walls).map(|part| (s, part)));
+        }
+        let seen = Mat::from_fn(list.len(), cells.len(), |row, column| {
+            let ((s, part), (k, cell)) = (list[row], cells[column]);
+            match part {
+                0 => by_room[k].value[s][cell] + straight[k][s].cells[cell],
+                1 => straight[k][s].cells[cell],
+                wall => by_room[k].walls[s][wall - 2][cell],
+            }
+        });
+        Ok(Some(Self { sides, settled, seen, rows }))
+    }
+
+    /// Of light of luminance 1 from each of an aperture's cells, sensor by sensor.
+    pub fn of_cells(
+        &self,
+        session: &Session,
+        responses: &Responses,
+        index: usize,
+        basis: &Arc<RingBasis>,
+    ) -> Vec<Added<Vec<f64>>> {
+        let falling: Vec<_> = self.sides.iter().map(|side| session.falling_in(responses, side, index, basis)).collect();
+        let rows: Vec<&Vec<f64>> = falling.iter().flat_map(|rows| rows.iter()).collect();
+        let all = self.thrown(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell]));
+        self.added(|row| (0..basis.len()).map(|cell| all[(row, cell)]).collect())
+    }
+
+    /// Of one light: what the patches receive, and what they throw on the apertures before all else; sensor by sensor.
+    pub fn of(&self, mesh: &Mesh, first: &[f64], lit: Option<&[f64]>) -> Vec<Added<f64>> {
+        let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(mesh, first, lit)).collect();
+        let all = self.thrown(&Mat::from_fn(incident.len(), 1, |i, _| incident[i]));
+        self.added(|row| all[(row, 0)])
+    }
+
+    /// From what falls in.
+    fn thrown(&self, incident: &Mat<f64>) -> Mat<f64> {
+        // One thread: the result must not depend on their number.
+        faer::set_global_parallelism(faer::Par::Seq);
+        &self.seen * (&self.settled * incident)
+    }
+
+    fn added<T>(&self, row: impl Fn(usize) -> T) -> Vec<Added<T>> {
+        let of = |(&first, &walls): (&usize, &usize)| Added {
+            value: row(first),
+            straight: row(first + 1),
+            walls: (0..walls).map(|w| row(first + 2 + w)).collect(),
+        };
+        self.rows.first.iter().zip(&self.rows.walls).map(of).collect()
+    }
+}
+
+impl Session {
+    fn room_side(&self, responses: &Responses, index: usize, basis: &Arc<RingBasis>) -> Arc<RoomSide> {
+        let compute = || {
+            let weights = responses.weights(self, index, basis);
+            let side = RoomSide::new(&responses.radiosity, &responses.geometry[index], &weights);
+            Ok::<_, std::convert::Infallible>(side)
+        };
+        match self.sides.get(cells_key(&responses.key, index, basis), compute) {
+            Ok(side) => side,
+            Err(never) => match never {},
+        }
+    }
+
+    /// What falls on a mirroring aperture, by cell, of light from the cells of another or the same.
+    fn falling_in(&self, responses: &Responses, to: &Side, from: usize, basis: &Arc<RingBasis>) -> Arc<Vec<Vec<f64>>> {
+        let key = cells_key(&cells_key(&responses.key, to.index, &to.basis), from, basis);
+        let compute = || {
+            let weights = responses.weights(self, from, basis);
+            Ok::<_, std::convert::Infallible>(to.room.by_cells(&weights))
+        };
+        match self.falling.get(key, compute) {
+            Ok(rows) => rows,
+            Err(never) => match never {},
+        }
+    }
+}
+
+fn cells_key(key: &Key, index: usize, basis: &RingBasis) -> Key {
+    let mut key = key.clone();
+    key.push(index as u64);
+    key.extend(basis_key(Some(basis)));
+    key
+}
