@@ -275,3 +275,84 @@ fn add_rough(q: &mut Vec<f64>, lobes: &[Lobe], [x, psi]: [f64; 2], emergent: &Ri
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: f64 = 0.08;
+
+    fn array(rise: f64, tilt: f64, faces: [Surface; 2]) -> SlatArray {
+        SlatArray::new(SlatProfile::curved(WIDTH, rise), 0.0, 0.072, tilt, faces).unwrap()
+    }
+
+    /// Transmitted and thrown back, of one direction, beams and all.
+    fn shares(specimen: &SlatSpecimen, name: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        specimen.beams(name, side).iter().for_each(|beam| sums[usize::from(!beam.transmitted)] += beam.share);
+        let light = specimen.scattered(name, side, cells);
+        let solid = cells.projected_solid_angles();
+        for (sum, q) in sums.iter_mut().zip([&light.transmitted, &light.reflected]) {
+            *sum += q.iter().zip(&solid).map(|(q, w)| q * w).sum::<f64>();
+        }
+        sums
+    }
+
+    #[test]
+    fn single_directions_keep_the_balance_of_profile_angles() {
+        let matt = [Surface::matt(0.7), Surface::matt(0.4)];
+        let mirror = [Surface::mirror(0.85), Surface::matt(0.2)];
+        let rough = [Surface { diffuse: 0.1, mirror: 0.7, spread: 0.08 }, Surface::matt(0.3)];
+        let cells = RingBasis::even(3_f64.to_radians());
+        for (rise, tilt, faces, bound) in [
+            (0.0, 0.0, matt, 2e-3),
+            (0.006, 0.5, matt, 2e-3),
+            (0.0, 0.3, mirror, 2e-3),
+            (0.008, -0.2, mirror, 4e-3),
+            (0.0, 0.2, rough, 0.02),
+        ] {
+            let array = array(rise, tilt, faces);
+            let specimen = SlatSpecimen::new(array.clone());
+            for side in Side::BOTH {
+                let psi = [-0.6, 0.1, 0.45, 0.9];
+                let known = array.profile_shares(side, &psi, 1, &Silent).unwrap();
+                for (psi, known) in psi.into_iter().zip(known) {
+                    for x in [0.0, 0.6] {
+                        let found = shares(&specimen, name_of(x, psi), side, &cells);
+                        let apart = (found[0] - known.transmitted).abs().max((found[1] - known.reflected).abs());
+                        assert!(apart < bound, "{rise} {tilt} {side:?} {psi} {x}: {found:?} {known:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn light_by_profile_angle_is_the_light_on_cells() {
+        let specimen = SlatSpecimen::new(array(0.0, 0.3, [Surface::matt(0.7); 2]));
+        let cells = RingBasis::even(3_f64.to_radians());
+        let name = name_of(0.3, 0.6);
+        let (on, by) =
+            (specimen.scattered(name, Side::Front, &cells), specimen.profile_light(name, Side::Front).unwrap());
+        let largest = on.transmitted.iter().copied().fold(0.0, f64::max);
+        for (cell, (a, b)) in on.transmitted.iter().zip(by.on(&cells)).enumerate() {
+            assert!((a - b).abs() < 0.02 * largest, "{cell}: {a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_flat_mirror_throws_one_beam_as_far_as_the_next_slat_lets_it() {
+        // Level mirrors turn ψ into −ψ.
+        let specimen = SlatSpecimen::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
+        let psi = 60_f64.to_radians();
+        let beams = specimen.beams(name_of(0.2, psi), Side::Front);
+        let turned: Vec<&Beam> = beams.iter().filter(|beam| beam.transmitted).collect();
+        assert_eq!(turned.len(), 1, "{beams:?}");
+        assert!(turned[0].names[0].vector().distance(name_of(0.2, -psi).vector()) < 1e-9);
+        // A slat is lit from its outer edge over s/tanψ. What it mirrors rises to the slat above within another s/tanψ, and
+        // leaves where that is beyond its width.
+        let reach = 0.072 / psi.tan();
+        let leaves = (reach - (WIDTH - reach)).clamp(0.0, reach) / reach;
+        assert!((turned[0].share - leaves).abs() < 2e-3, "{} {leaves}", turned[0].share);
+    }
+}
