@@ -1,6 +1,7 @@
 //! Whole scenes: closed forms, reference cases, what the plan leaves out, extreme input, years of control.
 
 mod accuracy;
+mod beams_in_cells;
 mod coefficients;
 #[path = "../common/mod.rs"]
 mod common;

@@ -15,12 +15,11 @@ use rayon::prelude::*;
 /// Lengths on trial, in radians; 0 stands for an endless one.
 const LENGTHS: [f64; 6] = [0.0, 3.0, 1.5, 0.75, 0.4, 0.2];
 /// Where the search begins: by the one profile angle, the other, θ, and mixtures. Numbers of [`LENGTHS`].
-const STARTS: [[usize; 3]; 6] = [[3, 0, 0], [0, 3, 0], [0, 0, 2], [3, 3, 0], [3, 0, 2], [0, 3, 2]];
+const STARTS: [[usize; 3]; 7] = [[3, 0, 0], [0, 3, 0], [0, 0, 2], [3, 3, 0], [3, 0, 2], [0, 3, 2], [2, 1, 2]];
 /// Variances of the function itself on trial.
 const VARIANCES: [f64; 7] = [3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0];
 /// Points across and along a cell for its mean; more in cells wider than this, over which profile angles go far. \[rad\]
-const POINTS: [[usize; 2]; 2] = [[2, 3], [3, 5]];
-const WIDE: f64 = 0.3;
+const POINTS: [([usize; 2], f64); 3] = [([4, 8], 0.45), ([3, 5], 0.3), ([2, 3], 0.0)];
 
 /// A weighted direction, by its profile angles and θ.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +34,11 @@ impl Point {
     pub(super) fn weight(&self) -> f64 {
         self.weight
     }
+
+    /// All by itself.
+    pub(super) fn whole(self) -> Self {
+        Self { weight: 1.0, ..self }
+    }
 }
 
 /// The angles that the covariance knows: profile angles about x and about y, and θ. \[rad\]
@@ -46,8 +50,9 @@ fn angles(direction: Dir<Facade>) -> [f64; 3] {
 /// Points of a cell whose weights add up to 1, even in projected solid angle.
 pub(super) fn points(basis: &RingBasis, cell: usize) -> Vec<Point> {
     let own = basis.cell(cell);
-    let wide = own.theta_max - own.theta_min > 0.21 || own.width * own.theta().sin() > WIDE;
-    let [across, along] = if own.is_cap() { [1, 6] } else { POINTS[usize::from(wide)] };
+    let width = own.width * own.theta().sin();
+    let fit = POINTS.iter().find(|(_, from)| width >= *from).map_or([2, 3], |(points, _)| *points);
+    let [across, along] = if own.is_cap() { [1, 6] } else { fit };
     let [low, high] = [own.theta_min, own.theta_max].map(|theta| theta.sin().powi(2));
     let round = gauss_legendre(along);
     let mut list = Vec::with_capacity(across * along);
@@ -256,9 +261,12 @@ impl MeanField {
         let variance = covariance.variance - weights.iter().map(|w| w * w).sum::<f64>();
         backward(&self.factor, &mut weights);
         let value = weights.iter().zip(&self.observations).map(|(w, one)| w * one.value).sum();
-        // Where the function has kinks its neighbourhood is worse known than lengths chosen for the whole say.
-        let near: f64 = weights.iter().map(|w| w * w).sum();
-        let surprise = weights.iter().zip(&self.surprise).map(|(w, s)| w * w * s).sum::<f64>() / near.max(1e-300);
+        // Where the function has kinks its neighbourhood is worse known than lengths chosen for the whole say. Darkness
+        // surprises nobody and tells nothing of that.
+        let light =
+            || weights.iter().zip(&self.observations).zip(&self.surprise).filter(|((_, one), _)| one.value > 0.0);
+        let near: f64 = light().map(|((w, _), _)| w * w).sum();
+        let surprise = light().map(|((w, _), s)| w * w * s).sum::<f64>() / near.max(1e-300);
         At { value, error: (variance.max(0.0) * surprise.max(1.0)).sqrt(), weights }
     }
 }

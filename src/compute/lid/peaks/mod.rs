@@ -12,7 +12,7 @@ use super::{BeamLight, BeamSource, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Dir, Facade};
-use mean_field::{Covariance, MeanField, Observation};
+use mean_field::{Covariance, MeanField, Observation, Point};
 use separation::{Path, Reached, Separation};
 
 /// A cell stands out when it holds this much of what surrounds it: as Radiance has it.
@@ -20,16 +20,22 @@ const STANDS_OUT: f64 = 1.5;
 /// Of the flux in peaks, what the cells around them hold above their own surroundings: from here on it is a wide lobe
 /// and no beam.
 const LOBE: f64 = 0.5;
-/// What a beam's flux in a cell is known to: noise of the data, a share of it, a share of the background taken off.
-const NOISE: [f64; 3] = [2e-3, 0.01, 0.3];
+/// What a beam's flux in a cell is known to: digits of the data, a share of the strongest, which stands for what few points
+/// in a cell miss, a share of its own, and a share of the background taken off.
+const NOISE: [f64; 4] = [2e-4, 2e-3, 0.01, 0.3];
+/// Flux of a beam's cell up to which it counts as none beside the background taken off, and the most of that with which it
+/// may. How well a point is then known, as a share of the strongest.
+const DARK: [f64; 3] = [3e-4, 0.02, 1e-3];
 /// The same for the background itself, relative.
 const ROUGH: f64 = 0.02;
 /// Standard errors that are stated: about 95 % of normal ones lie within.
 const ERRORS: f64 = 2.0;
+/// Strengths below this share of the strongest may be a cut-off that is rounded off; seen on flat and curved slats.
+const CUT_OFF: f64 = 0.03;
+/// Share of two beams together that either may be wrong by where the data hold them in one cell.
+const MIXED: f64 = 0.5;
 /// Least relative doubt of anything that comes out of cells.
 const LEAST: f64 = 0.01;
-/// Share of the difference between interpolated and stored row, and between a cell and its surroundings, that is doubted.
-const DIFFERENCE: f64 = 0.5;
 /// Beams of incident cells beyond this number are looked for among the nearest alone: finer cells need no farther help.
 pub const MOST_CELLS: usize = 200;
 /// Strength of a beam that is nothing but doubted: a doubt is a share of it.
@@ -54,6 +60,8 @@ pub struct Peaks {
     around: Vec<Vec<usize>>,
     paths: Vec<Path>,
     beams: Option<MeanField>,
+    /// The strongest mean: strengths in `beams` are shares of it.
+    strongest: f64,
     /// What is not beams, row by row: even light, and what stands out of it in single cells. \[1/sr\]
     rest: Vec<Rest>,
     /// Transmittance of the even part.
@@ -70,6 +78,23 @@ pub struct Peaks {
 struct Rest {
     even: Vec<f64>,
     uneven: Vec<f64>,
+}
+
+/// That a path sends nothing from the ends of the rows of a cell's points.
+fn dark_points(path: usize, points: &[Point], noise: f64) -> Vec<Observation> {
+    let row_ends = |k: &usize| {
+        let other_theta =
+            |j: usize| points.get(j).is_none_or(|p| (p.direction.theta() - points[*k].direction.theta()).abs() > 1e-9);
+        other_theta(k.wrapping_sub(1)) || other_theta(k + 1)
+    };
+    (0..points.len())
+        .filter(row_ends)
+        .map(|k| {
+            let mut one = Observation { value: 0.0, noise, ..Observation::default() };
+            one.points[path] = vec![points[k].whole()];
+            one
+        })
+        .collect()
 }
 
 impl Peaks {
@@ -90,6 +115,7 @@ impl Peaks {
             around: parts.around.clone(),
             paths: Vec::new(),
             beams: None,
+            strongest: 1.0,
             rest: Vec::new(),
             even: None,
             used,
@@ -116,7 +142,7 @@ impl Peaks {
 
     /// Sets up what the beams' cells hold above their surroundings.
     fn find_beams(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
-        let mut observations = Vec::new();
+        let (mut observations, mut backgrounds): (Vec<Observation>, Vec<f64>) = (Vec::new(), Vec::new());
         let (mut above, mut below, mut leaked, mut held) = (0.0, 0.0, 0.0, 0.0);
         for &i in &self.used {
             let row = self.matrix.row(i);
@@ -148,13 +174,13 @@ impl Peaks {
                     leaked += share * 2.0 * leaks[..leaks.len() / 2].iter().sum::<f64>();
                     held += share * value;
                 }
-                let noise = NOISE[0].hypot(NOISE[1] * value).hypot(NOISE[2] * background);
-                let mut one = Observation { value, noise, ..Observation::default() };
+                let mut one = Observation { value, ..Observation::default() };
                 for (path, list) in reached.iter().enumerate() {
                     let inside = list[i].points.iter().filter(|(_, o)| cells.contains(o));
                     one.points[path] = inside.map(|(point, _)| *point).collect();
                 }
                 observations.push(one);
+                backgrounds.push(background);
             }
         }
         self.contrast = (above + below) / below.max(1e-9 * above).max(1e-300);
@@ -162,12 +188,28 @@ impl Peaks {
         if above <= 1e-6 || self.contrast < STANDS_OUT || self.leak > LOBE {
             return;
         }
+        let strongest = observations.iter().map(|one| one.value).fold(1e-6, f64::max);
+        self.strongest = strongest;
+        let (mut lit, mut dark) = (Vec::new(), Vec::new());
+        for (k, (one, background)) in observations.iter_mut().zip(backgrounds).enumerate() {
+            if one.value < DARK[0] + NOISE[3] * background && background < DARK[1] {
+                let noise = DARK[2].hypot(NOISE[3] * background / strongest);
+                dark.extend(one.points.iter().enumerate().flat_map(|(path, points)| dark_points(path, points, noise)));
+            } else {
+                lit.push(k);
+            }
+            let known = NOISE[0].hypot(NOISE[1] * strongest).hypot(NOISE[2] * one.value).hypot(NOISE[3] * background);
+            (one.value, one.noise) = (one.value / strongest, known / strongest);
+        }
         let alone = |of: usize| -> Vec<Observation> {
             let pure = |one: &&Observation| !one.points[of].is_empty() && one.points[1 - of].is_empty();
             observations.iter().filter(pure).cloned().collect()
         };
         let covariances = [0, 1].map(|of| Covariance::most_likely(&alone(of), of));
-        self.beams = MeanField::new(observations, covariances);
+        // No light goes backwards: where a mean is nothing, the beam is nothing all over the cell. That tells where a cut-off
+        // lies far better than the means do.
+        let sharper: Vec<Observation> = lit.into_iter().map(|i| observations[i].clone()).chain(dark).collect();
+        self.beams = MeanField::new(sharper, covariances);
     }
 
     /// Splits what is no beam into even light and what stands out of it.
@@ -217,11 +259,22 @@ impl Peaks {
         let mut spread = vec![0.0; weight.len()];
         // How much of a beam may be a lobe instead.
         let lobe = (2.0 * self.leak).min(1.0);
+        // Two paths that end in one cell: their sum is known better than either.
+        let ends: Vec<Option<usize>> = self.paths.iter().map(|path| self.basis().index(path.of(sun)?)).collect();
+        let mixed = ends.len() == 2 && ends[0] == ends[1];
+        let both = self.beams.as_ref().map_or(0.0, |field| {
+            (0..self.paths.len()).map(|of| (self.strongest * field.at(of, sun).value).max(0.0)).sum()
+        });
         for (of, path) in self.paths.iter().enumerate() {
             let (Some(field), Some(to)) = (&self.beams, path.of(sun)) else { continue };
             let at = field.at(of, sun);
-            let strength = at.value.clamp(0.0, 1.0);
-            let error = (ERRORS * at.error).hypot(LEAST * strength);
+            let strength = (self.strongest * at.value).clamp(0.0, 1.0);
+            let error = (ERRORS * self.strongest * at.error).hypot(LEAST * strength);
+            // What is near to nothing may be nothing: smooth functions round off a cut-off.
+            let error = error.max(strength.min(CUT_OFF * self.strongest));
+            let error = if mixed { error.hypot(MIXED * both) } else { error };
+            // It is a share of the light.
+            let error = error.min(strength.max(1.0 - strength));
             if strength + error < 1e-6 {
                 continue;
             }
@@ -255,8 +308,8 @@ impl Peaks {
         };
         let doubts = vec![
             smooth.iter().map(|q| incident * relative.max(LEAST) * q).collect(),
-            smooth.iter().zip(&own.even).map(|(a, b)| DIFFERENCE * incident * (a - b)).collect(),
-            smooth.iter().enumerate().map(|(o, q)| DIFFERENCE * incident * (q - surroundings(o))).collect(),
+            smooth.iter().zip(&own.even).map(|(a, b)| incident * (a - b)).collect(),
+            smooth.iter().enumerate().map(|(o, q)| incident * (q - surroundings(o))).collect(),
             // Light that stands out and is followed nowhere: a beam or a fan of beams that may be anywhere in its cells.
             own.uneven.iter().map(|q| incident * q).collect(),
             spread,

@@ -41,6 +41,9 @@ const EXPLAINED: f64 = 0.7;
 /// As good as the best: then the rounder number is taken.
 const EQUAL: f64 = 0.98;
 
+/// Directions a side by which the cells that a path reaches are found.
+const FINE: usize = 8;
+
 /// The beams of one path through every incident cell.
 #[derive(Debug, Clone)]
 pub(super) struct Reached {
@@ -87,6 +90,16 @@ impl<'a> Separation<'a> {
         let to = |p: &Point| Some((*p, emergent.index(path.of(p.direction)?)?));
         let points: Vec<(Point, usize)> = self.points[incident].iter().filter_map(to).collect();
         let mut cells: Vec<usize> = points.iter().map(|p| p.1).collect();
+        if path != Path::Straight {
+            // Corners that no point stands for still hold light.
+            let own = self.matrix.incident().cell(incident);
+            let at = |k: usize| (k as f64 + 0.5) / FINE as f64;
+            cells.extend((0..FINE * FINE).filter_map(|k| {
+                let theta = own.theta_min + (own.theta_max - own.theta_min) * at(k / FINE);
+                let phi = own.phi + (at(k % FINE) - 0.5) * own.width;
+                emergent.index(path.of(Dir::from_theta_phi(theta, phi))?)
+            }));
+        }
         cells.sort_unstable();
         cells.dedup();
         Reached { points, cells }
