@@ -11,6 +11,7 @@ use cfs::compute::estimate::Silent;
 use cfs::compute::system::laser_cut::deflected_share;
 use cfs::study::control::ControlQuestion;
 use cfs::study::scene_file::SystemKeys;
+use cfs::study::system::Need;
 use cfs::study::{LidResult, RoomResult, Scene, SceneFile, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::f64::consts::PI;
