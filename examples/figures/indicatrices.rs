@@ -8,8 +8,9 @@ use cfs::compute::btdf::Indicatrices;
 use cfs::compute::direction::{Dir, Facade};
 use cfs::compute::incidence::filter::{self, Filter, Kernel};
 use cfs::compute::incidence::grid::Grid;
+use cfs::compute::incidence::left_out::LeftOut;
 use cfs::compute::incidence::model::Model;
-use cfs::compute::incidence::schemes::{Schemes, SunScheme};
+use cfs::compute::incidence::schemes::SunScheme;
 use cfs::compute::lid::Facing;
 use cfs::compute::sky::{Frame, incident_illuminances};
 use cfs::compute::wavelet::{CompactReport, Criterion};
@@ -252,17 +253,19 @@ pub struct Between {
 pub fn between() -> Between {
     let emergent = RingBasis::equal_area(40);
     let data = measured(&RingBasis::tregenza(), &emergent, redirecting);
-    let schemes = Schemes::new(Arc::new(Model::new(Arc::new(data.clone()))));
+    let model = Model::new(Arc::new(data.clone()));
+    let left_out = LeftOut::new(&model);
     let sun = Dir::from_theta_phi(42_f64.to_radians(), 75_f64.to_radians());
     let truth = systems::indicatrix(&emergent, redirecting, sun);
-    let place = schemes.model().lattice().locate(sun);
+    let place = model.lattice().locate(sun);
     let around = (0..3).map(|k| (place.weights[k], data.row(place.vertices[k]).into_owned())).collect();
     let weights = emergent.projected_solid_angles();
-    let list = SunScheme::PLAIN.into_iter().chain([SunScheme::Auto]).map(|scheme| {
-        let q = schemes.coefficient(scheme, sun, schemes.model().grid(), 3);
+    // The report's three first.
+    let list = SunScheme::ALL.into_iter().cycle().skip(1).take(SunScheme::ALL.len()).map(|scheme| {
+        let q = scheme.coefficient(&model, sun, model.grid(), 3);
         let error = Criterion::ARCHIVE.error(&weights, &truth, &q);
-        (scheme.key(), q, error, schemes.predicted_error(scheme, sun))
+        (scheme.key(), q, error, left_out.stated(scheme, &place))
     });
     let list = list.collect();
-    Between { grid: schemes.model().grid().clone(), around, truth, schemes: list }
+    Between { grid: model.grid().clone(), around, truth, schemes: list }
 }

@@ -209,12 +209,9 @@ fn figure_12() -> Result<Figure> {
     for (name, q, error, foretold) in &between.schemes {
         table.row(&[name], &[*error, *foretold]);
         key.push(format!("{name} {} (foretold {})", percent(*error), percent(*foretold)));
-        if *name != "auto" {
-            shown.push(disc(&name.replace('-', " "), q));
-        }
+        shown.push(disc(&name.replace('-', " "), q));
     }
-    let second = shown.split_off(3);
-    rows.extend([shown, second]);
+    rows.push(shown);
     Ok(Figure {
         file: "fig12-sun-between",
         number: "12",

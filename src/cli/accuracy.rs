@@ -2,9 +2,11 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use crate::compute::incidence::schemes::SunScheme;
 use crate::drawing::chart;
 use crate::study::accuracy::{Accuracy, Coverage, Quantity, Rung, Series, ladder};
 use crate::study::accuracy_plot::{name, plots};
+use crate::study::leaving_out::LeavingOut;
 use crate::study::{files, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
@@ -22,6 +24,10 @@ compute.error_target. Methods that a scene chooses by compute.near_field are com
 reference is the ordinary method with more effort than any line of the table; how far it lies from the second finest is
 stated. Errors are relative, over sensors above 1 % of the mean. Times are seconds of one thread: set-up once for a room,
 then each new sky, each new position of the sun.
+
+Of data at single incident directions the reference interpolates as well. What that is worth is told beneath: every
+direction is left out and foretold from those around it, by responses and by the report's three schemes
+(compute.sun_interpolation); --json lists all directions and where another scheme would have been better.
 
 Columns of the CSV: method, quantity, setting, setup_s, sky_s, sun_s, stated_max, true_rms, true_max, sensors,
 share_stated_ge_true, share_stated_le_10_true.")]
@@ -178,9 +184,28 @@ fn table(accuracy: &Accuracy) -> String {
             .collect();
         let _ = writeln!(text, "Reached, {} illuminance: {}.", quantity(series.quantity), reached.join(", "));
     }
+    accuracy.leaving_out.iter().for_each(|one| text.extend([&*one.sentences(), "\n"]));
     let (computed, all) = accuracy.sensors;
     let _ = writeln!(text, "{computed} of {all} sensors, times of {} thread(s).", accuracy.threads);
     text
+}
+
+/// By direction what every scheme misplaces, and which would have been better than responses.
+fn left_out(one: &LeavingOut) -> serde_json::Value {
+    let by_scheme = |error: &dyn Fn(SunScheme) -> f64| -> serde_json::Map<String, serde_json::Value> {
+        SunScheme::ALL.into_iter().map(|scheme| (scheme.key().to_owned(), json!(error(scheme)))).collect()
+    };
+    let directions = one.left_out.directions().map(|direction| {
+        json!({
+            "theta_deg": direction.direction.theta().to_degrees(), "phi_deg": direction.direction.phi().to_degrees(),
+            "misplaced": by_scheme(&|scheme| direction.error(scheme)),
+            "better": direction.better().map(|(scheme, gain)| json!({ "scheme": scheme.key(), "by": gain })),
+        })
+    });
+    json!({
+        "system": one.label, "mean_misplaced": by_scheme(&|scheme| one.left_out.mean(scheme)),
+        "stated_for_sun": one.sun, "directions": directions.collect::<Vec<_>>(),
+    })
 }
 
 fn to_json(accuracy: &Accuracy) -> serde_json::Value {
@@ -205,6 +230,7 @@ fn to_json(accuracy: &Accuracy) -> serde_json::Value {
             })).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
         "coverage": coverage(accuracy.ordinary_coverage()),
+        "leaving_out": accuracy.leaving_out.iter().map(left_out).collect::<Vec<_>>(),
         "sensors_computed": accuracy.sensors.0,
         "sensors": accuracy.sensors.1,
         "threads": accuracy.threads,

@@ -1,10 +1,11 @@
 //! Error against run time: a scene computed with rising effort by every method, each result beside a converged
-//! reference. Says what the stated errors are worth.
+//! reference. Says what the stated errors are worth, and what data at single directions lose between them.
 //!
 //! The ways to integrate an aperture's light (`compute.near_field`) differ in the direct component alone and are
 //! compared by it. Where surfaces reflect, the whole illuminance is a series of its own. Times are those of one thread.
 
 use super::error::StudyError;
+use super::leaving_out::{LeavingOut, leaving_out};
 use super::scene::Scene;
 use super::session::{RoomResult, Session};
 use crate::compute::angle::Bearing;
@@ -153,6 +154,8 @@ pub struct Accuracy {
     pub sensors: (usize, usize),
     /// Threads that the times are of.
     pub threads: usize,
+    /// Beside the ladder, whose reference interpolates as well: what that is worth, by dataset at single directions.
+    pub leaving_out: Vec<LeavingOut>,
 }
 
 impl Accuracy {
@@ -175,10 +178,12 @@ pub fn ladder(scene: &Scene, progress: &dyn Progress) -> Result<Accuracy, StudyE
         ladder.run(scene.sensors.len())
     };
     // Times of many threads say more about the machine than about the method.
-    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+    let mut accuracy = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(run),
         Err(_) => run(),
-    }
+    }?;
+    accuracy.leaving_out = leaving_out(scene, progress)?;
+    Ok(accuracy)
 }
 
 /// The scene with an even selection of its sensors.
@@ -244,7 +249,8 @@ impl Ladder<'_> {
             series.push(self.by_target(&whole, Quantity::Total, &truth)?);
         }
         let sensors = (self.scene.sensors.len(), all);
-        Ok(Accuracy { references, series, sensors, threads: rayon::current_num_threads() })
+        let threads = rayon::current_num_threads();
+        Ok(Accuracy { references, series, sensors, threads, leaving_out: Vec::new() })
     }
 
     fn session_plan_reflects(&self) -> bool {

@@ -13,6 +13,7 @@ pub mod control;
 mod error;
 pub mod files;
 pub mod goniophotometer;
+pub mod leaving_out;
 pub mod library;
 pub mod luminaire_file;
 pub mod near_field;

@@ -486,7 +486,7 @@ impl Default for ComputeKeys {
             interreflection: true,
             error_target: None,
             interpolation: Interpolation::Auto,
-            sun_interpolation: SunScheme::Auto,
+            sun_interpolation: SunScheme::Responses,
             diffuse_interpolation: DiffuseScheme::Auto,
             near_field: NearFieldKey::SolidAngle,
             near_field_samples: None,

@@ -13,15 +13,16 @@ fn unknown<'a>(key: &str, word: &str, allowed: impl Iterator<Item = &'a str>) ->
 pub mod sun {
     use super::*;
 
-    /// The scheme's word.
+    /// The scheme's word; the default stays the program's choice.
     pub fn serialize<S: Serializer>(scheme: &SunScheme, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(scheme.key())
+        let auto = *scheme == SunScheme::default();
+        serializer.serialize_str(if auto { SunScheme::AUTO } else { scheme.key() })
     }
 
     /// The word's scheme; an error lists the words.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SunScheme, D::Error> {
         let word = String::deserialize(deserializer)?;
-        let allowed = SunScheme::ALL.into_iter().map(SunScheme::key);
+        let allowed = [SunScheme::AUTO].into_iter().chain(SunScheme::ALL.map(SunScheme::key));
         SunScheme::from_key(&word).ok_or_else(|| D::Error::custom(unknown("sun_interpolation", &word, allowed)))
     }
 }
@@ -51,21 +52,27 @@ mod tests {
     #[test]
     fn words_are_read_and_written_back() {
         let keys: ComputeKeys =
-            toml::from_str("sun_interpolation = \"matched-lobes\"\ndiffuse_interpolation = \"filter-wide\"").unwrap();
-        assert_eq!(keys.sun_interpolation, SunScheme::MatchedLobes);
+            toml::from_str("sun_interpolation = \"superposed\"\ndiffuse_interpolation = \"filter-wide\"").unwrap();
+        assert_eq!(keys.sun_interpolation, SunScheme::Superposed);
         assert_eq!(keys.diffuse_interpolation, DiffuseScheme::FilterWide);
         let text = toml::to_string(&keys).unwrap();
         assert_eq!(toml::from_str::<ComputeKeys>(&text).unwrap(), keys);
         let default: ComputeKeys = toml::from_str("").unwrap();
-        assert_eq!(default.sun_interpolation, SunScheme::Auto);
+        assert_eq!(default, toml::from_str("sun_interpolation = \"auto\"").unwrap());
+        assert_eq!(default.sun_interpolation, SunScheme::Responses);
         assert_eq!(default.diffuse_interpolation, DiffuseScheme::Auto);
     }
 
     #[test]
     fn an_unknown_word_is_answered_with_the_key_and_all_words() {
-        let error = toml::from_str::<ComputeKeys>("sun_interpolation = \"closest\"").unwrap_err().to_string();
-        assert!(error.contains("compute.sun_interpolation") && error.contains("\"closest\""), "{error}");
-        SunScheme::ALL.iter().for_each(|s| assert!(error.contains(s.key()), "{error}"));
+        // Two words of earlier versions are gone: taking them for another would change results in silence.
+        for word in ["closest", "transport", "matched-lobes"] {
+            let text = format!("sun_interpolation = \"{word}\"");
+            let error = toml::from_str::<ComputeKeys>(&text).unwrap_err().to_string();
+            assert!(error.contains("compute.sun_interpolation") && error.contains(&format!("{word:?}")), "{error}");
+            SunScheme::ALL.iter().for_each(|s| assert!(error.contains(s.key()), "{error}"));
+            assert!(error.contains("\"auto\""), "{error}");
+        }
         let error = toml::from_str::<ComputeKeys>("diffuse_interpolation = \"\"").unwrap_err().to_string();
         assert!(error.contains("compute.diffuse_interpolation"), "{error}");
         DiffuseScheme::ALL.iter().for_each(|s| assert!(error.contains(s.key()), "{error}"));

@@ -213,6 +213,12 @@ fn a_wrong_key_is_named_with_what_would_be_right() {
         ("negative cells", "nx = 4", "nx = -4", &["line"]),
         ("error target", "[compute]", "[compute]\nerror_target = 2.0", &["compute.error_target", "2"]),
         ("interpolation", "[compute]", "[compute]\ninterpolation = \"wild\"", &["wild", "patch"]),
+        (
+            "word gone",
+            "[compute]",
+            "[compute]\nsun_interpolation = \"transport\"",
+            &["sun_interpolation", "superposed"],
+        ),
         ("control word", "[compute]", "[control]\nmode = \"open\"\n[compute]", &["open", "cut-off"]),
         ("missing file", TRANSPARENT, "{ file = \"none.xml\" }", &["aperture[1].system", "none.xml"]),
         ("missing product", TRANSPARENT, "{ catalogue = \"no-such\" }", &["aperture[1].system", "no-such"]),

@@ -47,7 +47,8 @@ fn made_up() -> Accuracy {
         Series { method, quantity, rungs: rungs.collect() }
     });
     let reference = Reference { quantity: Quantity::Direct, target: 1e-7, stated: 1e-7, rms: 2e-9, max: 4e-9 };
-    Accuracy { references: vec![reference], series: series.collect(), sensors: (20, 20), threads: 1 }
+    let series = series.collect();
+    Accuracy { references: vec![reference], series, sensors: (20, 20), threads: 1, leaving_out: Vec::new() }
 }
 
 /// Gives the made-up ladder, at once or when withdrawn.

@@ -102,6 +102,9 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         tile::name(ui, &shown.response, &format!("{} against {}", plot.y.name, plot.x.name), tip);
     }
     ui.add(Label::new(sentence).wrap());
+    for one in &accuracy.leaving_out {
+        ui.add(Label::new(one.sentences()).wrap());
+    }
     actions
 }
 

@@ -14,18 +14,20 @@
 //! | `response` | which lobe is the same one at a neighbour, and how it moves |
 //! | `flux` | fluxes between the directions: cubics and kinks |
 //! | `grazing` | beyond the last row |
-//! | `choice` | which scheme suits which triangle, by leaving out |
 //! | `filter` | the matched filter for diffuse light |
-//! | `schemes` | other ways between the directions, side by side |
 //! | `model` | the indicatrix of any incident direction |
 //! | `superpose` | sky and sun through it |
+//! | `schemes` | the report's ways between the directions beside it |
+//! | `judge` | how far two indicatrices are apart |
+//! | `left_out` | what each way is worth, by leaving directions out |
 
-pub mod choice;
 pub mod filter;
 pub mod flux;
 pub mod grazing;
 pub mod grid;
+pub mod judge;
 pub mod lattice;
+pub mod left_out;
 pub mod lobes;
 pub mod model;
 pub mod raster;

@@ -1,6 +1,7 @@
 //! Systems with a closed form at every incident direction, for tests: what was measured of them, and the truth between.
 
 use super::grid::Grid;
+use super::judge::Judge;
 use super::model::Model;
 use super::superpose::sub_patches;
 use crate::compute::basis::RingBasis;
@@ -85,24 +86,9 @@ impl Sample {
         row
     }
 
-    /// Share of flux misplaced by an indicatrix on the cells, on cells of 7.5°, blurred.
+    /// Share of flux misplaced by an indicatrix on the cells.
     pub fn misplaced(&self, d: DVec3, q: &[f64]) -> f64 {
-        let compare = Grid::new(&sub_patches(7.5_f64.to_radians()));
-        let picture = |q: &[f64]| {
-            let mut flux = vec![0.0; compare.centre.len()];
-            for ((q, w), &c) in q.iter().zip(&self.grid.projected).zip(&self.grid.centre) {
-                for (ring, k, _, share) in compare.around_rings(c) {
-                    flux[compare.basis().first_cell(ring) + k] += q * w * share;
-                }
-            }
-            flux.iter_mut().zip(&compare.projected).for_each(|(f, w)| *f /= w);
-            compare.blurred(&flux)
-        };
-        let (a, b) = (picture(q), picture(&self.row(d)));
-        let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-            a.iter().zip(&b).zip(&compare.projected).map(|((a, b), w)| f(*a, *b) * w).sum()
-        };
-        0.5 * sum(&|a, b| (a - b).abs()) / sum(&|_, b| b)
+        Judge::new(&self.grid).misplaced(q, &self.row(d)).unwrap()
     }
 }
 

@@ -9,7 +9,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::incidence::filter::{self, Filter, Kernel};
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::Model;
-use crate::compute::incidence::schemes::{DiffuseScheme, Schemes, SunScheme};
+use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use crate::compute::incidence::superpose::{self, CellLuminance};
 use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
@@ -39,15 +39,15 @@ fn sun_grid(model: &Model) -> Grid {
 
 /// What stays the same for one set of indicatrices whatever shines on it.
 pub struct Interpolator {
-    schemes: Schemes,
+    model: Model,
     sun_grid: Grid,
 }
 
 impl Interpolator {
     /// Splits the indicatrices and follows their lobes.
     pub fn new(data: Arc<Indicatrices>) -> Self {
-        let model = Arc::new(Model::new(data));
-        Self { sun_grid: sun_grid(&model), schemes: Schemes::new(model) }
+        let model = Model::new(data);
+        Self { sun_grid: sun_grid(&model), model }
     }
 
     /// The cells that the sun's light is put on.
@@ -57,7 +57,7 @@ impl Interpolator {
 
     /// The model of the indicatrices.
     pub fn model(&self) -> &Model {
-        self.schemes.model()
+        &self.model
     }
 
     /// Sky and ground by a scheme, and what to say of it.
@@ -98,30 +98,22 @@ impl Interpolator {
         (total, superpose::diffuse(model, &patches, &values), note)
     }
 
-    /// The sun by a scheme, and why this one.
+    /// The sun by a scheme, and what to say of it.
     fn sun(&self, scheme: SunScheme, direction: Dir<Facade>, illuminance: f64) -> (CellLuminance, String) {
         let model = self.model();
         let mut light = superpose::sun(model, direction, illuminance, &self.sun_grid, SUN_POINTS);
-        let place = model.lattice().locate(direction);
-        let mut note = format!("{}, as asked for", scheme.key());
-        let mut own = scheme;
-        if scheme == SunScheme::Auto {
-            let choices = self.schemes.choices();
-            let all = place.vertices.iter().zip(place.weights).filter(|(_, w)| *w > 0.0);
-            if all.map(|(&v, _)| choices.at_vertex(v)).all(|at_vertex| at_vertex == SunScheme::Responses) {
-                own = SunScheme::Responses;
-            }
-            note = place.triangle.map_or_else(
-                || "beyond the last row of incident directions: as on its border".into(),
-                |triangle| choices.triangles()[triangle].reason.clone(),
-            );
-        }
-        if own != SunScheme::Responses {
-            let q = self.schemes.coefficient(own, direction, &self.sun_grid, SUN_POINTS);
+        if scheme != SunScheme::Responses {
+            let q = scheme.coefficient(model, direction, &self.sun_grid, SUN_POINTS);
             let other: Vec<f64> = q.iter().map(|q| q * illuminance).collect();
             light.shifts.push(light.luminance.iter().zip(&other).map(|(a, b)| a - b).collect());
             light.luminance = other;
         }
+        let told = "`cfs accuracy` tells what leaving out each direction costs";
+        let note = match (scheme, model.lattice().locate(direction).triangle) {
+            (SunScheme::Responses, Some(_)) => format!("responses (lobes moved by their own neighbours); {told}"),
+            (SunScheme::Responses, None) => "beyond the last row of incident directions: as on its border".into(),
+            _ => format!("{}, as asked for; {told}", scheme.key()),
+        };
         (light, note)
     }
 }

@@ -1,77 +1,111 @@
-//! The indicatrix of the sun's direction in seven ways: the report's three, base and matched lobes, lobes moved by
-//! their own responses, optimal transport, and the one that leaving out finds best at every vertex.
+//! The indicatrix of the sun's direction in four ways: lobes moved by their own responses, which is what the program
+//! does, and the report's three, its history, to be compared with.
 //!
 //! Every scheme supplies a shape alone. τ is one scalar for all, interpolated by [`Model`] with its curvature, and
 //! imposed exactly. Beyond the border of the lattice, shapes stay as on the border (lobes with responses go on moving).
 
-pub(super) mod between;
-pub mod blend;
-mod matched;
-pub(super) mod plain;
-mod transport;
-mod whole;
-pub(super) mod words;
+mod blend;
+mod words;
 
-use super::choice::Choices;
 use super::grid::Grid;
-use super::model::Model;
+use super::lattice::Place;
+use super::model::{Model, Recipe};
 use crate::compute::direction::{Dir, Facade};
-use between::Between;
 use blend::Blend;
-use plain::Plain;
-use std::sync::{Arc, OnceLock};
+use glam::{DQuat, DVec3};
 pub use words::{DiffuseScheme, SunScheme};
 
-/// All schemes over one model, and the choice among them.
-pub struct Schemes {
-    plain: Plain,
-    choices: OnceLock<Choices>,
+impl SunScheme {
+    /// q of an incident direction on the cells of `target`, lobes as means of `points`² directions a cell; its flux is
+    /// the interpolated τ. \[1/sr\]
+    pub fn coefficient(self, model: &Model, incident: Dir<Facade>, target: &Grid, points: usize) -> Vec<f64> {
+        let place = model.lattice.locate(incident);
+        Between::new(model, &place, model.recipe(incident), incident).coefficient(self, target, points)
+    }
 }
 
-impl Schemes {
-    /// Prepares what the schemes share; the choice waits until it is asked for.
-    pub fn new(model: Arc<Model>) -> Self {
-        Self { plain: Plain::new(model), choices: OnceLock::new() }
-    }
+/// A direction between directions of the data, as every scheme needs it.
+pub(super) struct Between<'a> {
+    model: &'a Model,
+    /// Data directions and their barycentric weights, above 0 and of sum 1.
+    used: Vec<(usize, f64)>,
+    direction: DVec3,
+    recipe: Recipe,
+    /// Interpolated τ.
+    tau: f64,
+}
 
-    /// The model underneath.
-    pub fn model(&self) -> &Arc<Model> {
-        &self.plain.model
-    }
-
-    /// Which scheme is best where, found at the first call.
-    pub fn choices(&self) -> &Choices {
-        self.choices.get_or_init(|| Choices::new(&self.plain))
-    }
-
-    /// The indicatrix of an incident direction in pieces.
-    pub fn blend(&self, scheme: SunScheme, incident: Dir<Facade>) -> Blend {
-        let place = self.model().lattice.locate(incident);
-        let recipe = self.model().recipe(incident);
-        let between = Between::new(self.model(), &place, recipe, incident.vector());
-        if scheme != SunScheme::Auto {
-            return self.plain.blend(scheme, &between);
-        }
-        let choices = self.choices();
-        let mut blend = Blend::default();
-        for own in SunScheme::PLAIN {
-            let share: f64 = between.used.iter().filter(|(v, _)| choices.at_vertex(*v) == own).map(|(_, w)| w).sum();
-            if share > 0.0 {
-                blend.add(&self.plain.blend(own, &between), share);
+impl<'a> Between<'a> {
+    /// `place` and `recipe` may be those of the same data with a direction left out.
+    pub(super) fn new(model: &'a Model, place: &Place, recipe: Recipe, direction: Dir<Facade>) -> Self {
+        let mut used: Vec<(usize, f64)> = Vec::with_capacity(3);
+        for (&v, w) in place.vertices.iter().zip(place.weights).filter(|(_, w)| *w > 1e-12) {
+            match used.iter_mut().find(|(other, _)| *other == v) {
+                Some((_, sum)) => *sum += w,
+                None => used.push((v, w)),
             }
+        }
+        let bases: f64 = recipe.bases.iter().map(|base| base.factor * model.base_flux[base.vertex]).sum();
+        let tau = bases + recipe.copies.iter().map(|copy| copy.flux).sum::<f64>();
+        Self { model, used, direction: direction.vector(), recipe, tau }
+    }
+
+    /// q on the cells of `target`, τ imposed. \[1/sr\]
+    pub(super) fn coefficient(&self, scheme: SunScheme, target: &Grid, points: usize) -> Vec<f64> {
+        let shape = match scheme {
+            SunScheme::Responses => Blend::of_recipe(self.model, &self.recipe),
+            SunScheme::Nearest => self.nearest(false),
+            SunScheme::DisplacedNearest => self.nearest(true),
+            SunScheme::Superposed => self.superposed(),
+        };
+        // Without any light at the vertices there is no shape; then the model's own says what there is.
+        let own = || Blend::of_recipe(self.model, &self.recipe);
+        shape.with_flux(self.tau).unwrap_or_else(own).coefficient(self.model, target, points)
+    }
+
+    /// The indicatrix of the nearest direction that lets anything through; `displaced`: turned so that its flux
+    /// centroid comes to the interpolated one.
+    fn nearest(&self, displaced: bool) -> Blend {
+        let cosine = |v: usize| self.model.lattice.points()[v].dot(self.direction);
+        let open = self.used.iter().map(|&(v, _)| v).filter(|&v| self.model.data.tau_by_direction()[v] > 0.0);
+        let Some(v) = open.max_by(|&a, &b| cosine(a).total_cmp(&cosine(b)).then(b.cmp(&a))) else {
+            return Blend::default();
+        };
+        let turn = if displaced { self.turn(v, self.common_centroid()) } else { DQuat::IDENTITY };
+        let mut blend = Blend::default();
+        blend.push_whole(self.model, v, turn, self.tau);
+        blend
+    }
+
+    /// Every indicatrix around turned to the interpolated centroid, superposed with its barycentric weight. Right for
+    /// one lobe; between two, the centroid lies where no light is.
+    fn superposed(&self) -> Blend {
+        let to = self.common_centroid();
+        let mut blend = Blend::default();
+        for &(v, w) in &self.used {
+            blend.push_whole(self.model, v, self.turn(v, to), w * self.model.data.tau_by_direction()[v]);
         }
         blend
     }
 
-    /// q of an incident direction on the cells of `target`, lobes as means of `points`² directions a cell; its flux is
-    /// the interpolated τ. \[1/sr\]
-    pub fn coefficient(&self, scheme: SunScheme, incident: Dir<Facade>, target: &Grid, points: usize) -> Vec<f64> {
-        self.blend(scheme, incident).coefficient(self.model(), target, points)
+    /// Mean direction of an indicatrix by flux; `None` where nothing gets through.
+    fn centroid(&self, vertex: usize) -> Option<DVec3> {
+        let (row, grid) = (self.model.data.row(vertex), &self.model.grid);
+        let cells = row.iter().zip(&grid.projected).zip(&grid.centre);
+        cells.map(|((q, w), centre)| *centre * (q * w)).sum::<DVec3>().try_normalize()
     }
 
-    /// Share of the transmitted flux that a scheme is stated to misplace for an incident direction; continuous in it.
-    pub fn predicted_error(&self, scheme: SunScheme, incident: Dir<Facade>) -> f64 {
-        self.choices().predicted_error(scheme, &self.model().lattice.locate(incident))
+    /// Weighted mean of the flux centroids; `None` where they cancel.
+    fn common_centroid(&self) -> Option<DVec3> {
+        let sum: DVec3 = self.used.iter().filter_map(|&(v, w)| self.centroid(v).map(|c| c * w)).sum();
+        sum.try_normalize().filter(|_| sum.length() > 1e-9)
+    }
+
+    fn turn(&self, vertex: usize, to: Option<DVec3>) -> DQuat {
+        match (self.centroid(vertex), to) {
+            (Some(from), Some(to)) => DQuat::from_rotation_arc(from, to),
+            _ => DQuat::IDENTITY,
+        }
     }
 }
 

@@ -3,58 +3,43 @@
 /// How to find the indicatrix of a direction between the data's directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum SunScheme {
-    /// At every vertex the scheme that predicts it and those around best without it; see [`choice`](crate::compute::incidence::choice).
+    /// Bases blended, lobes moved by their own responses: what the program does unless asked.
     #[default]
-    Auto,
-    /// That of the nearest direction. Jumps half way.
-    Nearest,
-    /// The nearest, moved as a whole to the interpolated centroid. Jumps half way.
-    DisplacedNearest,
-    /// Three, each moved as a whole to the interpolated centroid.
-    Superposed,
-    /// Bases blended, lobes paired and moved to their mean.
-    MatchedLobes,
-    /// Bases blended, lobes moved by their own responses.
     Responses,
-    /// Bases blended, the rest moved by optimal transport.
-    Transport,
+    /// The report's first: that of the nearest direction. Jumps half way.
+    Nearest,
+    /// Its second: the nearest, moved as a whole to the interpolated centroid. Jumps half way.
+    DisplacedNearest,
+    /// Its third: three, each moved as a whole to the interpolated centroid.
+    Superposed,
 }
 
 impl SunScheme {
     /// All, in the order that lists show.
-    pub const ALL: [Self; 7] = [
-        Self::Auto,
-        Self::Nearest,
-        Self::DisplacedNearest,
-        Self::Superposed,
-        Self::MatchedLobes,
-        Self::Responses,
-        Self::Transport,
-    ];
+    pub const ALL: [Self; 4] = [Self::Responses, Self::Nearest, Self::DisplacedNearest, Self::Superposed];
 
-    /// All but the automatic one.
-    pub const PLAIN: [Self; 6] =
-        [Self::Nearest, Self::DisplacedNearest, Self::Superposed, Self::MatchedLobes, Self::Responses, Self::Transport];
+    /// What scenes say for the default, beside its own word.
+    pub const AUTO: &'static str = "auto";
 
-    /// The word for it in scenes and on the command line.
+    /// The word for it in scenes.
     pub fn key(self) -> &'static str {
         match self {
-            Self::Auto => "auto",
+            Self::Responses => "responses",
             Self::Nearest => "nearest",
             Self::DisplacedNearest => "displaced-nearest",
             Self::Superposed => "superposed",
-            Self::MatchedLobes => "matched-lobes",
-            Self::Responses => "responses",
-            Self::Transport => "transport",
         }
     }
 
     /// The scheme of a word.
     pub fn from_key(key: &str) -> Option<Self> {
+        if key == Self::AUTO {
+            return Some(Self::default());
+        }
         Self::ALL.into_iter().find(|scheme| scheme.key() == key)
     }
 
-    /// Whether its result moves smoothly with the sun: a condition for being chosen automatically.
+    /// Whether its result moves smoothly with the sun.
     pub fn is_continuous(self) -> bool {
         !matches!(self, Self::Nearest | Self::DisplacedNearest)
     }

@@ -1,0 +1,96 @@
+//! What interpolation between the incident directions of a scene's datasets is worth: every direction left out and
+//! foretold from those around it. Takes a second or some a dataset, and no result hangs on it: done when asked for.
+
+use super::error::StudyError;
+use super::scene::Scene;
+use super::scene_file::Interpolation;
+use crate::compute::btdf::{Indicatrices, Scattered};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::incidence::left_out::LeftOut;
+use crate::compute::incidence::model::Model;
+use crate::compute::incidence::schemes::SunScheme;
+use std::sync::Arc;
+
+/// What leaving out has shown of one dataset.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeavingOut {
+    /// What its system is called.
+    pub label: String,
+    /// By direction.
+    pub left_out: LeftOut,
+    /// Share of the sun's flux stated to be misplaced at the data's own spacing, by the scheme that the scene asks for:
+    /// most over the apertures; `None` where the sun does not reach them.
+    pub sun: Option<f64>,
+}
+
+/// Every dataset of the scene that is known at single directions and interpolated between them, each once.
+pub fn leaving_out(scene: &Scene, progress: &dyn Progress) -> Result<Vec<LeavingOut>, StudyError> {
+    let mut done: Vec<(&Arc<Indicatrices>, Model, LeavingOut)> = Vec::new();
+    for (index, aperture) in scene.apertures.iter().enumerate() {
+        let scattered = aperture.system.dataset.transmission().and_then(|btdf| btdf.scattered.as_ref());
+        let Some(Scattered::Directions(data)) = scattered.filter(|_| scene.interpolation != Interpolation::Patch)
+        else {
+            continue;
+        };
+        let place = match done.iter().position(|(other, ..)| Arc::ptr_eq(other, data)) {
+            Some(place) => place,
+            None => {
+                if progress.cancelled() {
+                    return Err(Cancelled.into());
+                }
+                let model = Model::new(Arc::clone(data));
+                let left_out = LeftOut::new(&model);
+                done.push((data, model, LeavingOut { label: aperture.system.label.clone(), left_out, sun: None }));
+                done.len() - 1
+            }
+        };
+        let (_, model, own) = &mut done[place];
+        let facing = scene.facing(index);
+        if let Some(direction) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) {
+            let stated = own.left_out.stated(scene.sun_interpolation, &model.lattice().locate(direction));
+            own.sun = Some(own.sun.map_or(stated, |other| other.max(stated)));
+        }
+    }
+    Ok(done.into_iter().map(|(.., own)| own).collect())
+}
+
+impl LeavingOut {
+    /// What it comes to, and where another scheme than responses would have been better.
+    pub fn sentences(&self) -> String {
+        let count = self.left_out.directions().count();
+        let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+        let means: Vec<String> = SunScheme::ALL
+            .into_iter()
+            .map(|scheme| format!("{} {}", scheme.key(), percent(self.left_out.mean(scheme))))
+            .collect();
+        let mut text = format!(
+            "{}: each of {count} incident directions left out and foretold from those around it, flux misplaced in the \
+             mean: {}.",
+            self.label,
+            means.join(", ")
+        );
+        for scheme in SunScheme::ALL {
+            let better = self.left_out.directions().filter_map(|one| {
+                let (best, gain) = one.better()?;
+                (best == scheme).then_some((gain, one))
+            });
+            let list: Vec<_> = better.collect();
+            if let Some((gain, one)) = list.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+                text.push_str(&format!(
+                    " {} would be better than responses at {}, at most by {} (θ {:.0}°, φ {:.0}°: {} against {}).",
+                    scheme.key(),
+                    list.len(),
+                    percent(*gain),
+                    one.direction.theta().to_degrees(),
+                    one.direction.phi().to_degrees(),
+                    percent(one.error(scheme)),
+                    percent(one.error(SunScheme::Responses)),
+                ));
+            }
+        }
+        if let Some(stated) = self.sun {
+            text.push_str(&format!(" Stated for the sun at the data's own spacing: {}.", percent(stated)));
+        }
+        text
+    }
+}
