@@ -10,7 +10,8 @@ use super::lattice::{Lattice, tangent_step};
 use super::response::gradient;
 use glam::DVec2;
 
-/// Cosine between two steps that go opposite ways: within 37°.
+/// Cosine between two steps that go opposite ways: within 37°. As with the limits of [`bump`],
+/// `tests/compute/incidence_schemes` prints what is misplaced with it; no table of other values is kept.
 const BEHIND: f64 = -0.8;
 
 /// What an edge adds to linear interpolation.

@@ -3,8 +3,8 @@
 //! left the choice between its schemes open (§3.2).
 //!
 //! Predicting across a gap doubles the spacing; at the true spacing a scheme of second order is expected to misplace a
-//! quarter as much, one of first order (nearest) half. It takes seconds, and no result hangs on it: responses win
-//! nearly everywhere, and where another scheme foretells a direction better, the list says so.
+//! quarter as much, one of first order (nearest) half. It takes seconds, and no result hangs on it. Where another
+//! scheme foretells a direction better than responses, it is named: one wide lobe alone is moved as well in one piece.
 
 use super::judge::Judge;
 use super::lattice::{Lattice, Place};

@@ -10,7 +10,7 @@ use crate::compute::incidence::filter::{self, Filter, Kernel};
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::Model;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
-use crate::compute::incidence::superpose::{self, CellLuminance};
+use crate::compute::incidence::superpose::{self, CellLuminance, REST};
 use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -24,8 +24,6 @@ const ACROSS: f64 = 14.0;
 const SUN_CELL: f64 = 1.3 * PI / 180.0;
 /// Points a side of a cell at which a lobe of the sun is taken.
 const SUN_POINTS: usize = 2;
-/// What interpolation between the incident directions leaves after its own doubts, relative; seen on analytic systems.
-const REST: f64 = 5e-3;
 
 /// The emergent cells that the sun's light is put on: the data's own, cut where they are wide.
 fn sun_grid(model: &Model) -> Grid {

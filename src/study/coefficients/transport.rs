@@ -5,7 +5,7 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::estimate::Progress;
-use crate::compute::incidence::superpose::sub_patches;
+use crate::compute::incidence::superpose::{REST, sub_patches};
 use crate::compute::lid::Interpolator;
 use crate::compute::quadrature::gauss_legendre;
 use crate::study::error::StudyError;
@@ -27,8 +27,6 @@ const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 const SPACING: f64 = 4.0 * PI / 180.0;
 /// Gauss points for τ across a ring.
 pub(super) const ACROSS: usize = 3;
-/// What interpolation between incident directions leaves after its own doubts, relative.
-const REST: f64 = 4e-3;
 /// What the straightened cells of a tree cost, relative.
 const TREE_CELL_ERROR: f64 = 5e-3;
 

@@ -73,7 +73,7 @@ impl Judge {
     }
 
     /// q as means over the fine cells, every lobe with exactly its flux.
-    fn truth(&self, name: &str, d: DVec3) -> Vec<f64> {
+    pub fn truth(&self, name: &str, d: DVec3) -> Vec<f64> {
         let parts = parts(name, d);
         // u = −y′ for every system that has B.
         let smooth = |c: &DVec3| (parts.a - parts.b * c.y).max(0.0) / PI;
