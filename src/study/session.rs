@@ -4,7 +4,9 @@
 mod emission;
 pub(super) mod interreflected;
 pub(super) mod responses;
+mod through_room;
 mod thrown_back;
+mod weights;
 
 use super::cache::{Cache, Key, bits};
 use super::error::StudyError;
@@ -26,9 +28,9 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
-use responses::{ByCells, Response};
 use std::sync::Arc;
 use std::time::Instant;
+use weights::{ByCells, Response};
 
 /// Relative accuracy asked of the cubature at every sensor: half of what the scene asks for, the rest is for the light
 /// itself and for interreflection. Without a target, what costs no digit that anyone sees.

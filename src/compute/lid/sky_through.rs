@@ -359,7 +359,6 @@ mod tests {
             let usual = at_sensors(&SkyThrough::new(system.as_ref()).emission(&facing), &facing);
             let closer = at_sensors(&SkyThrough::on(system.as_ref(), Arc::clone(&fine)).emission(&facing), &facing);
             for (a, b) in usual.iter().zip(&closer) {
-                println!("{name}: {:.2} ± {:.2}, {:.2}", a.value, a.error, b.value);
                 assert!((a.value - b.value).abs() < 0.012 * b.value, "{name}: {a:?} {b:?}");
                 all += 1;
                 held += usize::from((a.value - b.value).abs() <= a.error);

@@ -3,11 +3,12 @@
 //! comes in by cells, see [`super::thrown_back`].
 
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key, spans};
+use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
-use super::{Session, basis_key, check, sensor_key};
+use super::weights::Response;
+use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
-use crate::compute::room::aperture::Aperture;
 use crate::compute::room::first_bounce::{BeamLanding, PatchWeights};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
@@ -16,25 +17,13 @@ use crate::study::scene::Scene;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Weights of one sensor, by fine patch.
-pub(in crate::study) struct Response {
-    /// Of all first illuminance. \[lx per lx\]
-    pub value: Vec<f64>,
-    /// The difference of the two densities, wall by wall.
-    pub walls: Vec<Vec<f64>>,
-}
-
 /// Weights of all sensors.
 pub(in crate::study) struct Responses {
     /// The balance.
     pub radiosity: Arc<Radiosity>,
-    /// In the order of the scene; apertures that reflect by direction are black to them.
-    sensors: Arc<Vec<Response>>,
-    /// What these apertures throw back.
-    pub(super) mirrors: Option<ThrownBack>,
-    pub(super) key: Key,
-    pub(super) geometry: Vec<Aperture>,
-    sensor_key: Key,
+    room: ThroughRoom,
+    /// What apertures throw back that reflect by direction.
+    mirrors: Option<ThrownBack>,
 }
 
 /// Interreflected light at a sensor, or weights that make it.
@@ -53,13 +42,6 @@ impl Reflected {
     pub fn doubt(&self) -> f64 {
         DIFFERENCE_ALONE * self.difference + UNEVEN * self.thrown_back
     }
-}
-
-/// Sensor by sensor weights of the luminance of cells.
-pub(in crate::study) struct ByCells {
-    pub value: Vec<Vec<f64>>,
-    /// Wall by wall; empty where not asked for.
-    pub walls: Vec<Vec<Vec<f64>>>,
 }
 
 impl Session {
@@ -86,9 +68,9 @@ impl Session {
                 .collect::<Result<Vec<_>, StudyError>>()
         })?;
         let geometry = scene.apertures.iter().map(|a| a.aperture).collect();
-        let mut responses = Responses { radiosity, sensors, mirrors: None, key, geometry, sensor_key };
-        responses.mirrors = ThrownBack::new(self, scene, &responses, progress)?;
-        Ok(responses)
+        let room = ThroughRoom { radiosity: Arc::clone(&radiosity), sensors, key, geometry, sensor_key };
+        let mirrors = ThrownBack::new(self, scene, &room, progress)?;
+        Ok(Responses { radiosity, room, mirrors })
     }
 }
 
@@ -120,32 +102,7 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
 impl Responses {
     /// What the patches receive from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
-        session.patch_weights(&self.key, &self.radiosity.nested.fine, index, &self.geometry, basis)
-    }
-
-    /// The sensors' weights of the luminance of an aperture's cells, by way of the room alone; without `doubts` values
-    /// only.
-    pub(super) fn through_room(
-        &self,
-        session: &Session,
-        index: usize,
-        basis: &Arc<RingBasis>,
-        doubts: bool,
-    ) -> Arc<ByCells> {
-        let mut key = [&self.key[..], &self.sensor_key].concat();
-        key.extend([index as u64, u64::from(doubts)]);
-        key.extend(basis_key(Some(basis)));
-        let compute = || {
-            let weights = self.weights(session, index, basis);
-            let value = self.sensors.par_iter().map(|sensor| weights.gathered(&sensor.value)).collect();
-            let walls = |sensor: &Response| sensor.walls.iter().map(|wall| weights.gathered(wall)).collect();
-            let walls = if doubts { self.sensors.par_iter().map(walls).collect() } else { Vec::new() };
-            Ok::<_, std::convert::Infallible>(ByCells { value, walls })
-        };
-        match session.by_cells.get(key, compute) {
-            Ok(by_cells) => by_cells,
-            Err(never) => match never {},
-        }
+        self.room.weights(session, index, basis)
     }
 
     /// Sensor by sensor, cell by cell, what light of luminance 1 from an aperture's cells gives after reflection.
@@ -156,8 +113,8 @@ impl Responses {
         basis: &Arc<RingBasis>,
         doubts: bool,
     ) -> Vec<Vec<Reflected>> {
-        let room = self.through_room(session, index, basis, doubts);
-        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of_cells(session, self, index, basis));
+        let room = self.room.through_room(session, index, basis, doubts);
+        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of_cells(session, &self.room, index, basis));
         let sensor = |s: usize| {
             let added = mirrored.as_ref().map(|all| &all[s]);
             let cell = |c: usize| {
@@ -170,7 +127,7 @@ impl Responses {
             };
             (0..basis.len()).map(cell).collect()
         };
-        (0..self.sensors.len()).into_par_iter().map(sensor).collect()
+        (0..self.room.sensors.len()).into_par_iter().map(sensor).collect()
     }
 
     /// What every sensor gets of a first illuminance of the patches.
@@ -194,6 +151,6 @@ impl Responses {
             let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
             Reflected { value, difference: squares.sqrt(), thrown_back: added.map_or(0.0, |added| added.straight) }
         };
-        self.sensors.iter().enumerate().map(one).collect()
+        self.room.sensors.iter().enumerate().map(one).collect()
     }
 }

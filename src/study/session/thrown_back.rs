@@ -2,7 +2,8 @@
 //! system's own reflection R belongs to the room and is kept, so that another system or state costs one small matrix.
 
 use super::interreflected::mirrors;
-use super::responses::{ByCells, Responses};
+use super::through_room::ThroughRoom;
+use super::weights::ByCells;
 use super::{Session, basis_key, check};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
@@ -53,7 +54,7 @@ impl ThrownBack {
     pub fn new(
         session: &Session,
         scene: &Scene,
-        responses: &Responses,
+        responses: &ThroughRoom,
         progress: &dyn Progress,
     ) -> Result<Option<Self>, StudyError> {
         let mirrors = mirrors(scene, |index, basis| responses.weights(session, index, basis));
@@ -107,7 +108,7 @@ impl ThrownBack {
     pub fn of_cells(
         &self,
         session: &Session,
-        responses: &Responses,
+        responses: &ThroughRoom,
         index: usize,
         basis: &Arc<RingBasis>,
     ) -> Vec<Added<Vec<f64>>> {
@@ -142,7 +143,7 @@ impl ThrownBack {
 }
 
 impl Session {
-    fn room_side(&self, responses: &Responses, index: usize, basis: &Arc<RingBasis>) -> Arc<RoomSide> {
+    fn room_side(&self, responses: &ThroughRoom, index: usize, basis: &Arc<RingBasis>) -> Arc<RoomSide> {
         let compute = || {
             let weights = responses.weights(self, index, basis);
             let side = RoomSide::new(&responses.radiosity, &responses.geometry[index], &weights);
@@ -155,7 +156,13 @@ impl Session {
     }
 
     /// What falls on a mirroring aperture, by cell, of light from the cells of another or the same.
-    fn falling_in(&self, responses: &Responses, to: &Side, from: usize, basis: &Arc<RingBasis>) -> Arc<Vec<Vec<f64>>> {
+    fn falling_in(
+        &self,
+        responses: &ThroughRoom,
+        to: &Side,
+        from: usize,
+        basis: &Arc<RingBasis>,
+    ) -> Arc<Vec<Vec<f64>>> {
         let key = cells_key(&cells_key(&responses.key, to.index, &to.basis), from, basis);
         let compute = || {
             let weights = responses.weights(self, from, basis);
