@@ -9,7 +9,7 @@ use crate::compute::system::measure::front_basis;
 use std::sync::Arc;
 
 /// Error allowed in the data that sky, ground and back reflection are computed with.
-pub const ERROR: f64 = 0.005;
+const ERROR: f64 = 0.005;
 
 /// What data computed for a scene are asked to be.
 pub fn request() -> Request {

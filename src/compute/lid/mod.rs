@@ -14,7 +14,7 @@ pub use emission::{BandLight, BeamSource, CellLight, Emission};
 pub use facing::Facing;
 pub use interpolated::Interpolator;
 pub use sky_through::SkyThrough;
-pub use sun_through::{SunThrough, sun_beams, sun_cells};
+pub use sun_through::{SunThrough, sun_cells};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};

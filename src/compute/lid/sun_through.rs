@@ -129,7 +129,7 @@ fn turned(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec
 }
 
 /// The sun's beams behind a system.
-pub fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
+fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
     let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
     let mut beams: Vec<BeamLight> = straight(specimen, facing, sun).into_iter().collect();
     beams.extend(turned(specimen, facing, sun));
@@ -248,7 +248,8 @@ impl Emission {
             self.beam_source = BeamSource::Described;
             let of = |straight: bool| {
                 let beams = self.beams.iter().filter(|beam| beam.straight == straight);
-                100.0 * beams.map(|beam| beam.exitance).sum::<f64>() / self.incident_sun
+                // The sum of nothing is −0.
+                100.0 * beams.map(|beam| beam.exitance).sum::<f64>() / self.incident_sun + 0.0
             };
             self.notes.push(format!(
                 "sun: by the description for this very direction; {:.2} % goes straight on, {:.2} % as turned beams",
