@@ -1,4 +1,4 @@
-//! Run time of a new sun over a room with a described system, beside the error: 96 sensors, interreflection, sky.
+//! Run time of a new sun alone over a room with a described system, beside the error: 96 sensors, interreflection.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench sharp_sun`. `kept`: the sun has been asked for before, so that what the system
 //! makes of it is there; `first`: it has not. Everything else of the room is warm. Before the times the stated errors and
@@ -27,8 +27,7 @@ fn scene(system: &str) -> Scene {
          reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
          [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\n\
          system = {{ file = \"{system}.system.toml\"{state} }}\n\
-         [site]\nazimuth = 170.0\nground_reflectance = 0.2\n\
-         [sky]\nmodel = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0\n\
+         [site]\nazimuth = 170.0\n[sky]\nmodel = \"uniform\"\ndiffuse_horizontal = 0.0\n\
          [sensors]\nplane = {{ z = 0.85, nx = 8, ny = 12 }}\n"
     );
     let keys = SceneFile::parse(&text).expect("the text above is a scene");

@@ -16,7 +16,7 @@ use crate::compute::quadrature::gauss_legendre;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Weights W with E_patch = Σ W_cell · L_cell, mean over each patch: geometry only, shared by all skies. \[sr\]
 pub struct PatchWeights {
@@ -191,6 +191,31 @@ pub fn merged_basis() -> RingBasis {
     RingBasis::new("merged", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
 }
 
+/// [`merged_basis`], made once.
+fn merged_cells() -> &'static Arc<RingBasis> {
+    static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
+    CELLS.get_or_init(|| Arc::new(merged_basis()))
+}
+
+/// Bases whose way onto the merged cells is kept; the oldest goes first.
+const MERGINGS: usize = 4;
+
+/// From the cells of a basis to the merged ones. Every sun asks for the same few bases.
+fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
+    static KEPT: Mutex<Vec<(Arc<RingBasis>, Arc<Resampling>)>> = Mutex::new(Vec::new());
+    // What is kept is whole even if another thread has failed while it held the lock.
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, found)) = kept.iter().find(|(known, _)| Arc::ptr_eq(known, basis)) {
+        return Arc::clone(found);
+    }
+    let made = Arc::new(Resampling::new(basis, merged_cells()));
+    if kept.len() == MERGINGS {
+        kept.remove(0);
+    }
+    kept.push((Arc::clone(basis), Arc::clone(&made)));
+    made
+}
+
 /// Direct illuminance of the fine patches, means. \[lx\]
 pub struct FirstLight {
     /// Sky, ground and scattered light.
@@ -246,18 +271,18 @@ impl FirstLight {
         for light in &emission.cells {
             let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
             let part = if light.basis.len() > MOST_CELLS {
-                let merged = Arc::new(merged_basis());
-                let luminance = Resampling::new(&light.basis, &merged).apply(&luminance);
-                weights(&merged).illuminance(&luminance)
+                let luminance = merging(&light.basis).apply(&luminance);
+                let merged = merged_cells();
+                weights(merged).illuminance(&luminance)
             } else {
                 weights(&light.basis).illuminance(&luminance)
             };
             self.add_diffuse(part);
         }
         for bands in &emission.bands {
-            let merged = Arc::new(merged_basis());
+            let merged = merged_cells();
             let luminance: Vec<f64> = bands.light.on(&merged).iter().map(|q| q * bands.illuminance).collect();
-            self.add_diffuse(weights(&merged).illuminance(&luminance));
+            self.add_diffuse(weights(merged).illuminance(&luminance));
         }
         if let Some(tau) = &emission.regular {
             self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
