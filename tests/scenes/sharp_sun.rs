@@ -109,7 +109,7 @@ fn every_way_to_a_described_system_gives_the_same_light() {
     let described = Described::read(&folder.0.join("blind.system.toml")).unwrap();
     let request = cfs::study::by_description::request();
     let made = described.measure("15", &request, &Library::default(), None, &cfs::compute::estimate::Silent).unwrap();
-    let xml = cfs::formats::write_dataset(cfs::formats::Format::BsdfXml, &[made.dataset.clone()]).unwrap();
+    let xml = cfs::formats::write_dataset(cfs::formats::Format::BsdfXml, std::slice::from_ref(&made.dataset)).unwrap();
     std::fs::write(folder.0.join("blind.xml"), &xml.bytes).unwrap();
     let by_xml = room(&text("{ file = \"blind.xml\" }", sun, ""), &folder.0);
     for (a, b) in direct.sensors.iter().zip(&by_xml.sensors) {

@@ -45,14 +45,13 @@ fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>>
     let edges = facing.sun_edges();
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     (0..2 * seeds)
-        .map(|k| {
+        .filter_map(|k| {
             let (sin, cos) = (golden * (k / 2) as f64).sin_cos();
             let at = SUN_HALF_ANGLE.tan() * (((k / 2) as f64 + 0.5) / seeds as f64).sqrt();
             let at = if k % 2 == 0 { at } else { -at };
-            (sun.vector() + at * (cos * u + sin * v)).normalize()
+            Dir::new(sun.vector() + at * (cos * u + sin * v))
         })
-        .filter(|d| edges.iter().all(|edge| edge.normal.dot(*d) > edge.offset))
-        .map(Dir::from_unit)
+        .filter(|d| edges.iter().all(|edge| edge.normal.dot(d.vector()) > edge.offset))
         .collect()
 }
 

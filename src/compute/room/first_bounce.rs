@@ -281,7 +281,7 @@ impl FirstLight {
         }
         for bands in &emission.bands {
             let merged = merged_cells();
-            let luminance: Vec<f64> = bands.light.on(&merged).iter().map(|q| q * bands.illuminance).collect();
+            let luminance: Vec<f64> = bands.light.on(merged).iter().map(|q| q * bands.illuminance).collect();
             self.add_diffuse(weights(merged).illuminance(&luminance));
         }
         if let Some(tau) = &emission.regular {

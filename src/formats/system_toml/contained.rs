@@ -112,12 +112,10 @@ mod tests {
         assert_eq!(described(&text, "").unwrap().text, text);
         assert_eq!(described(&text, "45"), None, "no state of the outer stack");
         // Half-way: a layer of its own that still names a file.
-        let half = format!(
-            "name = \"Half\"\nkind = \"stack\"\n[stack]\nlayers = [{{ state = \"0.1\", system = {{ name = \"s\", kind = \
-             \"stack\", stack = {{ layers = [{{ file = \"p.system.toml\" }}, {{ catalogue = \"blind\", state = \"each\" }}] }} }} }}]\n"
-        );
-        assert_eq!(states(&half), None);
-        assert_eq!(states(&self_contained(&half, &mut find).unwrap()).unwrap(), [""]);
+        let half = "name = \"Half\"\nkind = \"stack\"\n[stack]\nlayers = [{ state = \"0.1\", system = { name = \"s\", kind = \
+             \"stack\", stack = { layers = [{ file = \"p.system.toml\" }, { catalogue = \"blind\", state = \"each\" }] } } }]\n";
+        assert_eq!(states(half), None);
+        assert_eq!(states(&self_contained(half, &mut find).unwrap()).unwrap(), [""]);
     }
 
     #[test]

@@ -106,7 +106,7 @@ pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side
             let whole = merged(beams).into_iter().filter(|beam| beam.share > 0.0);
             match place {
                 (0, false) => {
-                    passage.leaving.extend(whole.map(|beam| Beam { transmitted: side == Side::Back, ..beam }))
+                    passage.leaving.extend(whole.map(|beam| Beam { transmitted: side == Side::Back, ..beam }));
                 }
                 (gap, true) if gap == n => {
                     passage.leaving.extend(whole.map(|beam| Beam { transmitted: side == Side::Front, ..beam }));
