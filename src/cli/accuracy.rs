@@ -4,7 +4,8 @@ use super::output::{number, print};
 use super::progress::TerminalProgress;
 use crate::compute::incidence::schemes::SunScheme;
 use crate::drawing::chart;
-use crate::study::accuracy::{Accuracy, Coverage, Quantity, Rung, Series, ladder};
+use crate::study::accuracy::words::{self, percent, quantity};
+use crate::study::accuracy::{Accuracy, Coverage, Origin, Reference, Rung, Series, Truth, ladder_against};
 use crate::study::accuracy_plot::{name, plots};
 use crate::study::leaving_out::LeavingOut;
 use crate::study::{files, load_scene, system::SystemLibrary};
@@ -18,26 +19,35 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Examples:
   cfs accuracy office.toml                                   table on standard output
   cfs accuracy office.toml --csv ladder.csv --plot ladder.svg
+  cfs accuracy office.toml --reference measured.csv          true errors, against a file
 
 Every method computes the scene with rising effort; the ordinary one by error targets, which a scene asks for by
-compute.error_target. Methods that a scene chooses by compute.near_field are compared by their direct component. The
-reference is the ordinary method with more effort than any line of the table; how far it lies from the second finest is
-stated. Errors are relative, over sensors above 1 % of the mean. Times are seconds of one thread: set-up once for a room,
-then each new sky, each new position of the sun.
+compute.error_target. Methods that a scene chooses by compute.near_field are compared by their direct component.
+
+Without --reference the errors are numerical: against the ordinary method's finest run, with more effort than any line of
+the table; how far it lies from the second finest is stated, and a line that it hardly refines has no error. With it they
+are true errors against the file, whose own uncertainty counts; columns as `cfs room` writes them: x,y,z,E_lx of the
+scene's sensors in its order, beside these E_error_lx, and E_direct_lx for the direct component where the room reflects.
+
+Errors are relative, over sensors above 1 % of the mean. held: stated ≥ found error; > 10×: stated above ten times of it.
+Times are seconds of one thread: set-up once for a room, then each new sky, each new position of the sun.
 
 Of data at single incident directions the reference interpolates as well. What that is worth is told beneath: every
 direction is left out and foretold from those around it, by responses and by the report's three schemes
 (compute.sun_interpolation); --json lists all directions and where another scheme would have been better.
 
-Columns of the CSV: method, quantity, setting, setup_s, sky_s, sun_s, stated_max, true_rms, true_max, sensors,
-share_stated_ge_true, share_stated_le_10_true.")]
+Columns of the CSV: method, quantity, against (finest run, or the file), setting, setup_s, sky_s, sun_s, stated_max,
+error_rms, error_max, sensors, share_held, share_padded_10, data_open, remark.")]
 pub struct AccuracyArgs {
     /// Scene file (TOML)
     pub scene: PathBuf,
+    /// Illuminances of the scene's sensors that are taken as true, with columns as `cfs room` writes them
+    #[arg(long, value_name = "FILE.csv")]
+    pub reference: Option<PathBuf>,
     /// CSV file to write
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
-    /// Picture to write: time against true error, stated against true error
+    /// Picture to write: time against error, stated against found error
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub plot: Option<PathBuf>,
     /// Results for programs, on standard output
@@ -53,9 +63,11 @@ pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<(
     // Before the work, so that a wrong name costs no minute.
     let picture = args.plot.as_deref().map(|path| Ok::<_, anyhow::Error>((path, is_png(path)?))).transpose()?;
     let scene = load_scene(&args.scene, library)?;
-    let accuracy = ladder(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
+    let truth = args.reference.as_deref().map(|path| Truth::read(path, &scene)).transpose()?;
+    let accuracy = ladder_against(&scene, truth.as_ref(), &TerminalProgress::new())
+        .with_context(|| args.scene.display().to_string())?;
     if let Some(path) = &args.csv {
-        files::write(path, csv(&accuracy).as_bytes())?;
+        files::write(path, csv(&accuracy)?.as_bytes())?;
     }
     if let Some((path, png)) = picture {
         let drawing = chart::draw(&plots(&accuracy), SIZE);
@@ -73,43 +85,64 @@ fn is_png(path: &Path) -> anyhow::Result<bool> {
     }
 }
 
-fn quantity(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Direct => "direct",
-        Quantity::Total => "total",
+/// Every rung with its series, and what is to be said of it.
+fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung, Option<String>)> {
+    accuracy.series.iter().flat_map(|series| {
+        let reference = accuracy.reference(series.quantity);
+        series.rungs.iter().map(move |rung| (series, rung, reference.and_then(|one| words::untold(rung, one))))
+    })
+}
+
+/// The word for where a reference is from.
+fn against(reference: Option<&Reference>) -> &str {
+    match reference.map(|reference| &reference.origin) {
+        Some(Origin::Given(name)) => name,
+        _ => "finest run",
     }
 }
 
-/// Every rung with its series.
-fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung)> {
-    accuracy.series.iter().flat_map(|series| series.rungs.iter().map(move |rung| (series, rung)))
-}
-
-fn csv(accuracy: &Accuracy) -> String {
-    let mut text = String::from(
-        "method,quantity,setting,setup_s,sky_s,sun_s,stated_max,true_rms,true_max,sensors,share_stated_ge_true,\
-         share_stated_le_10_true\n",
-    );
-    for (series, rung) in rows(accuracy) {
+fn csv(accuracy: &Accuracy) -> anyhow::Result<String> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    writer.write_record([
+        "method",
+        "quantity",
+        "against",
+        "setting",
+        "setup_s",
+        "sky_s",
+        "sun_s",
+        "stated_max",
+        "error_rms",
+        "error_max",
+        "sensors",
+        "share_held",
+        "share_padded_10",
+        "data_open",
+        "remark",
+    ])?;
+    for (series, rung, remark) in rows(accuracy) {
         let coverage = rung.coverage();
-        let cells = [
+        // What the reference cannot tell stays empty.
+        let told = |value: f64| if remark.is_none() { number(value) } else { String::new() };
+        writer.write_record([
             series.method.to_owned(),
             quantity(series.quantity).to_owned(),
-            format!("\"{}\"", rung.setting),
+            against(accuracy.reference(series.quantity)).to_owned(),
+            rung.setting.clone(),
             number(rung.setup),
             number(rung.sky),
             rung.sun.map_or_else(String::new, number),
             number(rung.reached()),
-            number(rung.rms()),
-            number(rung.max()),
+            told(rung.rms()),
+            told(rung.max()),
             coverage.count.to_string(),
-            number(coverage.kept),
-            number(coverage.tight),
-        ];
-        text.push_str(&cells.join(","));
-        text.push('\n');
+            told(coverage.kept),
+            told(coverage.padded),
+            number(rung.data),
+            remark.clone().unwrap_or_default(),
+        ])?;
     }
-    text
+    Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
 /// Seconds in a unit that leaves three digits.
@@ -122,67 +155,78 @@ fn time(seconds: f64) -> String {
     format!("{:.*} {unit}", if seconds * scale < 10.0 { 2 } else { 1 }, seconds * scale)
 }
 
-/// A relative error in per cent, two digits.
-fn error(relative: f64) -> String {
-    let percent = 100.0 * relative;
-    if percent == 0.0 || percent >= 1e-3 { format!("{percent:.3} %") } else { format!("{percent:.0e} %") }
-}
-
 fn table(accuracy: &Accuracy) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
     for series in &accuracy.series {
-        let _ = writeln!(text, "{} ({} illuminance)", name(series), quantity(series.quantity));
+        let reference = accuracy.reference(series.quantity);
+        let kind = reference.map_or_else(String::new, words::kind);
+        let word = if accuracy.is_true(series.quantity) { "true" } else { "error" };
+        let _ = writeln!(text, "{} ({} illuminance): {kind}", name(series), quantity(series.quantity));
         let _ = writeln!(
             text,
             "  {:<56} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>7} {:>7}",
-            "effort", "set-up", "sky", "sun", "stated max", "true RMS", "true max", "≥ true", "≤ 10×"
+            "effort",
+            "set-up",
+            "sky",
+            "sun",
+            "stated max",
+            format!("{word} RMS"),
+            format!("{word} max"),
+            "held",
+            "> 10×"
         );
         for rung in &series.rungs {
-            let coverage = rung.coverage();
-            let _ = writeln!(
+            let _ = write!(
                 text,
-                "  {:<56} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>5.1} % {:>5.1} %",
+                "  {:<56} {:>9} {:>9} {:>9} {:>10} ",
                 rung.setting,
                 time(rung.setup),
                 time(rung.sky),
                 rung.sun.map_or_else(|| String::from("-"), time),
-                error(rung.reached()),
-                error(rung.rms()),
-                error(rung.max()),
-                100.0 * coverage.kept,
-                100.0 * coverage.tight,
+                percent(rung.reached()),
             );
+            let coverage = rung.coverage();
+            let _ = match reference.and_then(|one| words::untold(rung, one)) {
+                Some(remark) => writeln!(text, "{remark}"),
+                None => writeln!(
+                    text,
+                    "{:>10} {:>10} {:>5.1} % {:>5.1} %",
+                    percent(rung.rms()),
+                    percent(rung.max()),
+                    100.0 * coverage.kept,
+                    100.0 * coverage.padded
+                ),
+            };
         }
         text.push('\n');
     }
     for reference in &accuracy.references {
-        let _ = writeln!(
-            text,
-            "Reference of the {} illuminance: error target {}, states {}; from the second finest it lies {} RMS, {} at most.",
-            quantity(reference.quantity),
-            error(reference.target),
-            error(reference.stated),
-            error(reference.rms),
-            error(reference.max),
-        );
+        let _ = writeln!(text, "{}", words::reference(reference));
     }
-    let Coverage { count, kept, tight, tight_or_small } = accuracy.ordinary_coverage();
-    let _ = writeln!(
-        text,
-        "Ordinary method, {count} stated errors: {:.1} % are at least the true error, {:.1} % at most ten times it \
-         ({:.1} % with those below 0.01 % of the illuminance).",
-        100.0 * kept,
-        100.0 * tight,
-        100.0 * tight_or_small
-    );
-    for series in accuracy.series.iter().filter(|series| series.rungs.iter().all(|rung| rung.target.is_some())) {
+    let Coverage { count, kept, padded, padded_visibly } = accuracy.ordinary_coverage();
+    let _ = if count == 0 {
+        writeln!(text, "Ordinary method: this reference tells no errors of it.")
+    } else {
+        writeln!(
+            text,
+            "Ordinary method, {count} stated errors: {:.1} % are at least the error found, {:.1} % more than ten times it \
+             ({:.1} % without those below 0.01 % of the illuminance).",
+            100.0 * kept,
+            100.0 * padded,
+            100.0 * padded_visibly
+        )
+    };
+    for series in accuracy.series.iter().filter(|series| series.is_ordinary()) {
         let reached: Vec<String> = series
             .rungs
             .iter()
-            .filter_map(|rung| Some(format!("{} of {}", error(rung.reached()), error(rung.target?))))
+            .filter_map(|rung| Some(format!("{} of {}", percent(rung.reached()), percent(rung.target?))))
             .collect();
         let _ = writeln!(text, "Reached, {} illuminance: {}.", quantity(series.quantity), reached.join(", "));
+        if let Some(limit) = words::data_limit(series) {
+            let _ = writeln!(text, "Data, {} illuminance: {limit}.", quantity(series.quantity));
+        }
     }
     accuracy.leaving_out.iter().for_each(|one| text.extend([&*one.sentences(), "\n"]));
     let (computed, all) = accuracy.sensors;
@@ -209,26 +253,40 @@ fn left_out(one: &LeavingOut) -> serde_json::Value {
 }
 
 fn to_json(accuracy: &Accuracy) -> serde_json::Value {
-    let coverage = |c: Coverage| {
+    let coverage = |c: Coverage| json!({ "sensors": c.count, "held": c.kept, "padded_10": c.padded, "padded_10_above_1e-4": c.padded_visibly });
+    let reference = |r: &Reference| {
+        let (target, rms, max) = match r.origin {
+            Origin::FinestRun { target, rms, max } => (Some(target), Some(rms), Some(max)),
+            Origin::Given(_) => (None, None, None),
+        };
         json!({
-            "sensors": c.count, "stated_ge_true": c.kept, "stated_le_10_true": c.tight,
-            "stated_le_10_true_or_1e-4": c.tight_or_small,
+            "quantity": quantity(r.quantity), "against": against(Some(r)), "errors": words::kind(r),
+            "error_target": target, "stated": r.stated, "rms_from_second": rms, "max_from_second": max,
+        })
+    };
+    let rung = |rung: &Rung, one: Option<&Reference>| {
+        let remark = one.and_then(|one| words::untold(rung, one));
+        let told = |value: f64| remark.is_none().then_some(value);
+        json!({
+            "setting": rung.setting, "error_target": rung.target, "setup_s": rung.setup, "sky_s": rung.sky,
+            "sun_s": rung.sun, "reached": rung.reached(), "error_rms": told(rung.rms()), "error_max": told(rung.max()),
+            "coverage": remark.is_none().then(|| coverage(rung.coverage())), "remark": remark,
+            "numerical": rung.numerical, "data_open": rung.data, "limited_by_data": rung.is_limited_by_data(),
         })
     };
     json!({
-        "references": accuracy.references.iter().map(|r| json!({
-            "quantity": quantity(r.quantity), "error_target": r.target, "stated": r.stated,
-            "rms_from_second": r.rms, "max_from_second": r.max,
-        })).collect::<Vec<_>>(),
-        "series": accuracy.series.iter().map(|series| json!({
-            "method": series.method,
-            "quantity": quantity(series.quantity),
-            "rungs": series.rungs.iter().map(|rung| json!({
-                "setting": rung.setting, "error_target": rung.target, "setup_s": rung.setup, "sky_s": rung.sky, "sun_s": rung.sun,
-                "reached": rung.reached(), "true_rms": rung.rms(), "true_max": rung.max(),
-                "coverage": coverage(rung.coverage()),
-            })).collect::<Vec<_>>(),
-        })).collect::<Vec<_>>(),
+        "references": accuracy.references.iter().map(reference).collect::<Vec<_>>(),
+        "series": accuracy.series.iter().map(|series| {
+            let one = accuracy.reference(series.quantity);
+            json!({
+                "method": series.method,
+                "quantity": quantity(series.quantity),
+                "against": against(one),
+                "errors": one.map(words::kind),
+                "rungs": series.rungs.iter().map(|r| rung(r, one)).collect::<Vec<_>>(),
+                "data_limit": words::data_limit(series),
+            })
+        }).collect::<Vec<_>>(),
         "coverage": coverage(accuracy.ordinary_coverage()),
         "leaving_out": accuracy.leaving_out.iter().map(left_out).collect::<Vec<_>>(),
         "sensors_computed": accuracy.sensors.0,

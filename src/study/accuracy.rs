@@ -1,36 +1,21 @@
-//! Error against run time: a scene computed with rising effort by every method, each result beside a converged
-//! reference. Says what the stated errors are worth, and what data at single directions lose between them.
+//! Error against run time: a scene computed with rising effort by every method, each result beside a reference. Says what
+//! the stated errors are worth, and what data at single directions lose between them.
+//!
+//! Without a truth from outside the reference is the ordinary method's own finest run: what is measured then is how far
+//! the computation has converged, not what the method or the data leave out. A file of illuminances makes it a true error.
 //!
 //! The ways to integrate an aperture's light (`compute.near_field`) differ in the direct component alone and are
 //! compared by it. Where surfaces reflect, the whole illuminance is a series of its own. Times are those of one thread.
 
-use super::error::StudyError;
-use super::leaving_out::{LeavingOut, leaving_out};
-use super::scene::Scene;
-use super::session::{RoomResult, Session};
-use crate::compute::angle::Bearing;
-use crate::compute::direction::Dir;
-use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::room::near_field::NearField;
-use crate::compute::sky::Sun;
-use std::time::Instant;
+mod ladder;
+mod truth;
+pub mod words;
 
-/// Error targets of the ordinary method.
-const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
-/// Point luminaires along each side.
-const SIDES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
-/// Random points a sensor.
-const POINTS: [usize; 6] = [64, 256, 1024, 4096, 16_384, 65_536];
-/// Cells along each profile angle.
-const CELLS: [usize; 4] = [45, 90, 180, 360];
-/// Targets of the reference and of the second finest, without and with interreflection.
-const REFERENCE: [[f64; 2]; 2] = [[1e-7, 1e-6], [2e-4, 5e-4]];
-/// Most sensors of a ladder; of more, an even selection.
-const MOST_SENSORS: usize = 256;
-/// Sensors darker than this share of the mean do not count.
-const DARK: f64 = 0.01;
-/// A time below this is taken three times, and the best counts. \[s\]
-const SHORT: f64 = 0.3;
+pub use ladder::{ladder, ladder_against};
+pub use truth::Truth;
+
+use super::leaving_out::LeavingOut;
+use crate::compute::room::near_field::NearField;
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +27,7 @@ pub enum Quantity {
 }
 
 /// One computation of the scene.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rung {
     /// The effort in words.
     pub setting: String,
@@ -54,6 +39,10 @@ pub struct Rung {
     pub sky: f64,
     /// A new position of the sun; `None` where it does not shine in. \[s\]
     pub sun: Option<f64>,
+    /// Share of all light at the sensors that the computation may be off.
+    pub numerical: f64,
+    /// Share of all light at the sensors that the data leave open, whatever the effort.
+    pub data: f64,
     /// Relative error of every sensor that counts: as stated, and against the reference.
     pub errors: Vec<Errors>,
 }
@@ -61,19 +50,43 @@ pub struct Rung {
 /// Errors of one sensor, relative to the reference's illuminance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// What the program says.
+    /// What the program says: of the computation; beside a truth from outside of the data, too.
     pub stated: f64,
     /// Distance from the reference.
     pub real: f64,
+    /// How far the reference itself may be off.
+    pub open: f64,
 }
 
+/// A reference tells true errors where it is better than the statement that it judges by this factor ...
+const CLEARLY_FINER: f64 = 3.0;
+/// ... and by this one, where the distance from it is a small share of the statement, too.
+const FINE_ENOUGH: f64 = 5.0;
+/// A sensor that states more than so many times its true error is padded.
+const PADDED: f64 = 10.0;
+/// Nobody asks about errors below this share of the illuminance.
+const VISIBLE: f64 = 1e-4;
+
 impl Rung {
-    /// Root of the mean square of the true errors.
+    /// Root of the mean square of the distances from the reference.
     pub fn rms(&self) -> f64 {
         (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
     }
 
-    /// Largest true error.
+    /// At the middle one of the sensors. A reference may know nothing of a few, as those in a penumbra.
+    fn median(&self, of: impl Fn(&Errors) -> f64) -> f64 {
+        let mut all: Vec<f64> = self.errors.iter().map(of).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Medians over the sensors: what is stated, how far the reference may be off, and the distance from it.
+    pub fn typical(&self) -> Errors {
+        let [stated, open, real] = [self.median(|e| e.stated), self.median(|e| e.open), self.median(|e| e.real)];
+        Errors { stated, real, open }
+    }
+
+    /// Largest distance from the reference.
     pub fn max(&self) -> f64 {
         self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
     }
@@ -87,6 +100,20 @@ impl Rung {
     pub fn coverage(&self) -> Coverage {
         Coverage::of(&self.errors)
     }
+
+    /// Is the reference good enough to tell the errors of this computation? Where it is hardly finer, the distance
+    /// from it says nothing: two coarse runs may share what is wrong with both. Where it is somewhat finer and this
+    /// computation lies near to it, the distance may be of either.
+    pub fn is_told(&self) -> bool {
+        let Errors { stated, real, open } = self.typical();
+        let far = real >= stated / CLEARLY_FINER;
+        open <= stated / FINE_ENOUGH || (open <= stated / CLEARLY_FINER && far)
+    }
+
+    /// More is left open by the data than by the computation.
+    pub fn is_limited_by_data(&self) -> bool {
+        self.data > self.numerical
+    }
 }
 
 /// What stated errors are worth, as shares of all sensors.
@@ -94,25 +121,27 @@ impl Rung {
 pub struct Coverage {
     /// Sensors.
     pub count: usize,
-    /// Stated ≥ true.
+    /// Stated ≥ true, as far as the reference can tell.
     pub kept: f64,
-    /// Stated ≤ 10 × true.
-    pub tight: f64,
-    /// Stated ≤ 10 × true, or below 10⁻⁴ of the illuminance, where nobody asks.
-    pub tight_or_small: f64,
+    /// Stated > 10 × true, and certainly so.
+    pub padded: f64,
+    /// Of these, stated above 10⁻⁴ of the illuminance; below nobody asks.
+    pub padded_visibly: f64,
 }
 
 impl Coverage {
-    /// Counts. True errors below rounding (10⁻¹²) count as kept.
+    /// Counts. The reference's own uncertainty speaks for the statement; true errors below rounding (10⁻¹²) are kept.
     pub fn of(errors: &[Errors]) -> Self {
         let share = |test: &dyn Fn(&Errors) -> bool| {
             errors.iter().filter(|e| test(e)).count() as f64 / errors.len().max(1) as f64
         };
+        let padded = |e: &Errors| e.stated > PADDED * (e.real + e.open);
         Self {
             count: errors.len(),
-            kept: share(&|e| e.stated + 1e-12 >= e.real),
-            tight: share(&|e| e.stated <= 10.0 * e.real),
-            tight_or_small: share(&|e| e.stated <= (10.0 * e.real).max(1e-4)),
+            // Of no sensors none is off.
+            kept: 1.0 - share(&|e| e.stated + e.open + 1e-12 < e.real),
+            padded: share(&padded),
+            padded_visibly: share(&|e| padded(e) && e.stated > VISIBLE),
         }
     }
 }
@@ -128,19 +157,38 @@ pub struct Series {
     pub rungs: Vec<Rung>,
 }
 
-/// What all is measured against: the ordinary method with more effort than any rung.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl Series {
+    /// Of the method that a scene gets that asks for no other.
+    pub fn is_ordinary(&self) -> bool {
+        self.method == NearField::SolidAngle.word() || self.quantity == Quantity::Total
+    }
+}
+
+/// What all is measured against.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// For which series.
     pub quantity: Quantity,
-    /// Its error target.
-    pub target: f64,
+    /// Where it is from.
+    pub origin: Origin,
     /// The largest relative error that it states itself.
     pub stated: f64,
-    /// Relative RMS distance from the second finest.
-    pub rms: f64,
-    /// Largest relative distance from the second finest.
-    pub max: f64,
+}
+
+/// Where a reference is from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Origin {
+    /// The ordinary method with more effort than any rung.
+    FinestRun {
+        /// Its error target.
+        target: f64,
+        /// Relative RMS distance from the second finest.
+        rms: f64,
+        /// Largest relative distance from the second finest.
+        max: f64,
+    },
+    /// From outside: a file of this name.
+    Given(String),
 }
 
 /// The whole comparison.
@@ -159,202 +207,21 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Coverage of the ordinary method over all its rungs, direct and total.
+    /// Coverage of the ordinary method over all its rungs that the reference can tell of, direct and total.
     pub fn ordinary_coverage(&self) -> Coverage {
-        let errors: Vec<Errors> = self
-            .series
-            .iter()
-            .filter(|series| series.method == NearField::SolidAngle.word() || series.quantity == Quantity::Total)
-            .flat_map(|series| series.rungs.iter().flat_map(|rung| rung.errors.iter().copied()))
-            .collect();
+        let rungs = self.series.iter().filter(|series| series.is_ordinary()).flat_map(|series| &series.rungs);
+        let errors: Vec<Errors> =
+            rungs.filter(|rung| rung.is_told()).flat_map(|rung| rung.errors.iter().copied()).collect();
         Coverage::of(&errors)
     }
-}
 
-/// Runs the ladder. Takes some seconds for a hundred sensors.
-pub fn ladder(scene: &Scene, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
-    let run = || {
-        let mut ladder = Ladder { scene: thinned(scene), progress, done: 0, steps: 0 };
-        ladder.run(scene.sensors.len())
-    };
-    // Times of many threads say more about the machine than about the method.
-    let mut accuracy = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(run),
-        Err(_) => run(),
-    }?;
-    accuracy.leaving_out = leaving_out(scene, progress)?;
-    Ok(accuracy)
-}
-
-/// The scene with an even selection of its sensors.
-fn thinned(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    let count = scene.sensors.len();
-    if count > MOST_SENSORS {
-        scene.sensors = (0..MOST_SENSORS).map(|k| scene.sensors[k * count / MOST_SENSORS]).collect();
-        scene.grid = None;
-    }
-    scene.near_field = NearField::SolidAngle;
-    scene
-}
-
-struct Ladder<'a> {
-    scene: Scene,
-    progress: &'a dyn Progress,
-    done: usize,
-    steps: usize,
-}
-
-/// Hands on that the work is not wanted any more; its own steps are the ladder's.
-struct Inner<'a>(&'a dyn Progress);
-
-impl Progress for Inner<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
-
-impl Ladder<'_> {
-    fn run(&mut self, all: usize) -> Result<Accuracy, StudyError> {
-        let direct = Scene { interreflection: false, ..self.scene.clone() };
-        let reflects = self.session_plan_reflects();
-        let mut methods: Vec<(&'static str, Vec<NearField>)> = vec![
-            ("subdivision", SIDES.iter().map(|&n| NearField::Subdivision(Some([n, n]))).collect()),
-            ("monte-carlo", POINTS.iter().map(|&n| NearField::MonteCarlo(n)).collect()),
-            ("profile-table", CELLS.iter().map(|&n| NearField::ProfileTable(n)).collect()),
-        ];
-        if let Some((_, list)) = methods.first_mut() {
-            list.push(NearField::Subdivision(None));
-        }
-        let rungs: usize = methods.iter().map(|(_, list)| list.len()).sum();
-        self.steps = (2 + TARGETS.len()) * (1 + usize::from(reflects)) + rungs;
-
-        let (reference, truth) = self.reference(&direct, Quantity::Direct)?;
-        let mut references = vec![reference];
-        let mut series = vec![self.by_target(&direct, Quantity::Direct, &truth)?];
-        for (method, list) in methods {
-            let rungs = list
-                .into_iter()
-                .map(|near_field| {
-                    let scene = Scene { near_field, error_target: None, ..direct.clone() };
-                    self.rung(near_field.effort(), &scene, &truth)
-                })
-                .collect::<Result<_, _>>()?;
-            series.push(Series { method, quantity: Quantity::Direct, rungs });
-        }
-        if reflects {
-            let whole = self.scene.clone();
-            let (reference, truth) = self.reference(&whole, Quantity::Total)?;
-            references.push(reference);
-            series.push(self.by_target(&whole, Quantity::Total, &truth)?);
-        }
-        let sensors = (self.scene.sensors.len(), all);
-        let threads = rayon::current_num_threads();
-        Ok(Accuracy { references, series, sensors, threads, leaving_out: Vec::new() })
+    /// What a series is measured against.
+    pub fn reference(&self, quantity: Quantity) -> Option<&Reference> {
+        self.references.iter().find(|reference| reference.quantity == quantity)
     }
 
-    fn session_plan_reflects(&self) -> bool {
-        super::plan::Plan::new(&self.scene).runs("interreflection")
+    /// Is a series measured against a truth from outside?
+    pub fn is_true(&self, quantity: Quantity) -> bool {
+        self.reference(quantity).is_some_and(|reference| matches!(reference.origin, Origin::Given(_)))
     }
-
-    fn step(&mut self) -> Result<(), StudyError> {
-        if self.progress.cancelled() {
-            return Err(Cancelled.into());
-        }
-        self.progress.advance("accuracy", self.done, self.steps);
-        self.done += 1;
-        Ok(())
-    }
-
-    fn reference(&mut self, scene: &Scene, quantity: Quantity) -> Result<(Reference, Vec<f64>), StudyError> {
-        let [target, second] = REFERENCE[usize::from(quantity == Quantity::Total)];
-        let mut at = |target| {
-            self.step()?;
-            Session::new().room(&Scene { error_target: Some(target), ..scene.clone() }, &Inner(self.progress))
-        };
-        let (finest, second) = (at(target)?, at(second)?);
-        let truth: Vec<f64> = finest.sensors.iter().map(|row| row.total().value).collect();
-        let between = Rung {
-            setting: String::new(),
-            target: None,
-            setup: 0.0,
-            sky: 0.0,
-            sun: None,
-            errors: errors(&second, &truth),
-        };
-        let stated = finest.reached();
-        Ok((Reference { quantity, target, stated, rms: between.rms(), max: between.max() }, truth))
-    }
-
-    fn by_target(&mut self, scene: &Scene, quantity: Quantity, truth: &[f64]) -> Result<Series, StudyError> {
-        let rungs = TARGETS
-            .into_iter()
-            .map(|target| {
-                let scene = Scene { error_target: Some(target), ..scene.clone() };
-                self.rung(format!("error target {} %", 100.0 * target), &scene, truth)
-            })
-            .collect::<Result<_, _>>()?;
-        let method = if quantity == Quantity::Total { "room" } else { NearField::SolidAngle.word() };
-        Ok(Series { method, quantity, rungs })
-    }
-
-    fn rung(&mut self, setting: String, scene: &Scene, truth: &[f64]) -> Result<Rung, StudyError> {
-        self.step()?;
-        let progress = Inner(self.progress);
-        let session = Session::new();
-        let clock = Instant::now();
-        let result = session.room(scene, &progress)?;
-        let cold = clock.elapsed().as_secs_f64();
-        // Another sky of the same kind, so that it is as hard: every luminance is a new one.
-        let sky = best(|repeat| {
-            let outside = scene.outside.scaled(1.0 - 0.01 * (repeat + 1) as f64);
-            session.room(&Scene { outside, ..scene.clone() }, &progress)
-        })?;
-        let shines = result.plan.runs("sun");
-        let sun = match scene.sun.filter(|_| shines) {
-            None => None,
-            Some(sun) => Some(best(|repeat| {
-                let turned = Bearing::from_radians(sun.direction.bearing().radians() + 0.01 * (repeat + 1) as f64);
-                let direction = Dir::from_altitude_bearing(sun.direction.altitude(), turned);
-                session.room(&Scene { sun: Some(Sun { direction, ..sun }), ..scene.clone() }, &progress)
-            })?),
-        };
-        Ok(Rung {
-            setting,
-            target: scene.error_target,
-            setup: (cold - sky).max(0.0),
-            sky,
-            sun,
-            errors: errors(&result, truth),
-        })
-    }
-}
-
-/// Seconds of the fastest of three runs, or of a single long one.
-fn best(mut run: impl FnMut(usize) -> Result<RoomResult, StudyError>) -> Result<f64, StudyError> {
-    let mut least = f64::INFINITY;
-    for repeat in 0..3 {
-        let clock = Instant::now();
-        run(repeat)?;
-        least = least.min(clock.elapsed().as_secs_f64());
-        if least > SHORT {
-            break;
-        }
-    }
-    Ok(least)
-}
-
-/// Of the sensors that are not in the dark.
-fn errors(result: &RoomResult, truth: &[f64]) -> Vec<Errors> {
-    let mean = truth.iter().sum::<f64>() / truth.len().max(1) as f64;
-    result
-        .sensors
-        .iter()
-        .zip(truth)
-        .filter(|(_, truth)| **truth > DARK * mean)
-        .map(|(row, truth)| {
-            let e = row.total();
-            Errors { stated: e.error / truth, real: (e.value - truth).abs() / truth }
-        })
-        .collect()
 }

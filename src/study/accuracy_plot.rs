@@ -1,7 +1,8 @@
-//! The plots of [`accuracy`](super::accuracy): time against true error of every method, and stated against true error
-//! of every sensor. The window, SVG and PNG draw the same numbers.
+//! The plots of [`accuracy`](super::accuracy): time against error of every method, and stated against found error of
+//! every sensor. The window, SVG and PNG draw the same numbers, and name them by what they were measured against.
+//! Efforts whose errors the reference cannot tell have no place in them.
 
-use super::accuracy::{Accuracy, Quantity, Rung, Series};
+use super::accuracy::{Accuracy, Quantity, Rung, Series, words};
 use crate::drawing::plot::{Axis, Form, Guide, Plot, Series as Points, Unit};
 
 /// Most dots of one series in the second plot.
@@ -17,18 +18,19 @@ pub fn name(series: &Series) -> String {
 
 /// Both plots, of the same series.
 pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
-    let rungs = || accuracy.series.iter().flat_map(|series| &series.rungs);
+    let rungs = || accuracy.series.iter().flat_map(told);
+    let found = words::axis(accuracy);
     let both = || rungs().flat_map(|rung| rung.errors.iter().flat_map(|e| [e.stated, e.real]));
     let stated = Axis::decades(both(), 9, "stated error", Unit::Share);
     let [first, last] = stated.range;
     let front = Plot {
         x: Axis::decades(rungs().map(|rung| rung.sky), 9, "time a new sky", Unit::Seconds),
-        y: Axis::decades(rungs().map(Rung::rms), 9, "true error (RMS)", Unit::Share),
+        y: Axis::decades(rungs().map(Rung::rms), 9, &format!("{found} (RMS)"), Unit::Share),
         series: accuracy.series.iter().map(front).collect(),
         guides: Vec::new(),
     };
     let honesty = Plot {
-        x: Axis { name: "true error, by sensor".to_owned(), ..stated.clone() },
+        x: Axis { name: found.to_owned(), ..stated.clone() },
         y: stated,
         series: accuracy.series.iter().map(dots).collect(),
         // Above it the statement holds.
@@ -37,16 +39,21 @@ pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
     [front, honesty]
 }
 
+/// Efforts with errors that the reference tells.
+fn told(series: &Series) -> impl Iterator<Item = &Rung> {
+    series.rungs.iter().filter(|rung| rung.is_told())
+}
+
 /// A mark for each effort.
 fn front(series: &Series) -> Points {
-    let points = series.rungs.iter().map(|rung| [rung.sky, rung.rms()]);
+    let points = told(series).map(|rung| [rung.sky, rung.rms()]);
     Points { form: Form::Marked, ..Points::line(name(series), points) }
 }
 
-/// A dot for each sensor and effort, thinned evenly: true error to the right, stated error up.
+/// A dot for each sensor and effort, thinned evenly: found error to the right, stated error up.
 fn dots(series: &Series) -> Points {
-    let count: usize = series.rungs.iter().map(|rung| rung.errors.len()).sum();
+    let count: usize = told(series).map(|rung| rung.errors.len()).sum();
     let every = count.div_ceil(MOST_DOTS).max(1);
-    let errors = series.rungs.iter().flat_map(|rung| &rung.errors).step_by(every);
+    let errors = told(series).flat_map(|rung| &rung.errors).step_by(every);
     Points { form: Form::Dots, ..Points::line(name(series), errors.map(|e| [e.real, e.stated])) }
 }

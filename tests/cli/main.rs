@@ -1,5 +1,6 @@
 //! The command line from outside, as scripts see it.
 
+mod accuracy_cli;
 mod catalogue_cli;
 mod cli;
 #[path = "../common/mod.rs"]

@@ -4,7 +4,7 @@
 use crate::rooms::*;
 use cfs::compute::estimate::{Progress, Silent};
 use cfs::drawing::{Shape, chart};
-use cfs::study::accuracy::{Accuracy, Quantity, Series, ladder};
+use cfs::study::accuracy::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series, ladder, words};
 use cfs::study::accuracy_plot::plots;
 use cfs::study::{Scene, Session, StudyError};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -33,8 +33,9 @@ fn series<'a>(accuracy: &'a Accuracy, method: &str) -> &'a Series {
 fn a_ladder_rises() {
     let accuracy = ladder(&text(TRANSPARENT, &clear(35.0, 190.0, 60_000.0), GRID).scene(), &Silent).unwrap();
     assert_eq!((accuracy.sensors, accuracy.threads, accuracy.references.len()), ((20, 20), 1, 1));
-    let reference = accuracy.references[0];
-    assert!(reference.quantity == Quantity::Direct && reference.max < 1e-6, "{reference:?}");
+    let reference = &accuracy.references[0];
+    let converged = matches!(reference.origin, Origin::FinestRun { max, .. } if max < 1e-6);
+    assert!(reference.quantity == Quantity::Direct && converged, "{reference:?}");
     for (method, bar) in [("solid-angle", 2e-4), ("subdivision", 1e-3), ("monte-carlo", 1e-2), ("profile-table", 1e-4)]
     {
         let rungs = &series(&accuracy, method).rungs;
@@ -83,6 +84,54 @@ fn targets_are_reached_and_cost_no_more_than_needed() {
     };
     // Stops early: a loose target leaves a larger stated error than a strict one.
     assert!(pieces(0.1) > pieces(1e-5));
+}
+
+/// A computation whose sensors state, lie from the reference, and leave it open, relative.
+fn rung(stated: f64, real: f64, open: f64) -> Rung {
+    let errors = [0.5, 1.0, 1.5].map(|k| Errors { stated: k * stated, real: k * real, open: k * open });
+    Rung { setting: "error target 1 %".into(), numerical: stated, errors: errors.to_vec(), ..Rung::default() }
+}
+
+#[test]
+fn a_run_that_the_reference_hardly_refines_has_no_error() {
+    let origin = Origin::FinestRun { target: 2e-4, rms: 1e-4, max: 2e-4 };
+    let finest = Reference { quantity: Quantity::Total, origin, stated: 1e-3 };
+    // Two runs of the same mesh agree in what is wrong with both.
+    let same = words::untold(&rung(1e-3, 0.0, 1e-3), &finest).unwrap();
+    assert!(same.contains("hardly refines") && same.contains("0.10 %"), "{same}");
+    // Somewhat finer: told where they differ by more than a small share of what is stated.
+    assert!(words::untold(&rung(4e-3, 1e-3, 1e-3), &finest).is_some());
+    assert_eq!(words::untold(&rung(5e-3, 4e-3, 1e-3), &finest), None);
+    // Clearly finer: a small difference is a small error, and the statement padded.
+    let padded = rung(5e-2, 1e-4, 1e-4);
+    assert!(words::untold(&padded, &finest).is_none() && padded.coverage().padded == 1.0);
+    let given = Reference { origin: Origin::Given("lux.csv".into()), ..finest };
+    assert!(words::untold(&rung(1e-3, 0.0, 1e-3), &given).unwrap().contains("lux.csv is itself open"));
+    // It counts for no coverage.
+    let rungs = vec![padded, rung(1e-3, 0.0, 1e-3)];
+    let series = vec![Series { method: "room", quantity: Quantity::Total, rungs }];
+    let accuracy = Accuracy { references: vec![given], series, sensors: (3, 3), threads: 1, leaving_out: Vec::new() };
+    assert_eq!(accuracy.ordinary_coverage().count, 3);
+}
+
+#[test]
+fn effort_that_does_not_help_is_told() {
+    let limited = |data: f64| Series {
+        method: "room",
+        quantity: Quantity::Total,
+        rungs: vec![rung(0.1, 0.0, 0.0), Rung { data, ..rung(0.01, 0.0, 0.0) }],
+    };
+    assert_eq!(words::data_limit(&limited(0.001)), None);
+    let said = words::data_limit(&limited(0.07)).unwrap();
+    assert!(said.contains("does not help: the data leave ± 7.0 % open, the computation ± 1.0 %"), "{said}");
+    // Measured data between whose directions the sun stands: the data leave more open than their cells.
+    let scene = text(MADE, &clear(35.0, 190.0, 60_000.0), GRID).scene_with(klems(rough));
+    let accuracy = ladder(&scene, &Silent).unwrap();
+    let direct = series(&accuracy, "solid-angle");
+    for rung in &direct.rungs {
+        assert_eq!(rung.is_limited_by_data(), rung.data > rung.numerical);
+        assert!(rung.errors.iter().all(|e| e.stated.is_finite() && e.open >= 0.0));
+    }
 }
 
 /// Wants nothing more after some steps.

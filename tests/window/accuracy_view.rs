@@ -9,7 +9,7 @@ use cfs::app::jobs::Lane;
 use cfs::app::state::Sheet;
 use cfs::app::views::accuracy as view;
 use cfs::compute::estimate::{Cancelled, Estimate, Progress};
-use cfs::study::accuracy::{Accuracy, Errors, Quantity, Reference, Rung, Series};
+use cfs::study::accuracy::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series};
 use egui::{Key, Theme};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotResults};
@@ -33,20 +33,14 @@ fn made_up() -> Accuracy {
             let scale = 0.05 * (sky / 1e-4).powf(-order);
             let errors = (0..20).map(|i| {
                 let real = scale * (0.2 + 0.08 * f64::from(i));
-                Errors { stated: real * (0.7 + 0.3 * f64::from((7 * i + effort) % 11)), real }
+                Errors { stated: real * (0.7 + 0.3 * f64::from((7 * i + effort) % 11)), real, open: 0.0 }
             });
-            Rung {
-                setting: format!("effort {effort}"),
-                target: None,
-                setup: 1e-3,
-                sky,
-                sun: None,
-                errors: errors.collect(),
-            }
+            Rung { setting: format!("effort {effort}"), setup: 1e-3, sky, errors: errors.collect(), ..Rung::default() }
         });
         Series { method, quantity, rungs: rungs.collect() }
     });
-    let reference = Reference { quantity: Quantity::Direct, target: 1e-7, stated: 1e-7, rms: 2e-9, max: 4e-9 };
+    let origin = Origin::FinestRun { target: 1e-7, rms: 2e-9, max: 4e-9 };
+    let reference = Reference { quantity: Quantity::Direct, origin, stated: 1e-7 };
     let series = series.collect();
     Accuracy { references: vec![reference], series, sensors: (20, 20), threads: 1, leaving_out: Vec::new() }
 }

@@ -6,8 +6,8 @@ use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;
 use crate::drawing::plot::Plot;
-use crate::study::accuracy::{Accuracy, Quantity};
-use crate::study::accuracy_plot::plots;
+use crate::study::accuracy::{Accuracy, words};
+use crate::study::accuracy_plot::{name, plots};
 use egui::{Button, Label, ProgressBar, Sense, Ui, vec2};
 
 /// What only this view knows.
@@ -69,8 +69,8 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         if input.error.is_none() {
             ui.add(
                 Label::new(
-                    "How far each method lies from a converged result, against the time that it takes, and whether \
-                     the errors that it states are true.",
+                    "How far each method lies from the ordinary method's finest run, against the time that it takes, and \
+                     whether the errors that it states are true.",
                 )
                 .wrap(),
             );
@@ -111,19 +111,26 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
 /// What the ladder says, in words.
 pub fn sentence(accuracy: &Accuracy) -> String {
     let coverage = accuracy.ordinary_coverage();
-    let reference: Vec<String> = accuracy
-        .references
-        .iter()
-        .map(|reference| {
-            let what = if reference.quantity == Quantity::Direct { "direct light" } else { "all light" };
-            format!("{:.0e} for {what}", reference.rms)
-        })
-        .collect();
-    format!(
-        "The ordinary method keeps to its stated error at {:.1} % of {} sensors and efforts. The reference agrees with \
-         the second finest to {} (relative, RMS).",
+    let mut said = vec![format!(
+        "The ordinary method keeps to its stated error at {:.1} % of {} sensors and efforts; {:.1} % state more than ten \
+         times the error found.",
         100.0 * coverage.kept,
         coverage.count,
-        reference.join(", ")
-    )
+        100.0 * coverage.padded
+    )];
+    said.extend(accuracy.references.iter().map(words::reference));
+    for series in accuracy.series.iter().filter(|series| series.is_ordinary()) {
+        let untold = series.rungs.iter().filter(|rung| !rung.is_told()).count();
+        if untold > 0 {
+            said.push(format!(
+                "{untold} of {} efforts of {} are left out: their reference is hardly finer.",
+                series.rungs.len(),
+                name(series)
+            ));
+        }
+        if let Some(limit) = words::data_limit(series) {
+            said.push(format!("{}: {limit}.", name(series)));
+        }
+    }
+    said.join(" ")
 }

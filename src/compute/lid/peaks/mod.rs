@@ -29,7 +29,7 @@ const DARK: [f64; 3] = [3e-4, 0.02, 1e-3];
 /// The same for the background itself, relative.
 const ROUGH: f64 = 0.02;
 /// Standard errors that are stated: about 95 % of normal ones lie within.
-const ERRORS: f64 = 2.0;
+const ERRORS: f64 = 1.6;
 /// Strengths below this share of the strongest may be a cut-off that is rounded off; seen on flat and curved slats.
 const CUT_OFF: f64 = 0.03;
 /// Share of two beams together that either may be wrong by where the data hold them in one cell.

@@ -1,0 +1,264 @@
+//! The runs of the comparison: the reference, then every method with rising effort.
+
+use super::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series, Truth};
+use crate::compute::angle::Bearing;
+use crate::compute::direction::Dir;
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::room::near_field::NearField;
+use crate::compute::sky::Sun;
+use crate::study::error::StudyError;
+use crate::study::leaving_out::leaving_out;
+use crate::study::plan::Plan;
+use crate::study::scene::Scene;
+use crate::study::session::{RoomResult, SensorResult, Session};
+use std::time::Instant;
+
+/// Error targets of the ordinary method.
+const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
+/// Point luminaires along each side.
+const SIDES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
+/// Random points a sensor.
+const POINTS: [usize; 6] = [64, 256, 1024, 4096, 16_384, 65_536];
+/// Cells along each profile angle.
+const CELLS: [usize; 4] = [45, 90, 180, 360];
+/// Targets of the reference and of the second finest, without and with interreflection.
+const REFERENCE: [[f64; 2]; 2] = [[1e-7, 1e-6], [2e-4, 5e-4]];
+/// Most sensors of a ladder; of more, an even selection.
+const MOST_SENSORS: usize = 256;
+/// Sensors darker than this share of the mean do not count.
+const DARK: f64 = 0.01;
+/// A time below this is taken three times, and the best counts. \[s\]
+const SHORT: f64 = 0.3;
+
+/// Runs the ladder beside the method's own finest run. Takes some seconds for a hundred sensors.
+pub fn ladder(scene: &Scene, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
+    ladder_against(scene, None, progress)
+}
+
+/// The same beside a truth from outside, where there is one.
+pub fn ladder_against(scene: &Scene, truth: Option<&Truth>, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
+    let run = || {
+        let chosen = selection(scene.sensors.len());
+        let truth = truth.map(|truth| truth.only(&chosen));
+        let mut ladder = Ladder { scene: thinned(scene, &chosen), truth, progress, done: 0, steps: 0 };
+        ladder.run(scene.sensors.len())
+    };
+    // Times of many threads say more about the machine than about the method.
+    let mut accuracy = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(run),
+        Err(_) => run(),
+    }?;
+    accuracy.leaving_out = leaving_out(scene, progress)?;
+    Ok(accuracy)
+}
+
+/// Which of so many sensors are computed: all, or an even selection.
+fn selection(count: usize) -> Vec<usize> {
+    let most = count.min(MOST_SENSORS);
+    (0..most).map(|k| k * count / most).collect()
+}
+
+/// The scene with these sensors alone.
+fn thinned(scene: &Scene, chosen: &[usize]) -> Scene {
+    let mut scene = scene.clone();
+    if chosen.len() < scene.sensors.len() {
+        scene.sensors = chosen.iter().map(|&k| scene.sensors[k]).collect();
+        scene.grid = None;
+    }
+    scene.near_field = NearField::SolidAngle;
+    scene
+}
+
+struct Ladder<'a> {
+    scene: Scene,
+    truth: Option<Truth>,
+    progress: &'a dyn Progress,
+    done: usize,
+    steps: usize,
+}
+
+/// What one quantity is judged by: the reference's illuminances with what they may be off, and whether the data's error
+/// is to be covered, too: a truth from outside is none of these data's.
+struct Judge {
+    values: Vec<Estimate>,
+    outside: bool,
+}
+
+/// Hands on that the work is not wanted any more; its own steps are the ladder's.
+struct Inner<'a>(&'a dyn Progress);
+
+impl Progress for Inner<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+impl Ladder<'_> {
+    fn run(&mut self, all: usize) -> Result<Accuracy, StudyError> {
+        let direct = Scene { interreflection: false, ..self.scene.clone() };
+        let reflects = Plan::new(&self.scene).runs("interreflection");
+        let mut methods: Vec<(&'static str, Vec<NearField>)> = vec![
+            ("subdivision", SIDES.iter().map(|&n| NearField::Subdivision(Some([n, n]))).collect()),
+            ("monte-carlo", POINTS.iter().map(|&n| NearField::MonteCarlo(n)).collect()),
+            ("profile-table", CELLS.iter().map(|&n| NearField::ProfileTable(n)).collect()),
+        ];
+        if let Some((_, list)) = methods.first_mut() {
+            list.push(NearField::Subdivision(None));
+        }
+        let rungs: usize = methods.iter().map(|(_, list)| list.len()).sum();
+        // Where nothing reflects, all light is direct.
+        let given = self.truth.as_ref().and_then(|truth| if reflects { truth.direct() } else { Some(truth.total()) });
+        let runs = 2 * (usize::from(given.is_none()) + usize::from(reflects && self.truth.is_none()));
+        self.steps = runs + TARGETS.len() * (1 + usize::from(reflects)) + rungs;
+
+        let (reference, truth) = self.reference(&direct, Quantity::Direct, given)?;
+        let mut references = vec![reference];
+        let mut series = vec![self.by_target(&direct, Quantity::Direct, &truth)?];
+        for (method, list) in methods {
+            let rungs = list
+                .into_iter()
+                .map(|near_field| {
+                    let scene = Scene { near_field, error_target: None, ..direct.clone() };
+                    self.rung(near_field.effort(), &scene, &truth)
+                })
+                .collect::<Result<_, _>>()?;
+            series.push(Series { method, quantity: Quantity::Direct, rungs });
+        }
+        if reflects {
+            let whole = self.scene.clone();
+            let given = self.truth.as_ref().map(Truth::total);
+            let (reference, truth) = self.reference(&whole, Quantity::Total, given)?;
+            references.push(reference);
+            series.push(self.by_target(&whole, Quantity::Total, &truth)?);
+        }
+        let sensors = (self.scene.sensors.len(), all);
+        let threads = rayon::current_num_threads();
+        Ok(Accuracy { references, series, sensors, threads, leaving_out: Vec::new() })
+    }
+
+    fn step(&mut self) -> Result<(), StudyError> {
+        if self.progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        self.progress.advance("accuracy", self.done, self.steps);
+        self.done += 1;
+        Ok(())
+    }
+
+    /// What a quantity is measured against: the truth that is given, or else the finest run.
+    fn reference(
+        &mut self,
+        scene: &Scene,
+        quantity: Quantity,
+        given: Option<Vec<Estimate>>,
+    ) -> Result<(Reference, Judge), StudyError> {
+        if let (Some(values), Some(truth)) = (given, &self.truth) {
+            let reference = Reference { quantity, origin: Origin::Given(truth.name().to_owned()), stated: 0.0 };
+            let judge = Judge { values, outside: true };
+            return Ok((Reference { stated: judge.stated(), ..reference }, judge));
+        }
+        let [target, second] = REFERENCE[usize::from(quantity == Quantity::Total)];
+        let mut at = |target| {
+            self.step()?;
+            Session::new().room(&Scene { error_target: Some(target), ..scene.clone() }, &Inner(self.progress))
+        };
+        let (finest, second) = (at(target)?, at(second)?);
+        let values = finest.sensors.iter().map(|row| Estimate::new(row.total().value, row.numerical_error())).collect();
+        let judge = Judge { values, outside: false };
+        let apart = Rung { errors: judge.errors(&second), ..Rung::default() };
+        let origin = Origin::FinestRun { target, rms: apart.rms(), max: apart.max() };
+        Ok((Reference { quantity, origin, stated: judge.stated() }, judge))
+    }
+
+    fn by_target(&mut self, scene: &Scene, quantity: Quantity, truth: &Judge) -> Result<Series, StudyError> {
+        let rungs = TARGETS
+            .into_iter()
+            .map(|target| {
+                let scene = Scene { error_target: Some(target), ..scene.clone() };
+                self.rung(format!("error target {} %", 100.0 * target), &scene, truth)
+            })
+            .collect::<Result<_, _>>()?;
+        let method = if quantity == Quantity::Total { "room" } else { NearField::SolidAngle.word() };
+        Ok(Series { method, quantity, rungs })
+    }
+
+    fn rung(&mut self, setting: String, scene: &Scene, truth: &Judge) -> Result<Rung, StudyError> {
+        self.step()?;
+        let progress = Inner(self.progress);
+        let session = Session::new();
+        let clock = Instant::now();
+        let result = session.room(scene, &progress)?;
+        let cold = clock.elapsed().as_secs_f64();
+        // Another sky of the same kind, so that it is as hard: every luminance is a new one.
+        let sky = best(|repeat| {
+            let outside = scene.outside.scaled(1.0 - 0.01 * (repeat + 1) as f64);
+            session.room(&Scene { outside, ..scene.clone() }, &progress)
+        })?;
+        let shines = result.plan.runs("sun");
+        let sun = match scene.sun.filter(|_| shines) {
+            None => None,
+            Some(sun) => Some(best(|repeat| {
+                let turned = Bearing::from_radians(sun.direction.bearing().radians() + 0.01 * (repeat + 1) as f64);
+                let direction = Dir::from_altitude_bearing(sun.direction.altitude(), turned);
+                session.room(&Scene { sun: Some(Sun { direction, ..sun }), ..scene.clone() }, &progress)
+            })?),
+        };
+        Ok(Rung {
+            setting,
+            target: scene.error_target,
+            setup: (cold - sky).max(0.0),
+            sky,
+            sun,
+            numerical: share(&result, SensorResult::numerical_error),
+            data: result.data_share(),
+            errors: truth.errors(&result),
+        })
+    }
+}
+
+/// Seconds of the fastest of three runs, or of a single long one.
+fn best(mut run: impl FnMut(usize) -> Result<RoomResult, StudyError>) -> Result<f64, StudyError> {
+    let mut least = f64::INFINITY;
+    for repeat in 0..3 {
+        let clock = Instant::now();
+        run(repeat)?;
+        least = least.min(clock.elapsed().as_secs_f64());
+        if least > SHORT {
+            break;
+        }
+    }
+    Ok(least)
+}
+
+/// Share of all light at the sensors that an error of theirs is.
+fn share(result: &RoomResult, error: impl Fn(&SensorResult) -> f64) -> f64 {
+    let all: f64 = result.sensors.iter().map(|row| row.total().value).sum();
+    if all > 0.0 { result.sensors.iter().map(error).sum::<f64>() / all } else { 0.0 }
+}
+
+impl Judge {
+    /// Of the sensors that are not in the dark.
+    fn errors(&self, result: &RoomResult) -> Vec<Errors> {
+        let of = |(row, truth): (&SensorResult, &Estimate)| {
+            let stated = if self.outside { row.total().error } else { row.numerical_error() };
+            Errors {
+                stated: stated / truth.value,
+                real: (row.total().value - truth.value).abs() / truth.value,
+                open: truth.error / truth.value,
+            }
+        };
+        let lit = self.least();
+        result.sensors.iter().zip(&self.values).filter(|(_, truth)| truth.value > lit).map(of).collect()
+    }
+
+    /// The largest relative error of its own, where it is not dark.
+    fn stated(&self) -> f64 {
+        let lit = self.least();
+        self.values.iter().filter(|e| e.value > lit).map(|e| e.error / e.value).fold(0.0, f64::max)
+    }
+
+    /// Illuminance above which a sensor counts. \[lx\]
+    fn least(&self) -> f64 {
+        DARK * self.values.iter().map(|e| e.value).sum::<f64>() / self.values.len().max(1) as f64
+    }
+}

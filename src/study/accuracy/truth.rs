@@ -1,0 +1,164 @@
+//! A truth from outside: illuminances of the same sensors in a file, by measurement or by another program.
+
+use crate::compute::estimate::Estimate;
+use crate::study::error::StudyError;
+use crate::study::files;
+use crate::study::scene::Scene;
+use csv::{ReaderBuilder, StringRecord, Trim};
+use std::path::Path;
+
+/// How far a sensor's position, or its unit normal, may differ from the scene's: tables are rounded. \[m\]
+const SAME: f64 = 1e-4;
+
+/// Illuminances of a scene's sensors, in their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    name: String,
+    /// All light. \[lx\]
+    total: Vec<Estimate>,
+    /// Straight from the apertures, where the file tells it. \[lx\]
+    direct: Option<Vec<f64>>,
+}
+
+/// Where the columns are.
+struct Columns {
+    position: [usize; 3],
+    normal: Option<[usize; 3]>,
+    total: usize,
+    direct: Option<usize>,
+    error: Option<usize>,
+}
+
+impl Truth {
+    /// Reads a table with the columns of `cfs room`: x,y,z and E_lx; beside these nx,ny,nz, E_direct_lx and E_error_lx
+    /// count, where they are there. Lines that begin with # are passed over.
+    ///
+    /// # Errors
+    /// One sentence that names the file, the line and what is wrong there: a column that is missing, another number of
+    /// sensors than the scene's, or another sensor.
+    pub fn read(path: &Path, scene: &Scene) -> Result<Self, StudyError> {
+        let wrong = |message: String| StudyError::File { path: path.to_owned(), message };
+        let bytes = files::read(path)?;
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+        Self::parse(name, &bytes, scene).map_err(wrong)
+    }
+
+    fn parse(name: String, bytes: &[u8], scene: &Scene) -> Result<Self, String> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(bytes);
+        let header = reader.headers().map_err(|error| told(&error))?;
+        let line = header.position().map_or(1, csv::Position::line);
+        let columns = Columns::of(header).map_err(|message| format!("line {line}: {message}"))?;
+        let count = scene.sensors.len();
+        let (mut total, mut direct) = (Vec::with_capacity(count), columns.direct.map(|_| Vec::with_capacity(count)));
+        for record in reader.records() {
+            let record = record.map_err(|error| told(&error))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let at = |message: String| format!("line {line}: {message}");
+            let Some(sensor) = scene.sensors.get(total.len()) else {
+                return Err(at(format!("one sensor too many; expected the scene's {count}, in its order")));
+            };
+            let own = number_of(&record, columns.position).map_err(at)?;
+            let places = [("position", Some((own, sensor.position.to_array())))];
+            let normal = columns.normal.map(|normal| number_of(&record, normal)).transpose().map_err(at)?;
+            let normals = [("normal", normal.map(|normal| (normal, sensor.normal.to_array())))];
+            for (what, pair) in places.into_iter().chain(normals) {
+                let Some((got, want)) = pair else { continue };
+                if got.iter().zip(want).any(|(a, b)| (a - b).abs() > SAME) {
+                    let index = total.len() + 1;
+                    return Err(at(format!("{what} {got:?}; expected {want:?}, that of the scene's sensor {index}")));
+                }
+            }
+            let light = |column: usize| light(&record, column).map_err(at);
+            let error = columns.error.map_or(Ok(0.0), light)?;
+            total.push(Estimate::new(light(columns.total)?, error));
+            if let (Some(column), Some(direct)) = (columns.direct, &mut direct) {
+                direct.push(light(column)?);
+            }
+        }
+        if total.len() < count {
+            let line = reader.position().line();
+            return Err(format!(
+                "line {line}: the table ends after {} sensors; expected {count}, the scene's",
+                total.len()
+            ));
+        }
+        if !total.iter().any(|e| e.value > 0.0) {
+            return Err("no sensor has light; expected E_lx above 0 at some of them".to_owned());
+        }
+        Ok(Self { name, total, direct })
+    }
+
+    /// The file's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All light. \[lx\]
+    pub(super) fn total(&self) -> Vec<Estimate> {
+        self.total.clone()
+    }
+
+    /// Light straight from the apertures, where it is told; the uncertainty of all bounds that of its part. \[lx\]
+    pub(super) fn direct(&self) -> Option<Vec<Estimate>> {
+        let direct = self.direct.as_ref()?;
+        Some(direct.iter().zip(&self.total).map(|(&value, total)| Estimate::new(value, total.error)).collect())
+    }
+
+    /// Of these sensors.
+    pub(super) fn only(&self, chosen: &[usize]) -> Self {
+        Self {
+            name: self.name.clone(),
+            total: chosen.iter().map(|&k| self.total[k]).collect(),
+            direct: self.direct.as_ref().map(|direct| chosen.iter().map(|&k| direct[k]).collect()),
+        }
+    }
+}
+
+impl Columns {
+    fn of(header: &StringRecord) -> Result<Self, String> {
+        let find = |name: &str| header.iter().position(|cell| cell == name);
+        let need = |name: &str| {
+            find(name).ok_or_else(|| format!("no column {name}; expected x,y,z,E_lx as `cfs room` writes them"))
+        };
+        let normal = match ["nx", "ny", "nz"].map(find) {
+            [Some(x), Some(y), Some(z)] => Some([x, y, z]),
+            _ => None,
+        };
+        Ok(Self {
+            position: [need("x")?, need("y")?, need("z")?],
+            normal,
+            total: need("E_lx")?,
+            direct: find("E_direct_lx"),
+            error: find("E_error_lx"),
+        })
+    }
+}
+
+/// What the reader of tables says, in one line.
+fn told(error: &csv::Error) -> String {
+    let line = error.position().map_or(1, csv::Position::line);
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!("line {line}: {len} cells; expected {expected_len}, as many as in the header")
+        }
+        csv::ErrorKind::Utf8 { .. } => format!("line {line}: no text; expected UTF-8"),
+        _ => format!("line {line}: not readable as a table; expected cells between commas"),
+    }
+}
+
+fn number(record: &StringRecord, column: usize) -> Result<f64, String> {
+    let cell = record.get(column).unwrap_or_default();
+    let value: Option<f64> = cell.parse().ok();
+    value.filter(|v| v.is_finite()).ok_or_else(|| format!("'{cell}' in column {}; expected a number", column + 1))
+}
+
+fn number_of(record: &StringRecord, columns: [usize; 3]) -> Result<[f64; 3], String> {
+    let [x, y, z] = columns.map(|column| number(record, column));
+    Ok([x?, y?, z?])
+}
+
+fn light(record: &StringRecord, column: usize) -> Result<f64, String> {
+    let value = number(record, column)?;
+    if value < 0.0 { Err(format!("{value} lx in column {}; expected 0 or more", column + 1)) } else { Ok(value) }
+}
