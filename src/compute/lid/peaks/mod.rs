@@ -28,7 +28,8 @@ const NOISE: [f64; 4] = [2e-4, 2e-3, 0.01, 0.3];
 const DARK: [f64; 3] = [3e-4, 0.02, 1e-3];
 /// The same for the background itself, relative.
 const ROUGH: f64 = 0.02;
-/// Standard errors that are stated: about 95 % of normal ones lie within.
+/// Standard errors that are stated of a strength or a transmittance; with the doubts beside it more than 95 % of sensors
+/// are held, as `tests/scenes/beams_in_cells` counts.
 const ERRORS: f64 = 1.6;
 /// Strengths below this share of the strongest may be a cut-off that is rounded off; seen on flat and curved slats.
 const CUT_OFF: f64 = 0.03;
