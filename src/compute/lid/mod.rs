@@ -5,6 +5,7 @@ pub mod c_gamma;
 mod emission;
 mod facing;
 mod interpolated;
+mod leaf_doubt;
 pub mod peaks;
 mod sky_through;
 mod sun_through;

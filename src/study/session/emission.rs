@@ -78,6 +78,11 @@ impl Session {
                 }
                 emission
             }
+            Some(Scattered::Tree(tree)) => {
+                let mut emission = Emission::new(btdf, facing);
+                emission.doubt_leaves(tree, facing);
+                emission
+            }
             _ => Emission::new(btdf, facing),
         }
     }

@@ -1,0 +1,78 @@
+//! How far a tensor tree leaves open what the sun makes: within a leaf nothing is known, and beyond its border it may be
+//! another thing altogether.
+
+use super::{Emission, Facing};
+use crate::compute::btdf::TensorTree;
+use crate::compute::direction::{Dir, Incident};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// How far the sun is moved: as far as the middles of neighbouring finest incident cells lie apart. \[rad\]
+fn spacing(tree: &TensorTree) -> f64 {
+    (PI / (tree.incident_resolution() * tree.incident_resolution()) as f64).sqrt()
+}
+
+impl Emission {
+    /// Doubts of the sun's light through a tree: half of what it changes by from a neighbour on one side to that on the
+    /// other, along both axes of the disk.
+    pub fn doubt_leaves(&mut self, tree: &TensorTree, facing: &Facing<'_>) {
+        let illuminance = self.incident_sun;
+        let (Some(sun), Some(light)) = (facing.sun_direction(), self.cells.first_mut()) else { return };
+        if illuminance <= 0.0 {
+            return;
+        }
+        let step = spacing(tree);
+        for axis in [DVec3::X, DVec3::Y] {
+            let [before, after] = [-step, step].map(|by| {
+                // A neighbour beyond the aperture's plane stands on its border.
+                let moved = sun.vector() + by * axis;
+                let moved = Dir::new(moved.with_z(moved.z.max(1e-3))).unwrap_or(sun);
+                tree.sun_luminance(Incident(moved), illuminance).1
+            });
+            let own = &light.sun;
+            let doubt = own.iter().zip(before.iter().zip(&after));
+            // The larger of both changes, with its sign.
+            let change =
+                |(own, (a, b)): (&f64, (&f64, &f64))| if (a - own).abs() > (b - own).abs() { a - own } else { b - own };
+            light.doubts.push(doubt.map(change).map(|change| 0.5 * change).collect());
+        }
+        self.notes.push(
+            "sun: the leaf of the tree that holds it; sun patches cannot be placed better than its directions are wide"
+                .to_owned(),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::btdf::{Btdf, Scattered, TreeAxes, TreeRank, TreeShape, tree_on};
+    use crate::compute::direction::{Orientation, Surface};
+    use crate::compute::sky::{Distribution, Outside, Sun};
+
+    #[test]
+    fn a_diffuser_is_in_no_doubt_and_a_pane_is() {
+        let outside = Outside::new(Distribution::uniform(), 0.0).unwrap();
+        let sun = Sun { direction: Dir::from_altitude_bearing(0.5, Bearing::from_degrees(170.0)), direct_normal: 5e4 };
+        let facing = Facing {
+            outside: &outside,
+            sun: Some(&sun),
+            orientation: Orientation::new(Bearing::from_degrees(180.0)),
+            surface: Surface::Facade,
+        };
+        let doubt = |btdf: &Btdf| {
+            let shape = TreeShape { rank: TreeRank::Four, level: 4, tolerance: 0.0 };
+            let made = tree_on(btdf, TreeAxes::Front, shape).unwrap();
+            let tree = made.tree;
+            let whole = Btdf { regular: None, scattered: Some(Scattered::Tree(Box::new(tree.clone()))) };
+            let mut emission = Emission::new(&whole, &facing);
+            emission.doubt_leaves(&tree, &facing);
+            let light = &emission.cells[0];
+            let most = light.sun.iter().copied().fold(0.0, f64::max);
+            light.doubts.iter().flatten().map(|d| d.abs()).fold(0.0, f64::max) / most
+        };
+        assert!(doubt(&Btdf::ideal_diffuse(0.5)) < 0.02);
+        assert!(doubt(&Btdf::ideal_transparent(0.8)) > 0.3);
+    }
+}
