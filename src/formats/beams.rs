@@ -16,7 +16,9 @@ pub(super) const VERSION: u32 = 1;
 /// What a file says: a description, its state, and the fingerprint that was written with them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Told {
+    /// Description and state.
     pub described: DescribedState,
+    /// As it was written; hexadecimal.
     pub fingerprint: String,
 }
 
@@ -44,6 +46,7 @@ pub(super) fn not_restored(why: &str) -> Finding {
 pub(super) struct Fingerprint(blake3::Hasher);
 
 impl Fingerprint {
+    /// Begins with a description and its state.
     pub fn new(described: &DescribedState) -> Self {
         let mut new = Self(blake3::Hasher::new());
         // Line ends differ between machines.
@@ -52,10 +55,12 @@ impl Fingerprint {
         new
     }
 
+    /// Adds a word.
     pub fn word(&mut self, word: &str) {
         self.0.update(word.as_bytes()).update(b"\0");
     }
 
+    /// Adds a number by its value.
     pub fn number(&mut self, number: f64) {
         // Minus zero is zero.
         self.0.update(&(number + 0.0).to_bits().to_le_bytes());
@@ -71,6 +76,7 @@ impl Fingerprint {
         }
     }
 
+    /// 32 hexadecimal digits.
     pub fn finish(self) -> String {
         self.0.finalize().to_hex()[..32].to_owned()
     }

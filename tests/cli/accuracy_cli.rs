@@ -1,18 +1,10 @@
 //! `cfs accuracy` beside a truth from outside: true errors against it, and one sentence where it is of another scene.
 
+use crate::program::cfs;
 use crate::rooms::*;
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn cfs(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cfs"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("CFS_CATALOGUE", folder.join("catalogue.cfsdb"))
-        .output()
-        .unwrap()
-}
+use std::process::Output;
 
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()

@@ -1,19 +1,10 @@
 //! Makers' pipelines: `cfs catalogue validate` judges by exit code and JSON, `cfs repair` mends, records and undoes.
 
+use crate::program::cfs;
 use cfs::compute::btdf::{AngularTransmittance, Band, Btdf, Dataset, Scattered};
 use cfs::formats::bsdf_xml;
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn cfs(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cfs"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("CFS_CATALOGUE", folder.join("catalogue.cfsdb"))
-        .output()
-        .unwrap()
-}
 
 /// An opal pane whose values are percent: 50 of 100 pass.
 fn percent() -> Vec<u8> {

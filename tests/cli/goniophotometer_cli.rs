@@ -1,5 +1,6 @@
 //! The numerical goniophotometer on files: stacks in stacks, states that are kept, wrong input.
 
+use crate::program::cfs;
 use cfs::catalogue::Catalogue;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::estimate::Silent;
@@ -8,7 +9,6 @@ use cfs::study::Library;
 use cfs::study::goniophotometer::{Described, Request};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
 
 const PANE: &str = "name = \"pane\"\nkind = \"pane\"\n[pane]\nindex = 1.52\nthickness = 0.004\nabsorption = 10\n";
 const OPAL: &str = "name = \"opal\"\nkind = \"diffuser\"\n[diffuser]\ntransmittance = 0.5\nreflectance = 0.4\nmodel = \"lambertian\"\n";
@@ -22,15 +22,6 @@ fn stack(layers: &[&str]) -> String {
 
 fn put(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join(format!("{name}.system.toml")), text).unwrap();
-}
-
-fn cfs(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cfs"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("CFS_CATALOGUE", folder.join("catalogue.cfsdb"))
-        .output()
-        .unwrap()
 }
 
 fn request() -> Request {

@@ -9,5 +9,6 @@ mod control_cli;
 mod doctor_cli;
 mod examples;
 mod goniophotometer_cli;
+mod program;
 #[path = "../scenes/rooms.rs"]
 mod rooms;

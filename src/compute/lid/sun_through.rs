@@ -14,7 +14,8 @@ use std::sync::{Arc, OnceLock};
 
 /// Width of the cells that scattered sunlight is put on. \[rad\]
 const CELL: f64 = 3.0 * PI / 180.0;
-/// What their size costs, relative; seen on matt slats against exact integrals along the slats.
+/// What their size costs, relative, on planes across the room. Seen on matt slats against strips in closed form: 0.1 %
+/// there, up to 0.8 % where the opening is seen at grazing angles.
 const CELL_ERROR: f64 = 3e-3;
 /// Names closer than this are the same. \[rad\]
 const SAME: f64 = 1e-9;

@@ -17,7 +17,9 @@ const LEFT: f64 = 1e-9;
 
 /// The layers as matrices, light from either side by its own names.
 pub(super) struct Flows {
+    /// Incident and emergent cells, by names as light from either side has them.
     pub cells: RingBasis,
+    /// Their projected solid angles. \[sr\]
     pub weight: Vec<f64>,
     /// The cell that each becomes when turned by 180° about the normal.
     turn: Vec<usize>,
@@ -47,16 +49,19 @@ impl Sources {
         Self { gaps: vec![[vec![0.0; cells], vec![0.0; cells]]; layers + 1] }
     }
 
+    /// The light that arises in a place, by cell.
     pub fn at(&mut self, (gap, inwards): Place) -> &mut Vec<f64> {
         &mut self.gaps[gap][usize::from(!inwards)]
     }
 
+    /// All of it, as a share of the light that has come.
     pub fn total(&self) -> f64 {
         self.gaps.iter().flatten().flatten().sum()
     }
 }
 
 impl Flows {
+    /// Measures every layer once.
     pub fn new(layers: &[Box<dyn Specimen>]) -> Self {
         let cells = front_basis();
         let weight = cells.projected_solid_angles();

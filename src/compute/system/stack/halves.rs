@@ -97,10 +97,12 @@ pub(super) struct Flux {
 }
 
 impl Flux {
+    /// Light that has gone through `other` first.
     pub fn times(&self, other: &Self) -> Self {
         Self { even: &self.even * &other.even, odd: &self.odd * &other.odd }
     }
 
+    /// Light of both ways.
     pub fn plus(&self, other: &Self) -> Self {
         Self { even: &self.even + &other.even, odd: &self.odd + &other.odd }
     }
@@ -125,6 +127,7 @@ pub(super) struct Series {
 }
 
 impl Series {
+    /// All light that `light` becomes by going to and fro, itself included.
     pub fn of(&self, light: &Flux) -> Flux {
         Flux { even: self.even.solve(&light.even), odd: self.odd.solve(&light.odd) }
     }
