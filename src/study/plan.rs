@@ -34,6 +34,8 @@ impl Plan {
         let regular =
             scene.apertures.iter().any(|a| a.system.dataset.transmission().is_some_and(|btdf| btdf.regular.is_some()));
         let cells = scattered(|part| !matches!(part, Scattered::Lambert(_)));
+        // Of such systems the data may be left out that the next stages look at.
+        let described = scene.beams && scene.apertures.iter().any(|a| a.system.very.is_some());
         let sun_on = (0..scene.apertures.len()).any(|index| scene.facing(index).sun_illuminance() > 0.0);
         plan.add(
             "sun",
@@ -49,12 +51,24 @@ impl Plan {
         plan.add(
             "cells",
             cells,
-            if cells { "a system scatters by its dataset's cells" } else { "no system has scattering data" },
+            match (cells, described) {
+                (true, false) => "a system scatters by its dataset's cells",
+                (true, true) => "a system scatters by its dataset's cells, as far as its description does not tell",
+                (false, true) => "what a system scatters is told by its description",
+                (false, false) => "no system has scattering data",
+            },
         );
+        if described {
+            plan.add("description", true, "a description tells what becomes of light, direction by direction");
+        }
         plan.add(
             "seen through",
             regular,
-            if regular { "a system lets light straight on" } else { "no system lets light straight on" },
+            match (regular, described) {
+                (true, _) => "a system lets light straight on",
+                (false, true) => "what goes straight on is told by the description",
+                (false, false) => "no system lets light straight on",
+            },
         );
         // A transmittance that varies with the angle needs the integral under any sky.
         let constant = |btdf: &Btdf| matches!(btdf.regular, None | Some(AngularTransmittance::Constant(_)));
@@ -64,7 +78,7 @@ impl Plan {
             "sky at sensors",
             regular && !even,
             match (regular, even) {
-                (false, _) => "no system lets light straight on",
+                (false, _) => "no dataset lets light straight on",
                 (true, true) => "above the horizon the luminance is the same everywhere: closed form",
                 (true, false) => "the luminance of the sky seen straight through varies",
             },

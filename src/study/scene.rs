@@ -265,10 +265,10 @@ fn controlled_state(
     }
 }
 
-/// Does anything in the room send light back to the apertures?
+/// May light fall on an aperture from the room: from its surfaces, or from another aperture?
 fn reflects(file: &SceneFile) -> bool {
     let rho = &file.room.reflectance;
-    rho.floor > 0.0 || rho.walls > 0.0 || rho.ceiling > 0.0
+    rho.floor > 0.0 || rho.walls > 0.0 || rho.ceiling > 0.0 || file.aperture.len() > 1
 }
 
 /// Hour of the scene's day; `None` where the sun is given by angles.

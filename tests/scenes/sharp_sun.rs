@@ -136,6 +136,32 @@ fn a_state_that_is_not_there_is_told() {
 }
 
 #[test]
+fn the_plan_speaks_of_the_description() {
+    let folder = Folder::new("plan", &[("blind.system.toml", BLIND)]);
+    let system = "{ file = \"blind.system.toml\", state = \"15\" }";
+    let lit = text(system, [30.0, 180.0], "").replace("diffuse_horizontal = 0.0", "diffuse_horizontal = 8000.0");
+    let result = room(&lit, &folder.0);
+    let reason = |name: &str| {
+        let stage = result.plan.stages.iter().find(|stage| stage.name == name).unwrap();
+        stage.reason.clone()
+    };
+    assert!(result.plan.runs("description"));
+    assert!(reason("cells").contains("description") && reason("seen through").contains("description"));
+    assert!(result.sensors.iter().all(|sensor| sensor.direct.value > 0.0));
+}
+
+#[test]
+fn in_a_black_room_one_aperture_lights_the_other() {
+    let folder = Folder::new("two", &[("blind.system.toml", BLIND)]);
+    let blind = text("{ file = \"blind.system.toml\", state = \"75\" }", [30.0, 180.0], "");
+    let roof = "[[aperture]]\nsurface = \"roof\"\norigin = [0.5, 0.5]\nsize = [3.0, 3.0]\n\
+        system = { ideal = \"diffuse\", transmittance = 0.5 }\n[site]";
+    let both = room(&blind.replace("[site]", roof), &folder.0);
+    let reflected: f64 = both.sensors.iter().map(|sensor| sensor.interreflected.value).sum();
+    assert!(reflected > 1.0, "the blind throws back what comes through the roof: {reflected} lx");
+}
+
+#[test]
 fn the_sun_on_the_rim_counts_as_far_as_it_shines() {
     // Slats that begin to open at the disc's middle: half of it looks through.
     let folder = Folder::new("rim", &[("blind.system.toml", BLIND)]);
