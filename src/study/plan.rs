@@ -114,7 +114,7 @@ impl Plan {
                 scene.apertures.len()
             )
         } else if scene.interreflection {
-            format!("{share}; no cells of it in the data, or asked for: taken as diffuse")
+            format!("{share}; no cells of it in the data, another aperture before it, or asked for: taken as diffuse")
         } else {
             String::from("the scene asks for the direct component alone")
         };

@@ -166,7 +166,12 @@ impl Scene {
             let directional = by_dataset
                 && file.compute.interreflection
                 && reflects_by_cells(&system)
-                && file.compute.back_reflection != BackReflectionMode::Diffuse;
+                && match file.compute.back_reflection {
+                    BackReflectionMode::Diffuse => false,
+                    BackReflectionMode::Directional => true,
+                    // What falls on an aperture straight from another is known as an illuminance, not by cells.
+                    BackReflectionMode::Auto => file.aperture.iter().all(|other| other.surface == keys.surface),
+                };
             list.push(SceneAperture { aperture, system, reflectance, structure, directional, controlled: picked });
         }
         if let Some(target) = file.compute.error_target {

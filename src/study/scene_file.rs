@@ -434,12 +434,13 @@ impl BeamMode {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BackReflectionMode {
-    /// By the dataset's own back reflection wherever it is given on cells, else diffuse.
+    /// By the dataset's own back reflection wherever it is given on cells and no other aperture faces this one, else
+    /// diffuse.
     #[default]
     Auto,
     /// Diffuse.
     Diffuse,
-    /// The same, said aloud.
+    /// By cells all the same; what comes straight from other apertures is not thrown back then.
     Directional,
 }
 
