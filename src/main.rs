@@ -6,8 +6,8 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments = cfs::cli::Arguments::parse();
     let result = match &arguments.command {
-        Some(command) => cfs::cli::run(command, arguments.catalogue.as_deref()),
-        None => cfs::app::run(arguments.catalogue.as_deref(), arguments.open),
+        Some(command) => arguments.no_files().and_then(|()| cfs::cli::run(command, arguments.catalogue.as_deref())),
+        None => arguments.to_open().and_then(|files| cfs::app::run(arguments.catalogue.as_deref(), files)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,15 +1,11 @@
 //! Acting on commands: the only place where what the window knows changes by the user's will.
 
-use super::command::{Command, ImportFields};
+use super::command::Command;
 use super::jobs::Lane;
 use super::moment;
 use super::scene::{Selection, fill, first_scene, rule, set_rule};
-use super::shelf::Addition;
-use super::state::{Added, PathUse};
+use super::state::PathUse;
 use super::window::App;
-use super::work;
-use crate::catalogue::{NewProduct, Provenance};
-use crate::compute::doctor::{Repair, record};
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode};
@@ -71,6 +67,9 @@ impl App {
             }
             Command::Cancel(lane) => {
                 let stopped = self.jobs.cancel(lane);
+                if lane == Lane::Import {
+                    state.under_way = None;
+                }
                 let told = match lane {
                     Lane::Goniophotometer => {
                         "Stopped; finished states are kept, and Compute goes on after them".to_owned()
@@ -116,10 +115,20 @@ impl App {
             Command::Favourite(key, favourite) => self.store(move |shelf| shelf.set_favourite(&key, favourite)),
             Command::OpenPaths(paths) => self.read_paths(paths),
             Command::Write(what, path) => self.write(what, path),
-            Command::EditPath(text) => state.path = text,
-            Command::EditImport(fields) => self.edit_import(*fields),
-            Command::Repair(repair) => self.repair_import(|repairs| repairs.push(repair)),
-            Command::UndoRepair => self.repair_import(|repairs| repairs.truncate(repairs.len().saturating_sub(1))),
+            Command::EditPath(text) => {
+                state.path = text;
+                // The question was about another path.
+                state.replace = None;
+            }
+            Command::WriteNew(what, path) => self.write_new(what, path),
+            Command::KeepFile => state.replace = None,
+            Command::EditImport(number, fields) => self.edit_import(number, *fields),
+            Command::GroupImport(grouping) => self.group_import(grouping),
+            Command::AddAnyway(number, anyway) => self.add_anyway(number, anyway),
+            Command::Repair(number, repair) => self.repair_import(number, |repairs| repairs.push(repair)),
+            Command::UndoRepair(number) => {
+                self.repair_import(number, |repairs| repairs.truncate(repairs.len().saturating_sub(1)));
+            }
             Command::AddImport => self.add_import(),
             Command::DiscardImport => {
                 state.import = None;
@@ -134,6 +143,17 @@ impl App {
             Command::AddMeasured => self.add_measured(),
             Command::ExportMeasured => self.ask_target(PathUse::ExportMeasured),
             Command::RetryCatalogue => self.open_catalogue(),
+            Command::EditProduct(key) => self.edit_product(key),
+            Command::EditWords(fields) => {
+                if let Some(editing) = &mut state.editing {
+                    editing.fields = *fields;
+                }
+            }
+            Command::SaveWords => self.save_words(),
+            Command::DeleteProduct(key) => self.delete_product(key),
+            Command::RestoreProduct(key) => self.restore_product(key),
+            Command::Dismiss(id) => self.toasts.dismiss(id),
+            Command::ForgetMessages => self.toasts.clear(),
         }
     }
 
@@ -237,56 +257,18 @@ impl App {
                 self.store(move |shelf| shelf.remove(&key));
             }
         }
-        for &back in after.iter().filter(|number| !before.additions.contains(number)) {
-            let addition = self.state.additions[back].addition.clone();
-            self.store_addition(back, addition);
+        let back = after.iter().filter(|number| !before.additions.contains(number));
+        let back: Vec<_> = back.map(|&number| (number, self.state.additions[number].addition.clone())).collect();
+        if !back.is_empty() {
+            self.store_additions(back);
         }
-    }
-
-    fn edit_import(&mut self, fields: ImportFields) {
-        if let Some(import) = &mut self.state.import {
-            import.name = fields.name;
-            import.manufacturer = fields.manufacturer;
-            import.kind = fields.kind;
-            import.tags = fields.tags;
+        let after = self.state.document.changes.clone();
+        // The last one first: each was made on what the one before it left.
+        for &gone in before.changes.iter().rev().filter(|number| !after.contains(number)) {
+            self.make_change(gone, false);
         }
-    }
-
-    /// What was read with other repairs, made and examined in the background.
-    fn repair_import(&mut self, change: impl FnOnce(&mut Vec<Repair>)) {
-        let Some(import) = &self.state.import else { return };
-        let mut repairs = import.repairs.clone();
-        change(&mut repairs);
-        let originals = import.originals.clone();
-        self.start(Lane::Import, move |_| work::mend(&originals, repairs));
-    }
-
-    fn add_import(&mut self) {
-        let Some(import) = self.state.import.take() else { return };
-        let addition = Addition {
-            datasets: import.datasets,
-            product: NewProduct {
-                name: import.name.trim().to_owned(),
-                manufacturer: import.manufacturer.trim().to_owned(),
-                kind: import.kind.trim().to_owned(),
-                tags: import.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect(),
-                provenance: Provenance {
-                    method: record(&import.provenance.method, &import.repairs),
-                    ..import.provenance
-                },
-                ..NewProduct::default()
-            },
-        };
-        self.add_to_catalogue(addition);
-    }
-
-    /// Stores a product as a step of its own, and closes the sheet that it came from.
-    pub(super) fn add_to_catalogue(&mut self, addition: Addition) {
-        self.state.sheet = None;
-        let number = self.state.additions.len();
-        self.state.additions.push(Added { addition: addition.clone(), key: None });
-        self.undoer.add_undo(&self.state.document);
-        self.state.document.additions.push(number);
-        self.store_addition(number, addition);
+        for &back in after.iter().filter(|number| !before.changes.contains(number)) {
+            self.make_change(back, true);
+        }
     }
 }

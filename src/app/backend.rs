@@ -3,7 +3,7 @@
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::error::AppError;
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, Imported, NewProduct, Product, default_path};
+use crate::catalogue::{self, Catalogue, Deleted, Imported, Known, NewProduct, Product, Words, default_path};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::formats::ies::IesEdition;
@@ -139,6 +139,26 @@ impl Shelf for CatalogueShelf {
 
     fn remove(&self, product: &str) -> Result<(), AppError> {
         Ok(self.lock().remove_product(product)?)
+    }
+
+    fn describe(&self, product: &str, words: &Words) -> Result<(), AppError> {
+        Ok(self.lock().describe(product, words)?)
+    }
+
+    fn delete(&self, product: &str) -> Result<(), AppError> {
+        Ok(self.lock().delete_product(product)?)
+    }
+
+    fn restore(&self, product: &str) -> Result<(), AppError> {
+        Ok(self.lock().restore_product(product)?)
+    }
+
+    fn deleted(&self) -> Result<Vec<Deleted>, AppError> {
+        Ok(self.lock().deleted_products()?)
+    }
+
+    fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, AppError> {
+        Ok(self.lock().products_from(source_hash)?)
     }
 
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), AppError> {

@@ -2,10 +2,12 @@
 //! and [`super::offer`] says which of it menu, palette and keys offer.
 
 use super::goniophotometer::Setup;
+use super::import::ImportFields;
 use super::jobs::Lane;
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
 use super::theme::ThemeChoice;
+use crate::catalogue::Grouping;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Repair;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -13,19 +15,6 @@ use std::path::PathBuf;
 
 /// Name of the field in which a system file is typed.
 pub const SYSTEM_EDITOR: &str = "system file";
-
-/// The fields of an import sheet, as edited.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ImportFields {
-    /// Product name.
-    pub name: String,
-    /// Maker.
-    pub manufacturer: String,
-    /// Kind of system.
-    pub kind: String,
-    /// Words to find it by, separated by commas.
-    pub tags: String,
-}
 
 /// One thing to do.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,18 +83,26 @@ pub enum Command {
     Favourite(String, bool),
     /// Read these files.
     OpenPaths(Vec<PathBuf>),
-    /// Write something to a path.
+    /// Write something to a path, whatever is there.
     Write(PathUse, PathBuf),
+    /// Write something to a path; where a file is there already, ask first.
+    WriteNew(PathUse, PathBuf),
+    /// Another name than that of the file that exists.
+    KeepFile,
     /// Type a path.
     EditPath(String),
     /// Words of the palette.
     EditPalette(String),
-    /// Fill in what an import lacks.
-    EditImport(Box<ImportFields>),
-    /// Try a repair on what was read.
-    Repair(Repair),
-    /// Take the last repair back.
-    UndoRepair,
+    /// Fill in what a product of an import lacks (its number from 0).
+    EditImport(usize, Box<ImportFields>),
+    /// Take the files that were read for other products.
+    GroupImport(Grouping),
+    /// Store a product of an import although it is in the catalogue, or not.
+    AddAnyway(usize, bool),
+    /// Try a repair on a product that was read.
+    Repair(usize, Repair),
+    /// Take the last repair of a product back.
+    UndoRepair(usize),
     /// Store what was read.
     AddImport,
     /// Forget what was read.
@@ -128,4 +125,18 @@ pub enum Command {
     ExportMeasured,
     /// Open the catalogue once more after a failure.
     RetryCatalogue,
+    /// Edit the words about a product of this key; of the selected one where it is `None`.
+    EditProduct(Option<String>),
+    /// Words about a product, as typed.
+    EditWords(Box<ImportFields>),
+    /// Store the words about the product.
+    SaveWords,
+    /// Take a product of this key out of sight; the selected one where it is `None`.
+    DeleteProduct(Option<String>),
+    /// Bring a product back into sight.
+    RestoreProduct(String),
+    /// Take a message from the window; all where it is `None`.
+    Dismiss(Option<u64>),
+    /// Forget all messages.
+    ForgetMessages,
 }

@@ -2,14 +2,14 @@
 
 use super::error::AppError;
 use super::state::PathUse;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Asks the user for paths.
 pub trait FileDialogs: Send + Sync {
     /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
     fn open(&self) -> Result<Vec<PathBuf>, AppError>;
-    /// Where to write.
-    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError>;
+    /// Where to write; folder and name to start from. The dialog itself asks before a file is replaced.
+    fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError>;
 }
 
 /// The desktop's own dialogs.
@@ -22,8 +22,12 @@ impl FileDialogs for NativeDialogs {
         Ok(dialog.pick_files().unwrap_or_default())
     }
 
-    fn save(&self, what: PathUse) -> Result<Option<PathBuf>, AppError> {
-        let dialog = rfd::FileDialog::new().set_title(what.title()).set_file_name(what.file_name());
+    fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError> {
+        let name = start.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let mut dialog = rfd::FileDialog::new().set_title(what.title()).set_file_name(name);
+        if let Some(folder) = start.parent().filter(|folder| folder.is_dir()) {
+            dialog = dialog.set_directory(folder);
+        }
         let dialog = match what {
             PathUse::ExportLid => dialog
                 .add_filter("Luminaire files", &["ldt", "ies"])
@@ -50,7 +54,7 @@ impl FileDialogs for NoDialogs {
         Err(AppError::NoDialog)
     }
 
-    fn save(&self, _what: PathUse) -> Result<Option<PathBuf>, AppError> {
+    fn save(&self, _what: PathUse, _start: &Path) -> Result<Option<PathBuf>, AppError> {
         Err(AppError::NoDialog)
     }
 }

@@ -4,6 +4,7 @@ use super::backend::{StudyEngine, open_shelf};
 use super::command::Command;
 use super::dialogs::NativeDialogs;
 use super::offer::pressed;
+use super::restoring::sessions_folder;
 use super::window::{App, Services};
 use super::{panels, theme, title};
 use crate::catalogue::SourceFile;
@@ -33,6 +34,7 @@ impl App {
         }
         self.refresh();
         let dragging = ctx.input(|input| input.pointer.any_down());
+        self.keep_session();
         if !dragging {
             self.undoer.feed_state(ctx.input(|input| input.time), &self.state.document);
         }
@@ -45,7 +47,6 @@ impl App {
             self.apply(command);
             ui.ctx().request_repaint();
         }
-        self.toasts.show(ui.ctx());
         let title = title::title(&self.state);
         if title != self.shown_title {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
@@ -54,6 +55,7 @@ impl App {
     }
 }
 
+/// Where earlier versions kept their settings.
 const SETTINGS_KEY: &str = "cfs-settings";
 
 impl eframe::App for App {
@@ -65,12 +67,8 @@ impl eframe::App for App {
         self.draw(ui);
     }
 
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        let mut settings = self.state.settings.clone();
-        settings.last_scene = toml::to_string(&self.state.document.scene).ok();
-        if let Ok(text) = serde_json::to_string(&settings) {
-            storage.set_string(SETTINGS_KEY, text);
-        }
+    fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        self.close();
     }
 }
 
@@ -78,6 +76,7 @@ impl eframe::App for App {
 /// at once.
 pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     let catalogue = catalogue.map(Path::to_path_buf);
+    let sessions = sessions_folder();
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_inner_size([1280.0, 720.0])
@@ -104,6 +103,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
             };
             let mut app = App::new(services, settings);
             app.library = library;
+            app.begin_session(sessions.as_deref(), open.is_empty());
             app.logic(&cc.egui_ctx);
             app.apply(Command::OpenPaths(open));
             Ok(Box::new(app))

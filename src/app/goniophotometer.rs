@@ -230,6 +230,17 @@ fn package(run: &Run) -> Result<Vec<u8>, CatalogueError> {
     catalogue.export_package(&[imported.key])
 }
 
+/// The files that [`export`] writes for a path.
+pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
+    if ends_in(path, "cfsp") || run.finished.len() < 2 {
+        return vec![path.to_owned()];
+    }
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = Format::stem(&name);
+    let of_state = |state: &str| path.with_file_name(format!("{stem}_{state}{}", &name[stem.len()..]));
+    run.finished.iter().map(|one| of_state(&one.dataset.state)).collect()
+}
+
 /// Writes all states: one package (.cfsp), or a file a state (.xml, .btdf.txt), named by the states if there are several.
 pub fn export(run: &Run, path: &Path) -> Result<PathBuf, AppError> {
     let told = |error: AppError| error.about(path.display());
@@ -238,12 +249,7 @@ pub fn export(run: &Run, path: &Path) -> Result<PathBuf, AppError> {
     }
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let format = Format::from_name(&name).ok_or_else(|| told(AppError::MeasuredEnding))?;
-    let stem = Format::stem(&name);
-    for one in &run.finished {
-        let path = match run.finished.len() {
-            1 => path.to_owned(),
-            _ => path.with_file_name(format!("{stem}_{}{}", one.dataset.state, &name[stem.len()..])),
-        };
+    for (one, path) in run.finished.iter().zip(targets(run, path)) {
         let written = write_dataset(format, std::slice::from_ref(&*one.dataset));
         write_whole(&path, &written.map_err(|error| told(error.into()))?.bytes)?;
     }

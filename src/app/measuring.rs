@@ -76,6 +76,6 @@ impl App {
         };
         let datasets = run.finished.iter().map(|one| one.dataset.clone()).collect();
         let addition = Addition { datasets, product: product(run) };
-        self.add_to_catalogue(addition);
+        self.add_to_catalogue(vec![addition]);
     }
 }

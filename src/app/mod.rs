@@ -4,7 +4,10 @@
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
 pub mod apply;
+pub mod autosave;
 pub mod backend;
+pub mod changes;
+pub mod clock;
 pub mod command;
 pub mod control;
 pub mod daylight;
@@ -17,14 +20,22 @@ pub mod export;
 pub mod facing;
 pub mod frame;
 pub mod goniophotometer;
+pub mod import;
+pub mod importing;
 pub mod jobs;
+pub mod keeping;
 pub mod measuring;
+pub mod messages;
 pub mod moment;
+pub mod naming;
 pub mod offer;
 pub mod outcomes;
 pub mod paint;
 pub mod panels;
+pub mod reading;
+pub mod restoring;
 pub mod scene;
+pub mod session;
 pub mod shelf;
 pub mod state;
 pub mod theme;

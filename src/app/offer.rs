@@ -94,6 +94,15 @@ fn table() -> Vec<Offer> {
             .menu(FILE, 11),
         offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
         offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
+        offer(EditProduct(None), "Rename product…", "Name, maker, kind and tags of the selected product")
+            .keys(PLAIN, Key::F2)
+            .menu(EDIT, 10),
+        offer(DeleteProduct(None), "Delete product", "Take the selected product out of sight; undo brings it back")
+            .menu(EDIT, 11),
+        offer(sheet(state::Sheet::Deleted), "Recently deleted", "Products out of sight, and back").menu(EDIT, 12),
+        offer(AddImport, "Add what was read to the catalogue", "Store the products of the import sheet"),
+        offer(sheet(state::Sheet::Messages), "Messages", "What the window said, also what is gone from sight")
+            .menu(HELP, 3),
         offer(Search, "Search the catalogue", "Put the cursor into the search field").keys(CTRL, Key::F),
         offer(Palette, "Command palette", "Find a command by its words").keys(CTRL, Key::K).menu(HELP, 0),
     ];

@@ -45,9 +45,16 @@ impl App {
         self.start_pending_change();
     }
 
-    /// Stores an addition of this session.
-    pub(super) fn store_addition(&mut self, number: usize, addition: Addition) {
-        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Added(number, shelf.add(&addition))));
+    /// Stores additions of this session.
+    pub(super) fn store_additions(&mut self, additions: Vec<(usize, Addition)>) {
+        self.queue(move |shelf| {
+            Outcome::Added(additions.iter().map(|(number, addition)| (*number, shelf.add(addition))).collect())
+        });
+    }
+
+    /// Asks or changes the catalogue after everything that was asked before.
+    pub(super) fn queue(&mut self, change: impl FnOnce(&dyn Shelf) -> Outcome + Send + 'static) {
+        self.pending_changes.push_back(Box::new(change));
         self.start_pending_change();
     }
 
@@ -73,6 +80,8 @@ impl App {
 
     /// Takes in what jobs brought back. Never waits.
     pub fn poll(&mut self) {
+        // Ended, or stopped.
+        self.writing &= self.jobs.busy(Lane::Export);
         for finished in self.jobs.poll() {
             match finished.outcome {
                 Ok(outcome) => self.take(outcome),
@@ -101,8 +110,10 @@ impl App {
             Outcome::Opened(Ok(shelf)) => {
                 self.state.catalogue = CatalogueState::Ready(shelf);
                 self.search();
+                self.look_up_deleted();
                 self.fill_catalogue();
                 self.asked = None;
+                self.start_waiting_files();
             }
             Outcome::Builtin(Ok(left)) => {
                 self.search();
@@ -136,16 +147,13 @@ impl App {
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
+            Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
             Outcome::Read(import) => {
+                self.state.under_way = None;
                 self.state.import = Some(*import);
                 self.state.sheet = Some(Sheet::Import);
             }
-            Outcome::Mended(Ok(mended)) => {
-                if let Some(import) = &mut self.state.import {
-                    (import.datasets, import.diagnoses, import.repairs) =
-                        (mended.datasets, mended.diagnoses, mended.repairs);
-                }
-            }
+            Outcome::Mended(Ok((number, mended))) => self.take_mended(number, *mended),
             Outcome::Mended(Err(error)) => {
                 self.toasts.error(error.to_string());
             }
@@ -166,7 +174,10 @@ impl App {
             Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
                 self.tell(&error);
             }
-            Outcome::Added(number, result) => self.take_added(number, result),
+            Outcome::Added(results) => self.take_added(results),
+            Outcome::Changed(number, forth, result) => self.take_changed(number, forth, result),
+            Outcome::Editing(product) => self.take_editing(product),
+            Outcome::Deleted(list) => self.take_deleted(list),
             Outcome::Imported(result) => self.take_imported(result),
             Outcome::Stored(result) => {
                 if let Err(error) = result {
@@ -174,7 +185,9 @@ impl App {
                 }
                 self.search();
             }
+            Outcome::There(what, path, there) => self.take_there(what, path, there),
             Outcome::Written(what, Ok(path)) => {
+                self.remember_folder(&path);
                 self.toasts.success(format!("Written: {}", path.display()));
                 if what == PathUse::SaveScene {
                     self.state.scene_path = Some(path);
@@ -200,22 +213,38 @@ impl App {
         self.state.daylight.take(daylight);
     }
 
-    fn take_added(&mut self, number: usize, result: Result<String, AppError>) {
-        match result {
-            // Undone while it was being stored.
-            Ok(key) if !self.state.document.additions.contains(&number) => self.store(move |shelf| shelf.remove(&key)),
-            Ok(key) => {
-                self.toasts.success("Added to the catalogue; Ctrl+Z takes it out again");
-                self.state.additions[number].key = Some(key.clone());
-                // The step that added it also shows it.
-                self.state.document.selection = Selection { product: key, state: String::new() };
-                fill(&mut self.state.document.scene, &self.state.document.selection);
-                self.undoer.add_undo(&self.state.document);
+    fn take_added(&mut self, results: Vec<(usize, Result<String, AppError>)>) {
+        self.state.under_way = None;
+        let mut added = Vec::new();
+        for (number, result) in results {
+            match result {
+                // Undone while it was being stored.
+                Ok(key) if !self.state.document.additions.contains(&number) => {
+                    self.store(move |shelf| shelf.remove(&key));
+                }
+                Ok(key) => {
+                    self.state.additions[number].key = Some(key.clone());
+                    added.push(key);
+                }
+                Err(error) => {
+                    self.state.document.additions.retain(|&other| other != number);
+                    let name = &self.state.additions[number].addition.product.name;
+                    self.toasts.error(format!("Not added: {name}: {error}"));
+                }
             }
-            Err(error) => {
-                self.state.document.additions.retain(|&other| other != number);
-                self.toasts.error(format!("Not added: {error}. The catalogue is unchanged.")).duration(None);
-            }
+        }
+        if let Some(first) = added.first() {
+            let what = if added.len() == 1 {
+                "Added to the catalogue".to_owned()
+            } else {
+                format!("Added to the catalogue: {} products", added.len())
+            };
+            let again = if added.len() == 1 { "it" } else { "them" };
+            self.toasts.success(format!("{what}; Ctrl+Z takes {again} out again"));
+            // The step that added it also shows it.
+            self.state.document.selection = Selection { product: first.clone(), state: String::new() };
+            fill(&mut self.state.document.scene, &self.state.document.selection);
+            self.undoer.add_undo(&self.state.document);
         }
         self.search();
     }

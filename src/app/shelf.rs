@@ -1,7 +1,7 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
 use super::error::AppError;
-use crate::catalogue::{Imported, NewProduct, Product};
+use crate::catalogue::{Deleted, Imported, Known, NewProduct, Product, Words};
 use crate::compute::btdf::Dataset;
 use crate::study::StudyError;
 use crate::study::control::ControlQuestion;
@@ -75,8 +75,18 @@ pub trait Shelf: Send + Sync {
     fn add(&self, addition: &Addition) -> Result<String, AppError>;
     /// Stores all products of a package.
     fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, AppError>;
-    /// Takes a product out.
+    /// Takes a product out for good.
     fn remove(&self, product: &str) -> Result<(), AppError>;
+    /// Other words about a product.
+    fn describe(&self, product: &str, words: &Words) -> Result<(), AppError>;
+    /// Takes a product out of sight.
+    fn delete(&self, product: &str) -> Result<(), AppError>;
+    /// Brings a product back into sight.
+    fn restore(&self, product: &str) -> Result<(), AppError>;
+    /// Products out of sight, the last one first.
+    fn deleted(&self) -> Result<Vec<Deleted>, AppError>;
+    /// Products in sight that were read from files of this hash.
+    fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, AppError>;
     /// A built-in description whose product is not stored yet, and how many there are.
     fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, AppError> {
         Ok(None)

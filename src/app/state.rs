@@ -1,16 +1,17 @@
 //! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
 
+use super::changes::{Change, Editing};
 use super::control::{Year, YearKey};
 use super::engine::{LidFigures, RoomFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
+use super::import::{Import, KeptImport};
 use super::scene::{Selection, first_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
-use crate::catalogue::{Product, Provenance};
+use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
-use crate::compute::doctor::{Diagnosis, Repair};
 use crate::compute::sky::{Outside, Sun};
 use crate::study::accuracy::Accuracy;
 use crate::study::control::year::CONTROLLED;
@@ -39,6 +40,8 @@ pub struct Document {
     pub daylight_follows: bool,
     /// Numbers of the additions that are in the catalogue now; see [`State::additions`].
     pub additions: Vec<usize>,
+    /// Numbers of the changes to its products that hold now; see [`State::changes`].
+    pub changes: Vec<usize>,
 }
 
 /// An addition of this session: kept so that undo can take it out and redo put it back.
@@ -61,11 +64,13 @@ pub struct Settings {
     pub scene_open: bool,
     /// The scene as it was left, in TOML.
     pub last_scene: Option<String>,
+    /// The folder that was written to or read from last.
+    pub folder: Option<PathBuf>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { theme: ThemeChoice::System, catalogue_open: true, scene_open: true, last_scene: None }
+        Self { theme: ThemeChoice::System, catalogue_open: true, scene_open: true, last_scene: None, folder: None }
     }
 }
 
@@ -128,33 +133,6 @@ pub struct Daylight {
     pub sun: Option<Sun>,
 }
 
-/// Which files were read and are not stored yet.
-#[derive(Debug, Clone, Default)]
-pub struct Import {
-    /// File names.
-    pub files: Vec<String>,
-    /// What was recognised, one a state, with the repairs made.
-    pub datasets: Vec<Arc<Dataset>>,
-    /// The same as the files hold it.
-    pub originals: Vec<Arc<Dataset>>,
-    /// What the data doctor says about each.
-    pub diagnoses: Vec<Vec<Diagnosis>>,
-    /// Repairs made, in order; recorded when the product is stored.
-    pub repairs: Vec<Repair>,
-    /// Files that could not be read: file, place, what, what would be right.
-    pub failures: Vec<String>,
-    /// Fields for the user to fill in.
-    pub name: String,
-    /// Maker.
-    pub manufacturer: String,
-    /// Kind of system.
-    pub kind: String,
-    /// Words to find it by, separated by commas.
-    pub tags: String,
-    /// Where the data come from, as the files tell.
-    pub provenance: Provenance,
-}
-
 /// The sheet over the right edge of the bench.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sheet {
@@ -168,6 +146,12 @@ pub enum Sheet {
     Accuracy,
     /// Data computed from a description of geometry and material.
     Goniophotometer,
+    /// Name, maker, kind and tags of a product.
+    Product,
+    /// Products out of sight.
+    Deleted,
+    /// What the window said.
+    Messages,
     /// A path to open or write.
     Path(PathUse),
 }
@@ -198,16 +182,6 @@ impl PathUse {
             Self::ExportMeasured => "Export the computed data",
         }
     }
-
-    /// A name to start from.
-    pub fn file_name(self) -> String {
-        match self {
-            Self::Open | Self::SaveScene => "scene.toml".to_owned(),
-            Self::ExportLid => "window.ldt".to_owned(),
-            Self::ExportTile(tile) => format!("{}.csv", tile.title.to_lowercase()),
-            Self::ExportMeasured => "system.cfsp".to_owned(),
-        }
-    }
 }
 
 /// Everything.
@@ -230,12 +204,22 @@ pub struct State {
     pub sheet: Option<Sheet>,
     /// What a sheet's path field says.
     pub path: String,
+    /// The path that was to be written and exists already: to be replaced?
+    pub replace: Option<PathBuf>,
     /// Files that were read.
     pub import: Option<Import>,
+    /// An import that is on its way: from its files, or into the catalogue.
+    pub under_way: Option<KeptImport>,
     /// The goniophotometer's sheet.
     pub goniophotometer: Bench,
     /// Additions of this session.
     pub additions: Vec<Added>,
+    /// Changes of this session to products of the catalogue.
+    pub changes: Vec<Change>,
+    /// The product whose words are being edited.
+    pub editing: Option<Editing>,
+    /// Products out of sight, as last looked up.
+    pub deleted: Vec<Deleted>,
     /// Command palette: its words while open.
     pub palette: Option<String>,
     /// Focus the search field in the next frame.
@@ -273,6 +257,7 @@ impl State {
                 scene,
                 daylight_follows: true,
                 additions: Vec::new(),
+                changes: Vec::new(),
             },
             settings,
             catalogue: CatalogueState::Opening,
@@ -282,9 +267,14 @@ impl State {
             maximised: None,
             sheet: None,
             path: String::new(),
+            replace: None,
             import: None,
+            under_way: None,
             goniophotometer: Bench::default(),
             additions: Vec::new(),
+            changes: Vec::new(),
+            editing: None,
+            deleted: Vec::new(),
             palette: None,
             focus_search: false,
             dataset: Shown::default(),

@@ -1,21 +1,25 @@
 //! The window itself: what it knows, what was computed, and what works for it.
 
+use super::autosave::Autosave;
 use super::backend;
 use super::control::YearKey;
 use super::dialogs::{FileDialogs, NoDialogs};
 use super::engine::Engine;
 use super::error::AppError;
 use super::export::Exports;
+use super::import::KeptImport;
 use super::jobs::{JobState, Jobs, Lane};
+use super::messages::Messages;
 use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, State};
 use super::tiles::Bench;
 use super::views::{accuracy, section};
 use super::work::{Outcome, ReadDataset};
-use crate::catalogue::SourceFile;
+use crate::catalogue::{Grouping, SourceFile};
 use crate::study::Library;
 use egui::util::undoer::Undoer;
 use std::collections::VecDeque;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Opens the catalogue; runs in a job.
@@ -51,7 +55,14 @@ pub struct App {
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
     pub(super) export: Exports,
-    pub(super) toasts: egui_notify::Toasts,
+    /// What it says.
+    pub toasts: Messages,
+    /// Files to be read once the catalogue is open.
+    pub(super) waiting_files: Vec<(Vec<PathBuf>, Grouping, Option<KeptImport>)>,
+    /// Is a file being written, not only asked about?
+    pub(super) writing: bool,
+    /// Keeps the session on disk, if it does.
+    pub(super) autosave: Option<Autosave>,
     pub(super) bench: Bench,
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
@@ -82,7 +93,10 @@ impl App {
             asked: None,
             asked_year: None,
             export: Exports::default(),
-            toasts: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
+            toasts: Messages::default(),
+            waiting_files: Vec::new(),
+            writing: false,
+            autosave: None,
             bench: Bench::default(),
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
@@ -111,9 +125,9 @@ impl App {
         self.jobs.start(lane, move || ctx.request_repaint(), work);
     }
 
-    /// Says an error until somebody has read it.
+    /// Says an error.
     pub(super) fn tell(&mut self, error: &AppError) {
-        self.toasts.error(error.to_string()).duration(None);
+        self.toasts.error(error.to_string());
     }
 
     /// Is something still being read or computed?

@@ -1,25 +1,23 @@
 //! What runs in jobs, and what jobs bring back.
 
 use super::control::Year;
-use super::disk::{ends_in, read_bytes, write_whole};
+use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures};
 use super::error::AppError;
 use super::facing::surface_of;
 use super::goniophotometer::Finished;
+use super::import::{Import, Proposed};
 use super::jobs::JobState;
 use super::scene::{Selection, rule};
 use super::shelf::{Found, Shelf};
-use super::state::{Daylight, Import, PathUse};
-use crate::catalogue::{Gathered, Imported, Product, SYSTEMS, SourceFile, gather};
+use super::state::{Daylight, PathUse};
+use crate::catalogue::{Deleted, Imported, Product, SYSTEMS, SourceFile};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
-use crate::compute::doctor::{Diagnosis, Repair, examine, repaired_all};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::FormatError;
-use crate::formats::control_curve::read_control_curve;
-use crate::formats::system_toml::is_system_file;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::control::year::CONTROLLED;
@@ -59,8 +57,11 @@ pub enum Outcome {
     Target(PathUse, Result<Option<PathBuf>, AppError>),
     /// Files were read.
     Read(Box<Import>),
-    /// What was read, with repairs: the datasets, what is said about them, and the repairs; or why not.
-    Mended(Result<Mended, AppError>),
+    /// Several at once, in order.
+    Several(Vec<Outcome>),
+    /// A product that was read (its number from 0), with repairs: its datasets, what is said about them, and the
+    /// repairs; or why not.
+    Mended(Result<(usize, Box<Proposed>), AppError>),
     /// A system file was read: its text and folder.
     ReadSystem(Result<(String, PathBuf), AppError>),
     /// A state of a system was measured; the keys of all.
@@ -69,14 +70,22 @@ pub enum Outcome {
     ReadScene(PathBuf, Result<Box<SceneFile>, AppError>),
     /// A control curve was read.
     ReadCurve(Result<Vec<[f64; 2]>, AppError>),
-    /// An addition is in the catalogue.
-    Added(usize, Result<String, AppError>),
+    /// Additions are in the catalogue under these keys, or why not.
+    Added(Vec<(usize, Result<String, AppError>)>),
+    /// A change of this session was made in the catalogue, or taken back.
+    Changed(usize, bool, Result<(), AppError>),
+    /// A product whose words are to be edited.
+    Editing(Result<Arc<Product>, AppError>),
+    /// Products out of sight.
+    Deleted(Result<Vec<Deleted>, AppError>),
     /// A package is in the catalogue.
     Imported(Result<Vec<Imported>, AppError>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), AppError>),
     /// Built-in products are in the catalogue; how many are left.
     Builtin(Result<usize, AppError>),
+    /// A path that is to be written to: is a file there already?
+    There(PathUse, PathBuf, bool),
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
 }
@@ -139,90 +148,6 @@ pub(super) fn take_from_shelf(
     };
     let dataset = shelf.load(&selection.product, Some(&state))?;
     Ok(Shelved { product, state, dataset })
-}
-
-/// Reads files: one scene, system or control curve, or datasets.
-pub fn read_files(paths: &[PathBuf], read: ReadDataset) -> Outcome {
-    let text_of = |path: &Path, what: &'static str| {
-        let wrong = |byte| AppError::NotText(byte, what).about(path.display());
-        String::from_utf8(read_bytes(path)?).map_err(|error| wrong(error.utf8_error().valid_up_to()))
-    };
-    // Its name ends like a scene's, so it is asked about first. Among several files neither is opened: those are taken
-    // as states of a product, and what is no dataset is listed as a failure.
-    if let [path] = paths
-        && is_system_file(&path.to_string_lossy())
-    {
-        // Files that the system names are found from its own folder.
-        let base = path.parent().map(PathBuf::from).unwrap_or_default();
-        return Outcome::ReadSystem(text_of(path, "a system").map(|text| (text, base)));
-    }
-    if let [path] = paths
-        && ends_in(path, "toml")
-    {
-        let scene = text_of(path, "a scene").and_then(|text| {
-            SceneFile::parse(&text).map(Box::new).map_err(|error| AppError::from(error).about(path.display()))
-        });
-        return Outcome::ReadScene(path.clone(), scene);
-    }
-    if let [path] = paths
-        && ends_in(path, "csv")
-    {
-        let curve = read_bytes(path)
-            .and_then(|bytes| read_control_curve(&bytes).map_err(|error| AppError::from(error).about(path.display())));
-        return Outcome::ReadCurve(curve);
-    }
-    let mut import = Import::default();
-    let mut sources = Vec::new();
-    for path in paths {
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
-        let source =
-            read_bytes(path).and_then(|bytes| read(&name, &bytes).map_err(|error| AppError::from(error).about(&name)));
-        match source {
-            Ok(source) => sources.push(source),
-            // One bad file among many does not stop the others: the sheet lists it.
-            Err(error) => import.failures.push(error.to_string()),
-        }
-        import.files.push(name);
-    }
-    let mut products = gather(sources, false).into_iter();
-    if let Some(Gathered { meta, datasets, .. }) = products.next() {
-        import.diagnoses = datasets.iter().map(examine).collect();
-        import.datasets = datasets.into_iter().map(Arc::new).collect();
-        // Repairs always start from what the files hold, so that each can be taken back.
-        import.originals = import.datasets.clone();
-        import.name = meta.name;
-        import.manufacturer = meta.manufacturer;
-        import.kind = meta.kind;
-        import.tags = meta.tags.join(", ");
-        import.provenance = meta.provenance;
-    }
-    // The sheet asks for name and maker of one product; the others are not lost without a word.
-    for other in products {
-        let (name, files) = (other.meta.name, other.meta.provenance.source_file);
-        import.failures.push(format!("{files}: another product (\"{name}\"); open it after this one"));
-    }
-    Outcome::Read(Box::new(import))
-}
-
-/// Datasets with repairs made.
-#[derive(Debug)]
-pub struct Mended {
-    /// One a state.
-    pub datasets: Vec<Arc<Dataset>>,
-    /// What the data doctor says about each now.
-    pub diagnoses: Vec<Vec<Diagnosis>>,
-    /// The repairs.
-    pub repairs: Vec<Repair>,
-}
-
-/// Makes repairs on all states and examines what comes of it.
-pub(super) fn mend(originals: &[Arc<Dataset>], repairs: Vec<Repair>) -> Outcome {
-    let mended: Result<Vec<Dataset>, _> = originals.iter().map(|dataset| repaired_all(dataset, &repairs)).collect();
-    Outcome::Mended(mended.map_err(AppError::from).map(|datasets| Mended {
-        diagnoses: datasets.iter().map(examine).collect(),
-        datasets: datasets.into_iter().map(Arc::new).collect(),
-        repairs,
-    }))
 }
 
 /// Saves the scene.

@@ -1,13 +1,14 @@
 //! Files of the window: asking for paths, reading what was chosen, writing scene, luminaire, tiles and computed data.
 
-use super::disk::{ends_in, write_whole};
+use super::disk::write_whole;
 use super::export::png;
 use super::goniophotometer;
 use super::jobs::Lane;
+use super::naming::start_path;
 use super::state::{PathUse, Sheet, Tile};
 use super::window::App;
-use super::work::{Outcome, export_lid, read_files, save_scene};
-use std::path::PathBuf;
+use super::work::{Outcome, export_lid, save_scene};
+use std::path::{Path, PathBuf};
 
 impl App {
     /// Asks for files: the path field at once, the desktop's dialog beside it.
@@ -19,51 +20,78 @@ impl App {
     }
 
     pub(super) fn ask_target(&mut self, what: PathUse) {
-        self.state.path = match (what, &self.state.scene_path) {
-            (PathUse::SaveScene, Some(path)) => path.display().to_string(),
-            _ => what.file_name(),
-        };
+        let start = start_path(&self.state, what);
+        self.state.path = start.display().to_string();
+        self.state.replace = None;
         self.state.sheet = Some(Sheet::Path(what));
         let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Export, move |_| Outcome::Target(what, dialogs.save(what)));
+        self.start(Lane::Export, move |_| Outcome::Target(what, dialogs.save(what, &start)));
     }
 
-    pub(super) fn read_paths(&mut self, paths: Vec<PathBuf>) {
-        if paths.is_empty() {
-            return;
+    /// Writes where nothing is yet; else the sheet asks.
+    pub(super) fn write_new(&mut self, what: PathUse, path: PathBuf) {
+        if what == PathUse::Open {
+            return self.write(what, path);
         }
-        self.state.sheet = None;
-        // A package is whole: it needs no questions, and goes where it came from.
-        let (packages, paths): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| ends_in(path, "cfsp"));
-        packages.into_iter().for_each(|path| self.import_package(path));
-        if paths.is_empty() {
-            return;
+        // Whoever saves the scene to where it came from means that file.
+        if what == PathUse::SaveScene && self.state.scene_path.as_ref() == Some(&path) {
+            return self.write(what, path);
         }
-        let read = self.services.read;
-        self.start(Lane::Import, move |_| read_files(&paths, read));
+        let targets = match (what, &self.state.goniophotometer.run) {
+            (PathUse::ExportMeasured, Some(run)) => goniophotometer::targets(run, &path),
+            _ => vec![path.clone()],
+        };
+        self.start(Lane::Export, move |_| {
+            let there = targets.iter().any(|target| target.exists());
+            Outcome::There(what, path, there)
+        });
+    }
+
+    pub(super) fn take_there(&mut self, what: PathUse, path: PathBuf, there: bool) {
+        if there {
+            self.state.path = path.display().to_string();
+            self.state.replace = Some(path);
+            self.state.sheet = Some(Sheet::Path(what));
+        } else {
+            self.write(what, path);
+        }
+    }
+
+    /// The next dialog begins in the folder of a file that was just read or written.
+    pub(super) fn remember_folder(&mut self, path: &Path) {
+        if let Some(folder) = path.parent().filter(|folder| folder.is_absolute()) {
+            self.state.settings.folder = Some(folder.to_owned());
+        }
+    }
+
+    /// Starts to write a file; what is under way is waited for when the window closes.
+    fn start_writing(&mut self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        self.writing = true;
+        self.start(Lane::Export, move |_| work());
     }
 
     pub(super) fn write(&mut self, what: PathUse, path: PathBuf) {
         self.state.sheet = None;
+        self.state.replace = None;
         match what {
             PathUse::Open => self.read_paths(vec![path]),
             PathUse::SaveScene => {
                 let text = toml::to_string_pretty(&self.state.document.scene);
-                self.start(Lane::Export, move |_| save_scene(&path, text));
+                self.start_writing(move || save_scene(&path, text));
             }
             PathUse::ExportTile(tile) => self.export_tile(tile, path),
             PathUse::ExportMeasured => {
                 self.state.sheet = Some(Sheet::Goniophotometer);
                 match self.state.goniophotometer.run.clone() {
                     Some(run) => {
-                        self.start(Lane::Export, move |_| Outcome::Written(what, goniophotometer::export(&run, &path)));
+                        self.start_writing(move || Outcome::Written(what, goniophotometer::export(&run, &path)));
                     }
-                    None => drop(self.toasts.info("Compute the system first")),
+                    None => self.toasts.info("Compute the system first"),
                 }
             }
             PathUse::ExportLid => {
                 let (engine, lid) = (self.services.engine.clone(), self.results.lid.value.clone());
-                self.start(Lane::Export, move |_| export_lid(&path, lid.as_deref(), &*engine));
+                self.start_writing(move || export_lid(&path, lid.as_deref(), &*engine));
             }
         }
     }
@@ -94,13 +122,13 @@ impl App {
             return;
         }
         if let Some((tile, path, text)) = self.export.next_numbers() {
-            self.start(Lane::Export, move |_| {
+            self.start_writing(move || {
                 Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes()))
             });
             return;
         }
         if let Some((tile, path, picture)) = self.export.next_picture() {
-            self.start(Lane::Export, move |_| {
+            self.start_writing(move || {
                 let written = png(&picture).and_then(|bytes| write_whole(&path, &bytes));
                 Outcome::Written(PathUse::ExportTile(tile), written)
             });

@@ -58,8 +58,24 @@ pub enum CatalogueError {
     #[error("cannot import: {0}")]
     Import(String),
     /// Built-in products stay.
-    #[error("product \"{0}\" is built in and cannot be removed")]
+    #[error(
+        "product \"{0}\" is built in and cannot be removed for good; it can be deleted, which takes it out of sight"
+    )]
     BuiltIn(String),
+    /// Built-in products keep their names.
+    #[error(
+        "product \"{0}\" is built in and keeps its name, kind and tags; export and import it to have one of your own"
+    )]
+    BuiltInWords(String),
+    /// A product without a name.
+    #[error("product \"{0}\" needs a name")]
+    NoName(String),
+    /// It is out of sight already.
+    #[error("product \"{0}\" is deleted already")]
+    Deleted(String),
+    /// It is in sight.
+    #[error("product \"{0}\" is not deleted")]
+    NotDeleted(String),
     /// A stored or packed dataset cannot be read.
     #[error("dataset {hash}: {source}")]
     Dataset {

@@ -1,6 +1,7 @@
 //! Products into the catalogue, and packages of them in and out.
 
 use super::builtin::{rank_of, unreserved};
+use super::sight::bring_back;
 use super::store::{Record, USER_RANK, free_key, insert, prepare, read_record};
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
 use crate::compute::btdf::Dataset;
@@ -56,6 +57,8 @@ impl Catalogue {
         for mut record in records {
             let key = record.product.key.clone();
             if is_there(&tx, &record.product)? {
+                // What is imported is wanted in sight.
+                bring_back(&tx, &key)?;
                 imported.push(Imported { same_content_as: vec![key.clone()], key });
             } else if let Some(rank) = rank_of(&tx, &record.product)? {
                 // A built-in product that another file computed already.
@@ -76,7 +79,8 @@ fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError>
     let mut same_content_as = Vec::new();
     for (hash, _) in &record.datasets {
         let mut statement = tx.prepare_cached(
-            "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id WHERE s.dataset = ? ORDER BY p.key",
+            "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id
+             WHERE s.dataset = ? AND p.key NOT IN (SELECT product_key FROM deleted) ORDER BY p.key",
         )?;
         for key in statement.query_map([hash], |row| row.get::<_, String>(0))? {
             let key = key?;

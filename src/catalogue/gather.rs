@@ -1,15 +1,18 @@
 //! From dataset files to products: which files belong together, what they say about themselves.
 
+use super::grouping::{Family, Grouping, group};
 use super::{NewProduct, Origin, Provenance};
 use crate::compute::btdf::Dataset;
-use crate::formats::{CatalogueFields, Format, FormatError, is_one_function, merge_sides};
+use crate::formats::{CatalogueFields, Format, FormatError, merge_sides};
 use crate::formats::{catalogue_fields, read_dataset};
 
 /// A dataset file that was read.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SourceFile {
     /// Its name, without folder.
     pub name: String,
+    /// Where it lies; empty when that is not known. States of a product lie together.
+    pub folder: String,
     /// BLAKE3 hash of its bytes, 64 hexadecimal digits.
     pub hash: String,
     /// What it holds.
@@ -26,6 +29,7 @@ impl SourceFile {
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, FormatError> {
         Ok(Self {
             name: name.to_owned(),
+            folder: String::new(),
             hash: blake3::hash(bytes).to_hex().to_string(),
             datasets: read_dataset(name, bytes)?,
             fields: catalogue_fields(name, bytes)?,
@@ -40,34 +44,40 @@ pub struct Gathered {
     pub meta: NewProduct,
     /// One a state.
     pub datasets: Vec<Dataset>,
+    /// The file that each dataset came from; empty where it was joined from several.
+    pub sources: Vec<String>,
     /// The first file's name without its extension, for products without a name.
     pub file_stem: String,
 }
 
-/// Files as products. Files of formats that name a family themselves (one function of one state each) make a product a
-/// name, with the functions of one state joined; all other files given together are the states of one product. States
-/// without a key are named after their files where there are several. `together`: all are one product, whatever their
-/// names.
-pub fn gather(files: Vec<SourceFile>, together: bool) -> Vec<Gathered> {
-    let named = |file: &SourceFile| {
-        let own = file.datasets.iter().all(|dataset| is_one_function(dataset) && !dataset.name.is_empty());
-        own.then(|| file.datasets.first().map(|dataset| dataset.name.clone())).flatten()
-    };
-    let apart = !together && files.iter().all(|file| named(file).is_some());
-    let mut groups: Vec<(Option<String>, Vec<SourceFile>)> = Vec::new();
-    for file in files {
-        let name = if apart { named(&file) } else { None };
-        match groups.iter_mut().find(|(other, _)| *other == name) {
-            Some((_, group)) => group.push(file),
-            None => groups.push((name, vec![file])),
-        }
-    }
-    groups.into_iter().map(|(_, group)| product(group)).collect()
+/// Files as products: those that are states of one product together, as [`Grouping`] says. States are named by their
+/// angles where names tell them, else, where there are several, after their files.
+pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
+    group(files, grouping).into_iter().map(product).collect()
 }
 
-fn product(files: Vec<SourceFile>) -> Gathered {
-    let meta = meta(&files);
+/// An angle as the key of a state: without needless digits.
+fn key_of(angle: f64) -> String {
+    // −0 is 0.
+    format!("{}", angle + 0.0)
+}
+
+fn product(family: Family) -> Gathered {
+    let Family { files, angles } = family;
     let stems: Vec<String> = files.iter().map(|file| Format::stem(&file.name).to_owned()).collect();
+    let meta = NewProduct { name: name(&files, &stems), ..meta(&files) };
+    let sources = |datasets: &[Dataset]| match datasets.len() == files.len() {
+        true => files.iter().map(|file| file.name.clone()).collect(),
+        false => vec![String::new(); datasets.len()],
+    };
+    let file_stem = stems.first().cloned().unwrap_or_default();
+    if let Some(angles) = angles {
+        let mut datasets: Vec<Dataset> = files.iter().flat_map(|file| file.datasets.clone()).collect();
+        for (dataset, angle) in datasets.iter_mut().zip(angles) {
+            dataset.state = key_of(angle);
+        }
+        return Gathered { sources: sources(&datasets), meta, datasets, file_stem };
+    }
     let mut datasets = merge_sides(files.iter().flat_map(|file| file.datasets.clone()).collect());
     if datasets.len() > 1 {
         // A file of several states names them itself; one of a single nameless state gives it the file's name.
@@ -80,7 +90,36 @@ fn product(files: Vec<SourceFile>) -> Gathered {
             }
         }
     }
-    Gathered { meta, datasets, file_stem: stems.into_iter().next().unwrap_or_default() }
+    Gathered { sources: sources(&datasets), meta, datasets, file_stem }
+}
+
+/// What a dataset says of itself, unless it is what a template of the format says.
+fn told(text: &str, template: &str) -> String {
+    let text = text.trim();
+    if text == template { String::new() } else { text.to_owned() }
+}
+
+/// The product's name: what all its files say; else, where they are named by their states, what their names begin with.
+fn name(files: &[SourceFile], stems: &[String]) -> String {
+    let names: Vec<String> =
+        files.iter().flat_map(|file| &file.datasets).map(|dataset| told(&dataset.name, "Name")).collect();
+    let first = names.first().cloned().unwrap_or_default();
+    if names.iter().all(|name| *name == first) {
+        return first;
+    }
+    let begin = |texts: &[String]| {
+        let mut common: Vec<char> = texts.first().map(|text| text.chars().collect()).unwrap_or_default();
+        for text in texts {
+            let same = common.iter().zip(text.chars()).take_while(|(a, b)| **a == *b).count();
+            common.truncate(same);
+        }
+        let common: String = common.into_iter().collect();
+        common.trim_end_matches(|c: char| c.is_ascii_digit() || "_-. ,(".contains(c)).to_owned()
+    };
+    let folder = files.first().map(|file| file.folder.clone()).unwrap_or_default();
+    let folder = folder.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
+    // One or two letters name nothing.
+    [begin(&names), begin(stems), folder].into_iter().find(|text| text.chars().count() > 2).unwrap_or(first)
 }
 
 /// Is `part` this dataset, or one of the functions that it was joined from?
@@ -96,8 +135,7 @@ fn meta(files: &[SourceFile]) -> NewProduct {
     };
     let dataset = files.iter().flat_map(|file| &file.datasets).next();
     NewProduct {
-        name: dataset.map(|dataset| dataset.name.clone()).unwrap_or_default(),
-        manufacturer: dataset.map(|dataset| dataset.manufacturer.clone()).unwrap_or_default(),
+        manufacturer: dataset.map(|dataset| told(&dataset.manufacturer, "Manufacturer")).unwrap_or_default(),
         kind: first(|fields| &fields.kind),
         tags: files.iter().flat_map(|file| file.fields.tags.clone()).collect(),
         provenance: Provenance {

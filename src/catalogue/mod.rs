@@ -19,9 +19,12 @@ mod described;
 mod error;
 mod exchange;
 mod gather;
+mod grouping;
+mod keeping;
 mod open;
 mod product;
 mod search;
+mod sight;
 mod store;
 mod systems;
 mod validate;
@@ -32,6 +35,8 @@ pub use connection::Catalogue;
 pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
+pub use grouping::Grouping;
+pub use keeping::{Deleted, Known, Words};
 pub use open::default_path;
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,

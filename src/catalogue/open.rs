@@ -8,8 +8,11 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The steps from an empty file to the present layout; `PRAGMA user_version` counts those done.
-const MIGRATIONS: &[&str] =
-    &[include_str!("../../migrations/0001_products.sql"), include_str!("../../migrations/0002_system.sql")];
+const MIGRATIONS: &[&str] = &[
+    include_str!("../../migrations/0001_products.sql"),
+    include_str!("../../migrations/0002_system.sql"),
+    include_str!("../../migrations/0003_deleted.sql"),
+];
 
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.
 const APPLICATION: i64 = 0x4346_5358;

@@ -1,5 +1,6 @@
 //! Finding products: full text, facets, and the rows that lists show.
 
+use super::sight::IN_SIGHT;
 use super::{Catalogue, CatalogueError, Origin};
 use rusqlite::Row;
 use rusqlite::types::Value;
@@ -130,6 +131,7 @@ impl Catalogue {
             // So that every condition can begin with AND.
             sql.push_str(" WHERE 1");
         }
+        sql.push_str(IN_SIGHT);
         for (column, list) in [("p.kind", &query.kinds), ("p.manufacturer", &query.manufacturers)] {
             if !list.is_empty() {
                 sql.push_str(&format!(" AND {column} IN ({})", vec!["?"; list.len()].join(", ")));
@@ -176,17 +178,21 @@ impl Catalogue {
         };
         let column = |name: &str| {
             list(&format!(
-                "SELECT {name}, count(*) FROM product WHERE {name} <> '' GROUP BY {name} ORDER BY count(*) DESC, {name}"
+                "SELECT {name}, count(*) FROM product p WHERE {name} <> ''{IN_SIGHT} GROUP BY {name} ORDER BY count(*) DESC, {name}"
             ))
         };
         Ok(Facets {
             kinds: column("kind")?,
             manufacturers: column("manufacturer")?,
-            tags: list("SELECT tag, count(*) FROM tag GROUP BY tag ORDER BY count(*) DESC, tag")?,
+            tags: list(&format!(
+                "SELECT tag, count(*) FROM tag t JOIN product p ON p.id = t.product{IN_SIGHT} GROUP BY tag ORDER BY count(*) DESC, tag"
+            ))?,
             origins: column("origin")?,
-            favourites: count("SELECT count(*) FROM product JOIN favourite ON product_key = key")?,
-            builtin: count("SELECT count(*) FROM product WHERE builtin = 1")?,
-            all: count("SELECT count(*) FROM product")?,
+            favourites: count(&format!(
+                "SELECT count(*) FROM product p JOIN favourite ON product_key = key{IN_SIGHT}"
+            ))?,
+            builtin: count(&format!("SELECT count(*) FROM product p WHERE builtin = 1{IN_SIGHT}"))?,
+            all: count(&format!("SELECT count(*) FROM product p WHERE 1{IN_SIGHT}"))?,
         })
     }
 }

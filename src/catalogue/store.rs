@@ -3,6 +3,7 @@
 use super::described::{common_description, described_state};
 use super::product::slug;
 use super::search::list;
+use super::sight::bring_back;
 use super::{
     Catalogue, CatalogueError, CurvePoint, NewProduct, Origin, Product, ProductFinding, Provenance, State, check,
     profile_transmittances,
@@ -387,13 +388,14 @@ impl Catalogue {
         Ok(dataset)
     }
 
-    /// Takes a product of the user's out.
+    /// Takes a product of the user's out for good; [`Catalogue::delete_product`] takes it out of sight.
     pub fn remove_product(&mut self, key: &str) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         if read_product(&tx, key)?.builtin {
             return Err(CatalogueError::BuiltIn(key.to_owned()));
         }
         tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
+        bring_back(&tx, key)?;
         delete(&tx, key)?;
         tx.commit()?;
         Ok(())

@@ -5,7 +5,8 @@ use super::{
     goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, repair::RepairArgs, room::RoomArgs,
     sky::SkyArgs,
 };
-use std::path::PathBuf;
+use clap::CommandFactory as _;
+use std::path::{Path, PathBuf};
 
 /// From a complex fenestration system's BTDF to the light in a room
 #[derive(Debug, clap::Parser)]
@@ -17,7 +18,7 @@ use std::path::PathBuf;
 
 Examples:
   cfs                                   the window
-  cfs --open blind.xml                  the window, with a dataset to import or a scene to show
+  cfs blind.xml office.toml             the window, with a dataset to import and a scene to show
   cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
   cfs room office.toml --out office.csv illuminance at every sensor
   cfs accuracy office.toml              error against run time of every method for this scene
@@ -36,12 +37,77 @@ pub struct Arguments {
     /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
     #[arg(long, global = true, value_name = "FILE", env = "CFS_CATALOGUE")]
     pub catalogue: Option<PathBuf>,
-    /// Open the window with these datasets or this scene
+    /// Open the window with these files, or with what a folder holds; the same as naming them without --open
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub open: Vec<PathBuf>,
+    /// Open the window with these: datasets to import, a package, a system, a scene, a folder of datasets
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
     /// What to do; nothing opens the window
     #[command(subcommand)]
     pub command: Option<Command>,
+}
+
+impl Arguments {
+    /// The files that the window is to open, by their full paths.
+    ///
+    /// # Errors
+    /// A word that is neither a command nor a file, with the command that may be meant.
+    pub fn to_open(&self) -> anyhow::Result<Vec<PathBuf>> {
+        let one = |path: &PathBuf| {
+            if !path.exists() {
+                return Err(not_there(path));
+            }
+            // Where the program was started is no place to read a scene's relative paths from later.
+            std::path::absolute(path).map_err(|error| anyhow::anyhow!("{}: {error}", path.display()))
+        };
+        self.open.iter().chain(&self.files).map(one).collect()
+    }
+
+    /// A command takes its own files.
+    ///
+    /// # Errors
+    /// Files for the window that were named before a command.
+    pub fn no_files(&self) -> anyhow::Result<()> {
+        match self.open.iter().chain(&self.files).next() {
+            Some(file) => Err(anyhow::anyhow!(
+                "{}: named before a command; files for the window and a command do not go together",
+                file.display()
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Why a word cannot be opened.
+fn not_there(path: &Path) -> anyhow::Error {
+    let text = path.display().to_string();
+    let plain = !text.contains(['/', '\\', '.']);
+    let names: Vec<String> = Arguments::command().get_subcommands().map(|one| one.get_name().to_owned()).collect();
+    let near = names.iter().min_by_key(|name| distance(name, &text)).filter(|name| distance(name, &text) <= 2);
+    match near {
+        Some(name) => anyhow::anyhow!("{text}: neither a command nor a file; did you mean \"cfs {name}\"?"),
+        None if plain => {
+            anyhow::anyhow!("{text}: neither a command nor a file; commands are {}", names.join(", "))
+        }
+        None => anyhow::anyhow!("{text}: no such file; expected a dataset, package, system, scene or folder"),
+    }
+}
+
+/// How many letters have to be put in, left out or replaced to get from one word to another.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != *to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
 }
 
 /// Subcommands.
@@ -69,4 +135,18 @@ pub enum Command {
     Compact(CompactArgs),
     /// List, show, import, export, validate products
     Catalogue(CatalogueArgs),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_that_are_nearly_commands_are_found() {
+        assert_eq!(distance("room", "rom"), 1);
+        assert_eq!(distance("catalogue", "catalog"), 2);
+        assert!(not_there(Path::new("rooom")).to_string().contains("did you mean \"cfs room\""));
+        assert!(not_there(Path::new("window")).to_string().contains("commands are room, "));
+        assert!(not_there(Path::new("a/blind.xml")).to_string().contains("no such file"));
+    }
 }

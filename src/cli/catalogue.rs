@@ -1,7 +1,8 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
-use crate::catalogue::{Catalogue, Gathered, Imported, Product, Query, SourceFile, gather};
+use crate::catalogue::{Catalogue, Gathered, Grouping, Imported, Product, Query, SourceFile, gather};
 use crate::cli::builtin::{BuildArgs, build, complete, not_computed, provide};
+use crate::cli::keeping::{self, DeleteArgs, RenameArgs, RestoreArgs};
 use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::cli::validate::{ValidateArgs, finding_json, validate};
@@ -30,9 +31,15 @@ pub enum Action {
     List(ListArgs),
     /// Everything about one product.
     Show(ShowArgs),
-    /// Add dataset files or packages. Files given together are the states of one product; .btdf.txt files are a product
-    /// a name, the functions of one state joined.
+    /// Add dataset files or packages. Files whose names or contents differ by an angle alone are the states of one product;
+    /// .btdf.txt files are a product a name, the functions of one state joined; others are a product each.
     Import(ImportArgs),
+    /// Other words about a product of your own: name, maker, kind, tags. Its key stays.
+    Rename(RenameArgs),
+    /// Take products out of sight, until they are restored.
+    Delete(DeleteArgs),
+    /// Bring deleted products back; without a key, list them.
+    Restore(RestoreArgs),
     /// Write products into a package.
     Export(ExportArgs),
     /// Compute the built-in products that are not stored yet
@@ -87,9 +94,34 @@ pub struct ImportArgs {
     /// Word to find it by; may be given several times.
     #[arg(long = "tag")]
     pub tags: Vec<String>,
+    /// Which files are states of one product
+    #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
+    pub group: Group,
     /// How values are kept; by default without loss below 1 MB, else as `archive`.
     #[arg(long, value_enum)]
     pub compact: Option<Compactness>,
+}
+
+/// Which files are states of one product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Group {
+    /// Those that differ by an angle alone, by their names or by what they say of themselves
+    #[default]
+    Angles,
+    /// None: each file is a product
+    Each,
+    /// All of them
+    One,
+}
+
+impl Group {
+    const fn grouping(self) -> Grouping {
+        match self {
+            Self::Angles => Grouping::Proposed,
+            Self::Each => Grouping::Each,
+            Self::One => Grouping::One,
+        }
+    }
 }
 
 /// How the values of indicatrices are kept.
@@ -134,6 +166,9 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
             show(&catalogue, args)
         }
         Action::Import(args) => import(&mut open()?, args),
+        Action::Rename(args) => keeping::rename(&mut open()?, args),
+        Action::Delete(args) => keeping::delete(&mut open()?, args),
+        Action::Restore(args) => keeping::restore(&mut open()?, args),
         Action::Export(args) => {
             let mut catalogue = open()?;
             provide(&mut catalogue, &args.keys)?;
@@ -315,7 +350,8 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
         } else {
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
             let bytes = files::read(path)?;
-            let source = SourceFile::read(&name, &bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?;
+            let mut source = SourceFile::read(&name, &bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?;
+            source.folder = path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
             sources.push(source);
         }
     }
@@ -328,7 +364,7 @@ fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     let imported = if let Some((path, bytes)) = packages.first() {
         catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
     } else {
-        let products = gather(sources, !args.name.is_empty());
+        let products = gather(sources, if args.name.is_empty() { args.group.grouping() } else { Grouping::One });
         let stored = products.into_iter().map(|product| {
             let mut product = described(args, product);
             product.datasets = product.datasets.iter().map(|d| kept(args, d)).collect::<anyhow::Result<_>>()?;

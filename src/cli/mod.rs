@@ -10,6 +10,7 @@ pub mod convert;
 mod dataset_file;
 pub mod goniophotometer;
 pub mod info;
+pub mod keeping;
 pub mod lid;
 mod luminaire_info;
 mod output;

@@ -2,6 +2,7 @@
 
 use super::error::StudyError;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
+use std::io::Write as _;
 use std::path::Path;
 
 /// Larger files are refused before they are read: datasets and packages, next to which all others are small. \[bytes\]
@@ -36,7 +37,13 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     let mut part = path.as_os_str().to_owned();
     // A name that no other has: another program may write the same file.
     part.push(format!(".{:016x}.part", RandomState::new().build_hasher().finish()));
-    std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path)).map_err(|error| {
+    let whole = |part: &Path| {
+        let mut file = std::fs::File::create(part)?;
+        file.write_all(bytes)?;
+        // On the disk before it takes the name: otherwise a power cut could leave the name with nothing in it.
+        file.sync_all()
+    };
+    whole(Path::new(&part)).and_then(|()| std::fs::rename(&part, path)).map_err(|error| {
         // What matters is the first error; the part may not even exist.
         drop(std::fs::remove_file(&part));
         wrong(path, format!("cannot be written ({error}); expected a writable place"))

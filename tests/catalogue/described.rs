@@ -1,6 +1,6 @@
 //! Descriptions in the catalogue: kept with the product, given with its datasets, in and out of packages.
 
-use cfs::catalogue::{Catalogue, NewProduct, SourceFile, builtin_system, gather};
+use cfs::catalogue::{Catalogue, Grouping, NewProduct, SourceFile, builtin_system, gather};
 use cfs::compute::btdf::{Btdf, Dataset, DescribedState};
 use cfs::formats::{Format, package, read_dataset, system_toml, write_dataset};
 
@@ -69,7 +69,7 @@ fn files_make_a_described_product() {
                 SourceFile::read(&format!("blind_{}.{name}", one.state), &bytes).unwrap()
             })
             .collect();
-        let product = gather(files, true).remove(0);
+        let product = gather(files, Grouping::Proposed).remove(0);
         let mut catalogue = Catalogue::empty_in_memory().unwrap();
         let key = catalogue.import(&product.datasets, product.meta).unwrap().key;
         let product = catalogue.product(&key).unwrap();

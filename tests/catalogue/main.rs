@@ -2,6 +2,10 @@
 
 mod assets;
 mod catalogue;
+#[path = "../common/mod.rs"]
+mod common;
 mod datasets;
 mod described;
+mod families;
+mod keeping;
 mod packages;

@@ -1,7 +1,7 @@
 //! `cfs catalogue` as a script would use it, through the library's own entry.
 
 use crate::common::data;
-use cfs::cli::catalogue::{Action, CatalogueArgs, ExportArgs, ImportArgs, ListArgs, ShowArgs, run};
+use cfs::cli::catalogue::{Action, CatalogueArgs, ExportArgs, Group, ImportArgs, ListArgs, ShowArgs, run};
 use cfs::cli::validate::ValidateArgs;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +13,7 @@ fn import(files: &[PathBuf]) -> CatalogueArgs {
         kind: "test".into(),
         tags: vec!["t".into()],
         compact: None,
+        group: Group::default(),
     };
     CatalogueArgs { action: Action::Import(args) }
 }

@@ -9,6 +9,7 @@ mod control_cli;
 mod doctor_cli;
 mod examples;
 mod goniophotometer_cli;
+mod keeping_cli;
 mod program;
 #[path = "../scenes/rooms.rs"]
 mod rooms;

@@ -2,7 +2,7 @@
 
 use crate::btdf_text::{File, function, names, uneven, vector};
 use crate::common::data;
-use cfs::catalogue::{Catalogue, Origin, SourceFile, check, gather};
+use cfs::catalogue::{Catalogue, Grouping, Origin, SourceFile, check, gather};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, Severity, reciprocity_error};
 use cfs::compute::direction::{Dir, Emergent, Incident};
@@ -260,7 +260,7 @@ fn files_of_one_name_are_a_family_with_all_they_tell() {
         source("a0r.btdf.txt", Component::ReflectionBack, "state = \"0\"\n"),
         source("a45.btdf.txt", Component::TransmissionFront, "state = \"45\"\n"),
     ];
-    let mut products = gather(files.clone(), false);
+    let mut products = gather(files.clone(), Grouping::Proposed);
     assert_eq!(products.len(), 1);
     let product = products.remove(0);
     assert_eq!(product.datasets.iter().map(|d| d.state.as_str()).collect::<Vec<_>>(), ["0", "45"]);
@@ -286,11 +286,16 @@ fn files_of_one_name_are_a_family_with_all_they_tell() {
     // Other names are other products, unless one name is asked for; states without a key take the file's name.
     let mut renamed = files[2].clone();
     renamed.datasets[0].name = "Other".into();
-    assert_eq!(gather(vec![files[0].clone(), renamed.clone()], false).len(), 2);
-    assert_eq!(gather(vec![files[0].clone(), renamed], true).len(), 1);
+    assert_eq!(gather(vec![files[0].clone(), renamed.clone()], Grouping::Proposed).len(), 2);
+    assert_eq!(gather(vec![files[0].clone(), renamed], Grouping::One).len(), 1);
     let nameless = ["p.btdf.txt", "q.btdf.txt"].map(|name| source(name, Component::TransmissionFront, ""));
-    let states: Vec<String> = gather(nameless.to_vec(), false)[0].datasets.iter().map(|d| d.state.clone()).collect();
+    let states: Vec<String> =
+        gather(nameless.to_vec(), Grouping::Proposed)[0].datasets.iter().map(|d| d.state.clone()).collect();
     assert_eq!(states, ["p", "q"]);
+    let tilted = ["v45.btdf.txt", "v0.btdf.txt"].map(|name| source(name, Component::TransmissionFront, ""));
+    let product = gather(tilted.to_vec(), Grouping::Proposed).remove(0);
+    assert_eq!(product.datasets.iter().map(|d| d.state.as_str()).collect::<Vec<_>>(), ["0", "45"]);
+    assert_eq!(product.sources, ["v0.btdf.txt", "v45.btdf.txt"]);
 }
 
 #[test]

@@ -286,7 +286,8 @@ fn an_import_is_stored_on_request_alone_and_undo_takes_it_out_and_redo_puts_it_b
     open(&mut harness, &path);
     let import = harness.state().state.import.as_ref().unwrap();
     assert!(import.failures.is_empty(), "{:?}", import.failures);
-    assert_eq!((import.name.as_str(), import.manufacturer.as_str()), ("Test screen", "Nobody"));
+    let fields = &import.products[0].fields;
+    assert_eq!((fields.name.as_str(), fields.manufacturer.as_str()), ("Test screen", "Nobody"));
     assert_eq!(products(&harness), 2);
     harness.get_by_label("Add to catalogue").click();
     settle(&mut harness);
@@ -363,7 +364,8 @@ fn measured_states_come_in_together_and_a_click_chooses_a_measured_incidence() {
     settle(&mut harness);
     let import = harness.state().state.import.as_ref().unwrap();
     assert!(import.failures.is_empty(), "{:?}", import.failures);
-    assert_eq!((import.datasets.len(), import.kind.as_str()), (2, "panel"));
+    assert_eq!(import.products.len(), 1);
+    assert_eq!((import.products[0].datasets.len(), import.products[0].fields.kind.as_str()), (2, "panel"));
     harness.get_by_label("Add to catalogue").click();
     settle(&mut harness);
     assert_eq!(harness.state().state.product.as_ref().unwrap().states.len(), 2);

@@ -6,5 +6,6 @@ mod app_engine;
 #[path = "../common/mod.rs"]
 mod common;
 mod control_view;
+mod files_view;
 mod goniophotometer_view;
 mod views;

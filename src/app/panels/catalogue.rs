@@ -1,5 +1,7 @@
 //! What is there: search field, chips, list.
 
+mod menu;
+
 use crate::app::command::Command;
 use crate::app::shelf::{Entry, Query};
 use crate::app::state::{CatalogueState, State};
@@ -154,6 +156,7 @@ fn row(ui: &mut Ui, entry: &Entry, chosen: bool, commands: &mut Vec<Command>) {
     if response.clicked() {
         commands.push(Command::Select(entry.key.clone()));
     }
+    menu::show(&response, entry, commands);
     let painter = ui.painter_at(rect);
     let fill = if chosen {
         palette.chosen

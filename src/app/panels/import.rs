@@ -1,12 +1,14 @@
 //! The import sheet: what was read, what the data doctor says about it, repairs tried before anything is stored.
 
-use crate::app::command::{Command, ImportFields};
-use crate::app::state::{Import, State};
+use crate::app::command::Command;
+use crate::app::import::{Import, Proposed};
+use crate::app::state::State;
 use crate::app::theme;
+use crate::catalogue::Grouping;
 use crate::compute::btdf::{Btdf, Dataset, Severity};
 use crate::compute::direction::{Dir, Incident};
 use crate::compute::doctor::{Diagnosis, Repair, Ways, examine, sun_from_above};
-use egui::{Color32, Sense, Stroke, TextEdit, Ui, Vec2};
+use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::Arc;
 
@@ -22,33 +24,124 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         ui.colored_label(palette.error, "Not read");
         ui.add(egui::Label::new(failure).wrap());
     }
-    if import.datasets.is_empty() {
+    if import.products.is_empty() {
         ui.add_space(6.0);
         ui.label("The catalogue is unchanged.");
     } else {
-        recognised(ui, import, commands);
-        fields(ui, import, commands);
+        grouping(ui, import, commands);
+        let several = import.products.len() > 1;
+        for (number, product) in import.products.iter().enumerate() {
+            ui.push_id(number, |ui| {
+                ui.add_space(8.0);
+                ui.separator();
+                if several {
+                    ui.strong(format!("Product {} of {}", number + 1, import.products.len()));
+                }
+                one(ui, number, product, commands);
+            });
+        }
     }
+    left_out(ui, import);
+}
+
+fn plural(count: usize, word: &str) -> String {
+    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
 }
 
 /// What can be done with what was read: always in sight, however much there is to say about it.
 pub(super) fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(import) = &state.import else { return };
-    ui.horizontal(|ui| {
-        let missing = import.name.trim().is_empty();
-        if !import.datasets.is_empty() {
-            let add = ui.add_enabled(!missing, egui::Button::new("Add to catalogue"));
-            if add.clicked() {
+    let wanted = import.wanted().count();
+    let nameless = import.wanted().any(|product| !product.named());
+    ui.horizontal_wrapped(|ui| {
+        if !import.products.is_empty() {
+            let text = if import.products.len() == 1 {
+                "Add to catalogue".to_owned()
+            } else {
+                format!("Add {} to catalogue", plural(wanted, "product"))
+            };
+            if ui.add_enabled(wanted > 0 && !nameless, egui::Button::new(text)).clicked() {
                 commands.push(Command::AddImport);
             }
         }
         if ui.button("Discard").on_hover_text("Forget what was read; nothing was stored").clicked() {
             commands.push(Command::DiscardImport);
         }
-        if missing && !import.datasets.is_empty() {
-            ui.weak("It needs a name: below.");
+        if nameless {
+            ui.weak("A name is missing: below.");
+        } else if wanted == 0 && !import.products.is_empty() {
+            ui.weak("All of it is in the catalogue already: below.");
         }
     });
+}
+
+/// How the files are taken, as a list of products with their states, and the other ways to take them.
+fn grouping(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    ui.strong(format!("{} of {}", plural(import.products.len(), "product"), plural(import.states(), "state")));
+    for product in &import.products {
+        let states: Vec<String> = product.datasets.iter().map(|dataset| state_word(&dataset.state)).collect();
+        let name = if product.named() { product.fields.name.as_str() } else { "(no name)" };
+        let text = match states.as_slice() {
+            [one] if one.is_empty() => name.to_owned(),
+            _ => format!("{name}: {}", states.join(", ")),
+        };
+        ui.add(egui::Label::new(text).wrap());
+    }
+    if import.states() < 2 {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        for (grouping, text, tip) in [
+            (Grouping::Proposed, "By angle", "Files that differ by an angle alone are states of one product"),
+            (Grouping::Each, "Each its own", "Every file is a product"),
+            (Grouping::One, "All one product", "Every file is a state of one product"),
+        ] {
+            if ui.selectable_label(import.grouping == grouping, text).on_hover_text(tip).clicked() {
+                commands.push(Command::GroupImport(grouping));
+            }
+        }
+    });
+}
+
+/// A state's key, with the unit where it is an angle.
+fn state_word(key: &str) -> String {
+    if key.parse::<f64>().is_ok() { format!("{key}°") } else { key.to_owned() }
+}
+
+/// Files that are no datasets, with the reason.
+fn left_out(ui: &mut Ui, import: &Import) {
+    if import.left_out.is_empty() {
+        return;
+    }
+    ui.add_space(8.0);
+    ui.separator();
+    ui.strong(format!("Left out: {}", plural(import.left_out.len(), "file")));
+    for reason in &import.left_out {
+        ui.add(egui::Label::new(reason).wrap());
+    }
+}
+
+/// One product: whether it is there already, its words, its states and what the checks say about them.
+fn one(ui: &mut Ui, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    if let Some(known) = product.known.first() {
+        ui.colored_label(palette.warning, format!("Already in the catalogue as {}", known.name));
+        ui.horizontal(|ui| {
+            if ui.button("Show it").on_hover_text("Select that product; this sheet stays").clicked() {
+                commands.push(Command::Select(known.key.clone()));
+            }
+            let mut anyway = product.add_anyway;
+            if ui.checkbox(&mut anyway, "Add anyway").changed() {
+                commands.push(Command::AddAnyway(number, anyway));
+            }
+        });
+    }
+    ui.strong("About it");
+    if let Some(typed) = super::product::words(ui, &product.fields) {
+        commands.push(Command::EditImport(number, Box::new(typed)));
+    }
+    recognised(ui, number, product, commands);
 }
 
 /// What the doctor says about the selected dataset; asked once a dataset, not once a frame.
@@ -102,24 +195,28 @@ fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnM
     }
 }
 
-fn recognised(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
+fn recognised(ui: &mut Ui, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     ui.strong("Recognised");
-    if !import.repairs.is_empty() {
+    if !product.repairs.is_empty() {
         ui.horizontal_wrapped(|ui| {
-            let words: Vec<String> = import.repairs.iter().map(|repair| repair.label()).collect();
+            let words: Vec<String> = product.repairs.iter().map(|repair| repair.label()).collect();
             ui.label(format!("Repaired: {}", words.join("; ")));
             if ui.button("Undo the repair").on_hover_text("Take the last repair back").clicked() {
-                commands.push(Command::UndoRepair);
+                commands.push(Command::UndoRepair(number));
             }
         });
     }
-    for (index, dataset) in import.datasets.iter().enumerate() {
-        let state = if dataset.state.is_empty() { String::new() } else { format!(", state {}", dataset.state) };
+    for (index, dataset) in product.datasets.iter().enumerate() {
+        let state = if dataset.state.is_empty() { String::new() } else { format!(", {}", state_word(&dataset.state)) };
         ui.label(format!("{}{state}", if dataset.name.is_empty() { "(no name)" } else { &dataset.name }));
+        let source = product.sources.get(index).filter(|source| !source.is_empty());
         ui.weak(format!(
-            "{}; incident {}, emergent {}",
-            dataset.format, dataset.incident_basis, dataset.emergent_basis
+            "{}{}; incident {}, emergent {}",
+            source.map(|source| format!("{source}: ")).unwrap_or_default(),
+            dataset.format,
+            dataset.incident_basis,
+            dataset.emergent_basis
         ));
         if let Some(btdf) = dataset.transmission() {
             ui.weak(format!("τ {:.3} normal, {:.3} hemispherical", btdf.tau_normal(), btdf.tau_hemispherical()));
@@ -127,9 +224,9 @@ fn recognised(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
                 picture(ui, btdf, &text);
             }
         }
-        let found = import.diagnoses.get(index).map_or(&[] as &[Diagnosis], Vec::as_slice);
+        let found = product.diagnoses.get(index).map_or(&[] as &[Diagnosis], Vec::as_slice);
         ui.push_id(index, |ui| {
-            diagnoses(ui, found, &import.repairs, |repair| commands.push(Command::Repair(repair)));
+            diagnoses(ui, found, &product.repairs, |repair| commands.push(Command::Repair(number, repair)));
         });
     }
 }
@@ -156,31 +253,4 @@ fn picture(ui: &mut Ui, btdf: &Btdf, sentence: &str) {
     }
     response.on_hover_text("Section: outside on the left; if it is not so, up and down or the sides are exchanged");
     ui.add(egui::Label::new(sentence).wrap());
-}
-
-fn fields(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
-    let mut fields = ImportFields {
-        name: import.name.clone(),
-        manufacturer: import.manufacturer.clone(),
-        kind: import.kind.clone(),
-        tags: import.tags.clone(),
-    };
-    ui.add_space(6.0);
-    ui.strong("About it");
-    egui::Grid::new("about").num_columns(2).show(ui, |ui| {
-        for (label, text) in [
-            ("Name", &mut fields.name),
-            ("Manufacturer", &mut fields.manufacturer),
-            ("Kind", &mut fields.kind),
-            ("Tags", &mut fields.tags),
-        ] {
-            let name = ui.label(label);
-            ui.add(TextEdit::singleline(text).desired_width(200.0)).labelled_by(name.id);
-            ui.end_row();
-        }
-    });
-    let before = (&import.name, &import.manufacturer, &import.kind, &import.tags);
-    if before != (&fields.name, &fields.manufacturer, &fields.kind, &fields.tags) {
-        commands.push(Command::EditImport(Box::new(fields)));
-    }
 }

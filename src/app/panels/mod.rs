@@ -6,7 +6,9 @@ mod fields;
 mod goniophotometer;
 mod import;
 mod menu;
+mod messages;
 mod palette;
+mod product;
 mod scene;
 mod sheets;
 mod status;
@@ -21,7 +23,9 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let mut commands = Vec::new();
     let bar = theme::bar_frame(ui);
     egui::Panel::top("menu").frame(bar).show(ui, |ui| menu::show(ui, &app.state, &mut commands));
-    egui::Panel::bottom("status").frame(bar).show(ui, |ui| status::show(ui, app, &mut commands));
+    let status = egui::Panel::bottom("status").frame(bar).show(ui, |ui| status::show(ui, app, &mut commands));
+    // Messages stand above the status line, never over it.
+    let corner = status.response.rect.right_top() - egui::vec2(8.0, 8.0);
     let side = theme::panel_frame(ui);
     if app.state.settings.catalogue_open {
         egui::Panel::left("catalogue")
@@ -56,5 +60,6 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         centre.frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
     }
     palette::show(ui, &app.state, &mut commands);
+    messages::show(ui, &mut app.toasts, corner, &mut commands);
     commands
 }

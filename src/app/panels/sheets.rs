@@ -1,10 +1,11 @@
 //! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
 
-use super::import;
+use super::{import, messages, product};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::offer::listed;
 use crate::app::state::{PathUse, Sheet, State};
+use crate::app::theme;
 use crate::app::views::accuracy;
 use crate::app::window::App;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
@@ -18,6 +19,9 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Keys => "Keys",
         Sheet::Accuracy => "Accuracy",
         Sheet::Goniophotometer => "Goniophotometer",
+        Sheet::Product => "Product",
+        Sheet::Deleted => "Recently deleted",
+        Sheet::Messages => "Messages",
         Sheet::Path(what) => what.title(),
     };
     ui.horizontal(|ui| {
@@ -46,6 +50,9 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Keys => keys(ui),
         Sheet::Accuracy => ladder(ui, app, commands),
         Sheet::Goniophotometer => super::goniophotometer::show(ui, app, commands),
+        Sheet::Product => product::edit(ui, &app.state, commands),
+        Sheet::Deleted => product::deleted(ui, &app.state, commands),
+        Sheet::Messages => messages::list(ui, &app.toasts, commands),
         Sheet::Path(what) => path(ui, &app.state, what, commands),
     });
 }
@@ -81,11 +88,14 @@ fn keys(ui: &mut Ui) {
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
         PathUse::Open => (
-            "Dataset (.xml, .btdf.txt), package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop the file on the window.",
+            "Dataset (.xml, .btdf.txt), folder of datasets, package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop files on the window.",
             "Open",
         ),
         PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
-        PathUse::ExportLid => ("Luminaire file: .ldt (EULUMDAT) or .ies (LM-63); the ending decides.", "Export"),
+        PathUse::ExportLid => (
+            "Luminaire file (.ldt EULUMDAT, .ies LM-63), table (.csv) or diagram (.svg, .png); the ending decides.",
+            "Export",
+        ),
         PathUse::ExportMeasured => ("All states in a package (.cfsp), or a file a state (.xml, .btdf.txt).", "Export"),
         PathUse::ExportTile(_) => ("Numbers (.csv) or a picture (.png); the ending decides.", "Export"),
     };
@@ -104,7 +114,19 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     }
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     let ready = !text.trim().is_empty();
-    if (ui.add_enabled(ready, egui::Button::new(action)).clicked() || entered) && ready {
-        commands.push(Command::Write(what, PathBuf::from(text.trim())));
+    let path = PathBuf::from(text.trim());
+    if state.replace.as_ref() == Some(&path) {
+        ui.colored_label(theme::palette(ui).warning, "A file of this name exists already.");
+        ui.horizontal(|ui| {
+            if ui.button("Replace").on_hover_text("Write over it").clicked() {
+                commands.push(Command::Write(what, path.clone()));
+            }
+            if ui.button("Other name").on_hover_text("Keep the file; give another name").clicked() {
+                commands.push(Command::KeepFile);
+                field.request_focus();
+            }
+        });
+    } else if (ui.add_enabled(ready, egui::Button::new(action)).clicked() || entered) && ready {
+        commands.push(Command::WriteNew(what, path));
     }
 }

@@ -56,6 +56,15 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if !app.toasts.is_empty() {
+                let text = match app.toasts.len() {
+                    1 => "1 message".to_owned(),
+                    count => format!("{count} messages"),
+                };
+                if ui.button(text).on_hover_text("What the window said").clicked() {
+                    commands.push(Command::Sheet(Some(Sheet::Messages)));
+                }
+            }
             // As the doctor found on import: examining anew takes too long for every frame.
             let shown = app.state.dataset.value.as_ref().map(|dataset| dataset.state.as_str());
             let product = app.state.product.as_ref().map_or(&[][..], |product| &product.findings);

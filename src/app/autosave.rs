@@ -1,0 +1,305 @@
+//! Keeps a window's session on disk: written within a second of every change, beside the window's own thread.
+//!
+//! Every window has a file of its own in the folder of sessions, and holds a lock on a file beside it for as long as it
+//! lives; the system takes the lock away however the program ends. A session without a lock is one whose window did not
+//! close: the next window that starts takes it up. A window that closes leaves its session as [`LAST`].
+
+use super::clock;
+use super::disk::{read_bytes, write_whole};
+use super::session::{Kept, Snapshot};
+use std::fs::{File, OpenOptions};
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// The session of the window that was closed last.
+const LAST: &str = "last.json";
+/// Between two writings at least; longer than a fast disk needs and far below a second.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// What was there at the start.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// A session to take up.
+    pub kept: Option<Kept>,
+    /// Its window did not close.
+    pub lost: bool,
+    /// What could not be read, in a sentence each.
+    pub problems: Vec<String>,
+}
+
+enum Order {
+    Write(Box<Snapshot>),
+    Close,
+}
+
+/// The keeper of one window's session.
+pub struct Autosave {
+    folder: PathBuf,
+    file: PathBuf,
+    lock_file: PathBuf,
+    /// Held as long as the window lives.
+    lock: Option<File>,
+    orders: Sender<Order>,
+    problems: Receiver<String>,
+    writer: Option<JoinHandle<()>>,
+    last: Option<Snapshot>,
+}
+
+fn lock(path: &Path) -> std::io::Result<Option<File>> {
+    let file = OpenOptions::new().create(true).truncate(false).write(true).open(path)?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(std::fs::TryLockError::WouldBlock) => Ok(None),
+        Err(std::fs::TryLockError::Error(error)) => Err(error),
+    }
+}
+
+/// Sessions in the folder, the newest first.
+fn sessions(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut list: Vec<(std::time::SystemTime, PathBuf)> = entries
+        .flatten()
+        .filter(|entry| {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            name.starts_with("session-") && name.ends_with(".json")
+        })
+        .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
+        .collect();
+    list.sort();
+    list.into_iter().rev().map(|(_, path)| path).collect()
+}
+
+impl Autosave {
+    /// Begins to keep a session in a folder. `take_up`: a session whose window did not close is taken up, the newest one;
+    /// else that of the window that was closed last is where the new one starts.
+    ///
+    /// # Errors
+    /// The folder cannot be made or written to.
+    pub fn begin(folder: &Path, take_up: bool) -> std::io::Result<(Self, Found)> {
+        std::fs::create_dir_all(folder)?;
+        let mut found = Found::default();
+        let mut own = None;
+        if take_up {
+            for file in sessions(folder) {
+                let lock_file = file.with_extension("lock");
+                // Whose window lives is left alone; another window may also have closed it since the look.
+                let Some(held) = lock(&lock_file)?.filter(|_| file.exists()) else { continue };
+                match read(&file) {
+                    Ok(kept) => {
+                        found.kept = Some(kept);
+                        found.lost = true;
+                        own = Some((file, lock_file, held));
+                        break;
+                    }
+                    Err(problem) => {
+                        // Kept under another name for whoever can read it.
+                        found.problems.push(problem);
+                        drop(std::fs::rename(&file, file.with_extension("unreadable")));
+                        remove(&lock_file);
+                    }
+                }
+            }
+        }
+        let (file, lock_file, held) = match own {
+            Some(own) => own,
+            None => Self::new_place(folder)?,
+        };
+        let last = folder.join(LAST);
+        if found.kept.is_none() && last.exists() {
+            match read(&last) {
+                Ok(kept) => found.kept = Some(kept),
+                Err(problem) => found.problems.push(problem),
+            }
+        }
+        let (orders, received) = channel();
+        let (told, problems) = channel();
+        let target = file.clone();
+        let writer = std::thread::Builder::new()
+            .name("cfs session".to_owned())
+            .spawn(move || write_all(&target, &received, &told))?;
+        let keeper = Self {
+            folder: folder.to_owned(),
+            file,
+            lock_file,
+            lock: Some(held),
+            orders,
+            problems,
+            writer: Some(writer),
+            last: None,
+        };
+        Ok((keeper, found))
+    }
+
+    fn new_place(folder: &Path) -> std::io::Result<(PathBuf, PathBuf, File)> {
+        loop {
+            let name = format!("session-{:016x}", RandomState::new().build_hasher().finish());
+            let (file, lock_file) = (folder.join(format!("{name}.json")), folder.join(format!("{name}.lock")));
+            if let Some(held) = lock(&lock_file)? {
+                return Ok((file, lock_file, held));
+            }
+        }
+    }
+
+    /// Keeps the window as it is, if it has changed. Never waits.
+    pub fn keep(&mut self, state: &super::state::State) {
+        if self.last.as_ref().is_some_and(|last| last.is_of(state)) {
+            return;
+        }
+        let snapshot = Snapshot::of(state);
+        self.last = Some(snapshot.clone());
+        // The writer ends only after the keeper has.
+        drop(self.orders.send(Order::Write(Box::new(snapshot))));
+    }
+
+    /// What could not be written, in a sentence, once.
+    pub fn problem(&self) -> Option<String> {
+        self.problems.try_recv().ok()
+    }
+
+    /// The window closes: what it showed is where the next one starts.
+    pub fn close(&mut self) {
+        drop(self.orders.send(Order::Close));
+        if let Some(writer) = self.writer.take() {
+            drop(writer.join());
+        }
+        if self.lock.is_some() && self.file.exists() && std::fs::rename(&self.file, self.folder.join(LAST)).is_err() {
+            // It will be taken for lost, and so is not.
+            return;
+        }
+        self.lock = None;
+        remove(&self.lock_file);
+    }
+}
+
+fn read(file: &Path) -> Result<Kept, String> {
+    let bytes = read_bytes(file).map_err(|error| error.to_string())?;
+    Kept::read(&bytes).map_err(|problem| format!("{}: not a session that can be taken up: {problem}", file.display()))
+}
+
+/// Away with a file that nobody needs; one that is gone already is as good.
+fn remove(file: &Path) {
+    drop(std::fs::remove_file(file));
+}
+
+/// Writes what it is told until told to close; of several changes at once the last.
+fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<String>) {
+    let mut failing = false;
+    let mut closing = false;
+    while !closing {
+        let Ok(mut order) = orders.recv() else { return };
+        let mut newest = None;
+        loop {
+            match order {
+                Order::Write(snapshot) => newest = Some(snapshot),
+                Order::Close => closing = true,
+            }
+            match orders.try_recv() {
+                Ok(next) => order = next,
+                Err(_) => break,
+            }
+        }
+        if let Some(snapshot) = newest {
+            let written = serde_json::to_vec_pretty(&snapshot.kept(clock::stamp()))
+                .map_err(|error| error.to_string())
+                .and_then(|bytes| write_whole(file, &bytes).map_err(|error| error.to_string()));
+            if let Err(error) = &written
+                && !failing
+            {
+                // Nobody may listen any more.
+                drop(told.send(format!("The session is not kept: {error}")));
+            }
+            failing = written.is_err();
+        }
+        if !closing {
+            std::thread::sleep(PAUSE);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::state::{Settings, State};
+    use std::time::Instant;
+
+    fn state(azimuth: f64) -> State {
+        let mut state = State::new(Settings::default());
+        state.document.scene.site.azimuth = azimuth;
+        state
+    }
+
+    fn azimuth(kept: &Kept) -> f64 {
+        let mut state = state(0.0);
+        kept.put_into(&mut state).unwrap();
+        state.document.scene.site.azimuth
+    }
+
+    /// As a killed program does: the lock goes, the files stay.
+    fn kill(mut keeper: Autosave) {
+        keeper.lock = None;
+        drop(keeper);
+    }
+
+    fn wait_for(keeper: &Autosave, wanted: f64) -> Duration {
+        let start = Instant::now();
+        while read(&keeper.file).ok().is_none_or(|kept| azimuth(&kept) != wanted) {
+            assert!(start.elapsed() < Duration::from_secs(20));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        start.elapsed()
+    }
+
+    #[test]
+    fn a_session_that_did_not_close_is_taken_up_once_and_one_that_did_is_where_the_next_starts() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut first, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.kept.is_none() && found.problems.is_empty());
+        for azimuth in 1..=50 {
+            first.keep(&state(f64::from(azimuth)));
+        }
+        wait_for(&first, 50.0);
+        kill(first);
+        let (mut second, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.lost);
+        assert_eq!(azimuth(&found.kept.unwrap()), 50.0);
+        second.keep(&state(70.0));
+        second.close();
+        let (_third, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(!found.lost, "it was closed");
+        assert_eq!(azimuth(&found.kept.unwrap()), 70.0);
+    }
+
+    #[test]
+    fn windows_at_once_keep_sessions_of_their_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut first, _) = Autosave::begin(folder.path(), true).unwrap();
+        first.keep(&state(10.0));
+        wait_for(&first, 10.0);
+        let (mut second, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.kept.is_none(), "the first one lives");
+        second.keep(&state(20.0));
+        wait_for(&second, 20.0);
+        kill(first);
+        kill(second);
+        let (one, found_one) = Autosave::begin(folder.path(), true).unwrap();
+        let (two, found_two) = Autosave::begin(folder.path(), true).unwrap();
+        let mut found: Vec<f64> = [found_one, found_two].iter().map(|f| azimuth(f.kept.as_ref().unwrap())).collect();
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found, [10.0, 20.0]);
+        drop((one, two));
+    }
+
+    #[test]
+    fn a_damaged_session_is_told_and_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("session-0.json"), "{\"version\": 1, \"sc").unwrap();
+        let (_keeper, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.kept.is_none() && found.problems.len() == 1, "{:?}", found.problems);
+        assert!(found.problems[0].contains("session-0.json"));
+        let (_keeper, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.problems.is_empty(), "told once");
+    }
+}

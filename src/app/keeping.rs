@@ -1,0 +1,124 @@
+//! Products after they are stored: other words about them, out of sight and back. Undo goes over both.
+
+use super::changes::{Change, Editing};
+use super::error::AppError;
+use super::scene::{Selection, fill};
+use super::state::Sheet;
+use super::window::App;
+use super::work::Outcome;
+use crate::catalogue::{Deleted, Product};
+use std::sync::Arc;
+
+impl App {
+    /// The named product, or the selected one.
+    fn meant(&self, key: Option<String>) -> Option<String> {
+        key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()))
+    }
+
+    /// Looks a product up for its sheet.
+    pub(super) fn edit_product(&mut self, key: Option<String>) {
+        if let Some(key) = self.meant(key) {
+            self.queue(move |shelf| Outcome::Editing(shelf.product(&key)));
+        }
+    }
+
+    pub(super) fn take_editing(&mut self, product: Result<Arc<Product>, AppError>) {
+        match product {
+            Ok(product) => {
+                self.state.editing = Some(Editing::of(&product));
+                self.state.sheet = Some(Sheet::Product);
+            }
+            Err(error) => self.tell(&error),
+        }
+    }
+
+    /// Stores the words of the sheet.
+    pub(super) fn save_words(&mut self) {
+        let Some(editing) = self.state.editing.take() else { return };
+        self.state.sheet = None;
+        let after = editing.words();
+        if after != editing.before {
+            self.change(Change::Described { key: editing.key, before: editing.before, after });
+        }
+    }
+
+    /// Takes a product out of sight; the next one of the list is shown in its place.
+    pub(super) fn delete_product(&mut self, key: Option<String>) {
+        let Some(key) = self.meant(key) else { return };
+        if self.state.deleted.iter().any(|one| one.key == key) {
+            self.toasts.info("It is deleted already; choose another product");
+            return;
+        }
+        let entries = self.state.found.clone();
+        let place = entries.entries.iter().position(|entry| entry.key == key);
+        let name = place.map_or_else(|| key.clone(), |place| entries.entries[place].name.clone());
+        self.undoer.add_undo(&self.state.document);
+        if self.state.document.selection.product == key
+            && let Some(place) = place
+        {
+            let neighbour =
+                entries.entries.get(place + 1).or_else(|| place.checked_sub(1).map(|i| &entries.entries[i]));
+            if let Some(neighbour) = neighbour {
+                let document = &mut self.state.document;
+                document.selection = Selection { product: neighbour.key.clone(), state: String::new() };
+                fill(&mut document.scene, &document.selection);
+            }
+        }
+        self.toasts.info(format!("Deleted: {name}. Ctrl+Z, or Recently deleted in the Edit menu, brings it back"));
+        self.change(Change::Deleted { key, name });
+    }
+
+    /// A change to the catalogue as a step of its own.
+    fn change(&mut self, change: Change) {
+        let number = self.state.changes.len();
+        self.state.changes.push(change);
+        self.undoer.add_undo(&self.state.document);
+        self.state.document.changes.push(number);
+        self.undoer.add_undo(&self.state.document);
+        self.make_change(number, true);
+    }
+
+    /// Makes a change of this session, or takes it back.
+    pub(super) fn make_change(&mut self, number: usize, forth: bool) {
+        let Some(change) = self.state.changes.get(number).cloned() else { return };
+        self.queue(move |shelf| Outcome::Changed(number, forth, change.make(shelf, forth)));
+    }
+
+    pub(super) fn take_changed(&mut self, number: usize, forth: bool, result: Result<(), AppError>) {
+        if let Err(error) = result {
+            if forth {
+                self.state.document.changes.retain(|&other| other != number);
+            }
+            self.tell(&error);
+        }
+        self.search();
+        self.look_up_deleted();
+    }
+
+    /// Brings a product back into sight. If this session deleted it, undo knows.
+    pub(super) fn restore_product(&mut self, key: String) {
+        let of_this_session = |number: &usize| matches!(&self.state.changes[*number], Change::Deleted { key: other, .. } if *other == key);
+        let number = self.state.document.changes.iter().copied().rfind(of_this_session);
+        match number {
+            Some(number) => {
+                self.undoer.add_undo(&self.state.document);
+                self.state.document.changes.retain(|&other| other != number);
+                self.undoer.add_undo(&self.state.document);
+                self.make_change(number, false);
+            }
+            None => self.queue(move |shelf| Outcome::Changed(usize::MAX, false, shelf.restore(&key))),
+        }
+    }
+
+    /// Looks up which products are out of sight.
+    pub(super) fn look_up_deleted(&mut self) {
+        self.queue(|shelf| Outcome::Deleted(shelf.deleted()));
+    }
+
+    pub(super) fn take_deleted(&mut self, list: Result<Vec<Deleted>, AppError>) {
+        match list {
+            Ok(list) => self.state.deleted = list,
+            Err(error) => self.tell(&error),
+        }
+    }
+}

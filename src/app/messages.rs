@@ -1,0 +1,168 @@
+//! What the window says: shown for as long as it takes to read, then kept in a list.
+
+use super::clock;
+use std::collections::VecDeque;
+
+/// Messages kept.
+const MOST: usize = 200;
+/// Seconds that a message stays at least, and at most.
+const SECONDS: [f64; 2] = [4.0, 40.0];
+/// Seconds per character on top: a slow reader's pace.
+const PER_CHARACTER: f64 = 0.07;
+
+/// How much it matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weight {
+    /// For knowing.
+    Info,
+    /// Something was done.
+    Success,
+    /// Worth a look.
+    Warning,
+    /// Something was not done.
+    Error,
+}
+
+impl Weight {
+    /// In words.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Info => "note",
+            Self::Success => "done",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
+}
+
+/// One message.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Message {
+    /// Its number, which no other has.
+    pub id: u64,
+    /// How much it matters.
+    pub weight: Weight,
+    /// What is said.
+    pub text: String,
+    /// Clock time at which it was said, e.g. `14:03`.
+    pub at: String,
+    /// Seconds that it is still shown. \[s\]
+    pub left: f64,
+}
+
+/// All messages of a session, the newest last.
+#[derive(Debug, Default)]
+pub struct Messages {
+    list: VecDeque<Message>,
+    next: u64,
+}
+
+/// Seconds that a text is shown.
+pub fn seconds(text: &str) -> f64 {
+    let [least, most] = SECONDS;
+    (least + PER_CHARACTER * text.chars().count() as f64).min(most)
+}
+
+impl Messages {
+    fn say(&mut self, weight: Weight, text: String) {
+        self.next += 1;
+        let left = seconds(&text);
+        // The same again is not said twice at a time.
+        self.list.iter_mut().filter(|other| other.text == text).for_each(|other| other.left = 0.0);
+        self.list.push_back(Message { id: self.next, weight, text, at: clock::now(), left });
+        while self.list.len() > MOST {
+            self.list.pop_front();
+        }
+    }
+
+    /// Says something worth knowing.
+    pub fn info(&mut self, text: impl Into<String>) {
+        self.say(Weight::Info, text.into());
+    }
+
+    /// Says that something was done.
+    pub fn success(&mut self, text: impl Into<String>) {
+        self.say(Weight::Success, text.into());
+    }
+
+    /// Says something worth a look.
+    pub fn warning(&mut self, text: impl Into<String>) {
+        self.say(Weight::Warning, text.into());
+    }
+
+    /// Says that something was not done.
+    pub fn error(&mut self, text: impl Into<String>) {
+        self.say(Weight::Error, text.into());
+    }
+
+    /// All, the oldest first.
+    pub fn all(&self) -> impl DoubleEndedIterator<Item = &Message> {
+        self.list.iter()
+    }
+
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// None at all?
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Those that are shown now, the oldest first.
+    pub fn shown(&self) -> impl DoubleEndedIterator<Item = &Message> {
+        self.list.iter().filter(|message| message.left > 0.0)
+    }
+
+    /// Lets time pass \[s\] for all that are shown, but for the one under the pointer.
+    pub fn pass(&mut self, seconds: f64, held: Option<u64>) {
+        for message in self.list.iter_mut().filter(|message| Some(message.id) != held) {
+            message.left = (message.left - seconds).max(0.0);
+        }
+    }
+
+    /// Takes one, or all, out of the window; the list keeps them.
+    pub fn dismiss(&mut self, id: Option<u64>) {
+        self.list.iter_mut().filter(|one| id.is_none_or(|id| id == one.id)).for_each(|one| one.left = 0.0);
+    }
+
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.list.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_shown_as_long_as_it_takes_to_read_and_then_kept() {
+        let mut messages = Messages::default();
+        messages.info("short");
+        messages.error("x".repeat(200));
+        assert!(seconds("short") < 5.0 && seconds(&"x".repeat(200)) > 15.0 && seconds(&"x".repeat(9999)) == 40.0);
+        messages.pass(6.0, None);
+        let shown: Vec<Weight> = messages.shown().map(|message| message.weight).collect();
+        assert_eq!(shown, [Weight::Error]);
+        let id = messages.shown().next().unwrap().id;
+        messages.pass(60.0, Some(id));
+        assert_eq!(messages.shown().count(), 1, "under the pointer it stays");
+        messages.pass(60.0, None);
+        assert_eq!((messages.shown().count(), messages.len()), (0, 2));
+    }
+
+    #[test]
+    fn what_is_said_again_is_shown_once_and_the_list_is_bounded() {
+        let mut messages = Messages::default();
+        for _ in 0..3 {
+            messages.info("the same");
+        }
+        assert_eq!((messages.shown().count(), messages.len()), (1, 3));
+        messages.dismiss(None);
+        assert_eq!(messages.shown().count(), 0);
+        (0..500).for_each(|number| messages.info(format!("{number}")));
+        assert_eq!((messages.len(), messages.all().next().unwrap().text.as_str()), (MOST, "300"));
+    }
+}

@@ -1,0 +1,95 @@
+//! Names that files are offered: product, state and moment, in characters that every system takes.
+
+use super::moment;
+use super::state::{PathUse, State};
+use std::path::PathBuf;
+
+/// Longest part of a name made from words. \[characters\]
+const LONGEST: usize = 80;
+
+/// A word in letters, digits, point and hyphen; other runs become one hyphen.
+fn safe(word: &str) -> String {
+    let mut text = String::new();
+    for c in word.chars() {
+        if c.is_ascii_alphanumeric() || c == '.' || (c == '-' && text.is_empty()) {
+            text.push(c);
+        } else if !text.ends_with('-') && !text.is_empty() {
+            text.push('-');
+        }
+    }
+    text.truncate(LONGEST);
+    text.trim_end_matches(['-', '.']).trim_start_matches('.').to_owned()
+}
+
+/// Product, state and moment, e.g. `venetian-80-72_45_2026-03-21T1200`.
+fn study(state: &State) -> String {
+    let scene = &state.document.scene;
+    let time = match (moment::of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
+        (Some(time), _, _) => time.strftime("%Y-%m-%dT%H%M").to_string(),
+        (None, Some(altitude), Some(azimuth)) => format!("sun-{altitude:.0}-{azimuth:.0}"),
+        _ => String::new(),
+    };
+    let product = match safe(&state.document.selection.product) {
+        none if none.is_empty() => "window".to_owned(),
+        product => product,
+    };
+    let words = [product, safe(&state.shown_state), time];
+    words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
+}
+
+/// A name to start from.
+pub fn file_name(state: &State, what: PathUse) -> String {
+    match what {
+        PathUse::Open => String::new(),
+        PathUse::SaveScene => format!("{}.toml", study(state)),
+        PathUse::ExportLid => format!("{}.ldt", study(state)),
+        PathUse::ExportTile(tile) => format!("{}_{}.csv", study(state), safe(&tile.title.to_lowercase())),
+        PathUse::ExportMeasured => {
+            let described = state.goniophotometer.run.as_ref().map(|run| &run.described.file);
+            let name = described.map(|file| if file.key.is_empty() { &file.system.name } else { &file.key });
+            let name = name.map(|name| safe(&name.to_lowercase())).filter(|name| !name.is_empty());
+            format!("{}.cfsp", name.unwrap_or_else(|| "system".to_owned()))
+        }
+    }
+}
+
+/// Folder and name to start from: where the scene came from for the scene, else the folder that was used last, else
+/// the user's documents.
+pub fn start_path(state: &State, what: PathUse) -> PathBuf {
+    if let (PathUse::SaveScene, Some(path)) = (what, &state.scene_path) {
+        return path.clone();
+    }
+    let last = state.settings.folder.clone();
+    let own = || {
+        let folders = directories::UserDirs::new()?;
+        Some(folders.document_dir().map_or_else(|| folders.home_dir().to_owned(), PathBuf::from))
+    };
+    last.or_else(own).unwrap_or_default().join(file_name(state, what))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::scene::Selection;
+    use crate::app::state::Settings;
+    use crate::app::tiles::TILES;
+
+    #[test]
+    fn names_say_product_state_and_moment_in_safe_characters() {
+        let mut state = State::new(Settings::default());
+        state.document.selection = Selection { product: "venetian-80-72".to_owned(), state: String::new() };
+        state.shown_state = "45".to_owned();
+        assert_eq!(file_name(&state, PathUse::ExportLid), "venetian-80-72_45_2026-03-21T1200.ldt");
+        assert_eq!(file_name(&state, PathUse::ExportTile(TILES[0].tile)), "venetian-80-72_45_2026-03-21T1200_btdf.csv");
+        state.shown_state = "-35 °/\\:*? up".to_owned();
+        assert_eq!(file_name(&state, PathUse::SaveScene), "venetian-80-72_-35-up_2026-03-21T1200.toml");
+        state.document.scene.sky.time = None;
+        (state.document.scene.sky.sun.altitude, state.document.scene.sky.sun.azimuth) = (Some(30.0), Some(185.0));
+        assert_eq!(file_name(&state, PathUse::ExportLid), "venetian-80-72_-35-up_sun-30-185.ldt");
+        assert_eq!(file_name(&state, PathUse::ExportMeasured), "system.cfsp");
+        state.settings.folder = Some("/data/daylight".into());
+        assert_eq!(start_path(&state, PathUse::ExportLid).parent().unwrap().to_str(), Some("/data/daylight"));
+        state.scene_path = Some("/data/office.toml".into());
+        assert_eq!(start_path(&state, PathUse::SaveScene).to_str(), Some("/data/office.toml"));
+    }
+}

@@ -1,0 +1,77 @@
+//! What the window says: beside the status line as long as it takes to read, and in a list for later.
+
+use crate::app::command::Command;
+use crate::app::messages::{Message, Messages, Weight};
+use crate::app::theme::{self, Palette};
+use egui::{Align2, Area, Color32, Id, Label, Order, Pos2, RichText, Sense, Ui};
+use std::time::Duration;
+
+/// Shown at the same time; the others are in the list.
+const MOST: usize = 4;
+/// Widest text. \[points\]
+const WIDTH: f32 = 420.0;
+
+const fn colour(palette: &Palette, weight: Weight) -> Color32 {
+    match weight {
+        Weight::Info => palette.accent,
+        Weight::Success => palette.good,
+        Weight::Warning => palette.warning,
+        Weight::Error => palette.error,
+    }
+}
+
+/// Draws those that are shown now, upwards from a corner: `corner` is the lower right one of the space there is.
+pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mut Vec<Command>) {
+    if messages.shown().next().is_none() {
+        return;
+    }
+    let palette = theme::palette(ui);
+    let list: Vec<&Message> = messages.shown().rev().take(MOST).collect();
+    let mut held = None;
+    let area = Area::new(Id::unique("messages")).order(Order::Foreground).pivot(Align2::RIGHT_BOTTOM);
+    area.fixed_pos(corner).constrain(true).show(ui.ctx(), |ui| {
+        ui.set_max_width(WIDTH);
+        for message in list.into_iter().rev() {
+            let frame = egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_width(WIDTH - 24.0);
+                ui.horizontal_top(|ui| {
+                    ui.colored_label(colour(palette, message.weight), message.weight.word());
+                    ui.add(Label::new(&message.text).wrap().selectable(false));
+                });
+            });
+            let response = ui.interact(frame.response.rect, Id::unique(("message", message.id)), Sense::click());
+            let label = format!("Dismiss: {}", message.text);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
+            if response.hovered() {
+                held = Some(message.id);
+            }
+            if response.on_hover_cursor(egui::CursorIcon::PointingHand).clicked() {
+                commands.push(Command::Dismiss(Some(message.id)));
+            }
+        }
+    });
+    // A frame that came late counts as a moment: what was not in sight was not read.
+    let passed = ui.input(|input| f64::from(input.stable_dt.min(0.5)));
+    messages.pass(passed, held);
+    ui.ctx().request_repaint_after(Duration::from_millis(250));
+}
+
+/// The list of all, the newest first.
+pub(super) fn list(ui: &mut Ui, messages: &Messages, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    if messages.is_empty() {
+        ui.label("Nothing was said yet.");
+        return;
+    }
+    if ui.button("Forget all").on_hover_text("Empty this list").clicked() {
+        commands.push(Command::ForgetMessages);
+    }
+    for message in messages.all().rev() {
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            ui.weak(&message.at);
+            ui.label(RichText::new(message.weight.word()).color(colour(palette, message.weight)));
+        });
+        ui.add(Label::new(&message.text).wrap().selectable(true));
+    }
+}

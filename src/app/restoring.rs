@@ -1,0 +1,79 @@
+//! The window's session: taken up at the start, kept while it lives, left in order at the end.
+
+use super::autosave::{Autosave, Found};
+use super::clock;
+use super::jobs::Lane;
+use super::window::{App, fresh_undoer};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// How long a window that is closed waits for what is still being stored.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Where the user's sessions are kept: beside the catalogue, in the user's folder for data.
+pub fn sessions_folder() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", "cfs").map(|folders| folders.data_dir().join("sessions"))
+}
+
+impl App {
+    /// Keeps the session in a folder from now on, and takes up what lies there. `take_up`: also the session of a window
+    /// that did not close, which is told.
+    pub fn begin_session(&mut self, folder: Option<&Path>, take_up: bool) {
+        let Some(folder) = folder else {
+            self.toasts.warning("The session is not kept: the system names no folder for a user's data");
+            return;
+        };
+        match Autosave::begin(folder, take_up) {
+            Ok((keeper, found)) => {
+                self.autosave = Some(keeper);
+                self.take_up(found, folder);
+            }
+            Err(error) => {
+                let place = folder.display();
+                self.toasts.warning(format!("The session is not kept: {place}: {error}; expected a writable folder"));
+            }
+        }
+    }
+
+    fn take_up(&mut self, found: Found, folder: &Path) {
+        for problem in found.problems {
+            self.toasts.warning(problem);
+        }
+        let Some(kept) = found.kept else { return };
+        let put = kept.put_into(&mut self.state);
+        if let Err(error) = &put {
+            self.toasts.warning(format!("{}: the scene of the last session: {error}", folder.display()));
+        }
+        self.undoer = fresh_undoer(&self.state.document);
+        if let Some(import) = kept.import {
+            self.read_again(import.paths.clone(), import.grouping, Some(import));
+        }
+        if found.lost && put.is_ok() {
+            self.toasts.info(format!("Restored what was open at {}", clock::words(&kept.at)));
+        }
+    }
+
+    /// Hands what has changed to the keeper. Never waits.
+    pub(super) fn keep_session(&mut self) {
+        let Some(keeper) = &mut self.autosave else { return };
+        keeper.keep(&self.state);
+        if let Some(problem) = keeper.problem() {
+            self.toasts.error(problem);
+        }
+    }
+
+    /// Ends in order: what is being stored and written comes to its end, the session is left for the next start.
+    pub fn close(&mut self) {
+        let start = Instant::now();
+        let storing = |app: &Self| app.jobs.busy(Lane::Store) || !app.pending_changes.is_empty() || app.writing;
+        while storing(self) && self.state.shelf().is_some() && start.elapsed() < PATIENCE {
+            self.poll();
+            self.write_exports();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        if let Some(mut keeper) = self.autosave.take() {
+            keeper.keep(&self.state);
+            keeper.close();
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! What is open in a window, as it is kept on disk while the window lives, and taken up again at the next start.
+
+use super::import::KeptImport;
+use super::scene::Selection;
+use super::state::{Settings, Sheet, State};
+use super::tiles::TILES;
+use crate::study::scene_file::SceneFile;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Number of the layout of a kept session. A newer one is left alone.
+const VERSION: u32 = 1;
+
+/// The system file that is being typed.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct KeptSystem {
+    /// Its text.
+    pub text: String,
+    /// What it names other files relative to.
+    pub base: PathBuf,
+}
+
+/// What is open in a window.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Snapshot {
+    scene: SceneText,
+    selection: Selection,
+    daylight_follows: bool,
+    scene_path: Option<PathBuf>,
+    maximised: Option<&'static str>,
+    import: Option<KeptImport>,
+    system: KeptSystem,
+    sheet: Option<&'static str>,
+    settings: Settings,
+}
+
+/// A scene that has its text made when it is written.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct SceneText(Option<Box<SceneFile>>);
+
+/// The sheets that are opened again.
+const SHEETS: [(Sheet, &str); 2] = [(Sheet::Import, "import"), (Sheet::Goniophotometer, "goniophotometer")];
+
+fn sheet_word(sheet: Option<Sheet>) -> Option<&'static str> {
+    SHEETS.iter().find(|(known, _)| Some(*known) == sheet).map(|(_, word)| *word)
+}
+
+impl Snapshot {
+    /// Of a window as it is now.
+    pub fn of(state: &State) -> Self {
+        let document = &state.document;
+        Self {
+            scene: SceneText(Some(Box::new(document.scene.clone()))),
+            selection: document.selection.clone(),
+            daylight_follows: document.daylight_follows,
+            scene_path: state.scene_path.clone(),
+            maximised: state.maximised.map(|tile| tile.title),
+            import: state.import.as_ref().map(KeptImport::of).or_else(|| state.under_way.clone()),
+            system: KeptSystem { text: state.goniophotometer.text.clone(), base: state.goniophotometer.base.clone() },
+            sheet: sheet_word(state.sheet),
+            settings: state.settings.clone(),
+        }
+    }
+
+    /// Is it what the window shows now? Asked every frame: compares without copying.
+    pub fn is_of(&self, state: &State) -> bool {
+        let document = &state.document;
+        self.scene.0.as_deref() == Some(&document.scene)
+            && self.selection == document.selection
+            && self.daylight_follows == document.daylight_follows
+            && self.scene_path == state.scene_path
+            && self.maximised == state.maximised.map(|tile| tile.title)
+            && match (&self.import, &state.import) {
+                (Some(kept), Some(import)) => kept.is_of(import),
+                (kept, None) => *kept == state.under_way,
+                (None, Some(_)) => false,
+            }
+            && self.system.text == state.goniophotometer.text
+            && self.system.base == state.goniophotometer.base
+            && self.sheet == sheet_word(state.sheet)
+            && self.settings == state.settings
+    }
+
+    /// As it is written, with the time.
+    pub fn kept(&self, at: String) -> Kept {
+        Kept {
+            version: VERSION,
+            at,
+            scene: self.scene.0.as_ref().and_then(|scene| toml::to_string(&**scene).ok()).unwrap_or_default(),
+            product: self.selection.product.clone(),
+            state: self.selection.state.clone(),
+            daylight_follows: self.daylight_follows,
+            scene_path: self.scene_path.clone(),
+            maximised: self.maximised.map(str::to_owned),
+            import: self.import.clone(),
+            system: self.system.clone(),
+            sheet: self.sheet.map(str::to_owned),
+            settings: self.settings.clone(),
+        }
+    }
+}
+
+/// A session as it lies on disk.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Kept {
+    /// Layout.
+    pub version: u32,
+    /// When it was written: UTC.
+    pub at: String,
+    /// The scene in TOML.
+    pub scene: String,
+    /// Key of the selected product.
+    pub product: String,
+    /// Key of its state.
+    pub state: String,
+    /// Illuminances follow the sun's altitude.
+    pub daylight_follows: bool,
+    /// Where the scene was opened from or saved to.
+    pub scene_path: Option<PathBuf>,
+    /// Title of the tile that fills the bench.
+    pub maximised: Option<String>,
+    /// An import that is not stored yet.
+    pub import: Option<KeptImport>,
+    /// The system file that is being typed.
+    pub system: KeptSystem,
+    /// The sheet that was open.
+    pub sheet: Option<String>,
+    /// Theme, panels, folder.
+    pub settings: Settings,
+}
+
+impl Kept {
+    /// Reads what was written.
+    ///
+    /// # Errors
+    /// One clause on what is wrong.
+    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+        let kept: Self = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+        match kept.version {
+            1..=VERSION => Ok(kept),
+            other => Err(format!("written by a newer version of cfs (layout {other}; this program reads {VERSION})")),
+        }
+    }
+
+    /// Puts what was kept into a window that has just been made. The import comes back when its files are read again.
+    ///
+    /// # Errors
+    /// The scene's own sentence where it cannot be read; everything else is put in all the same.
+    pub fn put_into(&self, state: &mut State) -> Result<(), String> {
+        state.settings = self.settings.clone();
+        state.maximised =
+            TILES.iter().map(|entry| entry.tile).find(|tile| self.maximised.as_deref() == Some(tile.title));
+        if !self.system.text.is_empty() {
+            state.goniophotometer.base.clone_from(&self.system.base);
+            state.goniophotometer.set_text(self.system.text.clone());
+        }
+        let sheet = SHEETS.iter().find(|(_, word)| self.sheet.as_deref() == Some(*word)).map(|(sheet, _)| *sheet);
+        state.sheet = sheet.filter(|sheet| *sheet != Sheet::Import);
+        let scene = SceneFile::parse(&self.scene).map_err(|error| error.to_string())?;
+        state.document.scene = scene;
+        state.document.daylight_follows = self.daylight_follows;
+        state.document.selection = Selection { product: self.product.clone(), state: self.state.clone() };
+        state.scene_path.clone_from(&self.scene_path);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::scene::first_scene;
+
+    #[test]
+    fn what_is_kept_comes_back() {
+        let mut state = State::new(Settings::default());
+        state.document.scene = first_scene();
+        state.document.scene.site.azimuth = 123.0;
+        state.document.selection = Selection { product: "blind".to_owned(), state: "30".to_owned() };
+        state.document.daylight_follows = false;
+        state.scene_path = Some("/tmp/a.toml".into());
+        state.maximised = Some(TILES[2].tile);
+        state.goniophotometer.set_text("name = \"half typed".to_owned());
+        state.sheet = Some(Sheet::Goniophotometer);
+        state.settings.scene_open = false;
+        let snapshot = Snapshot::of(&state);
+        assert!(snapshot.is_of(&state));
+        let text = serde_json::to_vec(&snapshot.kept("2026-03-21T12:00:00Z".to_owned())).unwrap();
+        let mut other = State::new(Settings::default());
+        assert!(!snapshot.is_of(&other));
+        Kept::read(&text).unwrap().put_into(&mut other).unwrap();
+        assert!(snapshot.is_of(&other));
+    }
+
+    #[test]
+    fn what_is_half_or_newer_is_refused() {
+        let kept = Snapshot::of(&State::new(Settings::default())).kept(String::new());
+        let text = serde_json::to_string(&kept).unwrap();
+        assert!(Kept::read(&text.as_bytes()[..text.len() / 2]).is_err());
+        let newer = text.replace("\"version\":1", "\"version\":9");
+        assert!(Kept::read(newer.as_bytes()).unwrap_err().contains("layout 9"));
+        let damaged = Kept { scene: "room = 3".to_owned(), ..kept };
+        assert!(damaged.put_into(&mut State::new(Settings::default())).is_err());
+    }
+}

@@ -1,0 +1,134 @@
+//! What becomes of products after they are stored: other words about them, out of sight and back, found again by content.
+
+use super::sight::{bring_back, is_deleted};
+use super::store::read_product;
+use super::{Catalogue, CatalogueError};
+
+/// What the user says about a product.
+#[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub struct Words {
+    /// Name; not empty.
+    pub name: String,
+    /// Maker; may be empty.
+    pub manufacturer: String,
+    /// Kind, e.g. `venetian`; may be empty.
+    pub kind: String,
+    /// Words to find it by.
+    pub tags: Vec<String>,
+}
+
+/// A product out of sight.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Deleted {
+    /// Its key, by which it is restored.
+    pub key: String,
+    /// Its name.
+    pub name: String,
+    /// Since when: UTC, `YYYY-MM-DDThh:mm:ssZ`.
+    pub at: String,
+    /// Comes with the program.
+    pub builtin: bool,
+}
+
+/// A product of the catalogue by key and name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Known {
+    /// Its key.
+    pub key: String,
+    /// Its name.
+    pub name: String,
+}
+
+impl Catalogue {
+    /// Other words about a product; its key stays, so that scenes go on finding it.
+    ///
+    /// # Errors
+    /// No such product, a built-in one, or no name.
+    pub fn describe(&mut self, key: &str, words: &Words) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        let product = read_product(&tx, key)?;
+        if product.builtin {
+            return Err(CatalogueError::BuiltInWords(key.to_owned()));
+        }
+        let [name, manufacturer, kind] = [&words.name, &words.manufacturer, &words.kind].map(|text| text.trim());
+        if name.is_empty() {
+            return Err(CatalogueError::NoName(key.to_owned()));
+        }
+        let mut tags: Vec<&str> = words.tags.iter().map(|tag| tag.trim()).filter(|tag| !tag.is_empty()).collect();
+        tags.sort_unstable();
+        tags.dedup();
+        let id: i64 = tx.query_row("SELECT id FROM product WHERE key = ?", [key], |row| row.get(0))?;
+        tx.execute(
+            "UPDATE product SET name = ?1, manufacturer = ?2, kind = ?3 WHERE id = ?4",
+            (name, manufacturer, kind, id),
+        )?;
+        tx.execute("DELETE FROM tag WHERE product = ?", [id])?;
+        for tag in &tags {
+            tx.execute("INSERT INTO tag VALUES (?, ?)", (id, tag))?;
+        }
+        tx.execute(
+            "UPDATE product_text SET name = ?1, manufacturer = ?2, kind = ?3, tags = ?4 WHERE rowid = ?5",
+            (name, manufacturer, kind, tags.join(" "), id),
+        )?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Takes a product out of sight. Scenes that name it go on working; [`Catalogue::restore_product`] brings it back.
+    ///
+    /// # Errors
+    /// No such product, or one that is out of sight already.
+    pub fn delete_product(&mut self, key: &str) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        read_product(&tx, key)?;
+        if is_deleted(&tx, key)? {
+            return Err(CatalogueError::Deleted(key.to_owned()));
+        }
+        tx.execute("INSERT INTO deleted VALUES (?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'))", [key])?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Brings a product back into sight.
+    ///
+    /// # Errors
+    /// No such product, or one that is in sight.
+    pub fn restore_product(&mut self, key: &str) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        read_product(&tx, key)?;
+        if !is_deleted(&tx, key)? {
+            return Err(CatalogueError::NotDeleted(key.to_owned()));
+        }
+        bring_back(&tx, key)?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Products out of sight, the last one first.
+    ///
+    /// # Errors
+    /// Of SQLite.
+    pub fn deleted_products(&self) -> Result<Vec<Deleted>, CatalogueError> {
+        let mut statement = self.db.prepare_cached(
+            "SELECT p.key, p.name, d.at, p.builtin FROM deleted d JOIN product p ON p.key = d.product_key
+             ORDER BY d.at DESC, p.name",
+        )?;
+        let row = |row: &rusqlite::Row<'_>| {
+            Ok(Deleted { key: row.get(0)?, name: row.get(1)?, at: row.get(2)?, builtin: row.get(3)? })
+        };
+        Ok(statement.query_map([], row)?.collect::<Result<_, _>>()?)
+    }
+
+    /// Products in sight that were read from a file, or files, of this hash: [`super::Provenance::source_hash`].
+    ///
+    /// # Errors
+    /// Of SQLite.
+    pub fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, CatalogueError> {
+        let mut statement = self.db.prepare_cached(
+            "SELECT key, name FROM product
+             WHERE source_hash = ? AND source_hash <> '' AND key NOT IN (SELECT product_key FROM deleted) ORDER BY id",
+        )?;
+        let row = |row: &rusqlite::Row<'_>| Ok(Known { key: row.get(0)?, name: row.get(1)? });
+        Ok(statement.query_map([source_hash], row)?.collect::<Result<_, _>>()?)
+    }
+}

@@ -1,0 +1,107 @@
+//! `cfs catalogue rename`, `delete` and `restore`: products after they are stored.
+
+use super::output::print;
+use crate::catalogue::{Catalogue, Words};
+use serde_json::json;
+use std::fmt::Write as _;
+
+/// Arguments of `cfs catalogue rename`.
+#[derive(Debug, clap::Args)]
+pub struct RenameArgs {
+    /// Key of the product; scenes go on finding it by that.
+    pub key: String,
+    /// Its new name.
+    pub name: Option<String>,
+    /// Its maker.
+    #[arg(long)]
+    pub manufacturer: Option<String>,
+    /// Its kind, e.g. venetian.
+    #[arg(long)]
+    pub kind: Option<String>,
+    /// Word to find it by, in place of all that it has; may be given several times.
+    #[arg(long = "tag")]
+    pub tags: Vec<String>,
+}
+
+/// Arguments of `cfs catalogue delete`.
+#[derive(Debug, clap::Args)]
+pub struct DeleteArgs {
+    /// Keys of the products.
+    #[arg(required = true)]
+    pub keys: Vec<String>,
+    /// Take your own products out for good: nothing brings them back.
+    #[arg(long)]
+    pub for_good: bool,
+}
+
+/// Arguments of `cfs catalogue restore`.
+#[derive(Debug, clap::Args)]
+pub struct RestoreArgs {
+    /// Keys of the products; none: list those that are deleted.
+    pub keys: Vec<String>,
+    /// A JSON array instead of a table, for the list.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Gives a product other words; those that are not named stay.
+pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Result<()> {
+    let product = catalogue.product(&args.key)?;
+    if args.name.is_none() && args.manufacturer.is_none() && args.kind.is_none() && args.tags.is_empty() {
+        anyhow::bail!("nothing to change; expected a NAME, --manufacturer, --kind or --tag");
+    }
+    let or = |asked: &Option<String>, stored: String| asked.clone().unwrap_or(stored);
+    let words = Words {
+        name: or(&args.name, product.name),
+        manufacturer: or(&args.manufacturer, product.manufacturer),
+        kind: or(&args.kind, product.kind),
+        tags: if args.tags.is_empty() { product.tags } else { args.tags.clone() },
+    };
+    Ok(catalogue.describe(&args.key, &words)?)
+}
+
+/// Takes products out of sight, or out for good: all, or none where one cannot be.
+pub(super) fn delete(catalogue: &mut Catalogue, args: &DeleteArgs) -> anyhow::Result<()> {
+    let mut done: Vec<&String> = Vec::new();
+    for key in &args.keys {
+        // What would be refused is found before anything is gone.
+        catalogue.product(key)?;
+    }
+    for key in &args.keys {
+        let result = if args.for_good { catalogue.remove_product(key) } else { catalogue.delete_product(key) };
+        if let Err(error) = result {
+            if !args.for_good {
+                for key in done {
+                    catalogue.restore_product(key)?;
+                }
+            }
+            return Err(error.into());
+        }
+        done.push(key);
+    }
+    Ok(())
+}
+
+/// Brings products back into sight, or lists those that are out of it.
+pub(super) fn restore(catalogue: &mut Catalogue, args: &RestoreArgs) -> anyhow::Result<()> {
+    for key in &args.keys {
+        catalogue.restore_product(key)?;
+    }
+    if !args.keys.is_empty() {
+        return Ok(());
+    }
+    let list = catalogue.deleted_products()?;
+    if args.json {
+        let rows: Vec<_> = list
+            .iter()
+            .map(|one| json!({"key": one.key, "name": one.name, "deleted": one.at, "builtin": one.builtin}))
+            .collect();
+        return print(&(serde_json::to_string_pretty(&rows)? + "\n"));
+    }
+    let width = list.iter().map(|one| one.key.chars().count()).max().unwrap_or(0).max(3);
+    let mut text = format!("{:width$}  {:20}  name\n", "key", "deleted (UTC)");
+    for one in list {
+        writeln!(text, "{:width$}  {:20}  {}", one.key, one.at, one.name)?;
+    }
+    print(&text)
+}
