@@ -70,11 +70,18 @@ impl App {
                 if lane == Lane::Import {
                     state.under_way = None;
                 }
+                if lane == Lane::Product {
+                    // They wait for the same data, and would compute them themselves.
+                    self.jobs.cancel(Lane::Lid);
+                    self.jobs.cancel(Lane::Room);
+                    self.stop_computing();
+                }
                 let told = match lane {
                     Lane::Goniophotometer => {
                         "Stopped; finished states are kept, and Compute goes on after them".to_owned()
                     }
-                    Lane::Builtin => "Stopped; the others are computed at the next start".to_owned(),
+                    Lane::Builtin => "Stopped; the others are computed when they are chosen".to_owned(),
+                    Lane::Product => "Stopped; choose another state or product".to_owned(),
                     Lane::Import | Lane::Export => format!("{} stopped", lane.word()),
                     _ => format!("{} stopped; what is shown is older than the scene", lane.word()),
                 };

@@ -1,15 +1,18 @@
 //! The window's services as they are in earnest: the catalogue's file, the study, luminaire files.
 
+use super::at_work::AtWork;
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::error::AppError;
 use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, Deleted, Imported, Known, NewProduct, Product, Words, default_path};
+use crate::catalogue::{self, Catalogue, Deleted, Imported, Known, NewProduct, Product, StateKey, Words, default_path};
 use crate::compute::btdf::{Btdf, Dataset};
-use crate::compute::estimate::Progress;
+use crate::compute::estimate::{Progress, Silent};
 use crate::formats::ies::IesEdition;
 use crate::study::accuracy::{Accuracy, ladder};
+use crate::study::builtin;
 use crate::study::compact::stored_by_default;
 use crate::study::control::{ControlQuestion, Device, pick_state};
+use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::scene_file::SystemKeys;
 use crate::study::system::Need;
@@ -21,28 +24,30 @@ use std::time::Instant;
 /// The catalogue's file, one request at a time.
 struct CatalogueShelf {
     catalogue: Mutex<Catalogue>,
-    /// A connection of its own for putting in missing built-in products, if that is to be done: packing and writing
-    /// them keeps nobody from reading.
+    /// A connection of its own for what is filled in behind everything else, if that is to be done: packing and writing it
+    /// keeps nobody from reading.
     filler: Option<Mutex<Catalogue>>,
+    /// States that are being computed because somebody waits for them.
+    at_work: AtWork,
 }
 
 /// Opens a catalogue's file, or the user's own.
 pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, AppError> {
     let path = path.map_or_else(default_path, |path| Ok(path.to_owned()))?;
-    let open = || Catalogue::open_to_fill(&path).map(Mutex::new);
-    Ok(Arc::new(CatalogueShelf { catalogue: open()?, filler: Some(open()?) }))
+    let open = || Catalogue::open(&path).map(Mutex::new);
+    Ok(Arc::new(CatalogueShelf { catalogue: open()?, filler: Some(open()?), at_work: AtWork::default() }))
 }
 
 /// A new catalogue in memory with the built-in products.
 pub fn memory_shelf() -> Result<Arc<dyn Shelf>, AppError> {
-    let catalogue = Catalogue::in_memory()?;
-    Ok(Arc::new(CatalogueShelf { catalogue: Mutex::new(catalogue), filler: None }))
+    let catalogue = Mutex::new(Catalogue::in_memory()?);
+    Ok(Arc::new(CatalogueShelf { catalogue, filler: None, at_work: AtWork::default() }))
 }
 
 /// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
 pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
-    let catalogue = Catalogue::empty_in_memory()?;
-    let shelf = CatalogueShelf { catalogue: Mutex::new(catalogue), filler: None };
+    let catalogue = Mutex::new(Catalogue::empty_in_memory()?);
+    let shelf = CatalogueShelf { catalogue, filler: None, at_work: AtWork::default() };
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
     {
         let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
@@ -58,6 +63,15 @@ pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
 impl CatalogueShelf {
     fn lock(&self) -> MutexGuard<'_, Catalogue> {
         lock(&self.catalogue)
+    }
+
+    /// The state that is meant where none is named: the first.
+    fn state_or_first(&self, product: &str, state: Option<&str>) -> Result<String, AppError> {
+        if let Some(state) = state {
+            return Ok(state.to_owned());
+        }
+        let first = self.lock().product(product)?.states.into_iter().next();
+        Ok(first.ok_or_else(|| AppError::NoState(product.to_owned()))?.key)
     }
 }
 
@@ -98,15 +112,25 @@ impl Shelf for CatalogueShelf {
     }
 
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError> {
-        let catalogue = self.lock();
-        match state {
-            Some(state) => Ok(catalogue.dataset(product, Some(state))?),
-            None => {
-                let first = catalogue.product(product)?.states.into_iter().next();
-                let first = first.ok_or_else(|| AppError::NoState(product.to_owned()))?;
-                Ok(catalogue.dataset(product, Some(&first.key))?)
-            }
-        }
+        let state = self.state_or_first(product, state)?;
+        self.provide(product, Some(&state), &Silent)?;
+        Ok(self.lock().dataset(product, Some(&state))?)
+    }
+
+    fn is_ready(&self, product: &str, state: Option<&str>) -> Result<bool, AppError> {
+        let state = self.state_or_first(product, state)?;
+        Ok(self.lock().to_compute(product, Some(&state))?.is_none())
+    }
+
+    fn provide(&self, product: &str, state: Option<&str>, progress: &dyn Progress) -> Result<(), AppError> {
+        let one = StateKey { product: product.to_owned(), state: self.state_or_first(product, state)? };
+        let is_there = || Ok(self.lock().to_compute(product, Some(&one.state))?.is_none());
+        let compute = || {
+            let product = self.lock().product(product)?;
+            let dataset = builtin::compute(&product, &one.state, &Library::default(), progress)?;
+            Ok(self.lock().put_state(&product, &dataset)?)
+        };
+        self.at_work.once(&one, progress, is_there, compute)
     }
 
     fn product(&self, product: &str) -> Result<Arc<Product>, AppError> {
@@ -118,14 +142,24 @@ impl Shelf for CatalogueShelf {
         pick_state(&Device::of(&product)?, asked)
     }
 
-    fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, AppError> {
-        let Some(filler) = &self.filler else { return Ok(None) };
-        let missing = lock(filler).missing_builtin()?;
-        Ok(missing.first().map(|&name| (name, missing.len())))
-    }
-
-    fn put_builtin(&self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), AppError> {
-        Ok(lock(self.filler.as_ref().unwrap_or(&self.catalogue)).put_builtin(name, product, datasets)?)
+    fn fill_one(&self, order: &[String], progress: &dyn Progress) -> Result<[usize; 2], AppError> {
+        let Some(filler) = &self.filler else { return Ok([0; 2]) };
+        let (waiting, all) = {
+            let mut filler = lock(filler);
+            // Of what older programs stored it may not be known where light goes; found out once, it is nothing to do.
+            filler.fill_figures(progress)?;
+            (filler.waiting()?, filler.builtin_states()?)
+        };
+        let place = |one: &StateKey| order.iter().position(|key| *key == one.product).unwrap_or(order.len());
+        // The first of equals stays first, as the catalogue has them.
+        let Some(one) = waiting.iter().min_by_key(|one| place(one)) else { return Ok([0, all]) };
+        progress.advance("computing", all.saturating_sub(waiting.len()), all);
+        // Not by way of `at_work`: who waits for this state would wait for one who rests while somebody waits.
+        let withdrawn = Withdrawn(progress);
+        let product = lock(filler).product(&one.product)?;
+        let dataset = builtin::compute(&product, &one.state, &Library::default(), &withdrawn)?;
+        lock(filler).put_state(&product, &dataset)?;
+        Ok([waiting.len() - 1, all])
     }
 
     fn add(&self, addition: &Addition) -> Result<String, AppError> {
@@ -170,13 +204,18 @@ impl Shelf for CatalogueShelf {
 struct WindowLibrary<'a> {
     files: &'a Library,
     shelf: &'a dyn Shelf,
+    progress: &'a dyn Progress,
 }
 
 impl SystemLibrary for WindowLibrary<'_> {
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
         let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
-        let dataset =
-            self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
+        let told = |error: AppError| match error {
+            AppError::Study(error) => error,
+            other => StudyError::Catalogue(other.to_string()),
+        };
+        self.shelf.provide(key, state.as_deref(), self.progress).map_err(told)?;
+        let dataset = self.shelf.load(key, state.as_deref()).map_err(told)?;
         let very = self.files.very_of(&dataset);
         Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
     }
@@ -198,8 +237,8 @@ pub struct StudyEngine {
 }
 
 impl StudyEngine {
-    fn scene(&self, question: &Question) -> Result<Scene, AppError> {
-        let library = WindowLibrary { files: &self.files, shelf: &*question.shelf };
+    fn scene(&self, question: &Question, progress: &dyn Progress) -> Result<Scene, AppError> {
+        let library = WindowLibrary { files: &self.files, shelf: &*question.shelf, progress };
         Ok(Scene::resolve(&question.scene, &question.base, &library)?)
     }
 }
@@ -207,7 +246,7 @@ impl StudyEngine {
 impl Engine for StudyEngine {
     fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError> {
         let start = Instant::now();
-        let scene = self.scene(question)?;
+        let scene = self.scene(question, progress)?;
         let result = self.session.room(&scene, progress)?;
         Ok(RoomFigures {
             positions: result.sensors.iter().map(|sensor| sensor.sensor.position.to_array()).collect(),
@@ -222,7 +261,7 @@ impl Engine for StudyEngine {
 
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError> {
         let start = Instant::now();
-        let scene = self.scene(question)?;
+        let scene = self.scene(question, progress)?;
         if scene.apertures.is_empty() {
             return Err(AppError::NoAperture);
         }
@@ -238,7 +277,7 @@ impl Engine for StudyEngine {
     }
 
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {
-        Ok(ladder(&self.scene(question)?, progress)?)
+        Ok(ladder(&self.scene(question, progress)?, progress)?)
     }
 
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError> {

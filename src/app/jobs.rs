@@ -35,7 +35,9 @@ pub enum Lane {
     Year,
     /// Error against run time.
     Accuracy,
-    /// Computing built-in products.
+    /// Computing the data of the chosen state, which the catalogue does not hold yet.
+    Product,
+    /// Computing data of built-in products that nobody has asked for yet.
     Builtin,
     /// Data computed from a description.
     Goniophotometer,
@@ -55,6 +57,7 @@ impl Lane {
             Self::Room => "room",
             Self::Year => "year of control",
             Self::Accuracy => "error against time",
+            Self::Product => "product data",
             Self::Builtin => "built-in products",
             Self::Goniophotometer => "goniophotometer",
             Self::Export => "writing file",

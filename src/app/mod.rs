@@ -4,6 +4,7 @@
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
 pub mod apply;
+pub mod at_work;
 pub mod autosave;
 pub mod backend;
 pub mod changes;

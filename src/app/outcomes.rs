@@ -10,7 +10,7 @@ use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::window::{App, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
-use crate::catalogue::Imported;
+use crate::catalogue::{Imported, Product};
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::PathBuf;
@@ -32,11 +32,29 @@ impl App {
         }
     }
 
-    /// Computes built-in products that are not stored yet, behind everything else. Stopped, it goes on when the catalogue
-    /// is opened next.
+    /// Computes data of built-in products that nobody has asked for yet, behind everything else: those of the chosen product
+    /// first, then those of the list as it is, then the rest. Stopped, it goes on when the catalogue is opened next.
     pub(super) fn fill_catalogue(&mut self) {
         let Some(shelf) = self.state.shelf() else { return };
-        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, progress)));
+        let chosen = std::iter::once(self.state.document.selection.product.clone());
+        let order: Vec<String> = chosen.chain(self.state.found.entries.iter().map(|entry| entry.key.clone())).collect();
+        self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, &order, progress)));
+    }
+
+    /// Computes the data of the state that is to be shown, which the catalogue does not hold yet.
+    fn compute_state(&mut self, product: &Product, state: String) {
+        let Some(shelf) = self.state.shelf() else { return };
+        let label = product.states.iter().find(|one| one.key == state).map_or("", |one| one.label.as_str());
+        let what = if label.is_empty() { "its data" } else { label };
+        self.state.computing = Some(format!("computing {what}…"));
+        let key = product.key.clone();
+        self.start(Lane::Product, move |job| Outcome::Provided(shelf.provide(&key, Some(&state), job)));
+    }
+
+    /// Nobody waits for the data of a state any more.
+    pub(super) fn stop_computing(&mut self) {
+        self.jobs.cancel(Lane::Product);
+        self.state.computing = None;
     }
 
     /// Changes the catalogue, one change after the other.
@@ -115,15 +133,16 @@ impl App {
                 self.asked = None;
                 self.start_waiting_files();
             }
-            Outcome::Builtin(Ok(left)) => {
-                self.search();
-                if self.state.dataset.error.is_some() {
-                    // It may be what the scene was waiting for.
-                    self.asked = None;
-                }
-                if left > 0 {
-                    self.fill_catalogue();
-                }
+            Outcome::Builtin(Ok(0)) => self.search(),
+            Outcome::Builtin(Ok(_)) => self.fill_catalogue(),
+            Outcome::Provided(Ok(())) => {
+                self.state.computing = None;
+                // LID and room wait for the same data in their own lanes.
+                self.ask_scene();
+            }
+            Outcome::Provided(Err(error)) => {
+                self.state.computing = None;
+                self.state.dataset.error = Some(error.to_string());
             }
             Outcome::Builtin(Err(error)) => {
                 self.toasts.warning(format!("Built-in products: {error}"));
@@ -200,11 +219,17 @@ impl App {
     fn take_scene(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, SkyKeyError>) {
         match shelved {
             Ok(Shelved { product, state, dataset }) => {
-                self.state.product = Some(product);
-                self.state.shown_state = state;
-                self.state.dataset.value = Some(dataset);
-                self.state.dataset.stale = false;
+                self.state.product = Some(product.clone());
+                self.state.shown_state.clone_from(&state);
                 self.state.dataset.error = None;
+                match dataset {
+                    Some(dataset) => {
+                        self.state.dataset.value = Some(dataset);
+                        self.state.dataset.stale = false;
+                        self.stop_computing();
+                    }
+                    None => self.compute_state(&product, state),
+                }
                 self.ask_year();
             }
             Err(error) => self.state.dataset.error = Some(error.to_string()),
@@ -326,6 +351,20 @@ impl App {
         self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
     }
 
+    /// Asks for product, state and dataset of the selection, and for sky and sun.
+    fn ask_scene(&mut self) {
+        let Some(shelf) = self.state.shelf() else { return };
+        let document = &self.state.document;
+        let (scene, selection, base) = (document.scene.clone(), document.selection.clone(), self.state.base());
+        let aperture = self.state.control_aperture();
+        self.start(Lane::Scene, move |_| {
+            let daylight =
+                outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
+            let place = (aperture, base.as_path());
+            Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok(), place), daylight)
+        });
+    }
+
     /// Asks for everything that the document's change since the last call affects.
     pub fn refresh(&mut self) {
         if self.state.document.daylight_follows {
@@ -337,21 +376,14 @@ impl App {
             return;
         }
         self.asked = Some(document.clone());
-        let question = Question { scene: document.scene.clone(), base: self.state.base(), shelf: shelf.clone() };
-        let selection = document.selection.clone();
+        let question = Question { scene: document.scene.clone(), base: self.state.base(), shelf };
+        self.stop_computing();
         self.state.dataset.stale = true;
         self.state.daylight.stale = true;
         self.results.lid.stale = true;
         self.results.room.stale = true;
         self.results.accuracy.stale = true;
-        let (scene, base) = (question.scene.clone(), question.base.clone());
-        let aperture = self.state.control_aperture();
-        self.start(Lane::Scene, move |_| {
-            let daylight =
-                outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
-            let place = (aperture, base.as_path());
-            Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok(), place), daylight)
-        });
+        self.ask_scene();
         let (engine, asked) = (self.services.engine.clone(), question.clone());
         self.start(Lane::Lid, move |job| Outcome::Lid(engine.lid(&asked, job)));
         let engine = self.services.engine.clone();

@@ -3,6 +3,7 @@
 use super::error::AppError;
 use crate::catalogue::{Deleted, Imported, Known, NewProduct, Product, Words};
 use crate::compute::btdf::Dataset;
+use crate::compute::estimate::Progress;
 use crate::study::StudyError;
 use crate::study::control::ControlQuestion;
 use std::sync::Arc;
@@ -65,7 +66,7 @@ pub struct Addition {
 pub trait Shelf: Send + Sync {
     /// Looks products up.
     fn search(&self, query: &Query) -> Result<Found, AppError>;
-    /// The dataset of a state; without a key the first state's.
+    /// The dataset of a state; without a key the first state's. Computed now where the catalogue does not hold it.
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError>;
     /// Everything about a product but its datasets: states with their numbers, control curve.
     fn product(&self, product: &str) -> Result<Arc<Product>, AppError>;
@@ -87,13 +88,19 @@ pub trait Shelf: Send + Sync {
     fn deleted(&self) -> Result<Vec<Deleted>, AppError>;
     /// Products in sight that were read from files of this hash.
     fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, AppError>;
-    /// A built-in description whose product is not stored yet, and how many there are.
-    fn next_builtin(&self) -> Result<Option<(&'static str, usize)>, AppError> {
-        Ok(None)
+    /// Can the dataset of a state be given at once?
+    fn is_ready(&self, _product: &str, _state: Option<&str>) -> Result<bool, AppError> {
+        Ok(true)
     }
-    /// Stores the product of a built-in description.
-    fn put_builtin(&self, _name: &str, _product: NewProduct, _datasets: &[Dataset]) -> Result<(), AppError> {
+    /// Computes the dataset of a state and keeps it, where the catalogue does not hold it yet; who asks for one that is
+    /// being computed waits for it. Without a key the first state's.
+    fn provide(&self, _product: &str, _state: Option<&str>, _progress: &dyn Progress) -> Result<(), AppError> {
         Ok(())
+    }
+    /// Computes and keeps one state that nobody has asked for yet, of the first of these products that has one, else of any;
+    /// how many are left, and how many there are in all.
+    fn fill_one(&self, _order: &[String], _progress: &dyn Progress) -> Result<[usize; 2], AppError> {
+        Ok([0; 2])
     }
     /// Sets or takes the star.
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), AppError>;

@@ -226,6 +226,8 @@ pub struct State {
     pub focus_search: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
+    /// What is being computed before there is a dataset of the selection, in words for the tiles' heads.
+    pub computing: Option<String>,
     /// The selected product: states with their numbers, control curve.
     pub product: Option<Arc<Product>>,
     /// The incidence that the user chose; the sun's while `None` and the sun is before the façade.
@@ -278,6 +280,7 @@ impl State {
             palette: None,
             focus_search: false,
             dataset: Shown::default(),
+            computing: None,
             product: None,
             incident: None,
             shown_state: String::new(),

@@ -11,19 +11,19 @@ use super::jobs::JobState;
 use super::scene::{Selection, rule};
 use super::shelf::{Found, Shelf};
 use super::state::{Daylight, PathUse};
-use crate::catalogue::{Deleted, Imported, Product, SYSTEMS, SourceFile};
+use crate::catalogue::{Deleted, Imported, Product, SourceFile};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::formats::FormatError;
+use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
-use crate::study::{Library, StudyError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -31,7 +31,7 @@ use std::time::{Duration, Instant};
 /// Reads the datasets of a file: name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
 
-/// How long built-in products are put in before the list is looked up anew.
+/// How long data of built-in products are computed before it is asked anew which come first.
 const FILLING: Duration = Duration::from_millis(500);
 
 /// What jobs bring back.
@@ -82,7 +82,9 @@ pub enum Outcome {
     Imported(Result<Vec<Imported>, AppError>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), AppError>),
-    /// Built-in products are in the catalogue; how many are left.
+    /// The data of the chosen state are in the catalogue.
+    Provided(Result<(), AppError>),
+    /// Some more data of built-in products are in the catalogue; how many states are left.
     Builtin(Result<usize, AppError>),
     /// A path that is to be written to: is a file there already?
     There(PathUse, PathBuf, bool),
@@ -96,27 +98,24 @@ pub struct Shelved {
     pub product: Arc<Product>,
     /// Key of the state, picked by the scene's control where it is left to it.
     pub state: String,
-    /// Its dataset.
-    pub dataset: Arc<Dataset>,
+    /// Its dataset; `None` while it is still to be computed.
+    pub dataset: Option<Arc<Dataset>>,
 }
 
-/// Computes and stores built-in products one after the other, until the list is worth looking up anew; how many are left.
-pub(super) fn fill_some(shelf: &dyn Shelf, progress: &JobState) -> Result<usize, AppError> {
+/// Computes data that nobody has asked for yet, those of the first of these products first, until it is time to ask anew
+/// which come first; how many states are left.
+pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState) -> Result<usize, AppError> {
     // Threads of its own, so that what is in sight never waits behind this; one core stays free for the window.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build()?;
     let start = Instant::now();
-    while let Some((name, missing)) = shelf.next_builtin()? {
-        progress.advance("computing", SYSTEMS.len() - missing, SYSTEMS.len());
-        pool.install(|| -> Result<(), AppError> {
-            let (product, datasets) = crate::study::builtin::compute(name, &Library::default(), progress)?;
-            shelf.put_builtin(name, product, &datasets)
-        })?;
-        if start.elapsed() > FILLING {
-            return Ok(missing - 1);
+    loop {
+        let [left, all] = pool.install(|| shelf.fill_one(order, progress))?;
+        progress.advance("computing", all.saturating_sub(left), all);
+        if left == 0 || start.elapsed() > FILLING {
+            return Ok(left);
         }
     }
-    Ok(0)
 }
 
 /// The selection's product, state and dataset.
@@ -146,7 +145,9 @@ pub(super) fn take_from_shelf(
     } else {
         selection.state.clone()
     };
-    let dataset = shelf.load(&selection.product, Some(&state))?;
+    // What has to be computed is not waited for: sky, names and states are shown at once.
+    let ready = shelf.is_ready(&selection.product, Some(&state))?;
+    let dataset = if ready { Some(shelf.load(&selection.product, Some(&state))?) } else { None };
     Ok(Shelved { product, state, dataset })
 }
 

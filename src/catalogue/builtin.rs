@@ -1,44 +1,35 @@
-//! The products that come with the program, computed from their descriptions under `assets/systems`.
+//! The products that come with the program: two that are defined by a sentence, and those of the descriptions under
+//! `assets/systems`.
 //!
-//! A file gets the quick ones when it is opened, a file that a window opens only [`FIRST`], which it shows at once. The
-//! others are put in by whoever can wait: [`Catalogue::missing_builtin`] says which, [`Catalogue::put_builtin`] stores
-//! them.
+//! A file gets all of them when it is opened, with the figures of a table that comes with the program. Their data are
+//! computed when they are asked for, by layers above ([`Catalogue::to_compute`], [`Catalogue::put_state`]).
 
-use super::described::{described_dataset, method, product_of};
-use super::store::{self, Record};
+use super::described::{METHODS, method, product_of, with_builtins};
+use super::record::{self, Record, named_state};
+use super::store;
 use super::systems::{SYSTEMS, builtin_system};
-use super::{Catalogue, CatalogueError, NewProduct, Origin, Provenance};
-use crate::compute::btdf::{Band, Btdf, Dataset};
-use crate::compute::estimate::Silent;
-use crate::compute::system::SystemKind;
-use crate::compute::system::measure::{Setting, front_basis};
+use super::waiting::set_light;
+use super::{Catalogue, CatalogueError, NewProduct, Origin, PROFILE_ANGLES, Product, Provenance, State, StateName};
+use crate::compute::btdf::{Band, Btdf, Dataset, DescribedState, LightFigures};
+use crate::compute::system::measure::front_basis;
 use crate::compute::system::sheets::diffuser::lambertian;
-use crate::formats::system_toml::SystemFile;
-use rayon::prelude::*;
+use crate::formats::figures_table::{self, FigureRow};
+use crate::formats::system_toml::{self, SystemFile};
 use rusqlite::{Connection, OptionalExtension, Transaction};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
+use std::sync::LazyLock;
 
 /// Raised whenever the built-in products change otherwise than by their descriptions; a file with a lower number gets
 /// all of them anew.
 pub const BUILTIN_VERSION: i64 = 4;
 /// Error target of the built-in products, absolute in τ and ρ.
 pub const BUILTIN_ERROR: f64 = 0.003;
-/// Key of the product that a new window shows.
-const FIRST: &str = "venetian-80-72";
+/// How names of description files end.
+const SYSTEM_SUFFIX: &str = ".system.toml";
 
-/// Which descriptions are computed when a file is opened.
-pub(super) type AtOnce = fn(&SystemFile) -> bool;
-
-/// Those that take some tenths of a second together.
-pub(super) fn quick(file: &SystemFile) -> bool {
-    matches!(file.system.kind, SystemKind::Pane(_) | SystemKind::Diffuser(_))
-        || [FIRST, "laser-cut-panel"].contains(&file.key.as_str())
-}
-
-/// The one that a new window shows.
-pub(super) fn first(file: &SystemFile) -> bool {
-    file.key == FIRST
-}
+/// The figures of all states, in the form of [`crate::formats::figures_table`]. Written by `cfs catalogue build --table
+/// assets/builtin-figures.csv` on a new catalogue; the tests say when that is due.
+pub const TABLE: &str = include_str!("../../assets/builtin-figures.csv");
 
 /// Systems that are defined by a sentence.
 fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
@@ -101,27 +92,7 @@ fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), Catalo
     tx.execute("DELETE FROM product WHERE builtin = 1 AND key = ?", [&record.product.key])?;
     record.product.builtin = true;
     record.product.key = store::free_key(tx, &record.product.key)?;
-    store::insert(tx, &record, rank)?;
-    tx.execute("DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state)", [])?;
-    Ok(())
-}
-
-/// Computes those of the named descriptions that are wanted, ready to be stored.
-fn computed(names: &[&'static str], wanted: AtOnce) -> Result<Vec<(&'static str, Record)>, CatalogueError> {
-    let one = |&name: &&'static str| {
-        let (file, text) = builtin_system(name).filter(|(file, _)| wanted(file))?;
-        let cells = front_basis();
-        let setting = Setting { incident: &cells, emergent: &cells, error: BUILTIN_ERROR, seed: 1 };
-        let dataset = |state: String| {
-            let specimen = file.system.specimen(&state).expect("built-in descriptions are computed by the tests");
-            let (visible, quality) = specimen.examine(&setting, &Silent).expect("nobody cancels");
-            described_dataset(&file, state, visible, &quality, BUILTIN_ERROR)
-        };
-        let datasets: Vec<Dataset> = file.system.states().into_par_iter().map(dataset).collect();
-        let product = product_of(&file, text, builtin_method(&file), &datasets);
-        Some(store::prepare_unasked(&datasets, product).map(|record| (name, record)))
-    };
-    names.par_iter().filter_map(one).collect()
+    store::insert(tx, &record, rank)
 }
 
 /// How built-in products are computed.
@@ -129,22 +100,62 @@ pub fn builtin_method(file: &SystemFile) -> String {
     method(&file.system, BUILTIN_ERROR, [front_basis().len(); 2])
 }
 
-impl Catalogue {
-    /// Names of the built-in descriptions whose products are not in the file as they are now.
-    pub fn missing_builtin(&self) -> Result<Vec<&'static str>, CatalogueError> {
-        missing(&self.db)
-    }
+/// Key of the product of a built-in description, by the name of its file.
+pub fn key_of_builtin(name: &str) -> &str {
+    name.strip_suffix(SYSTEM_SUFFIX).unwrap_or(name)
+}
 
-    /// Stores the product of a built-in description in place of an older one. Favourites stay.
-    pub fn put_builtin(&mut self, name: &str, product: NewProduct, datasets: &[Dataset]) -> Result<(), CatalogueError> {
-        let record = store::prepare_unasked(datasets, product)?;
-        let tx = self.change()?;
-        put(&tx, record, rank(name))?;
-        tx.commit()?;
-        Ok(())
+/// Stands for everything that the data of a built-in product are computed from: its description with all layers in its
+/// own text, the methods, the error target.
+pub fn fingerprint(description: &str) -> String {
+    let all = format!("{description}\0methods {METHODS}\0error {BUILTIN_ERROR}");
+    blake3::hash(all.as_bytes()).to_hex()[..16].to_owned()
+}
+
+/// The described products by the names of their files, with the figures of the table and without data. A description that
+/// changed since the table was written has no figures: better none than wrong ones.
+///
+/// # Panics
+/// Never: the tests read the table and every description.
+static PRODUCTS: LazyLock<Vec<(&str, Product)>> = LazyLock::new(|| {
+    let rows = figures_table::read(TABLE, &PROFILE_ANGLES).expect("the table is read by the tests");
+    let rows: HashMap<(&str, &str, &str), &FigureRow> =
+        rows.iter().map(|row| ((row.product.as_str(), row.fingerprint.as_str(), row.state.as_str()), row)).collect();
+    let product = |&(name, text): &(&'static str, &'static str)| {
+        let (file, _) = builtin_system(name)?;
+        let description = with_builtins(text, 0)?;
+        let described = |state: String| Dataset {
+            described: Some(DescribedState { text: description.clone(), state: state.clone() }),
+            state,
+            ..Dataset::default()
+        };
+        let datasets: Vec<Dataset> = system_toml::states(&description)?.into_iter().map(described).collect();
+        let meta = product_of(&file, text, builtin_method(&file), &datasets);
+        let fingerprint = fingerprint(&description);
+        let state = |(dataset, named): (&Dataset, &StateName)| {
+            let state = named_state(&dataset.state, named.clone());
+            match rows.get(&(key_of_builtin(name), fingerprint.as_str(), dataset.state.as_str())) {
+                Some(row) => with_figures(state, row),
+                None => state,
+            }
+        };
+        let states = datasets.iter().zip(&meta.states).map(state).collect();
+        Some((name, record::product(meta, states, Vec::new()).ok()?))
+    };
+    SYSTEMS.iter().map(|system| product(system).expect("every built-in description is stored by the tests")).collect()
+});
+
+fn with_figures(state: State, row: &FigureRow) -> State {
+    State {
+        tau_normal: Some(row.tau_normal),
+        tau_hemispherical: Some(row.tau_hemispherical),
+        tau_profile: row.tau_profile.clone(),
+        light: Some(LightFigures { to_ceiling: row.to_ceiling, sun_blocked: row.sun_blocked, view: row.view }),
+        ..state
     }
 }
 
+/// Names of the built-in descriptions whose products are not in the file as they are now.
 fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
     let mut ask = db.prepare_cached("SELECT source_hash FROM product WHERE builtin = 1")?;
     let there: HashSet<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
@@ -152,58 +163,72 @@ fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
     Ok(SYSTEMS.iter().filter(|(_, text)| !is_there(text)).map(|(name, _)| *name).collect())
 }
 
-/// Puts those of this program's built-in products that are wanted at once into a file that lacks them, in one
-/// transaction; the products of an older program go. Rows of the user's and favourites stay. A file that a newer program
-/// filled is left as it is.
-pub(super) fn renew(catalogue: &mut Catalogue, wanted: AtOnce) -> Result<(), CatalogueError> {
-    let found = version(&catalogue.db)?;
-    if found > BUILTIN_VERSION {
+/// Is there anything for [`renew`] to do?
+fn is_due(db: &Connection) -> Result<bool, CatalogueError> {
+    let found = version(db)?;
+    // Older programs knew no figures of how light leaves.
+    let bare = "SELECT EXISTS (SELECT 1 FROM state s JOIN product p ON p.id = s.product
+                               WHERE p.builtin = 1 AND s.sun_blocked IS NULL)";
+    Ok(found < BUILTIN_VERSION
+        || (found == BUILTIN_VERSION && (!missing(db)?.is_empty() || db.query_row(bare, [], |row| row.get(0))?)))
+}
+
+/// Puts those of this program's built-in products into a file that it lacks, in one transaction: with their figures, and
+/// without data, which are computed when they are asked for. The products of an older program go. Rows of the user's and
+/// favourites stay. A file that a newer program filled is left as it is.
+pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
+    if !is_due(&catalogue.db)? {
         return Ok(());
     }
-    let all = || SYSTEMS.iter().map(|(name, _)| *name).collect();
-    let names = if found < BUILTIN_VERSION { all() } else { missing(&catalogue.db)? };
-    // Computed before the lock is taken, so that other connections do not wait for it.
-    let records = computed(&names, wanted)?;
-    if records.is_empty() && found == BUILTIN_VERSION {
-        return Ok(());
-    }
+    // Made before the lock is taken, so that other connections do not wait for it.
+    let products = &*PRODUCTS;
+    let ideals: Vec<Record> = ideals()
+        .into_iter()
+        .map(|(product, datasets)| record::prepare_unasked(&datasets, product))
+        .collect::<Result<_, _>>()?;
     let tx = catalogue.change()?;
     // Another program may have been faster, even a newer one.
-    let found = version(&tx)?;
-    if found > BUILTIN_VERSION {
+    if !is_due(&tx)? {
         return Ok(());
     }
-    if found < BUILTIN_VERSION {
+    for product in products.iter().map(|(_, product)| product).chain(ideals.iter().map(|record| &record.product)) {
+        light_up(&tx, product)?;
+    }
+    if version(&tx)? < BUILTIN_VERSION {
         tx.execute("DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1)", [])?;
         tx.execute("DELETE FROM product WHERE builtin = 1", [])?;
-        for (rank, (product, datasets)) in (0..).zip(ideals()) {
-            put(&tx, store::prepare_unasked(&datasets, product)?, rank)?;
+        for (rank, ideal) in (0..).zip(ideals) {
+            put(&tx, ideal, rank)?;
         }
         tx.execute("INSERT OR REPLACE INTO meta VALUES ('builtin_version', ?)", [BUILTIN_VERSION.to_string()])?;
     }
     let missing = missing(&tx)?;
-    for (name, record) in records.into_iter().filter(|(name, _)| missing.contains(name)) {
-        put(&tx, record, rank(name))?;
+    for (name, product) in products.iter().filter(|(name, _)| missing.contains(name)) {
+        put(&tx, Record { product: product.clone(), datasets: Vec::new() }, rank(name))?;
     }
+    store::sweep(&tx)?;
     tx.commit()?;
     Ok(())
 }
 
-/// Rank of the built-in product that a computed product is, by the hash of its description, where the file is still to
-/// get it.
-pub(super) fn rank_of(db: &Connection, product: &super::Product) -> Result<Option<i64>, CatalogueError> {
-    let is_it = |text: &str| blake3::hash(text.as_bytes()).to_hex().as_str() == product.provenance.source_hash;
-    let name = SYSTEMS.iter().find(|(_, text)| is_it(text)).map(|(name, _)| *name);
-    let Some((name, (file, _))) = name.and_then(|name| Some((name, builtin_system(name)?))) else { return Ok(None) };
-    let same = product.key == file.key && product.provenance.method == builtin_method(&file);
-    let wanted = same && version(db)? > 0 && store::free_key(db, &product.key)? == product.key;
-    Ok(wanted.then(|| rank(name)))
-}
-
-/// The key, or another one where it belongs to a built-in product that this file is still to get.
-pub(super) fn unreserved(db: &Connection, key: &str) -> Result<String, CatalogueError> {
-    let reserved = || SYSTEMS.iter().any(|(name, _)| builtin_system(name).is_some_and(|(file, _)| file.key == key));
-    Ok(if version(db)? > 0 && reserved() { format!("{key}-2") } else { key.to_owned() })
+/// Gives the states of an older file's product, computed from the same description, the figures that they lack.
+fn light_up(tx: &Transaction<'_>, product: &Product) -> Result<(), CatalogueError> {
+    let mut ask = tx.prepare_cached(
+        "SELECT s.product, s.position FROM state s JOIN product p ON p.id = s.product
+         WHERE p.builtin = 1 AND p.key = ? AND p.source_hash = ? AND s.key = ? AND s.sun_blocked IS NULL",
+    )?;
+    for state in &product.states {
+        let Some(light) = &state.light else { continue };
+        let place = ask
+            .query_row([&product.key, &product.provenance.source_hash, &state.key], |row| {
+                Ok([row.get(0)?, row.get(1)?])
+            })
+            .optional()?;
+        if let Some(place) = place {
+            set_light(tx, place, light)?;
+        }
+    }
+    Ok(())
 }
 
 /// Version of the built-in products in the file; 0 without any.

@@ -5,12 +5,13 @@ use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
 use crate::compute::btdf::{Band, Dataset, DescribedState, Finding};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
 use crate::compute::control::cut_off::SlatRow;
+use crate::compute::direction::Dir;
 use crate::compute::sky::SUN_HALF_ANGLE;
-use crate::compute::system::SystemDescription;
-use crate::compute::system::measure::Quality;
+use crate::compute::system::measure::{Quality, Side, Specimen};
 use crate::compute::system::slats::Venetian;
-use crate::compute::system::stack::LayerSource;
-use crate::formats::system_toml::{self, MOST_NESTED, SystemFile};
+use crate::compute::system::stack::{LayerSource, Stack};
+use crate::compute::system::{SystemDescription, SystemKind};
+use crate::formats::system_toml::{self, EACH_STATE, MOST_NESTED, SystemFile};
 use std::f64::consts::FRAC_PI_2;
 
 /// Elevation to which redirecting slats send the sun: flat enough to reach deep into a room, steep enough to stay on
@@ -63,12 +64,37 @@ pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedStat
     system_toml::described(&with_builtins(system, 0)?, state)
 }
 
-fn with_builtins(text: &str, depth: usize) -> Option<String> {
+/// Share of light at normal incidence that goes straight on, by the description itself; `None` where it cannot be read or
+/// names layers that only its author has.
+pub(super) fn view(described: &DescribedState) -> Option<f64> {
+    let specimen = specimen(&described.text, &described.state, 0)?;
+    Some(specimen.straight(Dir::from_unit(glam::DVec3::Z), Side::Front).clamp(0.0, 1.0))
+}
+
+fn specimen(text: &str, state: &str, depth: usize) -> Option<Box<dyn Specimen>> {
+    let system = system_toml::read(text.as_bytes()).ok()?.system;
+    let SystemKind::Stack(layers) = &system.kind else { return system.specimen(state).ok() };
+    let within = |layer: &crate::compute::system::stack::Layer| {
+        let LayerSource::Text(own) = &layer.source else { return None };
+        let state = if layer.state == EACH_STATE { state } else { &layer.state };
+        (depth < MOST_NESTED).then(|| specimen(own, state, depth + 1))?
+    };
+    // Upright ones too: light along the normal does not notice a turn about it.
+    let layers: Option<Vec<_>> = layers.iter().map(within).collect();
+    Some(Box::new(Stack::new(layers?)))
+}
+
+/// A built-in description with its layers in its own text, which is what its data carry.
+pub(super) fn with_builtins(text: &str, depth: usize) -> Option<String> {
     system_toml::self_contained(text, &mut |source| match source {
         LayerSource::File(name) if depth < MOST_NESTED => with_builtins(builtin_system(name)?.1, depth + 1),
         LayerSource::File(_) | LayerSource::Catalogue(_) | LayerSource::Text(_) => None,
     })
 }
+
+/// Version of the methods that compute data from descriptions: raised whenever computed values change, so that what was kept
+/// from an older program is not mistaken.
+pub const METHODS: u32 = 3;
 
 /// How the values of a described system come to be: the program, its method, what it was asked.
 pub fn method(system: &SystemDescription, error: f64, [incident, emergent]: [usize; 2]) -> String {

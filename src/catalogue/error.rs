@@ -54,6 +54,17 @@ pub enum CatalogueError {
         /// The keys there are.
         states: String,
     },
+    /// A state of a built-in product whose data nobody has asked for yet.
+    #[error(
+        "the data of \"{product}\"{} are not computed yet; `cfs catalogue build` computes those of all products",
+        if state.is_empty() { String::new() } else { format!(", state \"{state}\",") }
+    )]
+    NotComputed {
+        /// Key of the product.
+        product: String,
+        /// Key of the state.
+        state: String,
+    },
     /// Data that cannot be stored.
     #[error("cannot import: {0}")]
     Import(String),

@@ -1,8 +1,10 @@
 //! Products into the catalogue, and packages of them in and out.
 
-use super::builtin::{rank_of, unreserved};
+use super::described::described_state;
+use super::record::{Record, prepare};
 use super::sight::bring_back;
-use super::store::{Record, USER_RANK, free_key, insert, prepare, read_record};
+use super::store::{USER_RANK, free_key, insert, read_record};
+use super::waiting::adopt;
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
 use crate::compute::btdf::Dataset;
 use crate::formats::dataset_blob::decode;
@@ -25,7 +27,7 @@ impl Catalogue {
         let mut package = Package::default();
         for key in keys {
             let Record { product, datasets } = read_record(&snapshot, key)?;
-            package.products.push(packed(product));
+            package.products.push(packed(product)?);
             package.datasets.extend(datasets);
         }
         Ok(package::write(&package)?)
@@ -41,29 +43,28 @@ impl Catalogue {
             for state in &product.states {
                 let hash = state.dataset.clone();
                 let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
-                let dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
+                let mut dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
                 if dataset.state != state.key {
                     return Err(CatalogueError::Import(format!(
                         "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",
                         state.key, product.key, dataset.state
                     )));
                 }
+                dataset.described = described_state(&product.system, &state.key);
                 datasets.push(dataset);
             }
             records.push(prepare(&datasets, unpacked(product))?);
         }
         let tx = self.change()?;
         let mut imported = Vec::new();
-        for mut record in records {
+        for record in records {
             let key = record.product.key.clone();
             if is_there(&tx, &record.product)? {
                 // What is imported is wanted in sight.
                 bring_back(&tx, &key)?;
                 imported.push(Imported { same_content_as: vec![key.clone()], key });
-            } else if let Some(rank) = rank_of(&tx, &record.product)? {
+            } else if adopt(&tx, &record)? {
                 // A built-in product that another file computed already.
-                record.product.builtin = true;
-                insert(&tx, &record, rank)?;
                 imported.push(Imported { key, same_content_as: Vec::new() });
             } else {
                 imported.push(add(&tx, record)?);
@@ -89,7 +90,7 @@ fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError>
             }
         }
     }
-    record.product.key = free_key(tx, &unreserved(tx, &record.product.key)?)?;
+    record.product.key = free_key(tx, &record.product.key)?;
     insert(tx, &record, USER_RANK)?;
     Ok(Imported { key: record.product.key, same_content_as })
 }
@@ -99,15 +100,21 @@ fn is_there(db: &Connection, product: &Product) -> Result<bool, CatalogueError> 
     let mut ask = db.prepare_cached(
         "SELECT s.key, s.dataset FROM state s JOIN product p ON s.product = p.id WHERE p.key = ? ORDER BY s.position",
     )?;
-    let held: Vec<(String, String)> =
+    let held: Vec<(String, Option<String>)> =
         ask.query_map([&product.key], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?;
     let own = product.states.iter().map(|state| (&state.key, &state.dataset));
     Ok(!held.is_empty() && held.iter().map(|(key, dataset)| (key, dataset)).eq(own))
 }
 
-fn packed(product: Product) -> PackageProduct {
+fn packed(product: Product) -> Result<PackageProduct, CatalogueError> {
     let from = product.provenance;
-    PackageProduct {
+    let states = product.states.into_iter().map(|state| {
+        let missing = || CatalogueError::NotComputed { product: product.key.clone(), state: state.key.clone() };
+        let dataset = state.dataset.clone().ok_or_else(missing)?;
+        Ok(PackageState { key: state.key, label: state.label, value: state.value, dataset })
+    });
+    let states = states.collect::<Result<_, CatalogueError>>()?;
+    Ok(PackageProduct {
         key: product.key,
         name: product.name,
         manufacturer: product.manufacturer,
@@ -123,18 +130,14 @@ fn packed(product: Product) -> PackageProduct {
             inside_face: from.inside_face,
         },
         tags: product.tags,
-        states: product
-            .states
-            .into_iter()
-            .map(|s| PackageState { key: s.key, label: s.label, value: s.value, dataset: s.dataset })
-            .collect(),
+        states,
         control_curve: product
             .control_curve
             .into_iter()
             .map(|p| PackageCurvePoint { profile_angle: p.profile_angle, value: p.value })
             .collect(),
         system: product.system,
-    }
+    })
 }
 
 fn unpacked(product: PackageProduct) -> NewProduct {

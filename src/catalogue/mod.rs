@@ -23,16 +23,18 @@ mod grouping;
 mod keeping;
 mod open;
 mod product;
+mod record;
 mod search;
 mod sight;
 mod store;
 mod systems;
 mod validate;
+mod waiting;
 
-pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION};
+pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, TABLE, builtin_method, fingerprint, key_of_builtin};
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use connection::Catalogue;
-pub use described::{control_curve, described_dataset, method, product_of};
+pub use described::{METHODS, control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
 pub use grouping::Grouping;
@@ -45,3 +47,4 @@ pub use product::{
 pub use search::{Facet, Facets, ProductRow, Query};
 pub use systems::{SYSTEMS, blind_of, builtin_system};
 pub use validate::check;
+pub use waiting::StateKey;

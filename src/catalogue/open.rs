@@ -12,6 +12,7 @@ const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0001_products.sql"),
     include_str!("../../migrations/0002_system.sql"),
     include_str!("../../migrations/0003_deleted.sql"),
+    include_str!("../../migrations/0004_figures.sql"),
 ];
 
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.
@@ -31,18 +32,9 @@ pub fn default_path() -> Result<PathBuf, CatalogueError> {
 
 impl Catalogue {
     /// Opens a catalogue file, makes it when missing, brings it to the present layout and its built-in products to
-    /// this program's version.
+    /// this program's version. Nothing is computed here: of built-in products the figures are known, and their data
+    /// come when they are asked for.
     pub fn open(path: &Path) -> Result<Self, CatalogueError> {
-        Self::open_with(path, builtin::quick)
-    }
-
-    /// The same for a caller that computes the missing built-in products afterwards: of those that a file lacks, only
-    /// the one that a new window shows is put in now.
-    pub fn open_to_fill(path: &Path) -> Result<Self, CatalogueError> {
-        Self::open_with(path, builtin::first)
-    }
-
-    fn open_with(path: &Path, at_once: builtin::AtOnce) -> Result<Self, CatalogueError> {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder)
                 .map_err(|source| CatalogueError::Folder { path: folder.to_owned(), source })?;
@@ -50,7 +42,7 @@ impl Catalogue {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
         let opened = Connection::open_with_flags(path, flags);
         let located = |source| CatalogueError::Open { path: path.to_owned(), source };
-        Self::prepare(opened.map_err(located)?, at_once).map_err(|error| match error {
+        Self::prepare(opened.map_err(located)?).map_err(|error| match error {
             CatalogueError::Sql(source) => located(source),
             CatalogueError::Newer { found, known, .. } => {
                 CatalogueError::Newer { path: path.display().to_string(), found, known }
@@ -67,7 +59,7 @@ impl Catalogue {
 
     /// A catalogue that is gone with the value, with the built-in products.
     pub fn in_memory() -> Result<Self, CatalogueError> {
-        Self::prepare(Connection::open_in_memory()?, builtin::quick)
+        Self::prepare(Connection::open_in_memory()?)
     }
 
     /// The same without any product.
@@ -75,9 +67,9 @@ impl Catalogue {
         Self::laid_out(Connection::open_in_memory()?)
     }
 
-    fn prepare(db: Connection, at_once: builtin::AtOnce) -> Result<Self, CatalogueError> {
+    fn prepare(db: Connection) -> Result<Self, CatalogueError> {
         let mut catalogue = Self::laid_out(db)?;
-        builtin::renew(&mut catalogue, at_once)?;
+        builtin::renew(&mut catalogue)?;
         Ok(catalogue)
     }
 

@@ -1,6 +1,6 @@
 //! Products as the rest of the program sees them.
 
-use crate::compute::btdf::{Btdf, Severity};
+use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
 
 /// How data came to be.
@@ -63,14 +63,16 @@ pub struct State {
     pub label: String,
     /// Angle \[°\] or another number of the state.
     pub value: Option<f64>,
-    /// BLAKE3 hash of its dataset in compact form.
-    pub dataset: String,
+    /// BLAKE3 hash of its dataset in compact form; `None`: still to be computed from the product's description.
+    pub dataset: Option<String>,
     /// Visible transmittance of light from outside at normal incidence.
     pub tau_normal: Option<f64>,
     /// The same under uniform luminance.
     pub tau_hemispherical: Option<f64>,
     /// The same in the vertical plane, at the profile angles [`PROFILE_ANGLES`]; empty when unknown.
     pub tau_profile: Vec<f64>,
+    /// Where light goes; `None` when unknown.
+    pub light: Option<LightFigures>,
 }
 
 /// Profile angles of [`State::tau_profile`] and [`super::ProductRow::tau_profile`], rising from light from below to light from

@@ -1,131 +1,19 @@
 //! Products in and out of the tables. Every change is one transaction.
 
-use super::described::{common_description, described_state};
-use super::product::slug;
+use super::described::described_state;
+use super::record::Record;
 use super::search::list;
 use super::sight::bring_back;
-use super::{
-    Catalogue, CatalogueError, CurvePoint, NewProduct, Origin, Product, ProductFinding, Provenance, State, check,
-    profile_transmittances,
-};
-use crate::compute::btdf::{Dataset, DescribedState, Finding, Severity};
-use crate::formats::dataset_blob::{content_hash, decode, encode};
-use rayon::prelude::*;
+use super::{Catalogue, CatalogueError, CurvePoint, Origin, Product, ProductFinding, Provenance, State, check};
+use crate::compute::btdf::{Dataset, DescribedState, LightFigures, Severity};
+use crate::formats::dataset_blob::{content_hash, decode};
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
-use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Most decoded datasets kept by a connection.
 const RECENT: usize = 32;
 /// Rank of products that users add: behind the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;
-
-/// A product with the bytes of its datasets, as the tables hold it.
-pub(super) struct Record {
-    pub(super) product: Product,
-    /// Hash and bytes of every dataset the product refers to.
-    pub(super) datasets: Vec<(String, Vec<u8>)>,
-}
-
-/// Everything of a product that is to be stored, checked; nothing is written yet.
-pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
-    prepared(datasets, meta, check)
-}
-
-/// The same for what the program computed itself, and said what it found: checks of foreign data have nothing to add.
-pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
-    prepared(datasets, meta, |_| Vec::new())
-}
-
-fn prepared(
-    datasets: &[Dataset],
-    meta: NewProduct,
-    ask: fn(&Dataset) -> Vec<Finding>,
-) -> Result<Record, CatalogueError> {
-    let refuse = |what: String| Err(CatalogueError::Import(what));
-    let Some(first) = datasets.first() else {
-        return refuse("there is no dataset".to_owned());
-    };
-    let or =
-        |told: String, own: &str| if told.trim().is_empty() { own.trim().to_owned() } else { told.trim().to_owned() };
-    let name = or(meta.name, &first.name);
-    if name.is_empty() {
-        return refuse("the product has no name, and the dataset does not give one".to_owned());
-    }
-    if !meta.states.is_empty() && meta.states.len() != datasets.len() {
-        return refuse(format!("{} names of states for {} datasets", meta.states.len(), datasets.len()));
-    }
-    let mut keys = HashSet::new();
-    let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
-    // Encoding and checking take the time; what they give does not depend on their order.
-    let stored: Vec<_> = datasets.par_iter().map(|dataset| stored(dataset, ask)).collect();
-    for (index, (given, stored)) in datasets.iter().zip(stored).enumerate() {
-        if !keys.insert(given.state.as_str()) || (datasets.len() > 1 && given.state.is_empty()) {
-            return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", given.state));
-        }
-        let (hash, blob, dataset, own) = stored?;
-        let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
-            return refuse(format!("dataset \"{}\" has no visible transmission", dataset.name));
-        };
-        let mut told = dataset.findings.clone();
-        told.extend(own.into_iter().filter(|finding| !dataset.findings.contains(finding)));
-        findings.extend(told.into_iter().map(|finding| ProductFinding {
-            state: dataset.state.clone(),
-            severity: finding.severity,
-            code: finding.code.to_owned(),
-            message: finding.message,
-        }));
-        let named = meta.states.get(index).cloned().unwrap_or_default();
-        states.push(State {
-            key: dataset.state.clone(),
-            label: or(named.label, &dataset.state),
-            // A key that is a number is an angle, as the formats write states.
-            value: named.value.or_else(|| dataset.state.parse().ok().filter(|value: &f64| value.is_finite())),
-            dataset: hash.clone(),
-            tau_normal: Some(transmission.tau_normal()),
-            tau_hemispherical: Some(transmission.tau_hemispherical()),
-            tau_profile: profile_transmittances(transmission),
-        });
-        blobs.push((hash, blob));
-    }
-    let mut tags: Vec<String> = meta.tags.iter().map(|tag| tag.trim().to_owned()).filter(|t| !t.is_empty()).collect();
-    tags.sort();
-    tags.dedup();
-    let rising = meta.control_curve.windows(2).all(|pair| pair[0].profile_angle < pair[1].profile_angle);
-    if !rising || meta.control_curve.iter().any(|point| !(point.profile_angle.is_finite() && point.value.is_finite())) {
-        return refuse("profile angles of the control curve must rise, and all numbers be finite".to_owned());
-    }
-    let product = Product {
-        key: meta.key.unwrap_or_else(|| slug(&name)),
-        manufacturer: or(meta.manufacturer, &first.manufacturer),
-        description: or(meta.description, &first.description),
-        name,
-        kind: meta.kind.trim().to_owned(),
-        provenance: meta.provenance,
-        tags,
-        states,
-        control_curve: meta.control_curve,
-        findings,
-        // Data that bring their description make a product that keeps it.
-        system: if meta.system.is_empty() { common_description(datasets).unwrap_or_default() } else { meta.system },
-        favourite: false,
-        builtin: false,
-    };
-    Ok(Record { product, datasets: blobs })
-}
-
-/// Hash, bytes, and what is read back from them with its checks: all figures are those of what is stored (values
-/// rounded to f32), not of what came.
-fn stored(
-    given: &Dataset,
-    ask: fn(&Dataset) -> Vec<Finding>,
-) -> Result<(String, Vec<u8>, Dataset, Vec<Finding>), CatalogueError> {
-    let blob = encode(given);
-    let hash = content_hash(&blob);
-    let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.clone(), source })?;
-    let findings = ask(&dataset);
-    Ok((hash, blob, dataset, findings))
-}
 
 /// The wanted key, or the first of wanted-2, wanted-3, … that is free.
 pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, CatalogueError> {
@@ -173,8 +61,9 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     for (position, s) in record.product.states.iter().enumerate() {
         let curve = serde_json::json!(s.tau_profile).to_string();
         tx.prepare_cached(
-            "INSERT INTO state (product, position, key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
+            "INSERT INTO state (product, position, key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile,
+                                to_ceiling, sun_blocked, view)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
         )?
         .execute(params![
             id,
@@ -185,19 +74,12 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
             s.dataset,
             s.tau_normal,
             s.tau_hemispherical,
-            curve
+            curve,
+            s.light.and_then(|light| light.to_ceiling),
+            s.light.map(|light| light.sun_blocked),
+            s.light.map(|light| light.view)
         ])?;
-        let of_state = p.findings.iter().filter(|finding| finding.state == s.key);
-        for (number, f) in of_state.enumerate() {
-            tx.prepare_cached("INSERT INTO finding VALUES (?, ?, ?, ?, ?, ?)")?.execute(params![
-                id,
-                position as i64,
-                number as i64,
-                f.severity.word(),
-                f.code,
-                f.message
-            ])?;
-        }
+        insert_findings(tx, [id, position as i64], p.findings.iter().filter(|finding| finding.state == s.key))?;
     }
     for (position, point) in p.control_curve.iter().enumerate() {
         tx.prepare_cached("INSERT INTO control_point VALUES (?, ?, ?, ?)")?.execute(params![
@@ -220,12 +102,30 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     Ok(())
 }
 
+/// Writes the findings of a state, which is named by its product's row and its position.
+pub(super) fn insert_findings<'a>(
+    tx: &Transaction,
+    [product, position]: [i64; 2],
+    findings: impl Iterator<Item = &'a ProductFinding>,
+) -> Result<(), CatalogueError> {
+    let mut insert = tx.prepare_cached("INSERT INTO finding VALUES (?, ?, ?, ?, ?, ?)")?;
+    for (number, f) in findings.enumerate() {
+        insert.execute(params![product, position, number as i64, f.severity.word(), f.code, f.message])?;
+    }
+    Ok(())
+}
+
+/// Takes out datasets that no state refers to any more.
+pub(super) fn sweep(tx: &Transaction) -> Result<(), CatalogueError> {
+    tx.execute("DELETE FROM dataset WHERE NOT EXISTS (SELECT 1 FROM state WHERE state.dataset = dataset.hash)", [])?;
+    Ok(())
+}
+
 /// Takes a product's rows out; datasets that no state refers to any more go with it.
 pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product_text WHERE rowid = (SELECT id FROM product WHERE key = ?)", [key])?;
     tx.execute("DELETE FROM product WHERE key = ?", [key])?;
-    tx.execute("DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state)", [])?;
-    Ok(())
+    sweep(tx)
 }
 
 fn severity(word: &str) -> Severity {
@@ -274,6 +174,14 @@ fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
         tau_normal: row.get(4)?,
         tau_hemispherical: row.get(5)?,
         tau_profile: list(&row.get::<_, String>(6)?),
+        light: match row.get(8)? {
+            Some(sun_blocked) => Some(LightFigures {
+                to_ceiling: row.get(7)?,
+                sun_blocked,
+                view: row.get::<_, Option<f64>>(9)?.unwrap_or_default(),
+            }),
+            None => None,
+        },
     })
 }
 
@@ -292,7 +200,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
     // A query for each list: joined into one, every list would repeat the rows of the others.
     product.states = db
         .prepare_cached(
-            "SELECT key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile
+            "SELECT key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile, to_ceiling, sun_blocked, view
              FROM state WHERE product = ? ORDER BY position",
         )?
         .query_map([id], state_of_row)?
@@ -324,16 +232,20 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
     Ok(product)
 }
 
-/// A product with its datasets.
+fn not_computed(product: &str, state: &str) -> CatalogueError {
+    CatalogueError::NotComputed { product: product.to_owned(), state: state.to_owned() }
+}
+
+/// A product with its datasets, all of which have to be there.
 pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, CatalogueError> {
     let product = read_product(db, key)?;
     let mut datasets: Vec<(String, Vec<u8>)> = Vec::new();
     for state in &product.states {
-        if datasets.iter().all(|(hash, _)| *hash != state.dataset) {
-            let blob = db
-                .prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?
-                .query_row([&state.dataset], |row| row.get(0))?;
-            datasets.push((state.dataset.clone(), blob));
+        let Some(wanted) = &state.dataset else { return Err(not_computed(key, &state.key)) };
+        if datasets.iter().all(|(hash, _)| hash != wanted) {
+            let blob =
+                db.prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?.query_row([wanted], |row| row.get(0))?;
+            datasets.push((wanted.clone(), blob));
         }
     }
     Ok(Record { product, datasets })
@@ -348,6 +260,9 @@ impl Catalogue {
     }
 
     /// The dataset of a state. `None`: the only state; an error when there are several.
+    ///
+    /// # Errors
+    /// No such product or state; [`CatalogueError::NotComputed`] for one that [`Self::to_compute`] names.
     pub fn dataset(&self, key: &str, state: Option<&str>) -> Result<Arc<Dataset>, CatalogueError> {
         let product = self.product(key)?;
         let wrong = |what: String| CatalogueError::NoState {
@@ -362,7 +277,8 @@ impl Catalogue {
                 states.iter().find(|s| s.key == state).ok_or_else(|| wrong(format!("no state \"{state}\"")))?
             }
         };
-        self.dataset_of_hash(&found.dataset, described_state(&product.system, &found.key))
+        let hash = found.dataset.as_ref().ok_or_else(|| not_computed(key, &found.key))?;
+        self.dataset_of_hash(hash, described_state(&product.system, &found.key))
     }
 
     /// The dataset of a content hash with its product's description, from memory when it was asked for lately. Products
@@ -416,20 +332,26 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Checks every stored dataset of a product anew: its bytes against their hash, energy, reciprocity.
+    /// Checks every stored dataset of a product anew: its bytes against their hash, energy, reciprocity. Data that are not
+    /// computed yet are told as such.
     pub fn validate(&self, key: &str) -> Result<Vec<ProductFinding>, CatalogueError> {
-        let record = read_record(&*self.db.unchecked_transaction()?, key)?;
+        let snapshot = self.db.unchecked_transaction()?;
         let mut findings = Vec::new();
-        for state in &record.product.states {
+        for state in &read_product(&snapshot, key)?.states {
             let mut tell = |severity, code: &str, message: String| {
                 findings.push(ProductFinding { state: state.key.clone(), severity, code: code.to_owned(), message });
             };
-            let blob = record.datasets.iter().find(|(hash, _)| *hash == state.dataset).map(|(_, blob)| blob);
-            let Some(blob) = blob else { continue };
-            if content_hash(blob) != state.dataset {
-                tell(Severity::Error, "hash-differs", format!("the stored bytes are not those of {}", state.dataset));
+            let Some(hash) = &state.dataset else {
+                tell(Severity::Info, "not-computed", "The data are computed when they are first asked for.".to_owned());
+                continue;
+            };
+            let blob: Vec<u8> = snapshot
+                .prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?
+                .query_row([hash], |row| row.get(0))?;
+            if content_hash(&blob) != *hash {
+                tell(Severity::Error, "hash-differs", format!("the stored bytes are not those of {hash}"));
             }
-            match decode(blob) {
+            match decode(&blob) {
                 Err(error) => tell(Severity::Error, "unreadable", error.to_string()),
                 Ok(dataset) => {
                     let own = check(&dataset).into_iter().filter(|finding| !dataset.findings.contains(finding));

@@ -1,12 +1,13 @@
-//! Built-in products on the command line: listed at once, computed when they are asked for.
+//! Built-in products on the command line: their figures are known at once, their data computed when they are asked for.
 
 use super::output;
 use super::progress::TerminalProgress;
-use crate::catalogue::{Catalogue, Origin, ProductRow, Query};
-use crate::compute::estimate::Progress;
-use crate::study::goniophotometer::Described;
+use crate::catalogue::{Catalogue, Query, StateKey};
+use crate::study::builtin::{complete, table};
 use crate::study::{Library, files};
+use serde_json::json;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// Arguments of `cfs catalogue build`.
 #[derive(Debug, clap::Args)]
@@ -14,65 +15,49 @@ pub struct BuildArgs {
     /// Write all built-in products as a package, too.
     #[arg(long, value_name = "FILE.cfsp")]
     pub out: Option<PathBuf>,
+    /// Write the table of their figures, too, as it comes with the program.
+    #[arg(long, value_name = "FILE.csv")]
+    pub table: Option<PathBuf>,
+    /// A JSON object instead of a sentence.
+    #[arg(long)]
+    pub json: bool,
 }
 
-/// Computes those wanted of the built-in products that the catalogue does not hold yet.
-pub(super) fn complete(catalogue: &mut Catalogue, wanted: impl Fn(&str) -> bool) -> anyhow::Result<()> {
-    let missing: Vec<&str> = catalogue.missing_builtin()?.into_iter().filter(|name| wanted(name)).collect();
-    if missing.is_empty() {
-        return Ok(());
+/// Computes those wanted of the built-in products' data that the catalogue does not hold yet; how many states.
+fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> anyhow::Result<usize> {
+    let waiting = catalogue.waiting()?.iter().filter(|one| wanted(one)).count();
+    if waiting == 0 {
+        return Ok(0);
     }
-    eprintln!("computing {} built-in products, once", missing.len());
-    let progress = TerminalProgress::new();
-    for (done, name) in missing.iter().enumerate() {
-        progress.advance("built-in products", done, missing.len());
-        let (product, datasets) = crate::study::builtin::compute(name, &Library::default(), &progress)?;
-        catalogue.put_builtin(name, product, &datasets)?;
-    }
-    Ok(())
+    let states = if waiting == 1 { "1 state".to_owned() } else { format!("{waiting} states") };
+    eprintln!("computing {states} of built-in products, once; what is finished stays when this is stopped");
+    Ok(complete(catalogue, wanted, &Library::default(), &TerminalProgress::new())?)
 }
 
-/// The same for the products of some keys.
+/// The data of products that are about to be used.
 pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Result<()> {
-    complete(catalogue, |name| name.strip_suffix(".system.toml").is_some_and(|key| keys.iter().any(|k| k == key)))
+    provided(catalogue, |one| keys.contains(&one.product)).map(|_| ())
 }
 
-/// Built-in products that are not computed yet, without figures, as far as words and kind ask for them.
-pub(super) fn not_computed(catalogue: &Catalogue, search: &str, kind: Option<&str>) -> anyhow::Result<Vec<ProductRow>> {
-    let library = Library::default();
-    let words: Vec<String> = search.split_whitespace().map(str::to_lowercase).collect();
-    let mut list = Vec::new();
-    for name in catalogue.missing_builtin()? {
-        let Some(described) = Described::builtin(name) else { continue };
-        let system = &described.file.system;
-        let text = format!("{} {} {}", system.name, system.description, described.file.tags.join(" ")).to_lowercase();
-        let asked = kind.is_none_or(|kind| kind == system.family().word());
-        if asked && words.iter().all(|word| text.contains(word)) {
-            list.push(ProductRow {
-                key: described.file.key.clone(),
-                name: system.name.clone(),
-                manufacturer: String::new(),
-                kind: system.family().word().to_owned(),
-                origin: Origin::Computed,
-                state_keys: described.states(&library)?,
-                tau_normal: None,
-                tau_hemispherical: None,
-                tau_profile: Vec::new(),
-                favourite: false,
-                builtin: true,
-            });
-        }
-    }
-    Ok(list)
-}
-
-/// Says what is built in, and writes it as a package where asked.
-pub(super) fn build(catalogue: &Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
+/// Computes what is missing of all built-in products, and writes them where asked.
+pub(super) fn build(catalogue: &mut Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
+    let start = Instant::now();
+    let computed = provided(catalogue, |_| true)?;
+    catalogue.fill_figures(&TerminalProgress::new())?;
     let rows = catalogue.search(&Query { builtin: Some(true), ..Query::default() })?;
     let keys: Vec<String> = rows.iter().map(|row| row.key.clone()).collect();
     if let Some(out) = &args.out {
         files::write(out, &catalogue.export_package(&keys)?)?;
     }
-    let states: usize = rows.iter().map(|row| row.state_keys.len().max(1)).sum();
-    output::print(&format!("{} built-in products, {states} states\n", keys.len()))
+    if let Some(out) = &args.table {
+        files::write(out, table(catalogue)?.as_bytes())?;
+    }
+    let (products, states) = (keys.len(), catalogue.builtin_states()?);
+    if args.json {
+        let told = json!({
+            "products": products, "states": states, "computed": computed, "seconds": start.elapsed().as_secs_f64(),
+        });
+        return output::print(&(serde_json::to_string_pretty(&told)? + "\n"));
+    }
+    output::print(&format!("{products} built-in products, {states} states, {computed} of them computed now\n"))
 }

@@ -1,7 +1,7 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
 use crate::catalogue::{Catalogue, Gathered, Grouping, Imported, Product, Query, SourceFile, gather};
-use crate::cli::builtin::{BuildArgs, build, complete, not_computed, provide};
+use crate::cli::builtin::{BuildArgs, build, provide};
 use crate::cli::keeping::{self, DeleteArgs, RenameArgs, RestoreArgs};
 use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
@@ -42,7 +42,7 @@ pub enum Action {
     Restore(RestoreArgs),
     /// Write products into a package.
     Export(ExportArgs),
-    /// Compute the built-in products that are not stored yet
+    /// Compute the data of all built-in products that are not computed yet; stopped, it goes on where it was
     Build(BuildArgs),
     /// Check stored products or dataset files: energy, reciprocity, integrity.
     Validate(ValidateArgs),
@@ -154,17 +154,9 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
     // Not opened for packages, which need none.
     let open = || catalogue.map_or_else(Catalogue::open_default, Catalogue::open);
     match &args.action {
-        Action::Build(args) => {
-            let mut catalogue = open()?;
-            complete(&mut catalogue, |_| true)?;
-            build(&catalogue, args)
-        }
+        Action::Build(args) => build(&mut open()?, args),
         Action::List(args) => list(&open()?, args),
-        Action::Show(args) => {
-            let mut catalogue = open()?;
-            provide(&mut catalogue, std::slice::from_ref(&args.key))?;
-            show(&catalogue, args)
-        }
+        Action::Show(args) => show(&open()?, args),
         Action::Import(args) => import(&mut open()?, args),
         Action::Rename(args) => keeping::rename(&mut open()?, args),
         Action::Delete(args) => keeping::delete(&mut open()?, args),
@@ -186,15 +178,7 @@ fn figure(value: Option<f64>) -> String {
 
 fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     let kinds = args.kind.iter().cloned().collect();
-    let mut rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
-    let waiting = not_computed(catalogue, &args.search, args.kind.as_deref())?;
-    if !waiting.is_empty() {
-        eprintln!(
-            "{} built-in products have no figures yet: they are computed when first used, all by `cfs catalogue build`",
-            waiting.len()
-        );
-        rows.extend(waiting);
-    }
+    let rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
     if args.json {
         let rows = rows.iter().map(|row| {
             json!({
@@ -230,6 +214,8 @@ fn product_json(product: &Product) -> Value {
         json!({
             "key": s.key, "label": s.label, "value": s.value, "dataset": s.dataset,
             "tau_normal_hemispherical": s.tau_normal, "tau_hemispherical_hemispherical": s.tau_hemispherical,
+            "to_ceiling": s.light.and_then(|light| light.to_ceiling),
+            "sun_blocked": s.light.map(|light| light.sun_blocked), "view": s.light.map(|light| light.view),
         })
     });
     let curve = product.control_curve.iter().map(|p| json!({"profile_angle": p.profile_angle, "value": p.value}));
@@ -271,12 +257,22 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
             writeln!(text, "  {label}: {value}")?;
         }
     }
-    writeln!(text, "  {:8}  τ normal  τ hemi  dataset", "state")?;
+    writeln!(text, "  {:8}  τ normal  τ hemi  up    sun blocked  view   dataset", "state")?;
     for state in &product.states {
         let key = if state.key.is_empty() { "-" } else { &state.key };
         let (normal, hemispherical) = (figure(state.tau_normal), figure(state.tau_hemispherical));
-        writeln!(text, "  {key:8}  {normal:>8}  {hemispherical:>6}  {}", state.dataset.get(..12).unwrap_or_default())?;
+        let short = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.2}"));
+        let up = short(state.light.and_then(|light| light.to_ceiling));
+        let blocked = short(state.light.map(|light| light.sun_blocked));
+        let view = figure(state.light.map(|light| light.view));
+        let dataset = state.dataset.as_deref().map_or("not computed yet", |hash| hash.get(..12).unwrap_or(hash));
+        writeln!(text, "  {key:8}  {normal:>8}  {hemispherical:>6}  {up:<4}  {blocked:<11}  {view:<5}  {dataset}")?;
     }
+    writeln!(
+        text,
+        "  up: share of the transmitted skylight that leaves upwards; sun blocked: of a sun 45° high before the façade; view: \
+         light at normal incidence that goes straight on"
+    )?;
     if !product.control_curve.is_empty() {
         writeln!(text, "  control curve (profile angle → state)")?;
         for point in &product.control_curve {

@@ -1,28 +1,98 @@
-//! The built-in products that take too long to be computed when a catalogue is opened.
+//! Data of the built-in products: computed when they are asked for, a state at a time, and kept by the catalogue.
 
 use super::error::StudyError;
-use super::goniophotometer::{Described, LayerLibrary, Request, Withdrawn};
-use crate::catalogue::{BUILTIN_ERROR, NewProduct};
+use super::goniophotometer::{Base, Described, LayerLibrary, Request, Withdrawn};
+use crate::catalogue::{
+    BUILTIN_ERROR, Catalogue, CatalogueError, PROFILE_ANGLES, Product, SYSTEMS, StateKey, fingerprint, key_of_builtin,
+};
 use crate::compute::btdf::Dataset;
-use crate::compute::estimate::Progress;
+use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::front_basis;
+use crate::formats::figures_table::{self, FigureRow};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-/// The product of a built-in description with its datasets. Built-in stacks name built-in layers only: `library` is not
-/// asked for any.
+/// Computes the data of a built-in product's state from the description that the catalogue keeps with it.
 ///
 /// # Errors
-/// An unknown name; cancelled.
+/// A product without a description, or one that this program cannot read; a state that it does not have; cancelled.
 pub fn compute(
-    name: &str,
+    product: &Product,
+    state: &str,
     library: &dyn LayerLibrary,
     progress: &dyn Progress,
-) -> Result<(NewProduct, Vec<Dataset>), StudyError> {
-    let described =
-        Described::builtin(name).ok_or_else(|| StudyError::Catalogue(format!("no built-in description {name}")))?;
+) -> Result<Dataset, StudyError> {
+    let told =
+        |what: String| StudyError::Catalogue(format!("the data of \"{}\" cannot be computed: {what}", product.key));
+    if product.system.is_empty() {
+        return Err(told("it has no description".to_owned()));
+    }
+    let described = Described::from_text(&product.system, Base::Builtin).map_err(|error| told(error.to_string()))?;
     let cells = front_basis();
     let request = Request { incident: cells.clone(), emergent: cells, error: BUILTIN_ERROR, seed: 1 };
-    let states = described.states(library)?;
-    let computed = described.measure_all(&states, &request, library, None, &Withdrawn(progress))?;
-    let datasets: Vec<Dataset> = computed.into_iter().map(|one| one.dataset).collect();
-    Ok((described.product(&request, &datasets), datasets))
+    Ok(described.measure(state, &request, library, None, progress)?.dataset)
+}
+
+/// Computes the data of all states that wait for them and are wanted, and keeps each as soon as it is finished: whoever
+/// stops this loses nothing. How many it were.
+///
+/// # Errors
+/// Of the catalogue; cancelled.
+pub fn complete(
+    catalogue: &mut Catalogue,
+    wanted: impl Fn(&StateKey) -> bool,
+    library: &dyn LayerLibrary,
+    progress: &dyn Progress,
+) -> Result<usize, StudyError> {
+    let told = |error: CatalogueError| StudyError::Catalogue(error.to_string());
+    let states: Vec<StateKey> = catalogue.waiting().map_err(told)?.into_iter().filter(wanted).collect();
+    let (catalogue, done) = (Mutex::new(catalogue), AtomicUsize::new(0));
+    let withdrawn = Withdrawn(progress);
+    progress.advance("states", 0, states.len());
+    states.par_iter().try_for_each(|one| {
+        if progress.cancelled() {
+            return Err(StudyError::Cancelled(Cancelled));
+        }
+        // Every change is a transaction: what a panic left behind is whole.
+        let lock = || catalogue.lock().unwrap_or_else(PoisonError::into_inner);
+        let product = lock().product(&one.product).map_err(told)?;
+        let dataset = compute(&product, &one.state, library, &withdrawn)?;
+        lock().put_state(&product, &dataset).map_err(told)?;
+        progress.advance("states", done.fetch_add(1, Ordering::Relaxed) + 1, states.len());
+        Ok(())
+    })?;
+    Ok(states.len())
+}
+
+/// The table of all described products' figures, from a catalogue that holds the data of them all; see
+/// [`crate::catalogue::TABLE`].
+///
+/// # Errors
+/// Of the catalogue; a state without data or figures.
+pub fn table(catalogue: &Catalogue) -> Result<String, StudyError> {
+    let mut rows = Vec::new();
+    for (name, _) in SYSTEMS.iter() {
+        let key = key_of_builtin(name);
+        let product = catalogue.product(key).map_err(|error| StudyError::Catalogue(error.to_string()))?;
+        for state in product.states {
+            let (true, Some(tau_normal), Some(tau_hemispherical), Some(light)) =
+                (state.dataset.is_some(), state.tau_normal, state.tau_hemispherical, state.light)
+            else {
+                return Err(StudyError::Catalogue(format!("{key}, state \"{}\", is not computed", state.key)));
+            };
+            rows.push(FigureRow {
+                product: key.to_owned(),
+                fingerprint: fingerprint(&product.system),
+                state: state.key,
+                tau_normal,
+                tau_hemispherical,
+                tau_profile: state.tau_profile,
+                to_ceiling: light.to_ceiling,
+                sun_blocked: light.sun_blocked,
+                view: light.view,
+            });
+        }
+    }
+    Ok(figures_table::write(&rows, &PROFILE_ANGLES))
 }

@@ -5,7 +5,7 @@ use super::error::StudyError;
 use super::files;
 use super::scene_file::SystemKeys;
 use super::system::{Need, System, SystemLibrary};
-use crate::catalogue::{NewProduct, Product, builtin_system, described_dataset, method, product_of};
+use crate::catalogue::{METHODS, NewProduct, Product, builtin_system, described_dataset, method, product_of};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
@@ -26,8 +26,6 @@ use std::time::Instant;
 
 /// Layers of a stack with all stacks in it, at most.
 const MOST_LAYERS: usize = 40;
-/// Version of the methods: raised whenever computed values change, so that kept states are not mistaken.
-const METHODS: u32 = 3;
 
 /// A system file with the place from which it names others.
 #[derive(Debug, Clone, PartialEq)]
@@ -372,8 +370,14 @@ impl Described {
                 }
                 LayerSource::Text(text) => self.within(text)?.sources_into(hash, library, depth + 1)?,
                 LayerSource::Catalogue(key) => {
-                    for state in library.product(key)?.states {
-                        hash.update(state.dataset.as_bytes());
+                    let product = library.product(key)?;
+                    // What is computed from a built-in description hangs on nothing else, whether it is there or not.
+                    if product.builtin && !product.system.is_empty() {
+                        hash.update(product.system.as_bytes());
+                    } else {
+                        product.states.iter().filter_map(|state| state.dataset.as_ref()).for_each(|dataset| {
+                            hash.update(dataset.as_bytes());
+                        });
                     }
                 }
             }
@@ -384,7 +388,7 @@ impl Described {
 }
 
 /// Hands on whether the result is still wanted; steps within a state would only make a bar jump.
-pub(super) struct Withdrawn<'a>(pub(super) &'a dyn Progress);
+pub struct Withdrawn<'a>(pub &'a dyn Progress);
 
 impl Progress for Withdrawn<'_> {
     fn cancelled(&self) -> bool {

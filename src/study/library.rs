@@ -1,5 +1,6 @@
 //! The library that programs use: ideal systems, dataset files (kept as long as they do not change), the catalogue.
 
+use super::builtin;
 use super::by_description::very_system;
 use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
@@ -7,7 +8,7 @@ use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
 use super::scene_file::SystemKeys;
 use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
-use crate::catalogue::{Catalogue, CatalogueError, Product, SYSTEMS};
+use crate::catalogue::{Catalogue, CatalogueError, Product};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
@@ -60,18 +61,12 @@ impl Library {
         answer
     }
 
-    /// Computes a built-in product that is asked for before the catalogue holds it.
-    fn provide_builtin(&self, key: &str) -> Result<(), StudyError> {
-        let name = format!("{key}.system.toml");
-        if !SYSTEMS.iter().any(|(file, _)| *file == name) {
-            return Ok(());
-        }
-        let missing = |catalogue: &mut Catalogue| Ok(catalogue.missing_builtin()?.contains(&name.as_str()));
-        if !self.in_catalogue(missing)? {
-            return Ok(());
-        }
-        let (product, datasets) = super::builtin::compute(&name, self, &Silent)?;
-        self.in_catalogue(|catalogue| catalogue.put_builtin(&name, product, &datasets))
+    /// Computes the state of a built-in product that is asked for before the catalogue holds its data, and keeps them.
+    fn provide(&self, product: &str, state: Option<&str>) -> Result<(), StudyError> {
+        let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(()) };
+        let product = self.in_catalogue(|catalogue| catalogue.product(product))?;
+        let dataset = builtin::compute(&product, &state, self, &Silent)?;
+        self.in_catalogue(|catalogue| catalogue.put_state(&product, &dataset))
     }
 }
 
@@ -118,7 +113,6 @@ impl Library {
 
 impl LayerLibrary for Library {
     fn product(&self, key: &str) -> Result<Product, StudyError> {
-        self.provide_builtin(key)?;
         self.in_catalogue(|catalogue| catalogue.product(key))
     }
 
@@ -169,7 +163,7 @@ impl SystemLibrary for Library {
                 Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
             }
             SystemKeys::Catalogue { key, state } => {
-                self.provide_builtin(key)?;
+                self.provide(key, state.as_deref())?;
                 let (dataset, label) = self.in_catalogue(|catalogue| {
                     Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?.name))
                 })?;

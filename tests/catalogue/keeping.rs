@@ -16,7 +16,7 @@ fn found(catalogue: &Catalogue, text: &str) -> Vec<String> {
 }
 
 fn open(path: &Path) -> Catalogue {
-    Catalogue::open_to_fill(path).unwrap()
+    Catalogue::open(path).unwrap()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The catalogue's file, its exchange, and the products built in.
 
 mod assets;
+mod builtin;
 mod catalogue;
 #[path = "../common/mod.rs"]
 mod common;

@@ -3,7 +3,10 @@
 use cfs::catalogue::{Catalogue, NewProduct, Origin, Query};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{Btdf, CellMatrix, Dataset};
+use cfs::compute::estimate::Silent;
 use cfs::formats::package;
+use cfs::study::Library;
+use cfs::study::builtin::complete;
 
 fn sample(name: &str, state: &str, tau: f64) -> Dataset {
     let basis = RingBasis::klems_quarter(AzimuthMap::KLEMS_FRONT);
@@ -15,22 +18,29 @@ fn sample(name: &str, state: &str, tau: f64) -> Dataset {
     dataset
 }
 
+/// A catalogue that holds the data of a built-in product.
+fn with_data_of(key: &str) -> Catalogue {
+    let mut catalogue = Catalogue::in_memory().unwrap();
+    complete(&mut catalogue, |one| one.product == key, &Library::default(), &Silent).unwrap();
+    catalogue
+}
+
 fn named(name: &str) -> NewProduct {
     NewProduct { name: name.into(), ..NewProduct::default() }
 }
 
 #[test]
 fn packages_carry_products_over_unchanged() {
-    let mut from = Catalogue::in_memory().unwrap();
+    let mut from = with_data_of("laser-cut-panel");
     let key = from.import(&[sample("Foil", "a", 0.5), sample("Foil", "b", 0.25)], named("")).unwrap().key;
-    let keys = ["venetian-80-72".to_owned(), key.clone()];
+    let keys = ["laser-cut-panel".to_owned(), key.clone()];
     let bytes = from.export_package(&keys).unwrap();
     assert_eq!(bytes, from.export_package(&keys).unwrap());
-    let mut to = Catalogue::in_memory().unwrap();
+    let mut to = with_data_of("laser-cut-panel");
     let imported = to.import_package(&bytes).unwrap();
     // What is there already, stays as it is.
-    assert_eq!(imported[0].key, "venetian-80-72");
-    assert_eq!(imported[0].same_content_as, ["venetian-80-72"]);
+    assert_eq!(imported[0].key, "laser-cut-panel");
+    assert_eq!(imported[0].same_content_as, ["laser-cut-panel"]);
     assert_eq!(imported[1].key, key);
     let (a, b) = (from.product(&key).unwrap(), to.product(&key).unwrap());
     assert_eq!(a, b);
@@ -138,30 +148,37 @@ fn a_package_bomb_is_refused() {
 }
 
 #[test]
-fn a_package_of_what_is_there_changes_nothing_and_built_in_ones_find_their_place() {
-    let mut from = Catalogue::in_memory().unwrap();
-    let quick = from.export_package(&["laser-cut-panel".to_owned()]).unwrap();
+fn a_package_of_what_is_there_changes_nothing_and_data_of_built_in_ones_find_their_place() {
+    let from = with_data_of("screen-grey-5");
+    let package = from.export_package(&["screen-grey-5".to_owned()]).unwrap();
+    // Another file has computed a built-in product whose data this one is still to get.
     let mut to = Catalogue::in_memory().unwrap();
     let before = to.search(&Query::default()).unwrap().len();
-    let imported = to.import_package(&quick).unwrap();
-    assert_eq!(
-        (imported[0].key.as_str(), imported[0].same_content_as.as_slice()),
-        ("laser-cut-panel", &["laser-cut-panel".to_owned()][..])
-    );
+    let import = |to: &mut Catalogue| to.import_package(&package).unwrap().remove(0);
+    let imported = import(&mut to);
+    assert_eq!((imported.key.as_str(), imported.same_content_as.len()), ("screen-grey-5", 0));
+    assert_eq!(to.product("screen-grey-5").unwrap(), from.product("screen-grey-5").unwrap());
+    assert_eq!(*to.dataset("screen-grey-5", None).unwrap(), *from.dataset("screen-grey-5", None).unwrap());
+    assert_eq!(import(&mut to).same_content_as, ["screen-grey-5"]);
     assert_eq!(to.search(&Query::default()).unwrap().len(), before);
-    // Another file has computed a built-in product that this one is still to get.
-    let name = *from.missing_builtin().unwrap().iter().find(|name| name.starts_with("screen-grey-5")).unwrap();
-    let library = cfs::study::Library::default();
-    let (product, datasets) = cfs::study::builtin::compute(name, &library, &cfs::compute::estimate::Silent).unwrap();
-    let key = product.key.clone().unwrap();
-    from.put_builtin(name, product.clone(), &datasets).unwrap();
-    let package = from.export_package(std::slice::from_ref(&key)).unwrap();
-    let imported = to.import_package(&package).unwrap();
-    assert_eq!(imported[0].key, key);
-    assert!(to.product(&key).unwrap().builtin && !to.missing_builtin().unwrap().contains(&name));
-    // The user's own product does not take the place of one to come.
-    let mut other = Catalogue::in_memory().unwrap();
-    let own = NewProduct { system: String::new(), ..product };
-    let added = other.import(&datasets, own).unwrap();
-    assert_eq!(added.key, format!("{key}-2"));
+    // Other data under its key are another product, whether its own are there or not.
+    let dataset = from.dataset("screen-grey-5", None).unwrap();
+    for mut other in [to, Catalogue::in_memory().unwrap()] {
+        let own = NewProduct { key: Some("screen-grey-5".into()), ..named("Mine") };
+        assert_eq!(other.import(&[cfs::compute::btdf::Dataset::clone(&dataset)], own).unwrap().key, "screen-grey-5-2");
+        let mut changed = package::read(&package).unwrap();
+        changed.products[0].provenance.source_hash = "0".repeat(64);
+        changed.products[0].name = "Another".into();
+        let twice = with_other_data(changed);
+        assert_eq!(other.import_package(&twice).unwrap()[0].key, "screen-grey-5-3");
+    }
+}
+
+/// The package with data of its own, so that it is not the same as any.
+fn with_other_data(mut package: package::Package) -> Vec<u8> {
+    let blob = cfs::formats::dataset_blob::encode(&sample("Another", "", 0.123));
+    let hash = cfs::formats::dataset_blob::content_hash(&blob);
+    package.products[0].states[0].dataset.clone_from(&hash);
+    package.datasets = std::iter::once((hash, blob)).collect();
+    package::write(&package).unwrap()
 }

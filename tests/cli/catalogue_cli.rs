@@ -58,6 +58,90 @@ fn products_go_out_and_in_again() {
     assert!(run(&CatalogueArgs { action: Action::Validate(absent) }, Some(&other)).is_err());
 }
 
+/// The program on a catalogue of its own: what it says on standard output and on standard error.
+fn cfs(file: &Path, arguments: &[&str]) -> (String, String) {
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_cfs"))
+        .args(arguments)
+        .env("CFS_CATALOGUE", file)
+        .env_remove("DISPLAY")
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    (text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn a_product_nobody_has_used_is_listed_with_figures_and_computed_when_a_room_asks_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("c.sqlite");
+    let (list, notes) = cfs(&file, &["catalogue", "list", "--search", "prismatic", "--json"]);
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&list).unwrap();
+    assert!(rows.len() >= 6 && notes.is_empty(), "{notes}");
+    assert!(rows.iter().all(|row| row["tau_normal_hemispherical"].is_f64()), "{list}");
+    let shown = |key: &str| -> serde_json::Value {
+        serde_json::from_str(&cfs(&file, &["catalogue", "show", key, "--json"]).0).unwrap()
+    };
+    let before = shown("exterior-80-72-white");
+    assert!(before["states"][3]["dataset"].is_null() && before["states"][3]["to_ceiling"].is_f64(), "{before}");
+    assert!(cfs(&file, &["catalogue", "show", "exterior-80-72-white"]).0.contains("not computed yet"));
+    let key = before["states"][3]["key"].as_str().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let system = format!("{{ catalogue = \"exterior-80-72-white\", state = \"{key}\" }}");
+    std::fs::write(&scene, scene_with(&system)).unwrap();
+    let lux = cfs(&file, &["room", scene.to_str().unwrap()]).0;
+    assert!(lux.lines().count() > 1, "{lux}");
+    let after = shown("exterior-80-72-white");
+    let computed: Vec<bool> = after["states"].as_array().unwrap().iter().map(|s| s["dataset"].is_string()).collect();
+    assert_eq!(computed.iter().filter(|one| **one).count(), 1, "what the room needs, and nothing else");
+    assert!(computed[3]);
+    // Kept: the second time gives the same.
+    assert_eq!(cfs(&file, &["room", scene.to_str().unwrap()]).0, lux);
+    // Validation says what there is; a package needs the data, and computes them.
+    assert!(cfs(&file, &["catalogue", "validate", "opal-light"]).0.contains("ok"));
+    let package = folder.path().join("opal.cfsp");
+    let (_, told) = cfs(&file, &["catalogue", "export", "opal-light", "--out", package.to_str().unwrap()]);
+    assert!(told.contains("computing 1 state"), "{told}");
+    assert!(package.exists() && shown("opal-light")["states"][0]["dataset"].is_string());
+}
+
+fn scene_with(system: &str) -> String {
+    use crate::rooms::{Text, clear, facade};
+    let apertures = vec![facade([0.5, 1.0], [3.0, 1.5], system)];
+    Text { apertures, sky: clear(30.0, 180.0, 60_000.0), ..Text::default() }.toml()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_build_that_is_interrupted_keeps_what_is_finished() {
+    use cfs::catalogue::Catalogue;
+    use std::time::{Duration, Instant};
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("c.sqlite");
+    let waiting = || Catalogue::open(&file).unwrap().waiting().unwrap().len();
+    let all = waiting();
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_cfs"))
+        .args(["catalogue", "build", "--json"])
+        .env("CFS_CATALOGUE", &file)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let start = Instant::now();
+    while waiting() > all - 3 && start.elapsed() < Duration::from_secs(120) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let interrupt = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success() && !child.wait().unwrap().success());
+    let left = waiting();
+    assert!(left <= all - 3 && left > 0, "{left} of {all}");
+    let catalogue = Catalogue::open(&file).unwrap();
+    for row in catalogue.search(&cfs::catalogue::Query::default()).unwrap() {
+        let findings = catalogue.validate(&row.key).unwrap();
+        assert!(findings.iter().all(|f| f.severity < cfs::compute::btdf::Severity::Error), "{}: {findings:?}", row.key);
+    }
+}
+
 #[test]
 fn real_files_survive_the_catalogue() {
     use cfs::catalogue::{Catalogue, NewProduct};

@@ -5,17 +5,20 @@ use crate::common::data;
 use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::command::Command;
 use cfs::app::dialogs::NoDialogs;
+use cfs::app::jobs::Lane;
 use cfs::app::scene::{Selection, fill, first_scene};
 use cfs::app::shelf::Query;
 use cfs::app::state::{PathUse, Settings};
 use cfs::app::tiles::TILES;
 use cfs::app::{App, Services};
-use cfs::catalogue::{Catalogue, SourceFile};
+use cfs::catalogue::{Catalogue, SYSTEMS, SourceFile};
+use cfs::compute::estimate::Silent;
 use cfs::formats::{Format, eulumdat, ies, write_dataset};
 use cfs::study::control::year::CONTROLLED;
 use cfs::study::scene_file::ControlMode;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -78,15 +81,71 @@ fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
         shown && results.lid.value.is_some() && results.room.value.is_some() && results.year.value.is_some()
     });
     assert_eq!(harness.state().state.document.selection.product, "venetian-80-72");
-    assert_eq!(harness.state().state.found.total, 3, "nothing that is not in sight came before");
-    step_until(&mut harness, "the list fills up", |app| app.state.found.total >= 5);
+    // All of them are in the list, with figures, while hardly any data are there.
+    let entries = harness.state().state.found.entries.clone();
+    assert_eq!(entries.len(), SYSTEMS.len() + 2);
+    assert!(entries.iter().all(|entry| entry.tau_normal.is_some() && entry.profile.len() > 10));
+    let waiting = || Catalogue::open(&path).unwrap().waiting().unwrap().len();
+    let left = waiting();
+    assert!(left > entries.len(), "nothing that is not in sight came before: {left} states are left");
+    harness.state_mut().apply(Command::Find(Query { text: "prismatic".to_owned(), ..Query::default() }));
+    step_until(&mut harness, "prismatic", |app| app.state.found.entries.len() == 6);
+    step_until(&mut harness, "more data come behind all else", |_| waiting() < left);
     // What was done stays for the next start.
     drop(harness);
-    assert!(Catalogue::open_to_fill(&path).unwrap().facets().unwrap().all >= 5);
+    assert!(waiting() < left);
 }
 
 #[test]
-fn a_scene_whose_product_is_still_to_come_is_shown_when_it_has_come() {
+fn the_first_data_filled_in_are_those_of_the_chosen_product_then_of_the_list() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("catalogue.sqlite");
+    let shelf = open_shelf(Some(&path)).unwrap();
+    let waiting = |key: &str| {
+        let all = Catalogue::open(&path).unwrap().waiting().unwrap();
+        all.iter().filter(|one| one.product == key).count()
+    };
+    let order = ["opal-light", "clear-double"].map(str::to_owned);
+    assert_eq!((waiting("opal-light"), waiting("clear-double")), (1, 1));
+    let [left, all] = shelf.fill_one(&order, &Silent).unwrap();
+    assert_eq!((waiting("opal-light"), waiting("clear-double"), left), (0, 1, all - 3));
+    shelf.fill_one(&order, &Silent).unwrap();
+    assert_eq!(waiting("clear-double"), 0);
+    // Nothing of the order left: the others in the catalogue's own.
+    let before = waiting("venetian-80-72");
+    shelf.fill_one(&order, &Silent).unwrap();
+    assert_eq!(waiting("venetian-80-72"), before - 1);
+}
+
+#[test]
+fn a_state_that_is_to_be_computed_is_told_and_everything_else_is_shown_meanwhile() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = window_on(&folder.path().join("catalogue.sqlite"), Settings::default());
+    step_until(&mut harness, "the first product", |app| app.state.dataset.value.is_some() && !app.state.dataset.stale);
+    let key = "double-integral-micro-blind";
+    harness.state_mut().apply(Command::Select(key.to_owned()));
+    step_until(&mut harness, "it is told", |app| app.state.computing.is_some());
+    harness.step();
+    let state = &harness.state().state;
+    assert!(state.product.as_ref().is_some_and(|product| product.key == key && product.states.len() > 5));
+    assert!(state.daylight.value.is_some() && !state.daylight.stale && state.dataset.stale);
+    let label = state.product.as_ref().unwrap().states[0].label.clone();
+    assert_eq!(state.computing.as_deref(), Some(format!("computing {label}…").as_str()));
+    assert!(harness.query_all_by_label(&format!("computing {label}…")).count() >= 2, "the tiles say so");
+    assert!(harness.query_by_label_contains("product data").is_some(), "and so does the line below");
+    // Stopped, nothing goes on computing it; another product comes as ever.
+    harness.state_mut().apply(Command::Cancel(Lane::Product));
+    harness.run_steps(2);
+    assert!(harness.state().state.computing.is_none() && harness.state().state.dataset.stale);
+    harness.state_mut().apply(Command::Select("clear-double".to_owned()));
+    let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
+    step_until(&mut harness, "clear-double", |app| shown(app) && !app.state.dataset.stale && !app.results.room.stale);
+    assert!(harness.state().state.computing.is_none());
+    assert_eq!(harness.state().state.dataset.value.as_ref().unwrap().name, "Clear glass, double");
+}
+
+#[test]
+fn a_scene_whose_product_is_not_computed_yet_is_shown_when_it_is() {
     let folder = tempfile::tempdir().unwrap();
     let mut scene = first_scene();
     fill(&mut scene, &Selection { product: "clear-double".to_owned(), state: String::new() });

@@ -164,7 +164,7 @@ fn slats() -> Slats {
     (states, curve, today, year)
 }
 
-const FINE: Status<'static> = Status { coarse: false, stale: false, hold_scale: false, error: None };
+const FINE: Status<'static> = Status { coarse: false, stale: false, hold_scale: false, doing: None, error: None };
 
 fn btdf_input(btdf: &Btdf, incident: Incident) -> btdf::Input<'_> {
     btdf::Input {

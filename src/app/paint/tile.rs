@@ -13,6 +13,8 @@ pub struct Status<'a> {
     pub stale: bool,
     /// Something is being dragged: colour scales and axes stand still.
     pub hold_scale: bool,
+    /// What a newer picture waits for, in a few words; said while this one is stale.
+    pub doing: Option<&'a str>,
     /// Why there is nothing to show.
     pub error: Option<&'a str>,
 }
@@ -95,7 +97,7 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
     head.with_layout(Layout::left_to_right(Align::Center), |ui| {
         ui.add(egui::Label::new(RichText::new(words.title).size(14.0).strong()));
         let tag = match (status.stale, status.coarse) {
-            (true, _) => Some("updating…"),
+            (true, _) => Some(status.doing.unwrap_or("updating…")),
             (_, true) => Some("coarse"),
             _ => None,
         };

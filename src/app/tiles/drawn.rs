@@ -24,8 +24,8 @@ pub struct TileInput<'a> {
 
 impl<'a> TileInput<'a> {
     /// How far a picture is to be trusted.
-    pub const fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
-        Status { coarse: false, stale, hold_scale: self.held, error }
+    pub fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
+        Status { coarse: false, stale, hold_scale: self.held, doing: self.state.computing.as_deref(), error }
     }
 
     /// The same of a result that a lane computes: an error counts when nothing newer is under way.

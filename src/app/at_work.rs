@@ -1,0 +1,138 @@
+//! One computation for all who wait for the same thing.
+
+use super::error::AppError;
+use crate::catalogue::StateKey;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::study::StudyError;
+use std::collections::HashSet;
+use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How often who waits looks whether it is still wanted.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// The states that are being computed at this moment.
+#[derive(Default)]
+pub struct AtWork {
+    states: Mutex<HashSet<StateKey>>,
+    fewer: Condvar,
+}
+
+/// Takes its state out when it goes, however the computation ends.
+struct Turn<'a> {
+    at_work: &'a AtWork,
+    state: &'a StateKey,
+}
+
+impl Drop for Turn<'_> {
+    fn drop(&mut self) {
+        self.at_work.states.lock().unwrap_or_else(PoisonError::into_inner).remove(self.state);
+        self.at_work.fewer.notify_all();
+    }
+}
+
+impl AtWork {
+    /// Computes a state unless it is there. Where another thread is at it, waits for that; where that one gave up, takes
+    /// over.
+    ///
+    /// # Errors
+    /// Of `is_there` and `compute`; cancelled while waiting.
+    pub fn once(
+        &self,
+        state: &StateKey,
+        progress: &dyn Progress,
+        is_there: impl Fn() -> Result<bool, AppError>,
+        compute: impl FnOnce() -> Result<(), AppError>,
+    ) -> Result<(), AppError> {
+        loop {
+            if is_there()? {
+                return Ok(());
+            }
+            let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
+            if states.insert(state.clone()) {
+                break;
+            }
+            progress.advance("waiting for the product's data", 0, 1);
+            while states.contains(state) {
+                if progress.cancelled() {
+                    return Err(StudyError::Cancelled(Cancelled).into());
+                }
+                states = self.fewer.wait_timeout(states, LOOK).unwrap_or_else(PoisonError::into_inner).0;
+            }
+        }
+        let _turn = Turn { at_work: self, state };
+        // It may have come between the look and the turn.
+        if is_there()? { Ok(()) } else { compute() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::estimate::Silent;
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+    fn state() -> StateKey {
+        StateKey { product: "blind".into(), state: "45".into() }
+    }
+
+    #[test]
+    fn many_who_ask_make_one_computation() {
+        let (at_work, there, count) = (AtWork::default(), AtomicBool::new(false), AtomicUsize::new(0));
+        std::thread::scope(|scope| {
+            for _ in 0..6 {
+                scope.spawn(|| {
+                    let compute = || {
+                        count.fetch_add(1, Ordering::SeqCst);
+                        std::thread::sleep(Duration::from_millis(30));
+                        there.store(true, Ordering::SeqCst);
+                        Ok(())
+                    };
+                    at_work.once(&state(), &Silent, || Ok(there.load(Ordering::SeqCst)), compute).unwrap();
+                    assert!(there.load(Ordering::SeqCst));
+                });
+            }
+        });
+        assert_eq!(count.load(Ordering::SeqCst), 1);
+    }
+
+    #[test]
+    fn who_waits_takes_over_from_who_gives_up() {
+        let (at_work, there) = (AtWork::default(), AtomicBool::new(false));
+        let (begun, begins) = std::sync::mpsc::channel();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                let gives_up = || {
+                    begun.send(()).unwrap();
+                    std::thread::sleep(Duration::from_millis(60));
+                    Err(StudyError::Cancelled(Cancelled).into())
+                };
+                assert!(at_work.once(&state(), &Silent, || Ok(false), gives_up).is_err());
+            });
+            begins.recv().unwrap();
+            let compute = || {
+                there.store(true, Ordering::SeqCst);
+                Ok(())
+            };
+            at_work.once(&state(), &Silent, || Ok(there.load(Ordering::SeqCst)), compute).unwrap();
+        });
+        assert!(there.load(Ordering::SeqCst));
+    }
+
+    #[test]
+    fn waiting_ends_when_nobody_wants_it_any_more() {
+        struct Withdrawn;
+        impl Progress for Withdrawn {
+            fn cancelled(&self) -> bool {
+                true
+            }
+        }
+        let at_work = AtWork::default();
+        let inside = || {
+            let error = at_work.once(&state(), &Withdrawn, || Ok(false), || Ok(())).unwrap_err();
+            assert!(matches!(error, AppError::Study(StudyError::Cancelled(_))), "{error}");
+            Ok(())
+        };
+        at_work.once(&state(), &Silent, || Ok(false), inside).unwrap();
+    }
+}

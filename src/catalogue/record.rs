@@ -1,0 +1,159 @@
+//! A product as it is to be stored: from datasets and what is told about them to rows, checked, with its figures.
+
+use super::described::{common_description, view};
+use super::product::slug;
+use super::{CatalogueError, NewProduct, Product, ProductFinding, State, StateName, check, profile_transmittances};
+use crate::compute::btdf::{Btdf, Dataset, DescribedState, Finding, LightFigures};
+use crate::formats::dataset_blob::{content_hash, decode, encode};
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// A product with the bytes of its datasets, as the tables hold it.
+pub(super) struct Record {
+    pub(super) product: Product,
+    /// Hash and bytes of every dataset the product refers to.
+    pub(super) datasets: Vec<(String, Vec<u8>)>,
+}
+
+/// Everything of a product that is to be stored, checked; nothing is written yet.
+pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
+    prepared(datasets, meta, check)
+}
+
+/// The same for what the program computed itself, and said what it found: checks of foreign data have nothing to add.
+pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
+    prepared(datasets, meta, |_| Vec::new())
+}
+
+fn prepared(
+    datasets: &[Dataset],
+    meta: NewProduct,
+    ask: fn(&Dataset) -> Vec<Finding>,
+) -> Result<Record, CatalogueError> {
+    let refuse = |what: String| Err(CatalogueError::Import(what));
+    let Some(first) = datasets.first() else {
+        return refuse("there is no dataset".to_owned());
+    };
+    let or =
+        |told: String, own: &str| if told.trim().is_empty() { own.trim().to_owned() } else { told.trim().to_owned() };
+    let name = or(meta.name, &first.name);
+    if name.is_empty() {
+        return refuse("the product has no name, and the dataset does not give one".to_owned());
+    }
+    if !meta.states.is_empty() && meta.states.len() != datasets.len() {
+        return refuse(format!("{} names of states for {} datasets", meta.states.len(), datasets.len()));
+    }
+    let mut keys = HashSet::new();
+    let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
+    // Encoding and checking take the time; what they give does not depend on their order.
+    let stored: Vec<_> = datasets.par_iter().map(|dataset| stored(dataset, ask)).collect();
+    for (index, (given, stored)) in datasets.iter().zip(stored).enumerate() {
+        if !keys.insert(given.state.as_str()) || (datasets.len() > 1 && given.state.is_empty()) {
+            return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", given.state));
+        }
+        let (hash, blob, dataset, own) = stored?;
+        let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
+            return refuse(format!("dataset \"{}\" has no visible transmission", dataset.name));
+        };
+        let mut told = dataset.findings.clone();
+        told.extend(own.into_iter().filter(|finding| !dataset.findings.contains(finding)));
+        findings.extend(told.into_iter().map(|finding| ProductFinding {
+            state: dataset.state.clone(),
+            severity: finding.severity,
+            code: finding.code.to_owned(),
+            message: finding.message,
+        }));
+        let named = meta.states.get(index).cloned().unwrap_or_default();
+        states.push(State {
+            dataset: Some(hash.clone()),
+            ..figured(named_state(&dataset.state, named), transmission, given.described.as_ref())
+        });
+        blobs.push((hash, blob));
+    }
+    let meta = NewProduct {
+        name,
+        manufacturer: or(meta.manufacturer, &first.manufacturer),
+        description: or(meta.description, &first.description),
+        // Data that bring their description make a product that keeps it.
+        system: if meta.system.is_empty() { common_description(datasets).unwrap_or_default() } else { meta.system },
+        ..meta
+    };
+    Ok(Record { product: product(meta, states, findings)?, datasets: blobs })
+}
+
+/// Where light goes, as far as a description tells it better than data on cells.
+pub(super) fn light(transmission: &Btdf, described: Option<&DescribedState>) -> LightFigures {
+    let own = LightFigures::of(transmission);
+    LightFigures { view: described.and_then(view).unwrap_or(own.view), ..own }
+}
+
+/// A state with the figures of its transmission.
+pub(super) fn figured(state: State, transmission: &Btdf, described: Option<&DescribedState>) -> State {
+    State {
+        tau_normal: Some(transmission.tau_normal()),
+        tau_hemispherical: Some(transmission.tau_hemispherical()),
+        tau_profile: profile_transmittances(transmission),
+        light: Some(light(transmission, described)),
+        ..state
+    }
+}
+
+/// A state of which nothing is known but how it is called.
+pub(super) fn named_state(key: &str, named: StateName) -> State {
+    let label = named.label.trim();
+    State {
+        key: key.to_owned(),
+        label: if label.is_empty() { key.to_owned() } else { label.to_owned() },
+        // A key that is a number is an angle, as the formats write states.
+        value: named.value.or_else(|| key.parse().ok().filter(|value: &f64| value.is_finite())),
+        dataset: None,
+        tau_normal: None,
+        tau_hemispherical: None,
+        tau_profile: Vec::new(),
+        light: None,
+    }
+}
+
+/// A product from what is told about it, with its states.
+pub(super) fn product(
+    meta: NewProduct,
+    states: Vec<State>,
+    findings: Vec<ProductFinding>,
+) -> Result<Product, CatalogueError> {
+    let mut tags: Vec<String> = meta.tags.iter().map(|tag| tag.trim().to_owned()).filter(|t| !t.is_empty()).collect();
+    tags.sort();
+    tags.dedup();
+    let rising = meta.control_curve.windows(2).all(|pair| pair[0].profile_angle < pair[1].profile_angle);
+    if !rising || meta.control_curve.iter().any(|point| !(point.profile_angle.is_finite() && point.value.is_finite())) {
+        let wrong = "profile angles of the control curve must rise, and all numbers be finite";
+        return Err(CatalogueError::Import(wrong.to_owned()));
+    }
+    Ok(Product {
+        key: meta.key.unwrap_or_else(|| slug(&meta.name)),
+        manufacturer: meta.manufacturer,
+        description: meta.description,
+        name: meta.name,
+        kind: meta.kind.trim().to_owned(),
+        provenance: meta.provenance,
+        tags,
+        states,
+        control_curve: meta.control_curve,
+        findings,
+        system: meta.system,
+        favourite: false,
+        builtin: false,
+    })
+}
+
+/// Hash, bytes, and what is read back from them with its checks: all figures are those of what is stored (values
+/// rounded to f32), not of what came.
+pub(super) fn stored(
+    given: &Dataset,
+    ask: fn(&Dataset) -> Vec<Finding>,
+) -> Result<(String, Vec<u8>, Dataset, Vec<Finding>), CatalogueError> {
+    let blob = encode(given);
+    let hash = content_hash(&blob);
+    let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.clone(), source })?;
+    let findings = ask(&dataset);
+    Ok((hash, blob, dataset, findings))
+}

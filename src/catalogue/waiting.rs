@@ -1,0 +1,187 @@
+//! States that are known before their data: which they are, and how data and figures come to them.
+
+use super::described::described_state;
+use super::record::{Record, figured, light, named_state, stored};
+use super::store::{insert_findings, read_product};
+use super::{Catalogue, CatalogueError, Product, ProductFinding, State, StateName};
+use crate::compute::btdf::{Btdf, Dataset, LightFigures};
+use crate::compute::estimate::Progress;
+use crate::formats::dataset_blob::decode;
+use rusqlite::{OptionalExtension, Transaction, params};
+
+/// A state of a product.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct StateKey {
+    /// Key of the product.
+    pub product: String,
+    /// Key of the state; empty for the only one of a product without states.
+    pub state: String,
+}
+
+/// What light from outside does, or the little that is known.
+fn transmission(dataset: &Dataset) -> Option<&Btdf> {
+    dataset.transmission().or(dataset.visible.transmission_back.as_ref())
+}
+
+impl Catalogue {
+    /// All states whose data are still to be computed, in the order of the catalogue.
+    pub fn waiting(&self) -> Result<Vec<StateKey>, CatalogueError> {
+        let mut ask = self.db.prepare_cached(
+            "SELECT p.key, s.key FROM state s JOIN product p ON p.id = s.product
+             WHERE s.dataset IS NULL ORDER BY p.rank, p.key, s.position",
+        )?;
+        let rows = ask.query_map([], |row| Ok(StateKey { product: row.get(0)?, state: row.get(1)? }))?;
+        Ok(rows.collect::<Result<_, _>>()?)
+    }
+
+    /// How many states of built-in products there are.
+    pub fn builtin_states(&self) -> Result<usize, CatalogueError> {
+        let sql = "SELECT count(*) FROM state s JOIN product p ON p.id = s.product WHERE p.builtin = 1";
+        Ok(self.db.query_row(sql, [], |row| row.get::<_, i64>(0))?.unsigned_abs() as usize)
+    }
+
+    /// The state whose data have to be computed before [`Self::dataset`] can give what it is asked for with the same
+    /// arguments; `None` where they are there, and where there is no such state.
+    pub fn to_compute(&self, key: &str, state: Option<&str>) -> Result<Option<String>, CatalogueError> {
+        let mut ask = self.db.prepare_cached(
+            "SELECT s.key FROM state s JOIN product p ON p.id = s.product
+             WHERE p.key = ?1 AND s.dataset IS NULL
+               AND CASE WHEN ?2 IS NULL THEN (SELECT count(*) FROM state WHERE product = p.id) = 1 ELSE s.key = ?2 END",
+        )?;
+        Ok(ask.query_row(params![key, state], |row| row.get(0)).optional()?)
+    }
+
+    /// Stores the data of a built-in product's state that was waiting for them. Where another program was faster, or has
+    /// put a newer product in its place, everything stays as it is. `product`: as it was when the data were computed from
+    /// its description.
+    pub fn put_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
+        // Packed before the lock is taken, so that other connections do not wait for it.
+        let (hash, blob, read, _) = stored(dataset, |_| Vec::new())?;
+        let wanted = |what: &str| CatalogueError::Import(format!("dataset \"{}\" has no {what}", dataset.name));
+        let transmission = transmission(&read).ok_or_else(|| wanted("visible transmission"))?;
+        let named = named_state(&dataset.state, StateName::default());
+        let state = State { dataset: Some(hash), ..figured(named, transmission, dataset.described.as_ref()) };
+        let findings: Vec<ProductFinding> = read
+            .findings
+            .iter()
+            .map(|finding| ProductFinding {
+                state: state.key.clone(),
+                severity: finding.severity,
+                code: finding.code.to_owned(),
+                message: finding.message.clone(),
+            })
+            .collect();
+        let tx = self.change()?;
+        fill(&tx, product, &state, &blob, &findings)?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Finds out where light goes in states of which it is not known, as those are that older programs stored. Stops when
+    /// nobody waits for it any more; how many states got their figures. Data that cannot be read are passed over: who
+    /// asks for them is told.
+    pub fn fill_figures(&mut self, progress: &dyn Progress) -> Result<usize, CatalogueError> {
+        let sql =
+            "SELECT p.system, s.product, s.position, s.key, s.dataset FROM state s JOIN product p ON p.id = s.product
+                   WHERE s.sun_blocked IS NULL AND s.dataset IS NOT NULL ORDER BY p.rank, p.key, s.position";
+        let mut ask = self.db.prepare(sql)?;
+        let rows = ask.query_map([], |row| {
+            Ok((row.get(0)?, [row.get(1)?, row.get(2)?], row.get::<_, String>(3)?, row.get::<_, String>(4)?))
+        })?;
+        let list: Vec<(String, [i64; 2], String, String)> = rows.collect::<Result<_, _>>()?;
+        drop(ask);
+        let mut filled = 0;
+        for (done, (system, place, state, hash)) in list.iter().enumerate() {
+            progress.advance("figures", done, list.len());
+            if progress.cancelled() {
+                break;
+            }
+            let blob: Option<Vec<u8>> =
+                self.db.query_row("SELECT blob FROM dataset WHERE hash = ?", [hash], |row| row.get(0)).optional()?;
+            let Some(dataset) = blob.and_then(|blob| decode(&blob).ok()) else { continue };
+            let Some(transmission) = transmission(&dataset) else { continue };
+            let figures = light(transmission, described_state(system, state).as_ref());
+            let tx = self.change()?;
+            set_light(&tx, *place, &figures)?;
+            tx.commit()?;
+            filled += 1;
+        }
+        Ok(filled)
+    }
+}
+
+/// Writes where light goes in a state, which is named by its product's row and its position.
+pub(super) fn set_light(
+    tx: &Transaction<'_>,
+    [product, position]: [i64; 2],
+    light: &LightFigures,
+) -> Result<(), CatalogueError> {
+    tx.prepare_cached("UPDATE state SET to_ceiling = ?, sun_blocked = ?, view = ? WHERE product = ? AND position = ?")?
+        .execute(params![light.to_ceiling, light.sun_blocked, light.view, product, position])?;
+    Ok(())
+}
+
+/// Gives a state that waits its dataset and figures; nothing where it does not wait.
+fn fill(
+    tx: &Transaction<'_>,
+    product: &Product,
+    state: &State,
+    blob: &[u8],
+    findings: &[ProductFinding],
+) -> Result<(), CatalogueError> {
+    let place: Option<[i64; 2]> = tx
+        .prepare_cached(
+            "SELECT s.product, s.position FROM state s JOIN product p ON p.id = s.product
+             WHERE p.builtin = 1 AND p.key = ? AND p.source_hash = ? AND s.key = ? AND s.dataset IS NULL",
+        )?
+        .query_row([&product.key, &product.provenance.source_hash, &state.key], |row| Ok([row.get(0)?, row.get(1)?]))
+        .optional()?;
+    let Some(place) = place else { return Ok(()) };
+    tx.prepare_cached("INSERT OR IGNORE INTO dataset (hash, blob) VALUES (?, ?)")?
+        .execute(params![state.dataset, blob])?;
+    tx.prepare_cached(
+        "UPDATE state SET dataset = ?, tau_normal = ?, tau_hemispherical = ?, tau_profile = ?
+         WHERE product = ? AND position = ?",
+    )?
+    .execute(params![
+        state.dataset,
+        state.tau_normal,
+        state.tau_hemispherical,
+        serde_json::json!(state.tau_profile).to_string(),
+        place[0],
+        place[1]
+    ])?;
+    if let Some(light) = &state.light {
+        set_light(tx, place, light)?;
+    }
+    insert_findings(tx, place, findings.iter())
+}
+
+/// Takes the data of a built-in product that another catalogue has computed, where this one waits for some of them and
+/// those that it holds are the same. False: it is another product, or nothing was missing.
+pub(super) fn adopt(tx: &Transaction<'_>, record: &Record) -> Result<bool, CatalogueError> {
+    let given = &record.product;
+    let held = match read_product(tx, &given.key) {
+        Err(CatalogueError::NoProduct(_)) => return Ok(false),
+        other => other?,
+    };
+    let same_source = held.builtin
+        && held.provenance.source_hash == given.provenance.source_hash
+        && held.provenance.method == given.provenance.method
+        && held.states.len() == given.states.len();
+    let fits = |(own, other): (&State, &State)| {
+        own.key == other.key && (own.dataset.is_none() || own.dataset == other.dataset)
+    };
+    if !same_source || !held.states.iter().zip(&given.states).all(fits) {
+        return Ok(false);
+    }
+    for (_, state) in held.states.iter().zip(&given.states).filter(|(own, _)| own.dataset.is_none()) {
+        let Some((_, blob)) = record.datasets.iter().find(|(hash, _)| Some(hash) == state.dataset.as_ref()) else {
+            continue;
+        };
+        let findings: Vec<ProductFinding> =
+            given.findings.iter().filter(|finding| finding.state == state.key).cloned().collect();
+        fill(tx, given, state, blob, &findings)?;
+    }
+    Ok(true)
+}

@@ -1,0 +1,162 @@
+//! What a state of a system is found and sorted by, beside its transmittances: how much of the sky's light goes up to the
+//! ceiling, how much of a high sun is kept out, how much is seen straight through.
+//!
+//! All of it is said of a vertical façade and of light from outside.
+
+use super::{Btdf, Indicatrix};
+use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::direction::{Dir, Facade, Incident};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Rings and sectors of the incident directions that the upper quarter-sphere is summed on, even in projected solid angle.
+const SKY: [usize; 2] = [12, 24];
+/// Points across a cell that the horizon cuts.
+const ACROSS: usize = 16;
+/// Less transmitted light than this share has no direction worth telling.
+const DARK: f64 = 1e-6;
+/// Incidence of the high sun. \[rad\]
+const HIGH_SUN: f64 = 0.25 * PI;
+/// A cell stands out when it holds this much of what surrounds it: as Radiance has it.
+const STANDS_OUT: f64 = 1.5;
+/// Least width of what surrounds the straight cell. \[rad\]
+const AROUND: f64 = 0.02;
+
+/// How a state distributes light.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LightFigures {
+    /// Of the light that is transmitted from the upper quarter-sphere of a uniform sky (all directions above the
+    /// horizontal), the share that leaves upwards into the room, 0 … 1; `None` where nothing is transmitted.
+    pub to_ceiling: Option<f64>,
+    /// Share of the sun's light that is not transmitted, with the sun straight before the façade, 45° high: 1 − τ.
+    pub sun_blocked: f64,
+    /// Share of light at normal incidence that goes straight on (direct-direct transmittance). Of data on cells: the
+    /// regular part where they keep one, and what stands out of the straight cell's surroundings.
+    pub view: f64,
+}
+
+impl LightFigures {
+    /// Of a transmission for light from outside.
+    pub fn of(btdf: &Btdf) -> Self {
+        let sun = Incident(Dir::from_theta_phi(HIGH_SUN, 0.5 * PI));
+        Self {
+            to_ceiling: to_ceiling(btdf),
+            sun_blocked: (1.0 - btdf.tau(sun)).clamp(0.0, 1.0),
+            view: view(btdf).clamp(0.0, 1.0),
+        }
+    }
+}
+
+/// See [`LightFigures::to_ceiling`].
+fn to_ceiling(btdf: &Btdf) -> Option<f64> {
+    let mut upward = Upward::default();
+    let (mut up, mut all) = (0.0, 0.0);
+    for ring in 0..SKY[0] {
+        let theta = ((ring as f64 + 0.5) / SKY[0] as f64).sqrt().asin();
+        for sector in 0..SKY[1] {
+            let phi = PI * (sector as f64 + 0.5) / SKY[1] as f64;
+            let incident = Incident(Dir::from_theta_phi(theta, phi));
+            // What goes straight on comes from above and goes down.
+            all += btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
+            if let Some(indicatrix) = btdf.indicatrix(incident) {
+                let [some, whole] = upward.flux(&indicatrix);
+                up += some;
+                all += whole;
+            }
+        }
+    }
+    (all > DARK * (SKY[0] * SKY[1]) as f64).then(|| (up / all).clamp(0.0, 1.0))
+}
+
+/// Weights of emergent cells, kept as long as the cells stay the same.
+#[derive(Default)]
+struct Upward {
+    basis: Option<RingBasis>,
+    /// Projected solid angles: of the part of a cell that is light going up, and of the cell. \[sr\]
+    weights: Vec<[f64; 2]>,
+}
+
+impl Upward {
+    /// Light that goes up, and all.
+    fn flux(&mut self, indicatrix: &Indicatrix) -> [f64; 2] {
+        if self.basis.as_ref() != Some(&indicatrix.basis) {
+            self.weights = weights(&indicatrix.basis);
+            self.basis = Some(indicatrix.basis.clone());
+        }
+        let add = |sum: [f64; 2], (q, weight): (&f64, &[f64; 2])| [sum[0] + q * weight[0], sum[1] + q * weight[1]];
+        indicatrix.q.iter().zip(&self.weights).fold([0.0; 2], add)
+    }
+}
+
+fn weights(basis: &RingBasis) -> Vec<[f64; 2]> {
+    let of = |cell: Cell| {
+        let whole = cell.projected_solid_angle();
+        // A through-name points back to where the light seems to come from: light of a low name goes up.
+        let upward = |j: &usize| (cell.phi + cell.width * ((*j as f64 + 0.5) / ACROSS as f64 - 0.5)).sin() < 0.0;
+        [whole * (0..ACROSS).filter(upward).count() as f64 / ACROSS as f64, whole]
+    };
+    basis.cells().map(of).collect()
+}
+
+/// See [`LightFigures::view`].
+fn view(btdf: &Btdf) -> f64 {
+    let normal: Dir<Facade> = Dir::from_unit(DVec3::Z);
+    let regular = btdf.regular.as_ref().map_or(0.0, |tau| tau.at(0.0));
+    let Some(indicatrix) = btdf.indicatrix(Incident(normal)) else { return regular };
+    let Some(straight) = indicatrix.basis.index(normal) else { return regular };
+    let own = indicatrix.basis.cell(straight);
+    // Around it lies a ring as wide as itself, one row of cells at least.
+    let reach = own.theta_max + (own.theta_max - own.theta_min).max(AROUND);
+    let mean = |holds: &dyn Fn(&Cell) -> bool| {
+        let chosen = indicatrix.basis.cells().zip(&indicatrix.q).filter(|(cell, _)| holds(cell));
+        let add = |[flux, weight]: [f64; 2], (cell, q): (Cell, &f64)| {
+            [flux + q * cell.projected_solid_angle(), weight + cell.projected_solid_angle()]
+        };
+        let [flux, weight] = chosen.fold([0.0; 2], add);
+        [if weight > 0.0 { flux / weight } else { 0.0 }, weight]
+    };
+    // All sectors of the innermost ring hold the normal.
+    let [q, weight] = mean(&|cell| cell.theta_min == own.theta_min);
+    let [surroundings, _] = mean(&|cell| cell.theta_min > own.theta_min && cell.theta_min < reach);
+    regular + if q > STANDS_OUT * surroundings { (q - surroundings) * weight } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::btdf::CellMatrix;
+
+    /// Every incident cell sends its light to the one emergent cell that `place` says, all of it.
+    fn sending(place: impl Fn(DVec3) -> DVec3) -> Btdf {
+        let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
+        let n = basis.len();
+        let mut values = vec![0.0; n * n];
+        for (i, cell) in basis.cells().enumerate() {
+            let to = basis.index(Dir::from_unit(place(cell.centre().vector()))).unwrap();
+            values[i * n + to] = 1.0 / basis.cell(to).projected_solid_angle();
+        }
+        Btdf::from_cells(CellMatrix::new(basis.clone(), basis, values).unwrap())
+    }
+
+    #[test]
+    fn a_diffuser_sends_half_up_a_clear_opening_nothing_and_a_mirror_of_heights_all() {
+        let half = LightFigures::of(&Btdf::ideal_diffuse(0.6));
+        assert!((half.to_ceiling.unwrap() - 0.5).abs() < 1e-9 && (half.sun_blocked - 0.4).abs() < 1e-9);
+        assert!(half.view.abs() < 1e-9);
+        let clear = LightFigures::of(&Btdf::ideal_transparent(0.9));
+        assert_eq!((clear.to_ceiling, clear.view), (Some(0.0), 0.9));
+        assert!((clear.sun_blocked - 0.1).abs() < 1e-12);
+        // Cells on the horizon hold light of both sides, so not quite all.
+        let flipped = LightFigures::of(&sending(|name| DVec3::new(name.x, -name.y, name.z)));
+        assert!(flipped.to_ceiling.unwrap() > 0.85, "{flipped:?}");
+        let straight = LightFigures::of(&sending(|name| name));
+        assert!(straight.to_ceiling.unwrap() < 0.15 && (straight.view - 1.0).abs() < 1e-9, "{straight:?}");
+    }
+
+    #[test]
+    fn nothing_transmitted_has_no_direction() {
+        let dark = LightFigures::of(&Btdf::ideal_diffuse(0.0));
+        assert_eq!(dark, LightFigures { to_ceiling: None, sun_blocked: 1.0, view: 0.0 });
+    }
+}
