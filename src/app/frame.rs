@@ -32,6 +32,7 @@ impl App {
             self.apply(Command::OpenPaths(dropped));
         }
         self.refresh();
+        self.ask_peaks();
         let dragging = ctx.input(|input| input.pointer.any_down());
         if !dragging {
             self.undoer.feed_state(ctx.input(|input| input.time), &self.state.document);

@@ -17,6 +17,7 @@ pub mod export;
 pub mod facing;
 pub mod frame;
 pub mod goniophotometer;
+pub mod incidence;
 pub mod jobs;
 pub mod measuring;
 pub mod moment;

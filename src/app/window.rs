@@ -3,7 +3,7 @@
 use super::backend;
 use super::control::YearKey;
 use super::dialogs::{FileDialogs, NoDialogs};
-use super::engine::Engine;
+use super::engine::{Engine, LidFigures};
 use super::error::AppError;
 use super::export::Exports;
 use super::jobs::{JobState, Jobs, Lane};
@@ -50,6 +50,7 @@ pub struct App {
     pub(super) undoer: Undoer<Document>,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
+    pub(super) asked_peaks: Option<Arc<LidFigures>>,
     pub(super) export: Exports,
     pub(super) toasts: egui_notify::Toasts,
     pub(super) bench: Bench,
@@ -81,6 +82,7 @@ impl App {
             pending_changes: VecDeque::new(),
             asked: None,
             asked_year: None,
+            asked_peaks: None,
             export: Exports::default(),
             toasts: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
             bench: Bench::default(),

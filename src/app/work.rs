@@ -17,6 +17,7 @@ use crate::compute::direction::Orientation;
 use crate::compute::doctor::{Diagnosis, Repair, examine, repaired_all};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
+use crate::compute::lid::c_gamma::Peaks;
 use crate::formats::FormatError;
 use crate::formats::control_curve::read_control_curve;
 use crate::formats::system_toml::is_system_file;
@@ -49,6 +50,8 @@ pub enum Outcome {
     Year(Result<Year, StudyError>),
     /// The LID.
     Lid(Result<LidFigures, AppError>),
+    /// The largest intensities of a LID.
+    Peaks(Arc<LidFigures>, Peaks),
     /// The room.
     Room(Result<RoomFigures, AppError>),
     /// Error against run time.

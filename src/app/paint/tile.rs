@@ -2,7 +2,7 @@
 //! (empty, coarse, stale, wrong).
 
 use super::palette::Palette;
-use egui::{Align, Align2, FontId, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
+use egui::{Align, Align2, Color32, FontId, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
 
 /// How far the content is to be trusted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -11,10 +11,70 @@ pub struct Status<'a> {
     pub coarse: bool,
     /// Belongs to an earlier scene; drawn faded until replaced.
     pub stale: bool,
+    /// Nothing newer is under way: what is stale or coarse stays so.
+    pub idle: bool,
     /// Something is being dragged: colour scales and axes stand still.
     pub hold_scale: bool,
     /// Why there is nothing to show.
     pub error: Option<&'a str>,
+}
+
+impl Status<'_> {
+    /// What a picture that is not the final one says of itself.
+    pub const fn tag(&self) -> Option<&'static str> {
+        match (self.stale, self.coarse, self.idle) {
+            (true, _, false) => Some("updating…"),
+            (true, _, true) => Some("of an earlier scene"),
+            (false, true, false) => Some("coarse, finer to come"),
+            (false, true, true) => Some("coarse"),
+            (false, false, _) => None,
+        }
+    }
+}
+
+/// The line under a picture, from its fullest wording to its shortest: the first that fits is shown.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Foot(Vec<String>);
+
+impl Foot {
+    /// The fullest wording.
+    pub fn full(&self) -> &str {
+        self.0.first().map_or("", String::as_str)
+    }
+
+    /// All wordings with a beginning; the shortest stay without it.
+    pub fn after(self, start: &str) -> Self {
+        let longer: Vec<String> = self.0.iter().map(|text| format!("{start}{text}")).collect();
+        let shortest = self.0.into_iter().next_back();
+        Self(longer.into_iter().chain(shortest).collect())
+    }
+
+    /// The first that is at most `width` wide, else the last.
+    fn fitting(&self, ui: &Ui, width: f32) -> &str {
+        let wide = |text: &str| {
+            let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(SMALL), Color32::PLACEHOLDER);
+            galley.size().x
+        };
+        self.0.iter().find(|text| wide(text) <= width).or(self.0.last()).map_or("", String::as_str)
+    }
+}
+
+impl From<String> for Foot {
+    fn from(text: String) -> Self {
+        Self(vec![text])
+    }
+}
+
+impl From<&str> for Foot {
+    fn from(text: &str) -> Self {
+        Self(vec![text.to_owned()])
+    }
+}
+
+impl<const N: usize> From<[String; N]> for Foot {
+    fn from(texts: [String; N]) -> Self {
+        Self(texts.into())
+    }
 }
 
 /// The words of a tile.
@@ -32,6 +92,10 @@ pub struct Words<'a> {
     pub controls_width: f32,
 }
 
+/// Size of all text but titles. \[points\]
+const SMALL: f32 = 13.0;
+/// Below this width the second title would be a letter or two: then it is only in the title's tip. \[points\]
+const LEAST_SUBTITLE: f32 = 54.0;
 /// Height of the head. \[points\]
 const HEAD: f32 = 26.0;
 /// Height of the line under the picture. \[points\]
@@ -39,12 +103,12 @@ const FOOT: f32 = 20.0;
 
 /// Lays out a tile over all the space there is. `body` draws into its rectangle and returns the text of the line
 /// under the picture, which keeps its place so that nothing jumps.
-pub fn show(
+pub fn show<F: Into<Foot>>(
     ui: &mut Ui,
     words: &Words<'_>,
     status: &Status<'_>,
     controls: impl FnOnce(&mut Ui),
-    body: impl FnOnce(&mut Ui, Rect) -> String,
+    body: impl FnOnce(&mut Ui, Rect) -> F,
 ) {
     let full = ui.available_rect_before_wrap().shrink2(egui::vec2(6.0, 2.0));
     let head = Rect::from_min_max(full.min, pos2(full.right(), full.top() + HEAD));
@@ -53,22 +117,25 @@ pub fn show(
     let palette = Palette::of(ui.visuals());
     ui.push_id(words.title, |ui| {
         head_ui(ui, head, words, status, controls);
-        let notice = status.error.or(words.empty);
-        if let Some(text) = notice {
-            let colour = if status.error.is_some() { ui.visuals().error_fg_color } else { palette.weak };
-            let mut child = ui.new_child(
-                UiBuilder::new().max_rect(inner).layout(Layout::centered_and_justified(egui::Direction::TopDown)),
-            );
-            child.add(egui::Label::new(RichText::new(text).size(13.0).color(colour)).wrap());
+        if let Some(text) = status.error {
+            notice(ui, inner, text, ui.visuals().error_fg_color);
+        } else if let Some(text) = words.empty {
+            notice(ui, inner, text, palette.weak);
         } else if inner.is_positive() {
             let mut child = ui.new_child(UiBuilder::new().max_rect(inner));
             child.set_clip_rect(inner.intersect(ui.clip_rect()));
             if status.stale {
                 child.multiply_opacity(0.5);
             }
-            let text = body(&mut child, inner);
+            let text: Foot = body(&mut child, inner).into();
             let mut line = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
-            line.add(egui::Label::new(RichText::new(text).size(13.0).color(palette.ink)).truncate());
+            let short = text.fitting(ui, foot.width());
+            let shortened = short != text.full();
+            let label = egui::Label::new(RichText::new(short).size(SMALL).color(palette.ink)).truncate();
+            let said = line.add(label.show_tooltip_when_elided(!shortened));
+            if shortened {
+                said.on_hover_text(text.full());
+            }
         }
     });
     ui.allocate_rect(full.expand2(egui::vec2(6.0, 2.0)), Sense::hover());
@@ -93,17 +160,30 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
         }
     }
     head.with_layout(Layout::left_to_right(Align::Center), |ui| {
-        ui.add(egui::Label::new(RichText::new(words.title).size(14.0).strong()));
-        let tag = match (status.stale, status.coarse) {
-            (true, _) => Some("updating…"),
-            (_, true) => Some("coarse"),
-            _ => None,
-        };
-        if let Some(tag) = tag {
-            ui.label(RichText::new(tag).size(13.0).italics().color(palette.second));
+        let title = ui.add(egui::Label::new(RichText::new(words.title).size(14.0).strong()));
+        title.on_hover_text(words.subtitle);
+        if let Some(tag) = status.tag() {
+            let tag = RichText::new(tag).size(SMALL).italics().color(palette.second);
+            ui.add(egui::Label::new(tag).truncate());
         }
-        ui.add(egui::Label::new(RichText::new(words.subtitle).size(13.0).color(palette.weak)).truncate());
+        if ui.available_width() > LEAST_SUBTITLE {
+            ui.add(egui::Label::new(RichText::new(words.subtitle).size(SMALL).color(palette.weak)).truncate());
+        }
     });
+}
+
+/// Words in the middle of a tile, instead of its picture.
+fn notice(ui: &mut Ui, rect: Rect, text: &str, colour: Color32) {
+    let mut child =
+        ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::centered_and_justified(egui::Direction::TopDown)));
+    child.add(egui::Label::new(RichText::new(text).size(SMALL).color(colour)).wrap());
+}
+
+/// A whole tile that has nothing to draw yet: head and words.
+pub fn waiting(ui: &mut Ui, title: &str, help: &str, text: &str, is_error: bool) {
+    let status = Status { error: is_error.then_some(text), ..Status::default() };
+    let words = Words { title, subtitle: "", help, empty: Some(text), controls_width: 0.0 };
+    show(ui, &words, &status, |_| {}, |_, _| "");
 }
 
 /// A caption over a part of a picture.

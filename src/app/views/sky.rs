@@ -1,11 +1,12 @@
 //! The sky from below, the sun that can be dragged, and the illuminances it gives.
 
 use super::Cache;
+use crate::app::moment::height_words;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, Look};
-use crate::app::paint::tile::{self, Status, Words};
+use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::angle::wrap_two_pi;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
@@ -108,7 +109,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         title: "Sky",
         subtitle: input.name,
         help: HELP,
-        empty: input.luminance.is_none().then_some("The scene has no sky yet."),
+        empty: input.luminance.is_none().then_some("No sky: see what the scene says under Sky."),
         controls_width: 0.0,
     };
     tile::show(
@@ -118,7 +119,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         |_| {},
         |ui, rect| match input.luminance {
             Some(luminance) => picture(ui, rect, luminance, input, state, &mut actions),
-            None => String::new(),
+            None => Foot::default(),
         },
     );
     actions
@@ -131,7 +132,7 @@ fn picture(
     input: &Input<'_>,
     state: &mut State,
     out: &mut Vec<Action>,
-) -> String {
+) -> Foot {
     let palette = Palette::of(ui.visuals());
     let lines = if rect.width() < WIDE_FIGURES { 2.0 } else { 1.0 };
     let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + 17.0 * lines));
@@ -202,7 +203,7 @@ fn dome(
     state: &mut State,
     scale: &ColourScale,
     out: &mut Vec<Action>,
-) -> String {
+) -> Foot {
     let palette = Palette::of(ui.visuals());
     let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
     let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
@@ -244,22 +245,28 @@ fn dome(
     let value = place.map(|p| luminance(p.altitude, p.bearing));
     scale.paint_legend(ui.painter(), legend, "cd/m²", value, &palette);
     let sun_text = match input.sun {
-        Some(sun) => place_text("sun", sun),
-        None => "no sun".to_owned(),
+        Some(sun) => Foot::from(place_text("sun", sun)),
+        None => Foot::from("no sun"),
     };
-    tile::name(ui, &response, "Sky dome", &sun_text);
+    tile::name(ui, &response, "Sky dome", sun_text.full());
     match (place, value) {
-        (Some(p), Some(v)) => format!("{} · {}", place_text("sky", p), si(v, "cd/m²")),
+        (Some(p), Some(v)) => {
+            let luminance = si(v, "cd/m²");
+            let [full, short, _] = place_text("sky", p);
+            Foot::from([format!("{full} · {luminance}"), format!("{short} · {luminance}"), luminance])
+        }
         _ => sun_text,
     }
 }
 
-fn place_text(what: &str, place: Place) -> String {
-    format!(
-        "{what} altitude {:.1}°, bearing {:.0}°",
-        place.altitude.to_degrees(),
-        wrap_two_pi(place.bearing).to_degrees()
-    )
+/// "sun 41.0° high, bearing 171°", and shorter; "15.0° below the horizon".
+fn place_text(what: &str, place: Place) -> [String; 3] {
+    let degrees = place.altitude.to_degrees();
+    let height = height_words(degrees, 1);
+    // Just under a whole turn is north again.
+    let bearing = place.bearing.to_degrees().round().rem_euclid(360.0);
+    let short = if degrees < 0.0 { format!("{what} below horizon") } else { format!("{what} {height}") };
+    [format!("{what} {height}, bearing {bearing:.0}°"), format!("{what} {height}"), short]
 }
 
 fn dome_mesh(disk: &Disk, luminance: Luminance<'_>, scale: &ColourScale, facade: f64, palette: &Palette) -> Mesh {
@@ -331,7 +338,7 @@ fn section_ui(
     input: &Input<'_>,
     state: &mut State,
     scale: &ColourScale,
-) -> Option<String> {
+) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let bearing = input.sun.map_or(input.facade_bearing, |sun| sun.bearing);
     let points = state.section.get((input.revision, bearing.to_bits()), || {
@@ -361,7 +368,8 @@ fn section_ui(
     let [angle, _] = shown.pointed()?;
     let [x, value] = points[(angle.round() as i64 + 90).clamp(0, 180) as usize];
     ui.painter().circle_filled(shown.screen(plot.place([x, value])?), 3.5, palette.first);
-    Some(format!("{x:.0}° from the zenith · {}", si(value, "cd/m²")))
+    let luminance = si(value, "cd/m²");
+    Some(Foot::from([format!("{x:.0}° from the zenith · {luminance}"), luminance]))
 }
 
 /// The dome every 5° of altitude and 10° of bearing.
@@ -381,6 +389,16 @@ pub fn csv(input: &Input<'_>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sun_under_the_horizon_is_said_to_be_there() {
+        let text = |degrees: f64, bearing: f64| {
+            let place = Place { altitude: degrees.to_radians(), bearing: bearing.to_radians() };
+            place_text("sun", place)[0].clone()
+        };
+        assert_eq!(text(-15.0, 290.0), "sun 15.0° below the horizon, bearing 290°");
+        assert_eq!(text(41.2, 359.8), "sun 41.2° high, bearing 0°");
+    }
 
     #[test]
     fn north_is_up_and_east_is_left() {
