@@ -49,7 +49,8 @@ impl Incidence {
     /// "sun at θ 49°, φ 98°, profile angle 49°", and shorter: the same direction in all of them.
     pub fn texts(&self) -> [String; 3] {
         let direction = self.direction.0;
-        let profile = profile_angle(direction).map_or_else(String::new, |psi| format!(", profile angle {}", degrees(psi)));
+        let profile =
+            profile_angle(direction).map_or_else(String::new, |psi| format!(", profile angle {}", degrees(psi)));
         let why = if self.source == Source::Normal { " (sun not before the façade)" } else { "" };
         let angles = direction_text(direction);
         [format!("{} at {angles}{profile}{why}", self.name()), format!("{} at {angles}", self.name()), angles]

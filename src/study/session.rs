@@ -89,7 +89,6 @@ pub struct RoomResult {
     pub plan: Plan,
 }
 
-
 impl RoomResult {
     /// Share of all light at the sensors that the data leave open.
     pub fn data_share(&self) -> f64 {

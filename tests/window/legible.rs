@@ -2,23 +2,20 @@
 //!
 //! Frames are run without a renderer and their shapes are looked through; see [`inspect`].
 
-mod inspect;
+pub mod inspect;
 
-use cfs::app::backend::{StudyEngine, ideals_shelf, memory_shelf};
+use crate::driven::{LONG, apply, harness, select, services, settle, window};
+use cfs::app::App;
+use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
-use cfs::app::dialogs::NoDialogs;
 use cfs::app::error::AppError;
-use cfs::app::shelf::{Addition, Shelf};
-use cfs::app::state::{PathUse, Settings, Sheet};
+use cfs::app::state::{PathUse, Sheet};
 use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
-use cfs::app::{App, Services};
-use cfs::catalogue::{NewProduct, SourceFile};
 use egui_kittest::Harness;
 use std::collections::BTreeMap;
+use std::sync::Mutex;
 use std::sync::mpsc::channel;
-use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
 
 /// Sizes of the window \[points\] and pixels a point: the least, the first and a large one, and two fine screens.
 const SIZES: [([f32; 2], f32); 5] = [
@@ -28,54 +25,6 @@ const SIZES: [([f32; 2], f32); 5] = [
     ([960.0, 600.0], 2.0),
     ([1280.0, 720.0], 2.0),
 ];
-
-const PATIENCE: Duration = Duration::from_secs(120);
-
-fn harness(services: Services) -> Harness<'static, App> {
-    Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
-        |ui, app: &mut App| {
-            let ctx = ui.ctx().clone();
-            app.logic(&ctx);
-            app.draw(ui);
-        },
-        App::new(services, Settings::default()),
-    )
-}
-
-fn services(open: impl Fn() -> Result<Arc<dyn Shelf>, AppError> + Send + Sync + 'static) -> Services {
-    Services {
-        open_catalogue: Arc::new(open),
-        read: SourceFile::read,
-        dialogs: Arc::new(NoDialogs),
-        engine: Arc::new(StudyEngine::default()),
-    }
-}
-
-/// Steps until no job is left, then a few frames more.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(3);
-    while harness.state().busy() {
-        assert!(start.elapsed() < PATIENCE, "jobs end");
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    harness.run_steps(3);
-}
-
-fn apply(harness: &mut Harness<'_, App>, command: Command) {
-    harness.state_mut().apply(command);
-}
-
-/// Coarse: what is tested is how it looks.
-fn coarsen(harness: &mut Harness<'_, App>) {
-    let plane = harness.state_mut().state.document.scene.sensors.plane.as_mut().unwrap();
-    (plane.nx, plane.ny) = (6, 10);
-}
-
-/// Texts that may be cut, since all of them is in a tip: names of products and of what belongs to them in lists, the
-/// second titles of tiles, and the selection in the menu bar.
-const MAY_BE_CUT: [&str; 0] = [];
 
 /// What is wrong, and where it was first seen.
 #[derive(Default)]
@@ -88,9 +37,6 @@ impl Problems {
         harness.set_pixels_per_point(scale);
         harness.run_steps(3);
         for problem in inspect::problems(harness) {
-            if MAY_BE_CUT.iter().any(|text| problem.starts_with("cut with …") && problem.contains(text)) {
-                continue;
-            }
             let place = format!("{what} at {} × {}, scale {scale}", size[0], size[1]);
             self.0.entry(problem).or_insert(place);
         }
@@ -120,44 +66,6 @@ impl Problems {
     }
 }
 
-/// The real study on a catalogue in memory, with a product whose names are as long as makers' names are.
-fn window() -> Harness<'static, App> {
-    let mut harness = harness(services(|| {
-        let shelf = memory_shelf()?;
-        let found = shelf.search(&Default::default())?;
-        let moving = found.entries.iter().find(|entry| entry.states.len() > 2).expect("a blind is built in");
-        let datasets = moving.states[..3].iter().zip(["fully retracted, upper part 20°", "cut-off 35°", "closed"]);
-        let datasets: Result<Vec<_>, AppError> = datasets
-            .map(|(state, name)| {
-                let mut dataset = (*shelf.load(&moving.key, Some(state))?).clone();
-                dataset.state = name.to_owned();
-                Ok(Arc::new(dataset))
-            })
-            .collect();
-        shelf.add(&Addition {
-            datasets: datasets?,
-            product: NewProduct {
-                name: LONG.to_owned(),
-                manufacturer: "Gesellschaft für Tageslichttechnik und Sonnenschutz mbH & Co. KG".to_owned(),
-                kind: "venetian blind between panes".to_owned(),
-                ..NewProduct::default()
-            },
-        })?;
-        Ok(shelf)
-    }));
-    coarsen(&mut harness);
-    settle(&mut harness);
-    harness
-}
-
-const LONG: &str = "Retroreflecting light-guiding venetian blind 80 mm, perforated, white outside and specular inside";
-
-fn select(harness: &mut Harness<'_, App>, fits: impl Fn(&cfs::app::shelf::Entry) -> bool) {
-    let key = harness.state().state.found.entries.iter().find(|entry| fits(entry)).expect("a product").key.clone();
-    apply(harness, Command::Select(key));
-    settle(harness);
-}
-
 #[test]
 fn a_window_that_opens_says_so_everywhere_and_can_be_read() {
     let (release, wait) = channel::<()>();
@@ -183,6 +91,7 @@ fn a_blind_at_noon_can_be_read_at_all_sizes_in_all_tiles_and_sheets() {
     for folded in [Command::ToggleCatalogue, Command::ToggleScene] {
         apply(&mut harness, folded);
         problems.bench(&mut harness, "panels folded");
+        problems.look(&mut harness, "panels folded", SIZES[0]);
     }
     for folded in [Command::ToggleCatalogue, Command::ToggleScene] {
         apply(&mut harness, folded);
@@ -247,7 +156,8 @@ fn errors_can_be_read() {
     let told = harness.state().results.room.error.clone().expect("a window wider than its wall");
     assert!(!told.is_empty());
     problems.bench(&mut harness, "a window wider than its wall");
-    let mut failed = self::harness(services(|| Err(AppError::NotText(7, "a catalogue").about("catalogue.sqlite"))));
+    let mut failed =
+        crate::driven::harness(services(|| Err(AppError::NotText(7, "a catalogue").about("catalogue.sqlite"))));
     settle(&mut failed);
     problems.bench(&mut failed, "no catalogue");
     problems.none_left();

@@ -6,6 +6,8 @@ mod app_engine;
 #[path = "../common/mod.rs"]
 mod common;
 mod control_view;
+mod driven;
 mod goniophotometer_view;
 mod legible;
+mod truth;
 mod views;

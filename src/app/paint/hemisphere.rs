@@ -229,7 +229,7 @@ impl Disk {
 
 /// Small text on data: a soft ground makes it readable on every colour.
 pub fn on_halo(painter: &Painter, at: Pos2, text: &str, palette: &Palette) -> Rect {
-    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.0), palette.ink);
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), palette.ink);
     let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size());
     painter.rect_filled(rect.expand2(egui::vec2(2.0, 0.0)), 3, palette.halo);
     painter.galley(rect.min, galley, palette.ink);

@@ -24,7 +24,7 @@ impl Status<'_> {
     pub const fn tag(&self) -> Option<&'static str> {
         match (self.stale, self.coarse, self.idle) {
             (true, _, false) => Some("updating…"),
-            (true, _, true) => Some("of an earlier scene"),
+            (true, _, true) => Some("outdated"),
             (false, true, false) => Some("coarse, finer to come"),
             (false, true, true) => Some("coarse"),
             (false, false, _) => None,
@@ -42,20 +42,28 @@ impl Foot {
         self.0.first().map_or("", String::as_str)
     }
 
-    /// All wordings with a beginning; the shortest stay without it.
+    /// All wordings with a beginning.
     pub fn after(self, start: &str) -> Self {
-        let longer: Vec<String> = self.0.iter().map(|text| format!("{start}{text}")).collect();
-        let shortest = self.0.into_iter().next_back();
-        Self(longer.into_iter().chain(shortest).collect())
+        Self(self.0.into_iter().map(|text| format!("{start}{text}")).collect())
     }
 
-    /// The first that is at most `width` wide, else the last.
-    fn fitting(&self, ui: &Ui, width: f32) -> &str {
-        let wide = |text: &str| {
-            let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(SMALL), Color32::PLACEHOLDER);
-            galley.size().x
-        };
-        self.0.iter().find(|text| wide(text) <= width).or(self.0.last()).map_or("", String::as_str)
+    /// A shorter wording, where none of the others fits.
+    pub fn or(mut self, shortest: &str) -> Self {
+        self.0.push(shortest.to_owned());
+        self
+    }
+
+    /// The first that is at most so wide; else the last, without its parts after " · " as far as needed.
+    fn fitting(&self, ui: &Ui, room: f32) -> String {
+        let fits = |text: &str| width(ui, text, SMALL) <= room;
+        if let Some(text) = self.0.iter().find(|text| fits(text)) {
+            return text.clone();
+        }
+        let mut rest = self.0.last().map_or("", String::as_str);
+        while let Some((start, _)) = rest.rsplit_once(" · ").filter(|_| !fits(rest)) {
+            rest = start;
+        }
+        rest.to_owned()
     }
 }
 
@@ -94,6 +102,10 @@ pub struct Words<'a> {
 
 /// Size of all text but titles. \[points\]
 const SMALL: f32 = 13.0;
+/// Size of a tile's title. \[points\]
+const TITLE: f32 = 14.0;
+/// What the two buttons of a head take with the space round them. \[points\]
+const BUTTONS: f32 = 96.0;
 /// Below this width the second title would be a letter or two: then it is only in the title's tip. \[points\]
 const LEAST_SUBTITLE: f32 = 54.0;
 /// Height of the head. \[points\]
@@ -116,7 +128,7 @@ pub fn show<F: Into<Foot>>(
     let inner = Rect::from_min_max(pos2(full.left(), head.bottom() + 2.0), pos2(full.right(), foot.top() - 2.0));
     let palette = Palette::of(ui.visuals());
     ui.push_id(words.title, |ui| {
-        head_ui(ui, head, words, status, controls);
+        let tagged = head_ui(ui, head, words, status, controls);
         if let Some(text) = status.error {
             notice(ui, inner, text, ui.visuals().error_fg_color);
         } else if let Some(text) = words.empty {
@@ -127,11 +139,15 @@ pub fn show<F: Into<Foot>>(
             if status.stale {
                 child.multiply_opacity(0.5);
             }
-            let text: Foot = body(&mut child, inner).into();
+            let mut text: Foot = body(&mut child, inner).into();
+            // What the head has no room for is said here: a picture never looks newer than it is.
+            if let Some(tag) = status.tag().filter(|_| !tagged) {
+                text = text.after(&format!("{tag} · ")).or(tag);
+            }
             let mut line = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
             let short = text.fitting(ui, foot.width());
             let shortened = short != text.full();
-            let label = egui::Label::new(RichText::new(short).size(SMALL).color(palette.ink)).truncate();
+            let label = egui::Label::new(RichText::new(&short).size(SMALL).color(palette.ink)).truncate();
             let said = line.add(label.show_tooltip_when_elided(!shortened));
             if shortened {
                 said.on_hover_text(text.full());
@@ -141,35 +157,58 @@ pub fn show<F: Into<Foot>>(
     ui.allocate_rect(full.expand2(egui::vec2(6.0, 2.0)), Sense::hover());
 }
 
-fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, controls: impl FnOnce(&mut Ui)) {
+/// Width of a line of text.
+fn width(ui: &Ui, text: &str, size: f32) -> f32 {
+    ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(size), Color32::PLACEHOLDER).size().x
+}
+
+/// Draws the head; true when it says all that the status has to say.
+fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, controls: impl FnOnce(&mut Ui)) -> bool {
     let palette = Palette::of(ui.visuals());
     let mut head = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
+    let with_controls = words.empty.is_none() && words.controls_width > 0.0;
     let wide = rect.width() > words.controls_width + 190.0;
+    // Where title and two buttons do not fit side by side, one menu holds all.
+    let title = width(ui, words.title, TITLE);
+    let narrow = with_controls && !wide && title + BUTTONS > rect.width();
     let about = format!("About {}", words.title.to_lowercase());
-    head.button("?").on_hover_text(words.help).accessible_name(about);
-    if words.empty.is_none() && words.controls_width > 0.0 {
-        if wide {
+    if narrow {
+        let menu = head.menu_button("…", |ui| {
+            controls(ui);
+            ui.separator();
+            ui.add(egui::Label::new(RichText::new(words.help).size(SMALL)).wrap());
+        });
+        menu.response.on_hover_text("View, and about this tile").accessible_name(about);
+    } else {
+        head.button("?").on_hover_text(words.help).accessible_name(about);
+        if with_controls && wide {
             // Laid out from the right: reversed here, so that the closure writes them in reading order.
             head.allocate_ui_with_layout(
                 egui::vec2(words.controls_width, HEAD),
                 Layout::left_to_right(Align::Center),
                 controls,
             );
-        } else {
+        } else if with_controls {
             head.menu_button("View", controls);
         }
     }
     head.with_layout(Layout::left_to_right(Align::Center), |ui| {
-        let title = ui.add(egui::Label::new(RichText::new(words.title).size(14.0).strong()));
+        let title = ui.add(egui::Label::new(RichText::new(words.title).size(TITLE).strong()));
         title.on_hover_text(words.subtitle);
+        let mut tagged = true;
         if let Some(tag) = status.tag() {
-            let tag = RichText::new(tag).size(SMALL).italics().color(palette.second);
-            ui.add(egui::Label::new(tag).truncate());
+            tagged = width(ui, tag, SMALL) + 2.0 <= ui.available_width();
+            if tagged {
+                let tag = RichText::new(tag).size(SMALL).italics().color(palette.second);
+                ui.add(egui::Label::new(tag).extend());
+            }
         }
         if ui.available_width() > LEAST_SUBTITLE {
             ui.add(egui::Label::new(RichText::new(words.subtitle).size(SMALL).color(palette.weak)).truncate());
         }
-    });
+        tagged
+    })
+    .inner
 }
 
 /// Words in the middle of a tile, instead of its picture.

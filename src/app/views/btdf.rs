@@ -169,14 +169,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
-fn picture(
-    ui: &mut Ui,
-    rect: Rect,
-    btdf: &Btdf,
-    input: &Input<'_>,
-    state: &mut State,
-    out: &mut Vec<Action>,
-) -> Foot {
+fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
     let [outside, inside] = places(rect);
     let incident = incident_side(ui, &outside, btdf, input, state, out);
     let emergent = emergent_side(ui, &inside, btdf, input, state);
@@ -249,7 +242,7 @@ fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2]
     let text =
         if corner.width() > 76.0 && corner.height() > 44.0 { format!("{side}:\n{what}") } else { side.to_owned() };
     let mut job =
-        egui::text::LayoutJob::simple(text, egui::FontId::proportional(12.5), palette.weak, corner.width().max(50.0));
+        egui::text::LayoutJob::simple(text, egui::FontId::proportional(13.0), palette.weak, corner.width().max(50.0));
     job.halign = align.x();
     let galley = ui.painter().layout_job(job);
     let height = galley.size().y;

@@ -202,7 +202,8 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let two = body.width() > 400.0 && body.width() > 1.35 * body.height();
     let (main, side) = if two {
         let (main, side) = body.split_left_right_at_fraction(0.57);
-        (main, Some(side))
+        // The angles at the rims of both keep apart.
+        (main.with_max_x(main.right() - 8.0), Some(side.with_min_x(side.left() + 8.0)))
     } else {
         (body, None)
     };
@@ -318,20 +319,26 @@ const NARROW: f32 = 300.0;
 
 /// What the sun's beam is, from the fullest words to the shortest.
 fn beam_words(lid: &Lid, peaks: Option<&Peaks>, scaling: Scaling) -> Vec<String> {
-    let Some(strongest) = lid.beams.iter().max_by(|a, b| a.flux.total_cmp(&b.flux)).filter(|beam| beam.flux > 0.0) else {
-        return vec!["no unscattered sun".to_owned()];
+    let Some(strongest) = lid.beams.iter().max_by(|a, b| a.flux.total_cmp(&b.flux)).filter(|beam| beam.flux > 0.0)
+    else {
+        return vec!["no unscattered sun".to_owned(), "no sun's beam".to_owned()];
     };
     let more = if lid.beams.len() > 1 { "most " } else { "" };
     let to = towards(lid.surface, strongest.direction);
     let flux = si(lid.beam_flux(), "lm");
     let Some(peak) = peaks.and_then(|peaks| peaks.beam) else {
-        return vec![format!("sun's beam, {more}to {to}, {flux} (not to scale)"), format!("sun's beam {flux}")];
+        return vec![
+            format!("sun's beam, {more}to {to}, {flux} (not to scale)"),
+            format!("sun's beam {flux}"),
+            format!("beam {flux}"),
+        ];
     };
     let value = scaling.text(peak.intensity);
     vec![
         format!("sun's beam {value}, {more}to {to}, {flux} (not to scale)"),
         format!("sun's beam {value}, {more}to {to}"),
         format!("sun's beam {value}"),
+        format!("beam {value}"),
     ]
 }
 
@@ -374,7 +381,10 @@ fn legend_ui(
         let name = plane.label();
         // The unit once, with the first plane.
         let texts = match k {
-            0 => vec![format!("{name}, {}", scaling.unit()), format!("{name}, {}", scaling.unit().replace(" of aperture", ""))],
+            0 => vec![
+                format!("{name}, {}", scaling.unit()),
+                format!("{name}, {}", scaling.unit().replace(" of aperture", "")),
+            ],
             _ if *plane == LidPlane::Vertical(90) && lid.surface == Surface::Facade => {
                 vec![format!("{name} (0: façade's plane)"), name]
             }

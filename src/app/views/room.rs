@@ -388,7 +388,7 @@ fn section_ui(
     let v = value(row, j);
     let at = shown.screen(plot.place([at_depth(j), v.total])?);
     ui.painter().with_clip_rect(shown.area()).circle_filled(at, 4.0, palette.first);
-    Some(value_text(&v).after(&format!("{} m deep · ", number(at_depth(j), 3))))
+    Some(value_text(&v).after(&format!("{} m deep · ", number(at_depth(j), 3))).or(&si(v.total, "lx")))
 }
 
 /// All sensors with position and parts.

@@ -88,7 +88,22 @@ it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 o
 scene.";
 
 /// Width from which the three illuminances stand in one line. \[points\]
-const WIDE_FIGURES: f32 = 440.0;
+const WIDE_FIGURES: f32 = 460.0;
+/// Below it each has a line of its own. \[points\]
+const NARROW_FIGURES: f32 = 190.0;
+/// Height of a line of them. \[points\]
+const FIGURE_LINE: f32 = 17.0;
+
+/// Lines that the illuminances take.
+fn figure_lines(width: f32) -> u8 {
+    if width < NARROW_FIGURES {
+        3
+    } else if width < WIDE_FIGURES {
+        2
+    } else {
+        1
+    }
+}
 
 /// Disk point (right, up) of a place: north up, east left.
 fn disk_point(place: Place) -> [f64; 2] {
@@ -134,8 +149,8 @@ fn picture(
     out: &mut Vec<Action>,
 ) -> Foot {
     let palette = Palette::of(ui.visuals());
-    let lines = if rect.width() < WIDE_FIGURES { 2.0 } else { 1.0 };
-    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + 17.0 * lines));
+    let lines = f32::from(figure_lines(rect.width()));
+    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + FIGURE_LINE * lines));
     figures_ui(ui, figures, input, &palette);
     let rest = Rect::from_min_max(pos2(rect.left(), figures.bottom()), rect.max);
     let beside = rest.width() > 1.05 * rest.height() && rest.width() > 380.0;
@@ -180,17 +195,18 @@ fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
         ("E_h direct", input.direct_horizontal),
         ("E_v façade", input.facade_vertical),
     ];
-    // Narrow: name over value, in the same three columns.
+    // Name over value in three columns, or a line for each, where they do not fit side by side.
     let short = ["diffuse", "direct", "façade"];
-    let narrow = rect.width() < WIDE_FIGURES;
+    let lines = figure_lines(rect.width());
     let width = rect.width() / 3.0;
     let font = FontId::proportional(13.0);
     for (k, (label, value)) in figures.into_iter().enumerate() {
         let value = value.map_or_else(|| "–".to_owned(), |v| format!("{:.1} klx", v / 1000.0));
-        let at = pos2(rect.left() + 2.0 + k as f32 * width, rect.top() + 9.0);
-        let name = if narrow { short[k] } else { label };
+        let at = rect.left_top() + vec2(2.0, 9.0);
+        let at = at + if lines == 3 { vec2(0.0, FIGURE_LINE * k as f32) } else { vec2(k as f32 * width, 0.0) };
+        let name = if lines == 2 { short[k] } else { label };
         let label = ui.painter().text(at, Align2::LEFT_CENTER, name, font.clone(), palette.weak);
-        let place = if narrow { at + vec2(0.0, 16.0) } else { pos2(label.right() + 5.0, at.y) };
+        let place = if lines == 2 { at + vec2(0.0, 16.0) } else { pos2(label.right() + 5.0, at.y) };
         ui.painter().text(place, Align2::LEFT_CENTER, value, font.clone(), palette.ink);
     }
 }

@@ -145,14 +145,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
-fn picture(
-    ui: &mut Ui,
-    rect: Rect,
-    btdf: &Btdf,
-    input: &Input<'_>,
-    state: &mut State,
-    out: &mut Vec<Action>,
-) -> Foot {
+fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
     let palette = Palette::of(ui.visuals());
     let map = match (input.split, beside(rect)) {
         (Some(split), true) => {
@@ -251,7 +244,7 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
     // Names are written last, over all lines, where neither another name nor the sun is.
     let mut names: Vec<(Rect, egui::Pos2, String)> = vec![];
     let mut name = |place: egui::Pos2, text: String| {
-        let size = Rect::from_center_size(place, vec2(8.0 + 6.5 * text.chars().count() as f32, 15.0));
+        let size = Rect::from_center_size(place, vec2(8.0 + 7.5 * text.chars().count() as f32, 17.0));
         let free = sun.is_none_or(|at| size.distance_to_pos(at) > 8.0);
         if free && names.iter().all(|(other, ..)| !other.intersects(size)) {
             names.push((size, place, text));
@@ -310,7 +303,8 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
 fn split_title(ui: &Ui, incidence: &Incidence, width: f32) -> String {
     let [_, middle, short] = incidence.texts();
     let font = FontId::proportional(13.0);
-    let fits = |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE).size().x <= width;
+    let fits =
+        |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE).size().x <= width;
     [format!("{middle}:"), short].into_iter().find(fits).unwrap_or_else(|| incidence.name().to_owned())
 }
 

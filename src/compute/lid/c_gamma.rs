@@ -235,10 +235,9 @@ impl CGammaTable {
         let beam = |node: usize| self.beams.get(node).copied().unwrap_or(0.0);
         let strongest = |value: &dyn Fn(usize) -> f64| {
             // Of equal ones the first: the plane that is named does not jump.
-            let best = (0..self.intensity.len()).map(|node| (node, value(node))).fold(
-                (0, 0.0),
-                |best: (usize, f64), one| if one.1 > best.1 { one } else { best },
-            );
+            let best = (0..self.intensity.len())
+                .map(|node| (node, value(node)))
+                .fold((0, 0.0), |best: (usize, f64), one| if one.1 > best.1 { one } else { best });
             let at = |part: usize| part as f64 * self.step.radians();
             let (c, gamma) = (at(best.0 / self.angles()), at(best.0 % self.angles()));
             (best.1 > 0.0).then_some(Peak { intensity: best.1, c, gamma })

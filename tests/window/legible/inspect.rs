@@ -1,15 +1,18 @@
 //! What a frame of the window would put on the screen, looked through for text that cannot be read and for widgets that
 //! are in each other's way. Nothing is drawn: shapes, clip rectangles and accessible names are enough.
 
-use cfs::app::App;
+use cfs::app::{App, title};
 use egui::accesskit::Role;
 use egui::epaint::{ClippedShape, TextShape};
-use egui::{Id, PanelState, Rect, Shape};
+use egui::{Rect, Shape};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
 
 /// Rounding to pixels, and antialiasing at the edges of letters. \[points\]
 const TOLERANCE: f32 = 1.5;
+
+/// Text must not be smaller. \[points\]
+const LEAST_SIZE: f32 = 13.0;
 
 /// A text on the screen.
 struct Text {
@@ -70,6 +73,16 @@ impl Painted {
     }
 }
 
+/// All words that the last frame would put on the screen.
+pub fn words(harness: &Harness<'_, App>) -> Vec<String> {
+    let mut painted = Painted::default();
+    for ClippedShape { clip_rect, shape, .. } in &harness.output().shapes {
+        painted.add(shape, *clip_rect);
+    }
+    let in_sight = |text: &Text| text.ink.intersects(text.clip);
+    painted.texts.into_iter().filter(in_sight).map(|text| text.words).collect()
+}
+
 fn beyond(inner: Rect, outer: Rect) -> bool {
     !outer.expand(TOLERANCE).contains_rect(inner)
 }
@@ -78,11 +91,13 @@ fn beyond(inner: Rect, outer: Rect) -> bool {
 /// what is wrong, with the words.
 pub fn problems(harness: &Harness<'_, App>) -> Vec<String> {
     let screen = harness.ctx.content_rect();
-    let scrolled = scroll_regions(harness);
     let mut painted = Painted::default();
     for ClippedShape { clip_rect, shape, .. } in &harness.output().shapes {
         painted.add(shape, *clip_rect);
     }
+    let tiles = tiles(harness, &painted);
+    let scrolled = |clip: Rect| !tiles.iter().any(|tile| tile.expand(TOLERANCE).contains_rect(clip));
+    let may_be_cut = cut_with_a_tip(harness);
     let mut list = Vec::new();
     let in_sight: Vec<&Text> = painted
         .texts
@@ -91,17 +106,18 @@ pub fn problems(harness: &Harness<'_, App>) -> Vec<String> {
         .filter(|text| !painted.hidden(text.ink.intersect(text.clip), text.order, usize::MAX))
         .collect();
     for text in &in_sight {
-        if text.elided {
+        // The catalogue's rows have their full names in a tip.
+        let row = text.ink.right() < catalogue_edge(harness, &tiles);
+        if text.elided && !row && !may_be_cut.iter().any(|start| text.words.starts_with(start)) {
             list.push(format!("cut with …: {:?}", text.words));
         }
-        if text.size < 11.0 {
-            list.push(format!("smaller than 11 points: {:?}", text.words));
+        if text.size < LEAST_SIZE {
+            list.push(format!("smaller than {LEAST_SIZE} points: {:?}", text.words));
         }
         // A row of a list may stand half out of sight: it is scrolled to.
         let across = text.ink.x_range();
-        let in_list = scrolled.iter().any(|region| region.expand(TOLERANCE).contains_rect(text.clip));
         let sideways = across.min < text.clip.left() - TOLERANCE || across.max > text.clip.right() + TOLERANCE;
-        if beyond(text.ink, text.clip) && (sideways || !in_list) {
+        if beyond(text.ink, text.clip) && (sideways || !scrolled(text.clip)) {
             list.push(format!("out of its part of the window: {:?} {:?} in {:?}", text.words, text.ink, text.clip));
         } else if beyond(text.ink.intersect(text.clip), screen) {
             list.push(format!("out of the window: {:?}", text.words));
@@ -121,13 +137,34 @@ pub fn problems(harness: &Harness<'_, App>) -> Vec<String> {
     list
 }
 
-/// Where lists and forms are scrolled.
-fn scroll_regions(harness: &Harness<'_, App>) -> Vec<Rect> {
-    let panels = ["catalogue", "scene", "sheet"].into_iter();
-    let known = panels.filter_map(|name| PanelState::load(&harness.ctx, Id::unique(name)).map(|state| state.outer_rect));
-    // The goniophotometer's page takes the place of the bench.
-    let page = harness.state().state.sheet == Some(cfs::app::state::Sheet::Goniophotometer);
-    known.chain(page.then(|| harness.ctx.content_rect())).collect()
+/// Where tiles stand: the grounds that begin where their heads do. Everything else is scrolled, or a bar.
+fn tiles(harness: &Harness<'_, App>, painted: &Painted) -> Vec<Rect> {
+    let root = harness.root();
+    let heads = root.children_recursive().filter(|node| {
+        node.accesskit_node().label().is_some_and(|label| label.starts_with("Tile ") && !label.contains(','))
+    });
+    let ground = |head: Rect| {
+        let from_there = |ground: &&Rect| ground.min.distance(head.min) < 2.0 && ground.contains_rect(head.shrink(2.0));
+        let grounds: Vec<Rect> = painted.grounds.iter().map(|(_, ground)| *ground).collect();
+        grounds.iter().filter(from_there).copied().max_by(|a, b| a.area().total_cmp(&b.area()))
+    };
+    heads.filter_map(|head| ground(head.rect())).collect()
+}
+
+/// Where the bench begins, thus the catalogue ends.
+fn catalogue_edge(harness: &Harness<'_, App>, tiles: &[Rect]) -> f32 {
+    let open = harness.state().state.settings.catalogue_open;
+    if open { tiles.iter().map(|tile| tile.left()).fold(f32::INFINITY, f32::min) } else { 0.0 }
+}
+
+/// Beginnings of texts that may be cut, since all of them is in a tip: the second titles of tiles and the selection in
+/// the menu bar.
+fn cut_with_a_tip(harness: &Harness<'_, App>) -> Vec<String> {
+    let state = &harness.state().state;
+    vec![title::selection(state), title::sky(&state.document.scene), title::title(state).replace("cfs – ", "")]
+        .into_iter()
+        .filter(|start| !start.is_empty())
+        .collect()
 }
 
 /// A widget by its name.
@@ -136,10 +173,11 @@ struct Widget {
     rect: Rect,
     /// The part that can be clicked.
     seen: Rect,
+    layer: egui::LayerId,
 }
 
 /// Buttons, fields and the like that overlap, are cut or lie outside the window.
-fn widget_problems(harness: &Harness<'_, App>, screen: Rect, scrolled: &[Rect]) -> Vec<String> {
+fn widget_problems(harness: &Harness<'_, App>, screen: Rect, scrolled: &dyn Fn(Rect) -> bool) -> Vec<String> {
     const ROLES: [Role; 8] = [
         Role::Button,
         Role::CheckBox,
@@ -162,21 +200,21 @@ fn widget_problems(harness: &Harness<'_, App>, screen: Rect, scrolled: &[Rect]) 
         let name = node.label().or_else(|| node.value()).unwrap_or_default();
         // The head of a tile takes double clicks; what stands on it is above it.
         if ROLES.contains(&node.role()) && !name.starts_with("Tile ") && rect.interact_rect.is_positive() {
-            widgets.push(Widget { name, rect: rect.rect, seen: rect.interact_rect });
+            widgets.push(Widget { name, rect: rect.rect, seen: rect.interact_rect, layer: rect.layer_id });
         }
     }
     let mut list = Vec::new();
     for (k, a) in widgets.iter().enumerate() {
-        let in_list = scrolled.iter().any(|region| region.expand(TOLERANCE).contains_rect(a.seen));
         let sideways = a.seen.left() > a.rect.left() + TOLERANCE || a.seen.right() < a.rect.right() - TOLERANCE;
-        if beyond(a.rect, a.seen) && (sideways || !in_list) {
+        if beyond(a.rect, a.seen) && (sideways || !scrolled(a.seen)) {
             list.push(format!("a widget is cut: {:?} {:?} {:?}", a.name, a.rect, a.seen));
         } else if beyond(a.seen, screen) {
             list.push(format!("a widget is out of the window: {:?}", a.name));
         }
         for b in &widgets[k + 1..] {
             let both = a.seen.intersect(b.seen).shrink(TOLERANCE);
-            if both.is_positive() {
+            // A list that is open lies over what is under it.
+            if both.is_positive() && a.layer == b.layer {
                 list.push(format!("widgets over each other: {:?} and {:?}", a.name, b.name));
             }
         }

@@ -26,7 +26,14 @@ pub(super) fn levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
 pub(super) const ASKED_FOR: [f64; 2] = [300.0, 500.0];
 
 /// Writes a line's level on it where nothing else stands, inside the plan; false where there is no such place.
-pub(super) fn label_line(ui: &Ui, points: &[Pos2], level: f64, scale: &ColourScale, area: Rect, used: &mut Vec<Rect>) -> bool {
+pub(super) fn label_line(
+    ui: &Ui,
+    points: &[Pos2],
+    level: f64,
+    scale: &ColourScale,
+    area: Rect,
+    used: &mut Vec<Rect>,
+) -> bool {
     if points.len() < 2 {
         return false;
     }
@@ -55,7 +62,7 @@ pub(super) fn label_line(ui: &Ui, points: &[Pos2], level: f64, scale: &ColourSca
 }
 
 /// Size of names on the plan. \[points\]
-const NAME_SIZE: f32 = 12.0;
+const NAME_SIZE: f32 = 13.0;
 
 /// A bar of whole metres in the deep corner of the plan, `scale` points a metre; returns the place that it takes.
 pub(super) fn scale_bar(ui: &Ui, area: Rect, scale: f32) -> Rect {

@@ -163,7 +163,9 @@ fn empty_distribution_is_a_table_of_zeros() {
 #[test]
 fn peaks_are_the_tables_largest_values_of_scattered_light_and_of_beams() {
     let glow = |spot: Dir<Facade>| {
-        EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| 50.0 + 9000.0 * ((twin.dot(spot) - 1.0) / 0.02).exp()))
+        EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
+            50.0 + 9000.0 * ((twin.dot(spot) - 1.0) / 0.02).exp()
+        }))
     };
     // Brightest upwards to the right; the beam goes down to the left.
     let spot = Emergent(Dir::new(DVec3::new(0.4, 0.5, -0.77)).unwrap());
@@ -172,9 +174,8 @@ fn peaks_are_the_tables_largest_values_of_scattered_light_and_of_beams() {
     let both = Lid { beams: vec![SunBeam { direction: beam, flux: 900.0, straight: true }], ..scattered.clone() };
     let table = CGammaTable::new(&both, Aim::Mounted, Step::for_lid(&both));
     let peaks = Peaks::of(&both);
-    let near = |peak: &Peak, to: Emergent| {
-        Aim::Mounted.direction(peak.c, peak.gamma).0.dot(to.0) > 1.1_f64.to_radians().cos()
-    };
+    let near =
+        |peak: &Peak, to: Emergent| Aim::Mounted.direction(peak.c, peak.gamma).0.dot(to.0) > 1.1_f64.to_radians().cos();
     let (own, sun) = (peaks.scattered.unwrap(), peaks.beam.unwrap());
     assert!(near(&sun, beam) && own.intensity < 0.01 * sun.intensity, "{peaks:?}");
     assert_eq!(sun.intensity, table.intensity.iter().copied().fold(0.0, f64::max));
