@@ -35,15 +35,9 @@ impl RoomFigures {
         self.direct[sensor] + self.interreflected[sensor] + Estimate::new(0.0, part(&self.data_error, sensor))
     }
 
-    /// Greatest error over the greatest illuminance.
-    pub fn relative_error(&self) -> f64 {
-        let (mut error, mut greatest) = (0.0_f64, 0.0_f64);
-        for sensor in 0..self.positions.len() {
-            let total = self.total(sensor);
-            error = error.max(total.error);
-            greatest = greatest.max(total.value);
-        }
-        if greatest > 0.0 { error / greatest } else { 0.0 }
+    /// Illuminances at all sensors. \[lx\]
+    pub fn totals(&self) -> impl Iterator<Item = Estimate> + Clone + '_ {
+        (0..self.positions.len()).map(|sensor| self.total(sensor))
     }
 }
 

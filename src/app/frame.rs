@@ -33,6 +33,7 @@ impl App {
             self.apply(Command::OpenPaths(dropped));
         }
         self.refresh();
+        self.ask_peaks();
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.keep_session();
         if !dragging {

@@ -23,6 +23,7 @@ pub mod frame;
 pub mod goniophotometer;
 pub mod import;
 pub mod importing;
+pub mod incidence;
 pub mod jobs;
 pub mod keeping;
 pub mod measuring;

@@ -98,6 +98,14 @@ pub fn words(time: DateTime) -> String {
     time.strftime("%-d %b %H:%M").to_string()
 }
 
+/// An altitude in degrees in words, with so many decimals: `41° high`, `15° below the horizon`.
+pub fn height_words(degrees: f64, decimals: usize) -> String {
+    let shown = format!("{:.decimals$}°", degrees.abs());
+    // What rounds to 0 is on the horizon, not under it.
+    let zero = shown.chars().all(|c| !c.is_ascii_digit() || c == '0');
+    if degrees < 0.0 && !zero { format!("{shown} below the horizon") } else { format!("{shown} high") }
+}
+
 /// A bearing in words: `south`, `south-west`.
 pub fn bearing_word(degrees: f64) -> &'static str {
     const WORDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
@@ -145,5 +153,12 @@ mod tests {
         assert_eq!(bearing_word(-44.0), "north-west");
         assert_eq!(bearing_word(359.0), "north");
         assert_eq!(clock(6.508), "06:30");
+    }
+
+    #[test]
+    fn heights_read_as_words() {
+        assert_eq!(height_words(41.24, 1), "41.2° high");
+        assert_eq!(height_words(-15.2, 0), "15° below the horizon");
+        assert_eq!(height_words(-0.02, 1), "0.0° high");
     }
 }

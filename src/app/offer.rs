@@ -212,6 +212,21 @@ pub fn listed() -> impl Iterator<Item = &'static Offer> {
     offers().iter().filter(|offer| offer.listed)
 }
 
+/// Keys as they are written on a keyboard: `Ctrl+Shift+Z`, `]`, `→`.
+pub fn key_words(keys: &KeyboardShortcut) -> String {
+    let key = match keys.logical_key {
+        Key::ArrowLeft => "←",
+        Key::ArrowRight => "→",
+        Key::ArrowUp => "↑",
+        Key::ArrowDown => "↓",
+        key => key.symbol_or_name(),
+    };
+    let modifiers = keys.modifiers;
+    let held = [(modifiers.command || modifiers.ctrl, "Ctrl+"), (modifiers.alt, "Alt+"), (modifiers.shift, "Shift+")];
+    let held: String = held.into_iter().filter(|(held, _)| *held).map(|(_, word)| word).collect();
+    format!("{held}{key}")
+}
+
 /// How a command is offered.
 pub fn of(command: &Command) -> Option<&'static Offer> {
     offers().iter().find(|offer| offer.command == *command)
@@ -239,6 +254,23 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_are_written_as_on_the_keyboard() {
+        let words = |command: Command| key_words(&of(&command).unwrap().keys.unwrap());
+        assert_eq!(words(Command::NextState(1)), "]");
+        assert_eq!(words(Command::NextState(-1)), "[");
+        assert_eq!(words(Command::Hour(-3)), "Shift+←");
+        assert_eq!(words(Command::Redo), "Ctrl+Shift+Z");
+        assert_eq!(words(Command::Sheet(Some(state::Sheet::Keys))), "?");
+        assert_eq!(words(Command::MeasureSystem), "Ctrl+Enter");
+        // No name of a key that is a sign on the keyboard.
+        for keys in offers().iter().filter_map(|offer| offer.keys) {
+            let last = key_words(&keys);
+            let last = last.rsplit('+').next().unwrap();
+            assert!(last.chars().count() == 1 || ["Enter", "Escape", "Delete"].contains(&last), "{last}");
+        }
+    }
 
     #[test]
     fn no_two_commands_share_their_keys_or_words() {

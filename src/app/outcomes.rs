@@ -11,6 +11,7 @@ use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::window::{App, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
 use crate::catalogue::{Imported, Product};
+use crate::compute::lid::c_gamma::Peaks;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::PathBuf;
@@ -161,6 +162,7 @@ impl App {
                 self.results.accuracy.take(result);
             }
             Outcome::Lid(result) => self.results.lid.take(result),
+            Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
             Outcome::Room(result) => self.results.room.take(result),
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
             // Without a dialog the sheet's path field is the way, and it is open already.
@@ -336,6 +338,23 @@ impl App {
                 self.results.year = Shown::default();
             }
         }
+    }
+
+    /// Asks for the peaks of the LID that is shown, once it stands still: a table of all directions takes longer than the
+    /// LID itself, and while something is dragged the next one would come before it.
+    pub(super) fn ask_peaks(&mut self) {
+        let lid = &self.results.lid;
+        let Some(figures) = lid.value.as_ref().filter(|_| !lid.stale) else { return };
+        let asked = self.asked_peaks.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, figures));
+        if asked || self.jobs.busy(Lane::Lid) || self.ctx.input(|input| input.pointer.any_down()) {
+            return;
+        }
+        let figures = figures.clone();
+        self.asked_peaks = Some(figures.clone());
+        self.start(Lane::Lid, move |_| {
+            let peaks = Peaks::of(&figures.lid);
+            Outcome::Peaks(figures, peaks)
+        });
     }
 
     /// Runs the ladder on the present scene and shows its sheet.

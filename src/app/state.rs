@@ -12,6 +12,7 @@ use super::theme::ThemeChoice;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
+use crate::compute::lid::c_gamma::Peaks;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::accuracy::Accuracy;
 use crate::study::control::year::CONTROLLED;
@@ -115,6 +116,8 @@ impl<T> Shown<T> {
 pub struct Results {
     /// The first aperture as a luminaire.
     pub lid: Shown<LidFigures>,
+    /// The largest intensities of a LID: they take longer than it.
+    pub peaks: Option<(Arc<LidFigures>, Peaks)>,
     /// The room.
     pub room: Shown<RoomFigures>,
     /// What control does over the year.
@@ -123,6 +126,14 @@ pub struct Results {
     pub accuracy: Shown<Accuracy>,
     /// Counts the ladders that came in.
     pub accuracy_revision: u64,
+}
+
+impl Results {
+    /// The largest intensities of the LID that is shown; `None` while they are computed.
+    pub fn lid_peaks(&self) -> Option<&Peaks> {
+        let (of, peaks) = self.peaks.as_ref()?;
+        self.lid.value.as_ref().is_some_and(|lid| Arc::ptr_eq(lid, of)).then_some(peaks)
+    }
 }
 
 /// Sky and sun of the moment.

@@ -1,7 +1,7 @@
 //! The window's title: what is selected, where and when, in words.
 
 use super::moment;
-use super::state::State;
+use super::state::{CatalogueState, State};
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 
@@ -43,7 +43,9 @@ pub fn place(scene: &SceneFile) -> String {
 pub fn time(scene: &SceneFile) -> String {
     moment::of(scene).map_or_else(
         || match (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
-            (Some(altitude), Some(azimuth)) => format!("sun {altitude:.0}° high at {azimuth:.0}°"),
+            (Some(altitude), Some(azimuth)) => {
+                format!("sun {} at {azimuth:.0}°", moment::height_words(altitude, 0))
+            }
             _ => "no sun".to_owned(),
         },
         moment::words,
@@ -86,7 +88,11 @@ pub fn selection(state: &State) -> String {
 pub fn title(state: &State) -> String {
     let scene = &state.document.scene;
     let product = selection(state);
-    let product = if product.is_empty() { "no product".to_owned() } else { product };
+    let product = match (&state.catalogue, product.is_empty()) {
+        (_, false) => product,
+        (CatalogueState::Opening, true) => "opening the catalogue…".to_owned(),
+        (_, true) => "no product".to_owned(),
+    };
     format!(
         "cfs – {product} · {}, {}, {}, {}",
         place(scene),

@@ -4,7 +4,7 @@ use super::autosave::Autosave;
 use super::backend;
 use super::control::YearKey;
 use super::dialogs::{FileDialogs, NoDialogs};
-use super::engine::Engine;
+use super::engine::{Engine, LidFigures};
 use super::error::AppError;
 use super::export::Exports;
 use super::import::KeptImport;
@@ -54,6 +54,7 @@ pub struct App {
     pub(super) undoer: Undoer<Document>,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
+    pub(super) asked_peaks: Option<Arc<LidFigures>>,
     pub(super) export: Exports,
     /// What it says.
     pub toasts: Messages,
@@ -92,6 +93,7 @@ impl App {
             pending_changes: VecDeque::new(),
             asked: None,
             asked_year: None,
+            asked_peaks: None,
             export: Exports::default(),
             toasts: Messages::default(),
             waiting_files: Vec::new(),

@@ -17,6 +17,7 @@ use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
+use crate::compute::lid::c_gamma::Peaks;
 use crate::formats::FormatError;
 use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
@@ -47,6 +48,8 @@ pub enum Outcome {
     Year(Result<Year, StudyError>),
     /// The LID.
     Lid(Result<LidFigures, AppError>),
+    /// The largest intensities of a LID.
+    Peaks(Arc<LidFigures>, Peaks),
     /// The room.
     Room(Result<RoomFigures, AppError>),
     /// Error against run time.

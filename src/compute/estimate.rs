@@ -51,6 +51,17 @@ impl Sum for Estimate {
     }
 }
 
+/// A place darker than this share of the mean is in the dark: relative errors there tell nothing.
+pub const DARK: f64 = 0.01;
+
+/// How exact a set of values is as a whole: the largest of their errors, each relative to its own value, of all that
+/// are not in the [`DARK`]; 0 where all of them are. Window and command line state this one number of a room.
+pub fn largest_relative_error(values: impl Iterator<Item = Estimate> + Clone) -> f64 {
+    let (sum, count) = values.clone().fold((0.0, 0_usize), |(sum, count), one| (sum + one.value, count + 1));
+    let mean = sum / count.max(1) as f64;
+    values.filter(|one| one.value > DARK * mean && one.value > 0.0).map(|one| one.error / one.value).fold(0.0, f64::max)
+}
+
 /// What long computations tell their caller, and ask of it. Implemented by the window's jobs and the command line.
 pub trait Progress: Sync {
     /// `done` of `total` units of the named stage are finished.
@@ -69,3 +80,17 @@ impl Progress for Silent {}
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_error_is_relative_to_its_own_value_and_not_of_the_dark() {
+        // The bright one has the larger error in lux, the dim one the larger in percent; the dark one does not count.
+        let values = [(1000.0, 5.0), (100.0, 2.0), (1.0, 1.0)].map(|(value, error)| Estimate::new(value, error));
+        assert!((largest_relative_error(values.iter().copied()) - 0.02).abs() < 1e-12);
+        assert_eq!(largest_relative_error([Estimate::new(0.0, 1.0)].into_iter()), 0.0);
+        assert_eq!(largest_relative_error(std::iter::empty()), 0.0);
+    }
+}

@@ -16,7 +16,7 @@ use super::scene_file::Interpolation;
 use super::system::VerySystem;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
-use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::estimate::{Cancelled, Estimate, Progress, largest_relative_error};
 use crate::compute::lid::peaks::Peaks;
 use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
@@ -89,9 +89,6 @@ pub struct RoomResult {
     pub plan: Plan,
 }
 
-/// Sensors darker than this share of the mean do not count for what was reached: light that nobody sees.
-const DARK: f64 = 0.01;
-
 impl RoomResult {
     /// Share of all light at the sensors that the data leave open.
     pub fn data_share(&self) -> f64 {
@@ -102,9 +99,7 @@ impl RoomResult {
 
     /// The largest relative error stated among the sensors that are not in the dark (1 % of the mean); 0 without light.
     pub fn reached(&self) -> f64 {
-        let mean = self.sensors.iter().map(|s| s.total().value).sum::<f64>() / self.sensors.len().max(1) as f64;
-        let lit = self.sensors.iter().map(SensorResult::total).filter(|e| e.value > DARK * mean);
-        lit.map(|e| e.error / e.value).fold(0.0, f64::max)
+        largest_relative_error(self.sensors.iter().map(SensorResult::total))
     }
 }
 

@@ -32,7 +32,7 @@ fn tile() -> Harness<'static, (control::State, Curve)> {
                 year: &[],
                 moment: None,
                 revision: 0,
-                status: Status { coarse: false, stale: false, hold_scale: false, doing: None, error: None },
+                status: Status::default(),
             };
             for action in control::show(ui, &input, state) {
                 if let Action::EditCurve(new) = action {

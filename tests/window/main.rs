@@ -6,6 +6,9 @@ mod app_engine;
 #[path = "../common/mod.rs"]
 mod common;
 mod control_view;
+mod driven;
 mod files_view;
 mod goniophotometer_view;
+mod legible;
+mod truth;
 mod views;

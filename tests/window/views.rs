@@ -4,12 +4,14 @@
 //! noted as not looked at and pass: what the tiles do is tested by the others.
 
 use crate::common::compares_pictures;
+use cfs::app::incidence::{Incidence, Source};
 use cfs::app::paint::hemisphere::{Projection, incident_disk};
 use cfs::app::paint::tile::Status;
 use cfs::app::views::{btdf, control, lid, room, sky, transmittance};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix};
 use cfs::compute::direction::{Dir, Emergent, Facade, Incident, Surface};
+use cfs::compute::lid::c_gamma::Peaks;
 use cfs::compute::lid::{EmergentLuminance, Lid, SunBeam};
 use egui::accesskit::Toggled;
 use egui::{Theme, Ui, vec2};
@@ -49,6 +51,10 @@ fn laser_cut() -> Btdf {
 
 fn from(theta: f64, phi: f64) -> Incident {
     Incident(Dir::from_theta_phi(theta.to_radians(), phi.to_radians()))
+}
+
+fn chosen(direction: Incident) -> Incidence {
+    Incidence { direction, source: Source::Chosen }
 }
 
 /// CIE type 12 with a zenith of 4000 cd/m² (ISO 15469).
@@ -164,15 +170,15 @@ fn slats() -> Slats {
     (states, curve, today, year)
 }
 
-const FINE: Status<'static> = Status { coarse: false, stale: false, hold_scale: false, doing: None, error: None };
+const FINE: Status<'static> =
+    Status { coarse: false, stale: false, idle: true, hold_scale: false, doing: None, error: None };
 
 fn btdf_input(btdf: &Btdf, incident: Incident) -> btdf::Input<'_> {
     btdf::Input {
         btdf: Some(btdf),
         name: "Laser-cut panel",
-        incident,
+        incidence: chosen(incident),
         sun: Some(from(42.0, 75.0)),
-        follow_sun: false,
         range: None,
         revision: 1,
         status: FINE,
@@ -203,6 +209,7 @@ fn room_input(cells: &[room::CellValue], nx: usize, ny: usize) -> room::Input<'_
         nx,
         ny,
         cells,
+        listed: false,
         plane_z: 0.85,
         name: "sensor plane 0.85 m",
         range: None,
@@ -399,6 +406,7 @@ type Slats = (Vec<control::StatePoint>, Vec<[f64; 2]>, Vec<control::TracePoint>,
 /// All six tiles as the window shows them.
 fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
     let (product, body, cells, paths) = (laser_cut(), redirecting_lid(), grid(16, 24), sun_paths());
+    let peaks = Peaks::of(&body);
     let (states, curve, today, year) = slats();
     let app = move |ui: &mut Ui, bench: &mut Bench| {
         let full = ui.available_rect_before_wrap();
@@ -416,6 +424,7 @@ fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
                 name: "Laser-cut panel",
                 sun_paths: &paths,
                 moment: Some(from(42.0, 75.0)),
+                incidence: Incidence { direction: from(42.0, 75.0), source: Source::Sun },
                 split: Some(split),
                 revision: 1,
                 status: FINE,
@@ -429,6 +438,7 @@ fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
             let input = lid::Input {
                 lid: Some(&body),
                 name: "Laser-cut panel",
+                peaks: Some(&peaks),
                 flux: Some(flux(&body)),
                 max: None,
                 revision: 1,
@@ -536,6 +546,7 @@ fn pictures_of_the_bench() {
         results.add(h.try_snapshot(name));
     }
     let (product, body) = (laser_cut(), redirecting_lid());
+    let peaks = Peaks::of(&body);
     let mut wide = tile([760.0, 400.0], Theme::Dark, |ui, bench| {
         btdf::show(ui, &btdf_input(&product, bench.incident), &mut bench.btdf.0);
     });
@@ -543,8 +554,15 @@ fn pictures_of_the_bench() {
     results.add(wide.try_snapshot("btdf_wide"));
     let mut wide = tile([640.0, 400.0], Theme::Light, |ui, bench| {
         let flux = Some(flux(&body));
-        let input =
-            lid::Input { lid: Some(&body), name: "Laser-cut panel", flux, max: None, revision: 1, status: FINE };
+        let input = lid::Input {
+            lid: Some(&body),
+            name: "Laser-cut panel",
+            peaks: Some(&peaks),
+            flux,
+            max: None,
+            revision: 1,
+            status: FINE,
+        };
         lid::show(ui, &input, &mut bench.lid);
     });
     wide.run();

@@ -5,7 +5,7 @@ use crate::drawing::ticks;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 /// Height that a legend needs. \[points\]
-pub const LEGEND_HEIGHT: f32 = 30.0;
+pub const LEGEND_HEIGHT: f32 = 32.0;
 
 /// A colour scale over lo … hi.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +51,7 @@ impl ColourScale {
 
     /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): bar, ticks, unit, and a needle at `pointed`.
     pub fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette) {
-        let font = FontId::proportional(11.0);
+        let font = FontId::proportional(13.0);
         // In a narrow tile the spacing of the ticks alone says that the scale is logarithmic.
         let words = if self.log && rect.width() > 170.0 { format!("{unit} (log)") } else { unit.to_owned() };
         let words = painter.layout_no_wrap(words, font.clone(), palette.weak);
@@ -74,7 +74,7 @@ impl ColourScale {
         }
         painter.add(Shape::mesh(mesh));
         painter.rect_stroke(bar, 0, Stroke::new(1.0, palette.outline), StrokeKind::Outside);
-        let room = (bar.width() / 42.0).max(1.0) as usize;
+        let room = (bar.width() / 48.0).max(1.0) as usize;
         let marks =
             if self.log { ticks::logarithmic(self.lo, self.hi, room) } else { ticks::linear(self.lo, self.hi, room) };
         for mark in marks {

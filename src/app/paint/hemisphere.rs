@@ -87,6 +87,9 @@ pub fn emergent_disk(projection: Projection, emergent: Emergent) -> [f64; 2] {
     Side::Emergent.disk(projection, emergent.through_name())
 }
 
+/// How far a cell reaches under its neighbours: more than chords and rounding leave open, less than is seen. \[points\]
+const OVERLAP: f32 = 0.6;
+
 fn arc_steps(cell: &Cell) -> usize {
     ((cell.width / 3_f64.to_radians()).ceil() as usize).max(1)
 }
@@ -134,7 +137,10 @@ impl Disk {
         [f64::from(d.x), f64::from(-d.y)]
     }
 
-    /// All cells of a basis in flat colours.
+    /// All cells of a basis in flat colours, without gaps.
+    ///
+    /// Neighbouring rings have arcs of other chords, so that cells that end exactly at their borders leave slivers open.
+    /// Each cell therefore reaches a little under the next ring and the next cell, which are drawn after it.
     pub fn cells(
         &self,
         projection: Projection,
@@ -143,12 +149,17 @@ impl Disk {
         colour: impl Fn(usize) -> Color32,
     ) -> Mesh {
         let mut mesh = Mesh::default();
-        for (index, cell) in basis.cells().enumerate() {
+        let under = f64::from(OVERLAP / self.radius);
+        let mut order: Vec<(usize, Cell)> = basis.cells().enumerate().collect();
+        order.sort_by(|a, b| a.1.theta_min.total_cmp(&b.1.theta_min));
+        for (index, cell) in order {
             let n = arc_steps(&cell);
-            let radii = [projection.radius(cell.theta_min), projection.radius(cell.theta_max)];
+            let outer = projection.radius(cell.theta_max);
+            let radii = [projection.radius(cell.theta_min), (outer + under).min(1.0)];
+            let width = if cell.width > 1.99 * PI { cell.width } else { cell.width + under / outer.max(1e-3) };
             let (first, fill) = (mesh.vertices.len() as u32, colour(index));
             for k in 0..=n {
-                let phi = cell.phi - 0.5 * cell.width + cell.width * k as f64 / n as f64;
+                let phi = cell.phi - 0.5 * cell.width + width * k as f64 / n as f64;
                 for radius in radii {
                     mesh.colored_vertex(self.screen(side.polar(radius, phi)), fill);
                 }
@@ -218,7 +229,7 @@ impl Disk {
 
 /// Small text on data: a soft ground makes it readable on every colour.
 pub fn on_halo(painter: &Painter, at: Pos2, text: &str, palette: &Palette) -> Rect {
-    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.0), palette.ink);
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), palette.ink);
     let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size());
     painter.rect_filled(rect.expand2(egui::vec2(2.0, 0.0)), 3, palette.halo);
     painter.galley(rect.min, galley, palette.ink);
@@ -280,6 +291,41 @@ mod tests {
                     assert!((a / cell.projected_solid_angle() - 1.0).abs() < 2e-2, "{cell:?}");
                     let b = area(&cell_outline(Projection::SolidAngle, side, &cell));
                     assert!((2.0 * b / cell.solid_angle() - 1.0).abs() < 2e-2, "{cell:?}");
+                }
+            }
+        }
+    }
+
+    /// Is a point inside some triangle, corners and edges included?
+    fn covered(mesh: &Mesh, at: Pos2) -> bool {
+        mesh.indices.chunks_exact(3).any(|t| {
+            let [a, b, c] = [t[0], t[1], t[2]].map(|k| mesh.vertices[k as usize].pos);
+            let side = |p: Pos2, q: Pos2| (q - p).x * (at - p).y - (q - p).y * (at - p).x;
+            let sides = [side(a, b), side(b, c), side(c, a)];
+            sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
+        })
+    }
+
+    #[test]
+    fn no_gap_is_left_between_rings_and_cells() {
+        let disk = Disk { centre: pos2(200.0, 180.0), radius: 140.0 };
+        for (projection, side) in
+            [(Projection::ProjectedSolidAngle, Side::Emergent), (Projection::SolidAngle, Side::Incident)]
+        {
+            for basis in [RingBasis::klems_full(AzimuthMap::KLEMS_FRONT), RingBasis::tregenza()] {
+                let mesh = disk.cells(projection, side, &basis, |_| Color32::WHITE);
+                // Round every border of rings, where chords part, and over the disk.
+                let borders = basis.rings().iter().map(|ring| projection.radius(ring.theta_max)).filter(|r| *r < 0.99);
+                let radii: Vec<f64> = borders
+                    .flat_map(|r| (-8..=8).map(move |k| r + f64::from(k) * 1e-4))
+                    .chain((0..40).map(|k| f64::from(k) / 41.0))
+                    .collect();
+                for (k, radius) in radii.into_iter().enumerate() {
+                    for j in 0..90 {
+                        let phi = (f64::from(j) * 4.0 + k as f64 * 0.37).to_radians();
+                        let at = disk.screen([radius * phi.cos(), radius * phi.sin()]);
+                        assert!(covered(&mesh, at), "{} {projection:?} r {radius} φ {phi}", basis.name());
+                    }
                 }
             }
         }

@@ -20,7 +20,9 @@ pub const LEFT: f32 = 44.0;
 /// Space right of the plotting area, for the half of the last tick. \[points\]
 pub const RIGHT: f32 = 10.0;
 /// Space under the plotting area for ticks, and for a title under them. \[points\]
-const BELOW: [f32; 2] = [15.0, 34.0];
+const BELOW: [f32; 2] = [17.0, 36.0];
+/// Size of ticks and names. \[points\]
+const TICKS: f32 = 13.0;
 
 /// Height of a line above it. \[points\]
 const LINE: f32 = 18.0;
@@ -225,7 +227,7 @@ fn head(
 /// A name of the legend with its colour.
 fn entry(ui: &mut Ui, name: &str, colour: Color32, palette: &Palette) -> Response {
     const SWATCH: f32 = 16.0;
-    let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(11.0), palette.ink);
+    let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(TICKS), palette.ink);
     let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + galley.size().x, LINE), Sense::click());
     let y = rect.center().y;
     ui.painter().hline(rect.left()..=rect.left() + SWATCH - 4.0, y, Stroke::new(3.0, colour));
@@ -242,7 +244,7 @@ fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32)
         .label_spacing(Rangef::new(8.0, 9.0))
         .min_thickness(room)
         .tick_label_color(palette.weak)
-        .tick_label_font(FontId::proportional(11.0))
+        .tick_label_font(FontId::proportional(TICKS))
 }
 
 /// Ticks at least about `apart` points from one another.
@@ -280,13 +282,20 @@ fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, colour: Color32, 
 fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
     let area = shown.area();
     let ends = || plot.guides.iter().filter_map(|guide| Some((guide, shown.screen(plot.place(guide.ends[1])?))));
+    let mut used: Vec<Rect> = vec![];
     for (guide, end) in ends().filter(|(guide, _)| !guide.name.is_empty()) {
-        let galley = ui.painter().layout_no_wrap(guide.name.clone(), FontId::proportional(11.0), look.guide);
+        let galley = ui.painter().layout_no_wrap(guide.name.clone(), FontId::proportional(TICKS), look.guide);
         let at = pos2(end.x.min(area.right()) - 4.0, end.y.max(area.top() + galley.size().y));
-        let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
-        let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
-        if area.contains_rect(place) && !crossed {
+        // Over its line at the right end; where another name or line is, further to the left.
+        let free = (0..4).map(|k| at - vec2((galley.size().x + 8.0) * k as f32, 0.0)).find_map(|at| {
+            let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
+            let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
+            let apart = used.iter().all(|other| !other.intersects(place));
+            (area.contains_rect(place) && !crossed && apart).then_some(place)
+        });
+        if let Some(place) = free {
             ui.painter().galley(place.min, galley, look.guide);
+            used.push(place);
         }
     }
 }

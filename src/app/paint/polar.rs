@@ -5,6 +5,9 @@ use crate::drawing::ticks;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{PI, TAU};
 
+/// Room for the angles round the rim. \[points\]
+const RIM: f32 = 22.0;
+
 /// The axes of a polar diagram.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PolarAxes {
@@ -19,7 +22,7 @@ pub struct PolarAxes {
 impl PolarAxes {
     /// The largest diagram within a rectangle; `max` is rounded up.
     pub fn within(rect: Rect, max: f64) -> Self {
-        let radius = (0.5 * rect.width().min(rect.height()) - 20.0).max(10.0);
+        let radius = (0.5 * rect.width().min(rect.height()) - RIM).max(10.0);
         Self { centre: rect.center(), radius, max: ticks::fine_ceil(max) }
     }
 
@@ -38,11 +41,11 @@ impl PolarAxes {
     /// Rings with values (on the side that `label_angle` names), spokes every 30°, angles by `label`.
     pub fn paint(&self, painter: &Painter, label: impl Fn(f64) -> String, label_angle: f64, palette: &Palette) {
         let grid = Stroke::new(1.0, palette.grid);
-        let font = FontId::proportional(11.0);
+        let font = FontId::proportional(13.0);
         for k in 0..12 {
             let angle = f64::from(k) * PI / 6.0;
             painter.line_segment([self.centre, self.screen(angle, self.max)], grid);
-            let at = self.centre + (self.screen(angle, self.max) - self.centre) * (1.0 + 11.0 / self.radius);
+            let at = self.centre + (self.screen(angle, self.max) - self.centre) * (1.0 + 0.6 * RIM / self.radius);
             if self.radius > 55.0 || k % 3 == 0 {
                 painter.text(at, Align2::CENTER_CENTER, label(angle), font.clone(), palette.weak);
             }
@@ -73,7 +76,10 @@ mod tests {
 
     #[test]
     fn nadir_is_down_and_ninety_is_right() {
-        let axes = PolarAxes::within(Rect::from_min_size(Pos2::ZERO, vec2(240.0, 240.0)), 97.0);
+        let axes = PolarAxes::within(
+            Rect::from_min_size(Pos2::ZERO, vec2(240.0 + 2.0 * RIM - 40.0, 240.0 + 2.0 * RIM - 40.0)),
+            97.0,
+        );
         assert_eq!(axes.max, 100.0);
         let down = axes.screen(0.0, 100.0) - axes.centre;
         assert!(down.y > 99.0 && down.x.abs() < 1e-3);

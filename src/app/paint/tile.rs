@@ -2,7 +2,7 @@
 //! (empty, coarse, stale, wrong).
 
 use super::palette::Palette;
-use egui::{Align, Align2, FontId, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
+use egui::{Align, Align2, Color32, FontId, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
 
 /// How far the content is to be trusted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -11,12 +11,83 @@ pub struct Status<'a> {
     pub coarse: bool,
     /// Belongs to an earlier scene; drawn faded until replaced.
     pub stale: bool,
+    /// Nothing newer is under way: what is stale or coarse stays so.
+    pub idle: bool,
     /// Something is being dragged: colour scales and axes stand still.
     pub hold_scale: bool,
     /// What a newer picture waits for, in a few words; said while this one is stale.
     pub doing: Option<&'a str>,
     /// Why there is nothing to show.
     pub error: Option<&'a str>,
+}
+
+impl<'a> Status<'a> {
+    /// What a picture that is not the final one says of itself.
+    pub const fn tag(&self) -> Option<&'a str> {
+        match (self.stale, self.coarse, self.idle) {
+            (true, _, false) => match self.doing {
+                Some(doing) => Some(doing),
+                None => Some("updating…"),
+            },
+            (true, _, true) => Some("outdated"),
+            (false, true, false) => Some("coarse, finer to come"),
+            (false, true, true) => Some("coarse"),
+            (false, false, _) => None,
+        }
+    }
+}
+
+/// The line under a picture, from its fullest wording to its shortest: the first that fits is shown.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Foot(Vec<String>);
+
+impl Foot {
+    /// The fullest wording.
+    pub fn full(&self) -> &str {
+        self.0.first().map_or("", String::as_str)
+    }
+
+    /// All wordings with a beginning.
+    pub fn after(self, start: &str) -> Self {
+        Self(self.0.into_iter().map(|text| format!("{start}{text}")).collect())
+    }
+
+    /// A shorter wording, where none of the others fits.
+    pub fn or(mut self, shortest: &str) -> Self {
+        self.0.push(shortest.to_owned());
+        self
+    }
+
+    /// The first that is at most so wide; else the last, without its parts after " · " as far as needed.
+    fn fitting(&self, ui: &Ui, room: f32) -> String {
+        let fits = |text: &str| width(ui, text, SMALL) <= room;
+        if let Some(text) = self.0.iter().find(|text| fits(text)) {
+            return text.clone();
+        }
+        let mut rest = self.0.last().map_or("", String::as_str);
+        while let Some((start, _)) = rest.rsplit_once(" · ").filter(|_| !fits(rest)) {
+            rest = start;
+        }
+        rest.to_owned()
+    }
+}
+
+impl From<String> for Foot {
+    fn from(text: String) -> Self {
+        Self(vec![text])
+    }
+}
+
+impl From<&str> for Foot {
+    fn from(text: &str) -> Self {
+        Self(vec![text.to_owned()])
+    }
+}
+
+impl<const N: usize> From<[String; N]> for Foot {
+    fn from(texts: [String; N]) -> Self {
+        Self(texts.into())
+    }
 }
 
 /// The words of a tile.
@@ -34,6 +105,14 @@ pub struct Words<'a> {
     pub controls_width: f32,
 }
 
+/// Size of all text but titles. \[points\]
+const SMALL: f32 = 13.0;
+/// Size of a tile's title. \[points\]
+const TITLE: f32 = 14.0;
+/// What the two buttons of a head take with the space round them. \[points\]
+const BUTTONS: f32 = 96.0;
+/// Below this width the second title would be a letter or two: then it is only in the title's tip. \[points\]
+const LEAST_SUBTITLE: f32 = 54.0;
 /// Height of the head. \[points\]
 const HEAD: f32 = 26.0;
 /// Height of the line under the picture. \[points\]
@@ -41,12 +120,12 @@ const FOOT: f32 = 20.0;
 
 /// Lays out a tile over all the space there is. `body` draws into its rectangle and returns the text of the line
 /// under the picture, which keeps its place so that nothing jumps.
-pub fn show(
+pub fn show<F: Into<Foot>>(
     ui: &mut Ui,
     words: &Words<'_>,
     status: &Status<'_>,
     controls: impl FnOnce(&mut Ui),
-    body: impl FnOnce(&mut Ui, Rect) -> String,
+    body: impl FnOnce(&mut Ui, Rect) -> F,
 ) {
     let full = ui.available_rect_before_wrap().shrink2(egui::vec2(6.0, 2.0));
     let head = Rect::from_min_max(full.min, pos2(full.right(), full.top() + HEAD));
@@ -54,58 +133,101 @@ pub fn show(
     let inner = Rect::from_min_max(pos2(full.left(), head.bottom() + 2.0), pos2(full.right(), foot.top() - 2.0));
     let palette = Palette::of(ui.visuals());
     ui.push_id(words.title, |ui| {
-        head_ui(ui, head, words, status, controls);
-        let notice = status.error.or(words.empty);
-        if let Some(text) = notice {
-            let colour = if status.error.is_some() { ui.visuals().error_fg_color } else { palette.weak };
-            let mut child = ui.new_child(
-                UiBuilder::new().max_rect(inner).layout(Layout::centered_and_justified(egui::Direction::TopDown)),
-            );
-            child.add(egui::Label::new(RichText::new(text).size(13.0).color(colour)).wrap());
+        let tagged = head_ui(ui, head, words, status, controls);
+        if let Some(text) = status.error {
+            notice(ui, inner, text, ui.visuals().error_fg_color);
+        } else if let Some(text) = words.empty {
+            notice(ui, inner, text, palette.weak);
         } else if inner.is_positive() {
             let mut child = ui.new_child(UiBuilder::new().max_rect(inner));
             child.set_clip_rect(inner.intersect(ui.clip_rect()));
             if status.stale {
                 child.multiply_opacity(0.5);
             }
-            let text = body(&mut child, inner);
+            let mut text: Foot = body(&mut child, inner).into();
+            // What the head has no room for is said here: a picture never looks newer than it is.
+            if let Some(tag) = status.tag().filter(|_| !tagged) {
+                text = text.after(&format!("{tag} · ")).or(tag);
+            }
             let mut line = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
-            line.add(egui::Label::new(RichText::new(text).size(13.0).color(palette.ink)).truncate());
+            let short = text.fitting(ui, foot.width());
+            let shortened = short != text.full();
+            let label = egui::Label::new(RichText::new(&short).size(SMALL).color(palette.ink)).truncate();
+            let said = line.add(label.show_tooltip_when_elided(!shortened));
+            if shortened {
+                said.on_hover_text(text.full());
+            }
         }
     });
     ui.allocate_rect(full.expand2(egui::vec2(6.0, 2.0)), Sense::hover());
 }
 
-fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, controls: impl FnOnce(&mut Ui)) {
+/// Width of a line of text.
+fn width(ui: &Ui, text: &str, size: f32) -> f32 {
+    ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(size), Color32::PLACEHOLDER).size().x
+}
+
+/// Draws the head; true when it says all that the status has to say.
+fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, controls: impl FnOnce(&mut Ui)) -> bool {
     let palette = Palette::of(ui.visuals());
     let mut head = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
+    let with_controls = words.empty.is_none() && words.controls_width > 0.0;
     let wide = rect.width() > words.controls_width + 190.0;
+    // Where title and two buttons do not fit side by side, one menu holds all.
+    let title = width(ui, words.title, TITLE);
+    let narrow = with_controls && !wide && title + BUTTONS > rect.width();
     let about = format!("About {}", words.title.to_lowercase());
-    head.button("?").on_hover_text(words.help).accessible_name(about);
-    if words.empty.is_none() && words.controls_width > 0.0 {
-        if wide {
+    if narrow {
+        let menu = head.menu_button("…", |ui| {
+            controls(ui);
+            ui.separator();
+            ui.add(egui::Label::new(RichText::new(words.help).size(SMALL)).wrap());
+        });
+        menu.response.on_hover_text("View, and about this tile").accessible_name(about);
+    } else {
+        head.button("?").on_hover_text(words.help).accessible_name(about);
+        if with_controls && wide {
             // Laid out from the right: reversed here, so that the closure writes them in reading order.
             head.allocate_ui_with_layout(
                 egui::vec2(words.controls_width, HEAD),
                 Layout::left_to_right(Align::Center),
                 controls,
             );
-        } else {
+        } else if with_controls {
             head.menu_button("View", controls);
         }
     }
     head.with_layout(Layout::left_to_right(Align::Center), |ui| {
-        ui.add(egui::Label::new(RichText::new(words.title).size(14.0).strong()));
-        let tag = match (status.stale, status.coarse) {
-            (true, _) => Some(status.doing.unwrap_or("updating…")),
-            (_, true) => Some("coarse"),
-            _ => None,
-        };
-        if let Some(tag) = tag {
-            ui.label(RichText::new(tag).size(13.0).italics().color(palette.second));
+        let title = ui.add(egui::Label::new(RichText::new(words.title).size(TITLE).strong()));
+        title.on_hover_text(words.subtitle);
+        let mut tagged = true;
+        if let Some(tag) = status.tag() {
+            tagged = width(ui, tag, SMALL) + 2.0 <= ui.available_width();
+            if tagged {
+                let tag = RichText::new(tag).size(SMALL).italics().color(palette.second);
+                ui.add(egui::Label::new(tag).extend());
+            }
         }
-        ui.add(egui::Label::new(RichText::new(words.subtitle).size(13.0).color(palette.weak)).truncate());
-    });
+        if ui.available_width() > LEAST_SUBTITLE {
+            ui.add(egui::Label::new(RichText::new(words.subtitle).size(SMALL).color(palette.weak)).truncate());
+        }
+        tagged
+    })
+    .inner
+}
+
+/// Words in the middle of a tile, instead of its picture.
+fn notice(ui: &mut Ui, rect: Rect, text: &str, colour: Color32) {
+    let mut child =
+        ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::centered_and_justified(egui::Direction::TopDown)));
+    child.add(egui::Label::new(RichText::new(text).size(SMALL).color(colour)).wrap());
+}
+
+/// A whole tile that has nothing to draw yet: head and words.
+pub fn waiting(ui: &mut Ui, title: &str, help: &str, text: &str, is_error: bool) {
+    let status = Status { error: is_error.then_some(text), ..Status::default() };
+    let words = Words { title, subtitle: "", help, empty: Some(text), controls_width: 0.0 };
+    show(ui, &words, &status, |_| {}, |_, _| "");
 }
 
 /// A caption over a part of a picture.

@@ -1,6 +1,6 @@
 //! Fields and buttons that panels share.
 
-use crate::app::offer::Offer;
+use crate::app::offer::{Offer, key_words};
 use egui::{Button, DragValue, Ui};
 use std::ops::RangeInclusive;
 
@@ -28,10 +28,10 @@ pub fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, s
 }
 
 /// A button with the words and keys of what it does.
-pub fn button<'a>(ui: &Ui, offer: &'a Offer) -> Button<'a> {
+pub fn button(offer: &Offer) -> Button<'_> {
     let button = Button::new(&offer.text);
     match &offer.keys {
-        Some(keys) => button.shortcut_text(ui.ctx().format_shortcut(keys)),
+        Some(keys) => button.shortcut_text(key_words(keys)),
         None => button,
     }
 }

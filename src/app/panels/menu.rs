@@ -8,7 +8,7 @@ use egui::{MenuBar, Ui};
 
 /// One entry with its keys and tip.
 fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
-    if ui.add(button(ui, offer)).on_hover_text(offer.tip).clicked() {
+    if ui.add(button(offer)).on_hover_text(offer.tip).clicked() {
         commands.push(offer.command.clone());
         ui.close();
     }

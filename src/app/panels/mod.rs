@@ -18,6 +18,9 @@ use super::state::Sheet;
 use super::theme;
 use super::window::App;
 
+/// Narrower windows have no room for catalogue, bench and sheet. \[points\]
+const TIGHT: f32 = 1150.0;
+
 /// Draws the whole window.
 pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let mut commands = Vec::new();
@@ -27,7 +30,13 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     // Messages stand above the status line, never over it.
     let corner = status.response.rect.right_top() - egui::vec2(8.0, 8.0);
     let side = theme::panel_frame(ui);
-    if app.state.settings.catalogue_open {
+    // A sheet in a small window takes the catalogue's place too, as it takes the scene's: three narrow tiles side by
+    // side would leave nothing to read. Who searches wants the list back.
+    let tight = app.state.sheet.is_some() && ui.available_width() < TIGHT;
+    if tight && app.state.focus_search {
+        commands.push(Command::Sheet(None));
+    }
+    if app.state.settings.catalogue_open && !tight {
         egui::Panel::left("catalogue")
             .frame(side)
             .default_size(250.0)

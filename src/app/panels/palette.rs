@@ -48,7 +48,7 @@ fn list(ui: &mut Ui, text: &mut String, commands: &mut Vec<Command>) {
         ui.weak("No command has these words");
     }
     for (row, offer) in list.into_iter().enumerate() {
-        let button = button(ui, offer).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
+        let button = button(offer).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
         if ui.add(button).on_hover_text(offer.tip).clicked() || (row == 0 && entered) {
             commands.push(Command::Palette);
             commands.push(offer.command.clone());

@@ -3,8 +3,8 @@
 use super::{import, messages, product};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
-use crate::app::offer::listed;
-use crate::app::state::{PathUse, Sheet, State};
+use crate::app::offer::{key_words, listed};
+use crate::app::state::{CatalogueState, PathUse, Sheet, State};
 use crate::app::theme;
 use crate::app::views::accuracy;
 use crate::app::window::App;
@@ -44,7 +44,12 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
                 import::of_selection(ui, dataset);
             }
             None => {
-                ui.label("No product is selected.");
+                let words = match &app.state.catalogue {
+                    CatalogueState::Opening => "Opening the catalogue…",
+                    CatalogueState::Failed(error) => error,
+                    CatalogueState::Ready(_) => "No product chosen: choose one in the catalogue.",
+                };
+                ui.label(words);
             }
         },
         Sheet::Keys => keys(ui),
@@ -78,7 +83,7 @@ fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 fn keys(ui: &mut Ui) {
     egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
         for (offer, keys) in listed().filter_map(|offer| Some((offer, offer.keys?))) {
-            ui.label(RichText::new(ui.ctx().format_shortcut(&keys)).monospace());
+            ui.label(RichText::new(key_words(&keys)).strong());
             ui.label(&offer.text);
             ui.end_row();
         }

@@ -1,11 +1,13 @@
 //! The bottom line: what runs, how exact what is shown is, what the dataset's checks say.
 
 use crate::app::command::Command;
-use crate::app::state::Sheet;
+use crate::app::jobs::Lane;
+use crate::app::state::{CatalogueState, Sheet};
 use crate::app::theme;
+use crate::app::views::room::error_words;
 use crate::app::window::App;
 use crate::compute::btdf::Severity;
-use egui::{ProgressBar, RichText, Ui};
+use egui::{Color32, FontId, ProgressBar, RichText, Ui};
 
 /// A duration in words.
 fn duration(seconds: f64) -> String {
@@ -17,68 +19,158 @@ fn percent(error: f64) -> String {
     if error < 0.005 { "< 0.01 %".to_owned() } else { format!("±{error:.2} %") }
 }
 
-/// Draws the line.
+/// A result in words, from the fullest to the shortest, and what they mean.
+struct Figure {
+    words: [String; 2],
+    tip: &'static str,
+}
+
+/// What is said of a result that the scene has left behind.
+fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'static str {
+    match (shown.stale, app.jobs.busy(lane)) {
+        (false, _) => "",
+        (true, true) => ", updating",
+        (true, false) => ", of an earlier scene",
+    }
+}
+
+/// How exact room and LID are.
+fn figures(app: &App) -> Vec<Figure> {
+    let mut list = Vec::new();
+    if let Some(room) = &app.results.room.value {
+        let age = age(app, &app.results.room, Lane::Room);
+        let error = error_words(room.totals());
+        list.push(Figure {
+            words: [format!("room: {error}, {}{age}", duration(room.seconds)), format!("room: {error}{age}")],
+            tip: "The largest stated error among the sensors, each relative to its own illuminance (sensors in the dark, \
+                  below 1 % of the mean, left out), and the time it took",
+        });
+    }
+    if let Some(lid) = &app.results.lid.value {
+        let relative = if lid.flux.value > 0.0 { 100.0 * lid.flux.error / lid.flux.value } else { 0.0 };
+        let age = age(app, &app.results.lid, Lane::Lid);
+        let error = percent(relative);
+        list.push(Figure {
+            words: [format!("LID: flux {error}, {}{age}", duration(lid.seconds)), format!("LID: flux {error}{age}")],
+            tip: "Stated error of the flux, relative to it, and the time it took",
+        });
+    }
+    list
+}
+
+/// What the checks said of the dataset that is shown, as the doctor found on import: examining anew takes too long for
+/// every frame.
+fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
+    let Some(dataset) = app.state.dataset.value.as_ref() else {
+        let words = match (&app.state.catalogue, app.busy()) {
+            (CatalogueState::Opening, _) => "opening the catalogue…",
+            (_, true) => "no dataset yet",
+            (_, false) => "no dataset",
+        };
+        return (words.to_owned(), palette.weak, false);
+    };
+    let product = app.state.product.as_ref().map_or(&[][..], |product| &product.findings);
+    let findings = product.iter().filter(|finding| finding.state == dataset.state);
+    let count = |severity| findings.clone().filter(|finding| finding.severity == severity).count();
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let plural = |n: usize| if n == 1 { "" } else { "s" };
+    match (errors, warnings) {
+        (0, 0) => ("dataset: no warnings".to_owned(), palette.weak, true),
+        (0, n) => (format!("dataset: {n} warning{}", plural(n)), palette.warning, true),
+        (n, _) => (format!("dataset: {n} error{}", plural(n)), palette.error, true),
+    }
+}
+
+/// Width of a text in the line.
+fn width(ui: &Ui, text: &str) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), FontId { size: font.size, ..font }, Color32::PLACEHOLDER).size().x
+}
+
+/// Space that a separator takes. \[points\]
+const GAP: f32 = 20.0;
+/// Space of a progress bar, and of the button that stops a job. \[points\]
+const BAR: f32 = 78.0;
+const STOP: f32 = 30.0;
+
+/// Draws the line: what fits, the figures before the jobs, and how many jobs more there are.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
-    ui.horizontal(|ui| {
-        if let Some(room) = &app.results.room.value {
-            let tag = if app.results.room.stale { ", updating" } else { "" };
-            let error = 100.0 * room.relative_error();
-            ui.label(format!("room: {}, {}{tag}", percent(error), duration(room.seconds)))
-                .on_hover_text("Greatest error estimate over the greatest illuminance, and the time it took");
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let (text, colour, known) = checks(app, palette);
+        let words = RichText::new(text).color(colour);
+        if !known {
+            ui.label(words);
+        } else if ui.button(words).on_hover_text("What the checks say").clicked() {
+            commands.push(Command::Sheet(Some(Sheet::Findings)));
         }
-        if let Some(lid) = &app.results.lid.value {
-            let relative = if lid.flux.value > 0.0 { 100.0 * lid.flux.error / lid.flux.value } else { 0.0 };
-            ui.separator();
-            ui.label(format!("LID: {}, {}", percent(relative), duration(lid.seconds)))
-                .on_hover_text("Error estimate of the flux, and the time it took");
-        }
-        for job in app.jobs.views() {
-            ui.separator();
-            let stage = job.state.stage();
-            let text =
-                if stage.is_empty() { job.lane.word().to_owned() } else { format!("{}: {stage}", job.lane.word()) };
-            match job.state.fraction() {
-                Some(fraction) => {
-                    ui.label(text);
-                    ui.add(ProgressBar::new(fraction).desired_width(70.0).desired_height(10.0));
-                }
-                None => {
-                    ui.label(format!("{text}…"));
-                }
-            }
-            if ui.small_button("×").on_hover_text(format!("Cancel {}", job.lane.word())).clicked() {
-                commands.push(Command::Cancel(job.lane));
-            }
-        }
-        if app.busy() {
-            // Progress bars move on. Not more often: without a graphics card every frame is taken from the work.
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
-        }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if !app.toasts.is_empty() {
-                let text = match app.toasts.len() {
-                    1 => "1 message".to_owned(),
-                    count => format!("{count} messages"),
-                };
-                if ui.button(text).on_hover_text("What the window said").clicked() {
-                    commands.push(Command::Sheet(Some(Sheet::Messages)));
-                }
-            }
-            // As the doctor found on import: examining anew takes too long for every frame.
-            let shown = app.state.dataset.value.as_ref().map(|dataset| dataset.state.as_str());
-            let product = app.state.product.as_ref().map_or(&[][..], |product| &product.findings);
-            let findings = product.iter().filter(|finding| Some(finding.state.as_str()) == shown);
-            let count = |severity| findings.clone().filter(|finding| finding.severity == severity).count();
-            let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-            let (text, colour) = match (errors, warnings) {
-                (0, 0) => ("dataset: no warnings".to_owned(), palette.weak),
-                (0, n) => (format!("dataset: {n} warning{}", if n == 1 { "" } else { "s" }), palette.warning),
-                (n, _) => (format!("dataset: {n} error{}", if n == 1 { "" } else { "s" }), palette.error),
+        if !app.toasts.is_empty() {
+            let text = match app.toasts.len() {
+                1 => "1 message".to_owned(),
+                count => format!("{count} messages"),
             };
-            if ui.button(RichText::new(text).color(colour)).on_hover_text("What the checks say").clicked() {
-                commands.push(Command::Sheet(Some(Sheet::Findings)));
+            if ui.button(text).on_hover_text("What the window said").clicked() {
+                commands.push(Command::Sheet(Some(Sheet::Messages)));
             }
-        });
+        }
+        ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| rest(ui, app, commands));
     });
+    if app.busy() {
+        // Progress bars move on. Not more often: without a graphics card every frame is taken from the work.
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
+    }
+}
+
+fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
+    let mut left = ui.available_width() - GAP;
+    let figures = figures(app);
+    let all = |k: usize| figures.iter().map(|figure| width(ui, &figure.words[k]) + GAP).sum::<f32>();
+    let jobs = app.jobs.views();
+    // Durations are left out first, where something else wants the room.
+    let short = usize::from(all(0) + if jobs.is_empty() { 0.0 } else { 200.0 } > left);
+    let mut first = true;
+    for figure in &figures {
+        let text = &figure.words[short];
+        let wide = width(ui, text) + GAP;
+        if wide > left {
+            break;
+        }
+        left -= wide;
+        if !std::mem::take(&mut first) {
+            ui.separator();
+        }
+        ui.label(text).on_hover_text(format!("{}: {}", figure.words[0], figure.tip));
+    }
+    let count = jobs.len();
+    for (number, job) in jobs.into_iter().enumerate() {
+        let (stage, word) = (job.state.stage(), job.lane.word());
+        let fraction = job.state.fraction();
+        let more = count - number;
+        let more = if more == 1 { "1 job".to_owned() } else { format!("{more} jobs") };
+        let bar = if fraction.is_some() { BAR } else { 0.0 } + STOP + GAP;
+        // Room is kept for the count of those that have none.
+        let kept = if number + 1 < count { width(ui, "9 jobs more") + GAP } else { 0.0 };
+        let dots = if fraction.is_some() { "" } else { "…" };
+        let texts = [format!("{word}: {stage}{dots}"), format!("{word}{dots}")];
+        let fitting = texts.iter().skip(usize::from(stage.is_empty()));
+        let fitting = fitting.into_iter().find(|text| width(ui, text) + bar + kept <= left);
+        if !first && (fitting.is_some() || width(ui, &more) + GAP <= left) {
+            ui.separator();
+        }
+        first = false;
+        let Some(text) = fitting else {
+            if width(ui, &more) + GAP <= left {
+                ui.label(if number == 0 { more } else { format!("{more} more") });
+            }
+            return;
+        };
+        left -= width(ui, text) + bar;
+        ui.label(text);
+        if let Some(fraction) = fraction {
+            ui.add(ProgressBar::new(fraction).desired_width(70.0).desired_height(10.0));
+        }
+        if ui.small_button("×").on_hover_text(format!("Cancel {word}")).clicked() {
+            commands.push(Command::Cancel(job.lane));
+        }
+    }
 }

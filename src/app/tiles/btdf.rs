@@ -3,10 +3,11 @@
 use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::facing::sun_incident;
+use crate::app::incidence::Incidence;
+use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::title;
 use crate::app::views::btdf;
-use crate::compute::direction::{Dir, Incident};
 use egui::Ui;
 
 /// The tile.
@@ -23,6 +24,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.state.dataset.value.is_some()
+    }
+
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let sun = sun_incident(&state.document.scene);
@@ -31,18 +36,17 @@ impl Drawn for Drawing {
         let input = btdf::Input {
             btdf: dataset.value.as_deref().and_then(|dataset| dataset.transmission()),
             name: &name,
-            incident: state.incident.or(sun).unwrap_or_else(|| Incident(Dir::from_unit(glam::DVec3::Z))),
+            incidence: Incidence::shown(state.incident, &state.document.scene),
             sun,
-            follow_sun: state.incident.is_none(),
             range: None,
             revision: self.revision.of(dataset.value.as_ref()),
-            status: seen.status(dataset.stale, dataset.error.as_deref()),
+            status: seen.status_of(dataset, Lane::Scene),
         };
         for action in btdf::show(ui, &input, &mut self.view) {
             commands.push(Command::Incidence(match action {
                 btdf::Action::ChooseIncidence(chosen) => Some(chosen),
                 btdf::Action::FollowSun(true) => None,
-                btdf::Action::FollowSun(false) => Some(input.incident),
+                btdf::Action::FollowSun(false) => Some(input.incidence.direction),
             }));
         }
         seen.numbers.then(|| btdf::csv(&input))

@@ -164,6 +164,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.state.product.is_some()
+    }
+
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let scene = &state.document.scene;

@@ -3,7 +3,7 @@
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::paint::tile::Status;
-use crate::app::state::{Results, Shown, State};
+use crate::app::state::{CatalogueState, Results, Shown, State};
 use crate::app::title;
 use egui::Ui;
 use std::sync::Arc;
@@ -23,15 +23,38 @@ pub struct TileInput<'a> {
 }
 
 impl<'a> TileInput<'a> {
-    /// How far a picture is to be trusted.
+    /// How far a picture is to be trusted that is made as it is drawn.
     pub fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
-        Status { coarse: false, stale, hold_scale: self.held, doing: self.state.computing.as_deref(), error }
+        let doing = self.state.computing.as_deref();
+        Status { coarse: false, stale, idle: false, hold_scale: self.held, doing, error }
     }
 
     /// The same of a result that a lane computes: an error counts when nothing newer is under way.
     pub fn status_of<T>(&self, shown: &'a Shown<T>, lane: Lane) -> Status<'a> {
-        let error = shown.error.as_deref().filter(|_| shown.value.is_none() || !(self.busy)(lane));
-        self.status(shown.stale, error)
+        let busy = (self.busy)(lane);
+        let error = shown.error.as_deref().filter(|_| shown.value.is_none() || !busy);
+        Status { idle: !busy, ..self.status(shown.stale, error) }
+    }
+
+    /// What is waited for before a tile has anything to draw, and whether that is an error; `None` once the product is
+    /// there.
+    pub fn awaited(&self) -> Option<(String, bool)> {
+        let state = self.state;
+        match &state.catalogue {
+            CatalogueState::Opening => return Some(("Opening the catalogue…".to_owned(), false)),
+            CatalogueState::Failed(error) => return Some((error.clone(), true)),
+            CatalogueState::Ready(_) => {}
+        }
+        let busy = [Lane::Catalogue, Lane::Scene].into_iter().any(|lane| (self.busy)(lane));
+        let product = &state.document.selection.product;
+        match (&state.dataset.error, product.is_empty(), state.dataset.value.is_some()) {
+            (_, false, true) => None,
+            (Some(error), false, false) if !busy => Some((error.clone(), true)),
+            (_, false, false) => Some(("Reading the product…".to_owned(), false)),
+            (_, true, _) if busy => Some(("Reading the catalogue…".to_owned(), false)),
+            (_, true, _) if (self.busy)(Lane::Builtin) => Some(("Computing the first product…".to_owned(), false)),
+            (_, true, _) => Some(("No product chosen: choose one in the catalogue.".to_owned(), false)),
+        }
     }
 
     /// Product and moment in words.
@@ -42,6 +65,8 @@ impl<'a> TileInput<'a> {
 
 /// The drawing of a tile, with what it remembers from frame to frame.
 pub trait Drawn {
+    /// Is there anything that the tile could draw? Until then the bench says what is waited for.
+    fn ready(&self, seen: &TileInput<'_>) -> bool;
     /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String>;
 }

@@ -19,6 +19,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.results.lid.value.is_some() || seen.results.lid.error.is_some()
+    }
+
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, _commands: &mut Vec<Command>) -> Option<String> {
         let shown = &seen.results.lid;
         let figures = shown.value.as_deref();
@@ -26,6 +30,7 @@ impl Drawn for Drawing {
         let input = lid::Input {
             lid: figures.map(|figures| &figures.lid),
             name: &name,
+            peaks: seen.results.lid_peaks(),
             flux: figures.map(|figures| figures.flux.value - figures.lid.beam_flux()),
             max: None,
             revision: self.revision.of(shown.value.as_ref()),

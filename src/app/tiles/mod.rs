@@ -15,6 +15,7 @@ pub use drawn::{Drawn, TileInput};
 pub use layout::{Layout, Row};
 
 use super::command::Command;
+use super::paint::tile::waiting;
 use super::state::Tile;
 use egui::Ui;
 
@@ -65,6 +66,12 @@ impl Bench {
         commands: &mut Vec<Command>,
     ) -> Option<String> {
         let (_, drawn) = self.drawn.iter_mut().find(|(one, _)| *one == tile)?;
+        if !drawn.ready(seen)
+            && let Some((words, is_error)) = seen.awaited()
+        {
+            waiting(ui, tile.title, tile.help, &words, is_error);
+            return None;
+        }
         drawn.show(ui, seen, commands)
     }
 }

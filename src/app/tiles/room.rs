@@ -50,6 +50,10 @@ fn cells(figures: &RoomFigures) -> Vec<room::CellValue> {
 }
 
 impl Drawn for Drawing {
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.results.room.value.is_some() || seen.results.room.error.is_some()
+    }
+
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let shown = &seen.results.room;
         let address = shown.value.as_ref().map_or(0, |value| Arc::as_ptr(value).addr());
@@ -64,6 +68,7 @@ impl Drawn for Drawing {
             nx,
             ny,
             cells: self.cells.get(address, || figures.map_or_else(Vec::new, cells)),
+            listed: shown.value.is_some() && figures.is_none(),
             plane_z: scene.sensors.plane.map_or(0.0, |plane| plane.z),
             name: &name,
             range: None,

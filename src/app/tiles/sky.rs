@@ -2,6 +2,7 @@
 
 use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
+use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::sky;
 use crate::app::{moment, title};
@@ -21,6 +22,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.state.daylight.value.is_some() || seen.state.daylight.error.is_some()
+    }
+
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let scene = &state.document.scene;
@@ -42,7 +47,7 @@ impl Drawn for Drawing {
             direct_horizontal: daylight.map(|daylight| daylight.sun.map_or(0.0, |sun| sun.horizontal())),
             facade_vertical: seen.results.lid.value.as_ref().and_then(|lid| lid.incident),
             revision: self.revision.of(state.daylight.value.as_ref()),
-            status: seen.status(state.daylight.stale, state.daylight.error.as_deref()),
+            status: seen.status_of(&state.daylight, Lane::Scene),
         };
         for action in sky::show(ui, &input, &mut self.view) {
             if let sky::Action::SunDragged { place, free } = action {

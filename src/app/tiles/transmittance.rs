@@ -3,6 +3,8 @@
 use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::facing::{incident, sun_incident, surface};
+use crate::app::incidence::Incidence;
+use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::Cache;
 use crate::app::views::transmittance::{self, FluxSplit};
@@ -70,31 +72,34 @@ fn split(btdf: &Btdf, incident: Incident, surface: Surface) -> FluxSplit {
 }
 
 impl Drawn for Drawing {
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.state.dataset.value.is_some()
+    }
+
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
         let scene = &state.document.scene;
         let dataset = &state.dataset;
         let revision = self.revision.of(dataset.value.as_ref());
         let surface = surface(scene);
-        // The light that the BTDF tile shows: the sun's, unless another direction was chosen.
-        let incident = state.incident.or(sun_incident(scene));
+        // The light that the BTDF tile shows.
+        let incidence = Incidence::shown(state.incident, scene);
         let btdf = dataset.value.as_deref().and_then(|dataset| dataset.transmission());
-        let split = btdf.zip(incident).map(|(btdf, incident)| {
+        let split = btdf.map(|btdf| {
+            let incident = incidence.direction;
             *self.split.get((revision, incident, surface == Surface::Roof), || split(btdf, incident, surface))
         });
-        let mut name = title::selection(state);
-        if state.incident.is_some() {
-            name.push_str(" · flux split for the chosen direction");
-        }
+        let name = title::selection(state);
         let key = path_key(scene);
         let input = transmittance::Input {
             btdf,
             name: &name,
             sun_paths: self.paths.get(key, || sun_paths(scene)),
             moment: sun_incident(scene),
+            incidence,
             split,
             revision: revision.wrapping_add(key.1[3]),
-            status: seen.status(dataset.stale, dataset.error.as_deref()),
+            status: seen.status_of(dataset, Lane::Scene),
         };
         for action in transmittance::show(ui, &input, &mut self.view) {
             match action {

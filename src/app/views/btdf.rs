@@ -1,17 +1,20 @@
 //! The BTDF: left where light comes from, right where it goes, both seen from inside the room.
 
+mod words;
+
 use super::Cache;
+use crate::app::incidence::{Incidence, Source};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::tile::{self, Status, Words};
-use crate::compute::angle::wrap_two_pi;
+use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::basis::{Cell, RingBasis};
-use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
+use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::{degrees, number};
 use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use std::sync::Arc;
+use words::{pointed_text, selection_text};
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
@@ -20,12 +23,10 @@ pub struct Input<'a> {
     pub btdf: Option<&'a Btdf>,
     /// Product and state in words.
     pub name: &'a str,
-    /// The chosen direction of incidence.
-    pub incident: Incident,
+    /// The direction of incidence, the sun's or a chosen one.
+    pub incidence: Incidence,
     /// Where the sun is, if it is before the façade.
     pub sun: Option<Incident>,
-    /// The incidence is coupled to the sun; choosing another should end that.
-    pub follow_sun: bool,
     /// Scale forced from outside (comparison), lowest and highest q.
     pub range: Option<[f64; 2]>,
     /// Changes with `btdf`.
@@ -43,12 +44,12 @@ pub enum Action {
     FollowSun(bool),
 }
 
-type Incidence = [u64; 3];
+type Bits = [u64; 3];
 
 /// What the picture of the emergent side depends on.
-type EmergentKey = (u64, Incidence, Disk, Projection, bool, ColourScale);
+type EmergentKey = (u64, Bits, Disk, Projection, bool, ColourScale);
 
-fn bits(incident: Incident) -> Incidence {
+fn bits(incident: Incident) -> Bits {
     incident.0.vector().to_array().map(f64::to_bits)
 }
 
@@ -100,7 +101,7 @@ pub struct State {
     /// Grey by τ on the incident side.
     pub shade_tau: bool,
     incidences: Cache<(u64, Projection), Incidences>,
-    indicatrix: Cache<(u64, Incidence), Option<Indicatrix>>,
+    indicatrix: Cache<(u64, Bits), Option<Indicatrix>>,
     left: Cache<(u64, Disk, Projection, bool, bool), Arc<Mesh>>,
     right: Cache<EmergentKey, Arc<Mesh>>,
     scale: Option<ColourScale>,
@@ -139,7 +140,8 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     };
     // The toggles and the picture both write: settings are copied for the head and taken back after.
     let mut settings = (state.projection, state.log, state.weighted, state.shade_tau);
-    let mut follow = input.follow_sun;
+    let followed = input.incidence.source != Source::Chosen;
+    let mut follow = followed;
     tile::show(
         ui,
         &words,
@@ -157,54 +159,21 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         },
         |ui, rect| match input.btdf {
             Some(btdf) => picture(ui, rect, btdf, input, state, &mut actions),
-            None => String::new(),
+            None => Foot::default(),
         },
     );
     (state.projection, state.log, state.weighted, state.shade_tau) = settings;
-    if follow != input.follow_sun {
+    if follow != followed {
         actions.push(Action::FollowSun(follow));
     }
     actions
 }
 
-fn picture(
-    ui: &mut Ui,
-    rect: Rect,
-    btdf: &Btdf,
-    input: &Input<'_>,
-    state: &mut State,
-    out: &mut Vec<Action>,
-) -> String {
+fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
     let [outside, inside] = places(rect);
     let incident = incident_side(ui, &outside, btdf, input, state, out);
     let emergent = emergent_side(ui, &inside, btdf, input, state);
-    emergent.or(incident).unwrap_or_else(|| selection_text(btdf, input.incident))
-}
-
-/// "incidence θ 40°, φ 90° · τ 0.41 (scattered 0.35, regular 0.06)".
-fn selection_text(btdf: &Btdf, incident: Incident) -> String {
-    let tau = btdf.tau(incident);
-    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(incident.0.theta()));
-    let parts = if regular > 0.0 && btdf.scattered.is_some() {
-        format!(" (scattered {}, regular {})", number(tau - regular, 3), number(regular, 3))
-    } else {
-        String::new()
-    };
-    format!("incidence {} · τ {}{parts}{}", direction_text(incident.0), number(tau, 3), measured_at(btdf, incident))
-}
-
-/// Which direction the data shown belong to, where they are of single directions and another one is chosen.
-fn measured_at(btdf: &Btdf, incident: Incident) -> String {
-    let Some(Scattered::Directions(data)) = &btdf.scattered else { return String::new() };
-    let Some(own) = data.standing_for(incident.0).map(|index| data.incident()[index].0) else { return String::new() };
-    if own.dot(incident.0) > 0.5_f64.to_radians().cos() {
-        return String::new();
-    }
-    format!(" · data of {}", direction_text(own))
-}
-
-fn direction_text(d: Dir<Facade>) -> String {
-    format!("θ {}, φ {}", degrees(d.theta()), degrees(wrap_two_pi(d.phi())))
+    emergent.or(incident).unwrap_or_else(|| selection_text(btdf, &input.incidence))
 }
 
 /// Where one of the two hemispheres is drawn.
@@ -273,7 +242,7 @@ fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2]
     let text =
         if corner.width() > 76.0 && corner.height() > 44.0 { format!("{side}:\n{what}") } else { side.to_owned() };
     let mut job =
-        egui::text::LayoutJob::simple(text, egui::FontId::proportional(12.5), palette.weak, corner.width().max(50.0));
+        egui::text::LayoutJob::simple(text, egui::FontId::proportional(13.0), palette.weak, corner.width().max(50.0));
     job.halign = align.x();
     let galley = ui.painter().layout_job(job);
     let height = galley.size().y;
@@ -293,7 +262,7 @@ fn incident_side(
     input: &Input<'_>,
     state: &mut State,
     out: &mut Vec<Action>,
-) -> Option<String> {
+) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let projection = state.projection;
     let disk = place.disk;
@@ -324,7 +293,7 @@ fn incident_side(
     };
     frame(ui, place, projection, ["outside", &from], &palette);
     // The chosen cell: light under dark, so that it is seen on every grey.
-    let selected = cells.choice(btdf, input.incident.0);
+    let selected = cells.choice(btdf, input.incidence.direction.0);
     if let (true, Some(index)) = (cells.listed, selected) {
         let at = disk.screen(cells.points[index]);
         ui.painter().circle_stroke(at, 5.0, Stroke::new(4.0, palette.face));
@@ -364,13 +333,13 @@ fn incident_side(
             }
         }
     }
-    tile::name(ui, &response, "Incident hemisphere", &selection_text(btdf, input.incident));
+    tile::name(ui, &response, "Incident hemisphere", selection_text(btdf, &input.incidence).full());
     let pointed = response.hover_pos().and_then(cell_at);
     let pointed = pointed.map(|i| (cells.choices[i], btdf.tau(cells.choices[i])));
     if let (true, Some(legend)) = (shade, place.legend) {
         scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|(_, tau)| tau), &palette);
     }
-    pointed.map(|(d, tau)| format!("incidence {} · τ {}", direction_text(d.0), number(tau, 3)))
+    pointed.map(|(d, tau)| pointed_text(d, tau))
 }
 
 fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<egui::Pos2> {
@@ -393,14 +362,14 @@ fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
     if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
 }
 
-fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<String> {
+fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let (projection, weighted) = (state.projection, state.weighted);
     let (rect, disk) = (place.rect, place.disk);
     let legend = place.legend.unwrap_or(rect);
     let response = ui.interact(disk_rect(&disk), ui.scope_id().with("emergent"), Sense::hover());
-    let key = bits(input.incident);
-    let indicatrix = state.indicatrix.get((input.revision, key), || btdf.indicatrix(input.incident));
+    let key = bits(input.incidence.direction);
+    let indicatrix = state.indicatrix.get((input.revision, key), || btdf.indicatrix(input.incidence.direction));
     let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
     let mut text = None;
     ui.painter().circle_filled(disk.centre, disk.radius, palette.face);
@@ -435,13 +404,14 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
                 Stroke::new(1.5, Color32::WHITE),
             ));
             let theta = cell.centre().theta();
-            text = Some(format!(
-                "leaving {} off the normal, φ {} · {} {} 1/sr",
-                degrees(theta),
-                degrees(leaving.0.phi()),
-                if weighted { "q·cosθ" } else { "q" },
-                number(drawn(q[index], &cell, weighted), 3)
-            ));
+            let (theta, phi) = (degrees(theta), degrees(leaving.0.phi()));
+            let value = number(drawn(q[index], &cell, weighted), 3);
+            let what = if weighted { "q·cosθ" } else { "q" };
+            text = Some(Foot::from([
+                format!("leaving {theta} off the normal, φ {phi} · {what} {value} 1/sr"),
+                format!("{theta} off normal, φ {phi} · {what} {value} 1/sr"),
+                format!("{what} {value} 1/sr"),
+            ]));
         }
         let value = pointed.map(|i| drawn(q[i], &basis.cell(i), weighted));
         scale.paint_legend(ui.painter(), legend, unit, value, &palette);
@@ -451,9 +421,9 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
         tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
     }
     frame(ui, place, projection, ["inside", "where light goes"], &palette);
-    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(input.incident.0.theta()));
-    if regular > 0.0 && input.incident.0.vector().z > 0.0 {
-        let at = disk.screen(emergent_disk(projection, Emergent::from_through_name(input.incident.0)));
+    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(input.incidence.direction.0.theta()));
+    if regular > 0.0 && input.incidence.direction.0.vector().z > 0.0 {
+        let at = disk.screen(emergent_disk(projection, Emergent::from_through_name(input.incidence.direction.0)));
         ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
         let label = format!("regular τ {}", number(regular, 3));
         let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
@@ -466,7 +436,7 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
         ui.painter().rect_filled(place.expand(2.0), 3, palette.face);
         ui.painter().galley(place.min, galley, palette.ink);
     }
-    tile::name(ui, &response, "Emergent hemisphere", &selection_text(btdf, input.incident));
+    tile::name(ui, &response, "Emergent hemisphere", selection_text(btdf, &input.incidence).full());
     text
 }
 
@@ -475,18 +445,18 @@ pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::new();
     let Some(btdf) = input.btdf else { return out };
-    let theta = input.incident.0.theta();
+    let theta = input.incidence.direction.0.theta();
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(theta));
     let _ = writeln!(out, "# {}", input.name.replace(['\n', '\r'], " "));
     let _ = writeln!(
         out,
         "# incidence theta_deg,{:.4},phi_deg,{:.4}",
         theta.to_degrees(),
-        input.incident.0.phi().to_degrees()
+        input.incidence.direction.0.phi().to_degrees()
     );
-    let _ = writeln!(out, "# tau,{:.6},regular,{regular:.6}", btdf.tau(input.incident));
+    let _ = writeln!(out, "# tau,{:.6},regular,{regular:.6}", btdf.tau(input.incidence.direction));
     out.push_str("leaving_theta_deg,leaving_phi_deg,projected_solid_angle_sr,q_per_sr\n");
-    if let Some(Indicatrix { basis, q }) = btdf.indicatrix(input.incident) {
+    if let Some(Indicatrix { basis, q }) = btdf.indicatrix(input.incidence.direction) {
         for (cell, q) in basis.cells().zip(q) {
             let leaving = Emergent::from_through_name(cell.centre()).0;
             let (theta, phi) = (leaving.theta().to_degrees(), leaving.phi().to_degrees());

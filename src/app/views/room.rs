@@ -2,16 +2,20 @@
 //!
 //! The plan is seen from above with the façade at the left, so that its depth axis is the section's.
 
+mod marks;
+
 use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::contour::{IsoLine, iso_lines};
 use crate::app::paint::palette::{ColourMap, Palette, contrast};
 use crate::app::paint::plot::{self, LEFT, Look, RIGHT};
-use crate::app::paint::tile::{self, Status, Words};
+use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::direction::Surface;
+use crate::compute::estimate::{Estimate, largest_relative_error};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
-use crate::drawing::ticks::{logarithmic, number, si, tick};
+use crate::drawing::ticks::{number, si};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use marks::{ASKED_FOR, label_line, levels, scale_bar};
 use std::sync::Arc;
 
 /// Result at one sensor. \[lx\]
@@ -42,6 +46,15 @@ pub struct Opening {
     pub size: [f64; 2],
 }
 
+/// How exact illuminances are, in the one way in which the window says it: see [`largest_relative_error`].
+pub fn error_words(totals: impl Iterator<Item = Estimate> + Clone) -> String {
+    match 100.0 * largest_relative_error(totals) {
+        error if error <= 0.0 => "no error stated".to_owned(),
+        error if error < 0.005 => "error < 0.01 % of each value".to_owned(),
+        error => format!("error ≤ {} % of each value", number(error, 2)),
+    }
+}
+
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
@@ -53,8 +66,10 @@ pub struct Input<'a> {
     pub nx: usize,
     /// Sensors along y.
     pub ny: usize,
-    /// Results at the centres of the cells, x running fastest; empty before the first result.
+    /// Results at the centres of the cells, x running fastest; empty before the first result, and without a plane.
     pub cells: &'a [CellValue],
+    /// The sensors are listed points instead of a plane.
+    pub listed: bool,
     /// Height of the sensor plane. \[m\]
     pub plane_z: f64,
     /// Product and moment in words.
@@ -98,11 +113,16 @@ by radiosity; 300 and 500 lx as in EN 17037.";
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let complete = input.nx > 0 && input.ny > 0 && input.cells.len() == input.nx * input.ny;
+    let missing = match (input.listed, input.status.stale, input.status.idle) {
+        (true, ..) => "The scene's sensors are listed points; a plan is drawn of a plane of sensors alone.",
+        (false, true, false) => "Computing the illuminances…",
+        _ => "No illuminances yet: choose a product and a plane of sensors.",
+    };
     let words = Words {
         title: "Room",
         subtitle: input.name,
         help: HELP,
-        empty: (!complete).then_some("No illuminances yet: choose a product and a plane of sensors."),
+        empty: (!complete).then_some(missing),
         controls_width: 170.0,
     };
     let mut log = state.log;
@@ -150,7 +170,7 @@ impl Plan {
     }
 }
 
-fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> String {
+fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
     // A dark room still needs a scale with an extent.
     let max = input.cells.iter().map(|c| c.total).filter(|v| v.is_finite()).fold(0.0, f64::max).max(1.0);
@@ -202,12 +222,12 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Str
         );
         text = section_ui(ui, place, input, row, &scale, cell.map(|(_, j)| j), &palette);
     }
-    let summary = summary(input, rect.width() < 380.0);
-    tile::name(ui, &response, "Room plan", &summary);
+    let summary = summary(input);
+    tile::name(ui, &response, "Room plan", summary.full());
     value.map(|v| value_text(&v)).or(text).unwrap_or(summary)
 }
 
-fn value_text(v: &CellValue) -> String {
+fn value_text(v: &CellValue) -> Foot {
     let error = match (v.error, v.data_error) {
         (0.0, _) => String::new(),
         (all, 0.0) => format!(" ± {}", number(all, 2)),
@@ -217,24 +237,27 @@ fn value_text(v: &CellValue) -> String {
     };
     let sun = if v.beam > 0.0 { format!(" (sun's beam {})", si(v.beam, "lx")) } else { String::new() };
     let (direct, inter) = (si(v.direct, "lx"), si(v.inter, "lx"));
-    format!("{}{error} lx · direct {direct}{sun} · interreflected {inter}", number(v.total, 4))
+    let total = number(v.total, 4);
+    let short = if v.error > 0.0 { format!("{total} ± {} lx", number(v.error, 2)) } else { format!("{total} lx") };
+    Foot::from([
+        format!("{total}{error} lx · direct {direct}{sun} · interreflected {inter}"),
+        format!("{total}{error} lx · direct {direct}"),
+        short,
+        format!("{total} lx"),
+    ])
 }
 
-fn summary(input: &Input<'_>, short: bool) -> String {
+fn summary(input: &Input<'_>) -> Foot {
     let totals = || input.cells.iter().map(|c| c.total);
-    let mean = totals().sum::<f64>() / input.cells.len().max(1) as f64;
+    let mean = si(totals().sum::<f64>() / input.cells.len().max(1) as f64, "lx");
     let (min, max) = (totals().fold(f64::INFINITY, f64::min), totals().fold(0.0, f64::max));
-    let error = input.cells.iter().map(|c| if c.total > 0.0 { c.error / c.total } else { 0.0 }).fold(0.0, f64::max);
-    if short {
-        return format!("mean {} · {} to {}", si(mean, "lx"), number(min, 3), si(max, "lx"));
-    }
-    format!(
-        "mean {} · min {} · max {} · error ≤ {} %",
-        si(mean, "lx"),
-        si(min, "lx"),
-        si(max, "lx"),
-        number(100.0 * error, 2)
-    )
+    let error = error_words(input.cells.iter().map(|c| Estimate::new(c.total, c.error)));
+    Foot::from([
+        format!("mean {mean} · min {} · max {} · {error}", si(min, "lx"), si(max, "lx")),
+        format!("mean {mean} · {} to {}", number(min, 3), si(max, "lx")),
+        format!("{} to {}", number(min, 3), si(max, "lx")),
+        format!("mean {mean}"),
+    ])
 }
 
 fn plan_ui(
@@ -273,15 +296,34 @@ fn plan_ui(
     let dashes = [plan.screen(x, 0.0), plan.screen(x, input.room[1])];
     painter.extend(Shape::dashed_line(&dashes, Stroke::new(1.2, Color32::WHITE), 4.0, 4.0));
     let mut used: Vec<Rect> = vec![Rect::from_two_pos(dashes[0], dashes[1]).expand(1.0)];
+    used.push(scale_bar(ui, plan.area, plan.scale));
+    let mut named: Vec<(f64, Vec<Vec<Pos2>>)> = vec![];
     for (level, lines) in lines {
         let colour = contrast(scale.colour(*level));
-        for line in lines {
+        let on_screen = lines.iter().map(|line| {
             let mut points: Vec<Pos2> = line.points.iter().map(node).collect();
             if line.closed {
                 points.push(points[0]);
             }
             painter.add(Shape::line(points.clone(), Stroke::new(1.2, colour.gamma_multiply(0.85))));
-            label_line(ui, &points, *level, scale, plan.area, &mut used);
+            points
+        });
+        named.push((*level, on_screen.collect()));
+    }
+    // The names come over all lines, those of the levels that are asked for first.
+    named.sort_by_key(|(level, _)| !ASKED_FOR.contains(level));
+    for (level, lines) in &named {
+        let asked_for = ASKED_FOR.contains(level);
+        let mut done = false;
+        for points in lines {
+            done |= label_line(ui, points, *level, scale, plan.area, &mut used);
+        }
+        // Crossed by the row's dashes or by another name at worst, but never without its own.
+        if asked_for && !done {
+            let longest = lines.iter().max_by_key(|points| points.len());
+            if let Some(points) = longest {
+                label_line(ui, points, *level, scale, plan.area, &mut vec![]);
+            }
         }
     }
     painter.rect_stroke(plan.area, 0, Stroke::new(1.5, palette.outline), StrokeKind::Outside);
@@ -306,39 +348,6 @@ fn plan_ui(
     );
 }
 
-/// Round levels inside the range of the data, few enough to be told apart.
-fn levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
-    let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
-    if min >= max || totals.is_empty() {
-        return vec![];
-    }
-    // Illuminances fall off steeply with depth: 1-2-5 steps even on a linear scale, with 300 lx among them.
-    let mut levels = logarithmic(min.max(scale.hi * 1e-3), max, 9);
-    if min < 300.0 && max > 300.0 && !levels.contains(&300.0) {
-        levels.push(300.0);
-    }
-    levels.retain(|level| *level > min && *level < max);
-    levels
-}
-
-fn label_line(ui: &Ui, points: &[Pos2], level: f64, scale: &ColourScale, area: Rect, used: &mut Vec<Rect>) {
-    if points.len() < 3 {
-        return;
-    }
-    let ground = scale.colour(level);
-    let galley = ui.painter().layout_no_wrap(tick(level), FontId::proportional(11.0), contrast(ground));
-    for share in [0.5, 0.3, 0.7, 0.15, 0.85] {
-        let at = points[((points.len() - 1) as f64 * share) as usize];
-        let place = Rect::from_center_size(at, galley.size() + vec2(6.0, 0.0));
-        if area.contains_rect(place) && used.iter().all(|r| !r.intersects(place.expand(2.0))) {
-            ui.painter().rect_filled(place, 3, ground);
-            ui.painter().galley(place.center() - 0.5 * galley.size(), galley, contrast(ground));
-            used.push(place);
-            return;
-        }
-    }
-}
-
 fn section_ui(
     ui: &mut Ui,
     rect: Rect,
@@ -347,7 +356,7 @@ fn section_ui(
     scale: &ColourScale,
     pointed: Option<usize>,
     palette: &Palette,
-) -> Option<String> {
+) -> Option<Foot> {
     let (nx, ny, depth) = (input.nx, input.ny, input.room[1]);
     let at_depth = |j: usize| (j as f64 + 0.5) / ny as f64 * depth;
     let value = |i: usize, j: usize| input.cells[j * nx + i];
@@ -379,7 +388,7 @@ fn section_ui(
     let v = value(row, j);
     let at = shown.screen(plot.place([at_depth(j), v.total])?);
     ui.painter().with_clip_rect(shown.area()).circle_filled(at, 4.0, palette.first);
-    Some(format!("{} m deep · {}", number(at_depth(j), 3), value_text(&v)))
+    Some(value_text(&v).after(&format!("{} m deep · ", number(at_depth(j), 3))).or(&si(v.total, "lx")))
 }
 
 /// All sensors with position and parts.
@@ -409,15 +418,5 @@ mod tests {
         assert!((x - 1.25).abs() < 1e-4 && (y - 4.5).abs() < 1e-4);
         // Seen from above with the depth to the right, x runs down.
         assert!(plan.screen(1.0, 0.0).y > plan.screen(0.0, 0.0).y);
-    }
-
-    #[test]
-    fn levels_lie_inside_the_data() {
-        let totals: Vec<f64> = (1..100).map(|k| 20.0 * f64::from(k)).collect();
-        let scale = ColourScale::up_to(2000.0, false, 2, ColourMap::Sequential);
-        let levels = levels(&scale, &totals);
-        assert!(levels.contains(&300.0) && levels.contains(&500.0));
-        assert!(levels.iter().all(|l| *l > 20.0 && *l < 1980.0));
-        assert!(super::levels(&scale, &[5.0, 5.0]).is_empty());
     }
 }

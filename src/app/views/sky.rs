@@ -1,11 +1,12 @@
 //! The sky from below, the sun that can be dragged, and the illuminances it gives.
 
 use super::Cache;
+use crate::app::moment::height_words;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, Look};
-use crate::app::paint::tile::{self, Status, Words};
+use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::angle::wrap_two_pi;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
@@ -87,7 +88,22 @@ it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 o
 scene.";
 
 /// Width from which the three illuminances stand in one line. \[points\]
-const WIDE_FIGURES: f32 = 440.0;
+const WIDE_FIGURES: f32 = 460.0;
+/// Below it each has a line of its own. \[points\]
+const NARROW_FIGURES: f32 = 190.0;
+/// Height of a line of them. \[points\]
+const FIGURE_LINE: f32 = 17.0;
+
+/// Lines that the illuminances take.
+fn figure_lines(width: f32) -> u8 {
+    if width < NARROW_FIGURES {
+        3
+    } else if width < WIDE_FIGURES {
+        2
+    } else {
+        1
+    }
+}
 
 /// Disk point (right, up) of a place: north up, east left.
 fn disk_point(place: Place) -> [f64; 2] {
@@ -108,7 +124,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         title: "Sky",
         subtitle: input.name,
         help: HELP,
-        empty: input.luminance.is_none().then_some("The scene has no sky yet."),
+        empty: input.luminance.is_none().then_some("No sky: see what the scene says under Sky."),
         controls_width: 0.0,
     };
     tile::show(
@@ -118,7 +134,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         |_| {},
         |ui, rect| match input.luminance {
             Some(luminance) => picture(ui, rect, luminance, input, state, &mut actions),
-            None => String::new(),
+            None => Foot::default(),
         },
     );
     actions
@@ -131,10 +147,10 @@ fn picture(
     input: &Input<'_>,
     state: &mut State,
     out: &mut Vec<Action>,
-) -> String {
+) -> Foot {
     let palette = Palette::of(ui.visuals());
-    let lines = if rect.width() < WIDE_FIGURES { 2.0 } else { 1.0 };
-    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + 17.0 * lines));
+    let lines = f32::from(figure_lines(rect.width()));
+    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + FIGURE_LINE * lines));
     figures_ui(ui, figures, input, &palette);
     let rest = Rect::from_min_max(pos2(rect.left(), figures.bottom()), rect.max);
     let beside = rest.width() > 1.05 * rest.height() && rest.width() > 380.0;
@@ -179,17 +195,18 @@ fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
         ("E_h direct", input.direct_horizontal),
         ("E_v façade", input.facade_vertical),
     ];
-    // Narrow: name over value, in the same three columns.
+    // Name over value in three columns, or a line for each, where they do not fit side by side.
     let short = ["diffuse", "direct", "façade"];
-    let narrow = rect.width() < WIDE_FIGURES;
+    let lines = figure_lines(rect.width());
     let width = rect.width() / 3.0;
     let font = FontId::proportional(13.0);
     for (k, (label, value)) in figures.into_iter().enumerate() {
         let value = value.map_or_else(|| "–".to_owned(), |v| format!("{:.1} klx", v / 1000.0));
-        let at = pos2(rect.left() + 2.0 + k as f32 * width, rect.top() + 9.0);
-        let name = if narrow { short[k] } else { label };
+        let at = rect.left_top() + vec2(2.0, 9.0);
+        let at = at + if lines == 3 { vec2(0.0, FIGURE_LINE * k as f32) } else { vec2(k as f32 * width, 0.0) };
+        let name = if lines == 2 { short[k] } else { label };
         let label = ui.painter().text(at, Align2::LEFT_CENTER, name, font.clone(), palette.weak);
-        let place = if narrow { at + vec2(0.0, 16.0) } else { pos2(label.right() + 5.0, at.y) };
+        let place = if lines == 2 { at + vec2(0.0, 16.0) } else { pos2(label.right() + 5.0, at.y) };
         ui.painter().text(place, Align2::LEFT_CENTER, value, font.clone(), palette.ink);
     }
 }
@@ -202,7 +219,7 @@ fn dome(
     state: &mut State,
     scale: &ColourScale,
     out: &mut Vec<Action>,
-) -> String {
+) -> Foot {
     let palette = Palette::of(ui.visuals());
     let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
     let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
@@ -244,22 +261,28 @@ fn dome(
     let value = place.map(|p| luminance(p.altitude, p.bearing));
     scale.paint_legend(ui.painter(), legend, "cd/m²", value, &palette);
     let sun_text = match input.sun {
-        Some(sun) => place_text("sun", sun),
-        None => "no sun".to_owned(),
+        Some(sun) => Foot::from(place_text("sun", sun)),
+        None => Foot::from("no sun"),
     };
-    tile::name(ui, &response, "Sky dome", &sun_text);
+    tile::name(ui, &response, "Sky dome", sun_text.full());
     match (place, value) {
-        (Some(p), Some(v)) => format!("{} · {}", place_text("sky", p), si(v, "cd/m²")),
+        (Some(p), Some(v)) => {
+            let luminance = si(v, "cd/m²");
+            let [full, short, _] = place_text("sky", p);
+            Foot::from([format!("{full} · {luminance}"), format!("{short} · {luminance}"), luminance])
+        }
         _ => sun_text,
     }
 }
 
-fn place_text(what: &str, place: Place) -> String {
-    format!(
-        "{what} altitude {:.1}°, bearing {:.0}°",
-        place.altitude.to_degrees(),
-        wrap_two_pi(place.bearing).to_degrees()
-    )
+/// "sun 41.0° high, bearing 171°", and shorter; "15.0° below the horizon".
+fn place_text(what: &str, place: Place) -> [String; 3] {
+    let degrees = place.altitude.to_degrees();
+    let height = height_words(degrees, 1);
+    // Just under a whole turn is north again.
+    let bearing = place.bearing.to_degrees().round().rem_euclid(360.0);
+    let short = if degrees < 0.0 { format!("{what} below horizon") } else { format!("{what} {height}") };
+    [format!("{what} {height}, bearing {bearing:.0}°"), format!("{what} {height}"), short]
 }
 
 fn dome_mesh(disk: &Disk, luminance: Luminance<'_>, scale: &ColourScale, facade: f64, palette: &Palette) -> Mesh {
@@ -331,7 +354,7 @@ fn section_ui(
     input: &Input<'_>,
     state: &mut State,
     scale: &ColourScale,
-) -> Option<String> {
+) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let bearing = input.sun.map_or(input.facade_bearing, |sun| sun.bearing);
     let points = state.section.get((input.revision, bearing.to_bits()), || {
@@ -361,7 +384,8 @@ fn section_ui(
     let [angle, _] = shown.pointed()?;
     let [x, value] = points[(angle.round() as i64 + 90).clamp(0, 180) as usize];
     ui.painter().circle_filled(shown.screen(plot.place([x, value])?), 3.5, palette.first);
-    Some(format!("{x:.0}° from the zenith · {}", si(value, "cd/m²")))
+    let luminance = si(value, "cd/m²");
+    Some(Foot::from([format!("{x:.0}° from the zenith · {luminance}"), luminance]))
 }
 
 /// The dome every 5° of altitude and 10° of bearing.
@@ -381,6 +405,16 @@ pub fn csv(input: &Input<'_>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sun_under_the_horizon_is_said_to_be_there() {
+        let text = |degrees: f64, bearing: f64| {
+            let place = Place { altitude: degrees.to_radians(), bearing: bearing.to_radians() };
+            place_text("sun", place)[0].clone()
+        };
+        assert_eq!(text(-15.0, 290.0), "sun 15.0° below the horizon, bearing 290°");
+        assert_eq!(text(41.2, 359.8), "sun 41.2° high, bearing 0°");
+    }
 
     #[test]
     fn north_is_up_and_east_is_left() {

@@ -1,14 +1,15 @@
 //! Transmittance over the incident hemisphere with the sun's paths, and where the transmitted light goes.
 
 use super::Cache;
+use crate::app::incidence::{Incidence, Source, direction_text};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, incident_disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::tile::{self, Status, Words};
+use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::Incident;
-use crate::drawing::ticks::{degrees, number};
+use crate::drawing::ticks::number;
 use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -41,14 +42,26 @@ impl FluxSplit {
         [("ceiling", self.ceiling), ("eye zone", self.eye_zone), ("work zone", self.work_zone), ("floor", self.floor)]
     }
 
+    /// The zone that gets most, with its share.
+    fn greatest(&self) -> (&'static str, f64) {
+        self.parts().into_iter().fold(("", -1.0), |best, part| if part.1 > best.1 { part } else { best })
+    }
+
     /// "Of 41 % transmitted, 28 goes to the ceiling."
     pub fn sentence(&self) -> String {
         if self.total() <= 0.0 {
             return "Nothing is transmitted.".to_owned();
         }
-        let (zone, share) =
-            self.parts().into_iter().fold(("", -1.0), |best, part| if part.1 > best.1 { part } else { best });
+        let (zone, share) = self.greatest();
         format!("Of {} % transmitted, {} goes to the {zone}.", percent(self.total()), percent(share))
+    }
+
+    /// The same and shorter.
+    fn sentences(&self) -> [String; 3] {
+        let all = percent(self.total());
+        let (zone, share) = self.greatest();
+        let share = percent(share);
+        [self.sentence(), format!("{share} of {all} % to the {zone}"), format!("{zone}: {share} %")]
     }
 }
 
@@ -70,7 +83,9 @@ pub struct Input<'a> {
     pub sun_paths: &'a [Vec<(f64, Incident)>],
     /// The sun now.
     pub moment: Option<Incident>,
-    /// Where the light goes now.
+    /// The direction of incidence that is spoken of: the BTDF's.
+    pub incidence: Incidence,
+    /// Where its light goes; `None` without data.
     pub split: Option<FluxSplit>,
     /// Changes with `btdf`.
     pub revision: u64,
@@ -123,30 +138,28 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         },
         |ui, rect| match input.btdf {
             Some(btdf) => picture(ui, rect, btdf, input, state, &mut actions),
-            None => String::new(),
+            None => Foot::default(),
         },
     );
     state.hide_paths = !paths;
     actions
 }
 
-fn picture(
-    ui: &mut Ui,
-    rect: Rect,
-    btdf: &Btdf,
-    input: &Input<'_>,
-    state: &mut State,
-    out: &mut Vec<Action>,
-) -> String {
+fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
     let palette = Palette::of(ui.visuals());
-    let bar = input.split.map(|split| {
-        // In a narrow tile the map keeps at least half.
-        let width = 124.0_f32.min(0.5 * rect.width());
-        let place = Rect::from_min_max(pos2(rect.right() - width, rect.top()), rect.max);
-        split_bar(ui, place, &split, &palette);
-        width
-    });
-    let map = Rect::from_min_max(rect.min, pos2(rect.right() - bar.unwrap_or(0.0) - 4.0, rect.bottom()));
+    let map = match (input.split, beside(rect)) {
+        (Some(split), true) => {
+            let (map, place) = rect.split_left_right_at_x(rect.right() - BAR_WIDTH);
+            split_bar(ui, place, &split, &input.incidence, &palette);
+            map.with_max_x(map.right() - 4.0)
+        }
+        (Some(split), false) => {
+            let (map, place) = rect.split_top_bottom_at_y(rect.bottom() - STRIP_HEIGHT);
+            split_strip(ui, place, &split, &input.incidence, &palette);
+            map
+        }
+        (None, _) => rect,
+    };
     let legend = Rect::from_min_max(pos2(map.left() + 4.0, map.bottom() - LEGEND_HEIGHT), map.max);
     let disk = Disk::within(Rect::from_min_max(map.min, pos2(map.right(), legend.top())));
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
@@ -167,6 +180,12 @@ fn picture(
             input.moment.filter(|sun| sun.0.vector().z > 0.0).map(|sun| disk.screen(incident_disk(PROJECTION, sun)));
         sun_paths(ui, &disk, input.sun_paths, sun, &palette);
     }
+    // The chosen direction, as the flux split has it.
+    if input.incidence.source == Source::Chosen {
+        let at = disk.screen(incident_disk(PROJECTION, input.incidence.direction));
+        ui.painter().circle_stroke(at, 6.0, Stroke::new(4.0, palette.face));
+        ui.painter().circle_stroke(at, 6.0, Stroke::new(2.0, palette.first));
+    }
     // After the paths, so that none crosses it.
     if let Some(sun) = input.moment.filter(|sun| sun.0.vector().z > 0.0) {
         let at = disk.screen(incident_disk(PROJECTION, sun));
@@ -180,16 +199,31 @@ fn picture(
     }
     let pointed = response.hover_pos().and_then(direction);
     scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|d| btdf.tau(d)), &palette);
-    let text = |label: &str, d: Incident| {
-        format!("{label} θ {}, φ {} · τ {}", degrees(d.0.theta()), degrees(d.0.phi()), number(btdf.tau(d), 3))
-    };
-    // The line under the picture is never empty: without a pointer it tells of the sun.
-    let rest = match input.moment.filter(|sun| sun.0.vector().z > 0.0) {
-        Some(sun) => text("sun", sun),
-        None => "the sun is not before the façade".to_owned(),
-    };
-    tile::name(ui, &response, "Transmittance map", &rest);
-    pointed.map_or(rest, |d| text("from", d))
+    let tau = |d: Incident| format!("τ {}", number(btdf.tau(d), 3));
+    // The line under the picture is never empty: without a pointer it tells of the direction that the flux split is of.
+    let [full, middle, short] = input.incidence.texts();
+    let own = tau(input.incidence.direction);
+    let rest = Foot::from([
+        format!("{full} · {own}"),
+        format!("{middle} · {own}"),
+        format!("{short} · {own}"),
+        format!("{} {own}", short.replace(',', "")),
+    ]);
+    tile::name(ui, &response, "Transmittance map", rest.full());
+    pointed.map_or(rest, |d| {
+        let (angles, tau) = (direction_text(d.0), tau(d));
+        Foot::from([format!("from {angles} · {tau}"), format!("{angles} · {tau}"), tau])
+    })
+}
+
+/// Width of the flux split beside the map. \[points\]
+const BAR_WIDTH: f32 = 124.0;
+/// Height of the flux split under it: a bar and two lines. \[points\]
+const STRIP_HEIGHT: f32 = 50.0;
+
+/// Has the flux split room beside the map, so that the map is no smaller than over it?
+fn beside(rect: Rect) -> bool {
+    rect.width() - BAR_WIDTH >= (rect.height() - STRIP_HEIGHT - LEGEND_HEIGHT).min(rect.width())
 }
 
 /// τ in colours. Measured cells stay flat, so that the picture shows no resolution that the data do not have.
@@ -210,7 +244,7 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
     // Names are written last, over all lines, where neither another name nor the sun is.
     let mut names: Vec<(Rect, egui::Pos2, String)> = vec![];
     let mut name = |place: egui::Pos2, text: String| {
-        let size = Rect::from_center_size(place, vec2(8.0 + 6.5 * text.chars().count() as f32, 15.0));
+        let size = Rect::from_center_size(place, vec2(8.0 + 7.5 * text.chars().count() as f32, 17.0));
         let free = sun.is_none_or(|at| size.distance_to_pos(at) > 8.0);
         if free && names.iter().all(|(other, ..)| !other.intersects(size)) {
             names.push((size, place, text));
@@ -265,18 +299,40 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
     }
 }
 
-fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
-    let total = split.total();
+/// Whose light the split is of, in a line of at most `width`.
+fn split_title(ui: &Ui, incidence: &Incidence, width: f32) -> String {
+    let [_, middle, short] = incidence.texts();
+    let font = FontId::proportional(13.0);
+    let fits =
+        |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE).size().x <= width;
+    [format!("{middle}:"), short].into_iter().find(fits).unwrap_or_else(|| incidence.name().to_owned())
+}
+
+/// The zones' colours, from top to bottom.
+fn zone_colour(zone: usize) -> Color32 {
+    ColourMap::Sequential.at(0.85 - 0.23 * zone as f32)
+}
+
+fn name_split(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence) {
     let response = ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(ZONES);
-    tile::name(ui, &response, "Flux split", &split.sentence());
+    let [full, ..] = incidence.texts();
+    tile::name(ui, &response, "Flux split", &format!("{full}: {}", split.sentence()));
+}
+
+/// The split as an upright bar with a name to each zone, beside the map.
+fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, palette: &Palette) {
+    let total = split.total();
+    name_split(ui, rect, split, incidence);
     let font = FontId::proportional(13.0);
     let sentence = ui.painter().layout(split.sentence(), font.clone(), palette.ink, rect.width() - 6.0);
     let column = Rect::from_min_max(
-        pos2(rect.left() + 6.0, rect.top() + 18.0),
-        pos2(rect.left() + 30.0, (rect.bottom() - sentence.size().y - 8.0).max(rect.top() + 30.0)),
+        pos2(rect.left() + 6.0, rect.top() + 36.0),
+        pos2(rect.left() + 30.0, (rect.bottom() - sentence.size().y - 8.0).max(rect.top() + 48.0)),
     );
     ui.painter().galley(pos2(rect.left() + 4.0, column.bottom() + 6.0), sentence, palette.ink);
-    tile::caption(ui, pos2(rect.left() + 4.0, rect.top()), Align2::LEFT_TOP, "leaving to / %");
+    let title = split_title(ui, incidence, rect.width() - 6.0);
+    tile::caption(ui, pos2(rect.left() + 4.0, rect.top()), Align2::LEFT_TOP, &title);
+    tile::caption(ui, pos2(rect.left() + 4.0, rect.top() + 16.0), Align2::LEFT_TOP, "leaving to / %");
     ui.painter().rect_filled(column, 0, palette.face);
     let mut top = column.top();
     let mut text_floor = column.top();
@@ -284,7 +340,7 @@ fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
         let part = if total > 0.0 { (share / total) as f32 } else { 0.0 };
         let bottom = top + part * column.height();
         let place = Rect::from_min_max(pos2(column.left(), top), pos2(column.right(), bottom));
-        ui.painter().rect_filled(place, 0, ColourMap::Sequential.at(0.85 - 0.23 * k as f32));
+        ui.painter().rect_filled(place, 0, zone_colour(k));
         // Labels keep a line's height between them and stay inside.
         let latest = column.bottom() - 15.0 * (3 - k) as f32 - 7.0;
         let y = (0.5 * (top + bottom)).max(text_floor + 7.0).min(latest.max(text_floor + 7.0));
@@ -294,6 +350,29 @@ fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, palette: &Palette) {
         top = bottom;
     }
     ui.painter().rect_stroke(column, 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
+}
+
+/// The same lying under the map: whose light, a bar, and where most of it goes.
+fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, palette: &Palette) {
+    let total = split.total();
+    name_split(ui, rect, split, incidence);
+    let (left, width) = (rect.left() + 2.0, rect.width() - 4.0);
+    tile::caption(ui, pos2(left, rect.top()), Align2::LEFT_TOP, &split_title(ui, incidence, width));
+    let bar = Rect::from_min_size(pos2(left, rect.top() + 18.0), vec2(width, 12.0));
+    ui.painter().rect_filled(bar, 0, palette.face);
+    let mut start = bar.left();
+    for (k, (_, share)) in split.parts().into_iter().enumerate() {
+        let part = if total > 0.0 { (share / total) as f32 * bar.width() } else { 0.0 };
+        let place = Rect::from_min_max(pos2(start, bar.top()), pos2(start + part, bar.bottom()));
+        ui.painter().rect_filled(place, 0, zone_colour(k));
+        start += part;
+    }
+    ui.painter().rect_stroke(bar, 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
+    let font = FontId::proportional(13.0);
+    let galley = |text: String| ui.painter().layout_no_wrap(text, font.clone(), palette.ink);
+    let galleys = split.sentences().map(galley);
+    let fitting = galleys.iter().find(|galley| galley.size().x <= width).unwrap_or(&galleys[2]);
+    ui.painter().galley(pos2(left, bar.bottom() + 3.0), fitting.clone(), palette.ink);
 }
 
 /// τ by incident cell.

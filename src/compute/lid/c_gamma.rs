@@ -127,6 +127,37 @@ pub struct CGammaTable {
     pub scaled_by: f64,
     /// Flux of the unscattered beams, each spread over the four nodes round it. \[lm\]
     pub beam_flux: f64,
+    /// The part of `intensity` that is unscattered beams; empty without any. \[cd\]
+    pub beams: Vec<f64>,
+}
+
+/// The largest intensity of a table and where it goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Mean over the solid angle that belongs to the table's node. \[cd\]
+    pub intensity: f64,
+    /// The plane, 0 ≤ C < 2π. \[rad\]
+    pub c: f64,
+    /// From the nadir. \[rad\]
+    pub gamma: f64,
+}
+
+/// How strong the light of an aperture is at most, as its luminaire file holds it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peaks {
+    /// Scattered light alone; `None` where there is none.
+    pub scattered: Option<Peak>,
+    /// The strongest beam with the scattered light at its place; `None` without beams.
+    pub beam: Option<Peak>,
+    /// Step of the table that they are of: a beam is as strong as this spreads it.
+    pub step: Step,
+}
+
+impl Peaks {
+    /// Of the table that a luminaire file of this aperture holds.
+    pub fn of(lid: &Lid) -> Self {
+        CGammaTable::new(lid, Aim::of(lid.surface), Step::for_lid(lid)).peaks()
+    }
 }
 
 impl CGammaTable {
@@ -164,15 +195,19 @@ impl CGammaTable {
             }
         }
         let beam_flux = lid.beam_flux();
+        let mut of_beams = vec![0.0; if beam_flux == 0.0 { 0 } else { node_flux.len() }];
         for beam in lid.beams.iter().filter(|beam| beam.flux != 0.0) {
             grid.lay(&mut node_flux, beam.direction, beam.flux);
+            grid.lay(&mut of_beams, beam.direction, beam.flux);
         }
         flux += Estimate::exact(beam_flux);
-        let mut table = Self { aim, step, intensity: grid.averages(&node_flux), flux, scaled_by: 1.0, beam_flux };
+        let beams = if of_beams.is_empty() { of_beams } else { grid.averages(&of_beams) };
+        let intensity = grid.averages(&node_flux);
+        let mut table = Self { aim, step, intensity, flux, scaled_by: 1.0, beam_flux, beams };
         let read = table.zonal_flux();
         if read != 0.0 && flux.value != 0.0 {
             let scale = flux.value / read;
-            for value in &mut table.intensity {
+            for value in table.intensity.iter_mut().chain(&mut table.beams) {
                 *value *= scale;
             }
             table.scaled_by = if raw != 0.0 { scale * closed / raw } else { scale };
@@ -193,6 +228,29 @@ impl CGammaTable {
     /// Intensities of one plane, γ from 0 to 180°. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.angles()..][..self.angles()]
+    }
+
+    /// The strongest scattered light and the strongest beam.
+    pub fn peaks(&self) -> Peaks {
+        let beam = |node: usize| self.beams.get(node).copied().unwrap_or(0.0);
+        let strongest = |value: &dyn Fn(usize) -> f64| {
+            // Of equal ones the first: the plane that is named does not jump.
+            let best = (0..self.intensity.len())
+                .map(|node| (node, value(node)))
+                .fold((0, 0.0), |best: (usize, f64), one| if one.1 > best.1 { one } else { best });
+            let at = |part: usize| part as f64 * self.step.radians();
+            let (c, gamma) = (at(best.0 / self.angles()), at(best.0 % self.angles()));
+            (best.1 > 0.0).then_some(Peak { intensity: best.1, c, gamma })
+        };
+        Peaks {
+            // A difference of sums leaves rounding behind.
+            scattered: strongest(&|node| {
+                let rest = self.intensity[node] - beam(node);
+                if rest > 1e-12 * self.intensity[node] { rest } else { 0.0 }
+            }),
+            beam: strongest(&|node| if beam(node) > 0.0 { self.intensity[node] } else { 0.0 }),
+            step: self.step,
+        }
     }
 
     /// The flux that a reader finds: each zone between two γ with the mean of its two intensities. \[lm\]

@@ -158,3 +158,32 @@ fn empty_distribution_is_a_table_of_zeros() {
     let table = CGammaTable::new(&lid(vec![]), Aim::Mounted, Step::NORMAL);
     assert!(table.intensity.iter().all(|&i| i == 0.0) && table.flux.value == 0.0);
 }
+
+/// The two peaks are the table's own: together its largest value, apart what each kind of light gives alone.
+#[test]
+fn peaks_are_the_tables_largest_values_of_scattered_light_and_of_beams() {
+    let glow = |spot: Dir<Facade>| {
+        EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
+            50.0 + 9000.0 * ((twin.dot(spot) - 1.0) / 0.02).exp()
+        }))
+    };
+    // Brightest upwards to the right; the beam goes down to the left.
+    let spot = Emergent(Dir::new(DVec3::new(0.4, 0.5, -0.77)).unwrap());
+    let beam = Emergent(Dir::new(DVec3::new(-0.31, -0.62, -0.72)).unwrap());
+    let scattered = lid(vec![glow(spot.through_name())]);
+    let both = Lid { beams: vec![SunBeam { direction: beam, flux: 900.0, straight: true }], ..scattered.clone() };
+    let table = CGammaTable::new(&both, Aim::Mounted, Step::for_lid(&both));
+    let peaks = Peaks::of(&both);
+    let near =
+        |peak: &Peak, to: Emergent| Aim::Mounted.direction(peak.c, peak.gamma).0.dot(to.0) > 1.1_f64.to_radians().cos();
+    let (own, sun) = (peaks.scattered.unwrap(), peaks.beam.unwrap());
+    assert!(near(&sun, beam) && own.intensity < 0.01 * sun.intensity, "{peaks:?}");
+    assert_eq!(sun.intensity, table.intensity.iter().copied().fold(0.0, f64::max));
+    // The largest of L·cosθ leans a little from the spot towards the normal.
+    let alone = CGammaTable::new(&scattered, Aim::Mounted, Step::FINE).peaks();
+    assert!(alone.beam.is_none());
+    let alone = alone.scattered.unwrap();
+    assert_eq!((alone.c, alone.gamma), (own.c, own.gamma));
+    assert!((alone.intensity / own.intensity - 1.0).abs() < 5e-3, "{alone:?} {own:?}");
+    assert!(Peaks::of(&lid(vec![])).scattered.is_none());
+}

@@ -1,0 +1,45 @@
+//! The line under the hemispheres: which incidence is shown, and how much of it gets through.
+
+use crate::app::incidence::{Incidence, direction_text};
+use crate::app::paint::tile::Foot;
+use crate::compute::btdf::{Btdf, Scattered};
+use crate::compute::direction::Incident;
+use crate::drawing::ticks::number;
+
+/// The incidence under the pointer, which a click would choose.
+pub(super) fn pointed_text(d: Incident, tau: f64) -> Foot {
+    let (angles, tau) = (direction_text(d.0), number(tau, 3));
+    Foot::from([format!("incidence {angles} · τ {tau}"), format!("{angles} · τ {tau}"), format!("τ {tau}")])
+}
+
+/// "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)", and shorter.
+pub(super) fn selection_text(btdf: &Btdf, incidence: &Incidence) -> Foot {
+    let incident = incidence.direction;
+    let tau = btdf.tau(incident);
+    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(incident.0.theta()));
+    let parts = if regular > 0.0 && btdf.scattered.is_some() {
+        format!(" (scattered {}, regular {})", number(tau - regular, 3), number(regular, 3))
+    } else {
+        String::new()
+    };
+    let [full, middle, short] = incidence.texts();
+    let (tau, of) = (format!("τ {}", number(tau, 3)), measured_at(btdf, incident));
+    let shortest = format!("{} {tau}", short.replace(',', ""));
+    Foot::from([
+        format!("{full} · {tau}{parts}{of}"),
+        format!("{middle} · {tau}{parts}{of}"),
+        format!("{middle} · {tau}{of}"),
+        format!("{short} · {tau}"),
+        shortest,
+    ])
+}
+
+/// Which direction the data shown belong to, where they are of single directions and another one is chosen.
+fn measured_at(btdf: &Btdf, incident: Incident) -> String {
+    let Some(Scattered::Directions(data)) = &btdf.scattered else { return String::new() };
+    let Some(own) = data.standing_for(incident.0).map(|index| data.incident()[index].0) else { return String::new() };
+    if own.dot(incident.0) > 0.5_f64.to_radians().cos() {
+        return String::new();
+    }
+    format!(" · data of {}", direction_text(own))
+}

@@ -1,0 +1,164 @@
+//! Can everything be read, and does nothing stand in the way of something else, at all sizes that the window takes?
+//!
+//! Frames are run without a renderer and their shapes are looked through; see [`inspect`].
+
+pub mod inspect;
+
+use crate::driven::{LONG, apply, harness, select, services, settle, window};
+use cfs::app::App;
+use cfs::app::backend::ideals_shelf;
+use cfs::app::command::Command;
+use cfs::app::error::AppError;
+use cfs::app::state::{PathUse, Sheet};
+use cfs::app::theme::ThemeChoice;
+use cfs::app::tiles::TILES;
+use egui_kittest::Harness;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::mpsc::channel;
+
+/// Sizes of the window \[points\] and pixels a point: the least, the first and a large one, and two fine screens.
+const SIZES: [([f32; 2], f32); 5] = [
+    ([960.0, 600.0], 1.0),
+    ([1280.0, 720.0], 1.0),
+    ([1920.0, 1080.0], 1.0),
+    ([960.0, 600.0], 2.0),
+    ([1280.0, 720.0], 2.0),
+];
+
+/// What is wrong, and where it was first seen.
+#[derive(Default)]
+struct Problems(BTreeMap<String, String>);
+
+impl Problems {
+    /// Looks at the window at one size.
+    fn look(&mut self, harness: &mut Harness<'_, App>, what: &str, (size, scale): ([f32; 2], f32)) {
+        harness.set_size(size.into());
+        harness.set_pixels_per_point(scale);
+        harness.run_steps(3);
+        for problem in inspect::problems(harness) {
+            let place = format!("{what} at {} × {}, scale {scale}", size[0], size[1]);
+            self.0.entry(problem).or_insert(place);
+        }
+    }
+
+    /// All tiles together.
+    fn bench(&mut self, harness: &mut Harness<'_, App>, what: &str) {
+        for size in SIZES {
+            self.look(harness, what, size);
+        }
+    }
+
+    /// Each tile alone.
+    fn each_tile(&mut self, harness: &mut Harness<'_, App>, what: &str) {
+        for entry in TILES {
+            apply(harness, Command::Maximise(Some(entry.tile)));
+            for size in [SIZES[0], SIZES[2]] {
+                self.look(harness, &format!("{what}, {} alone", entry.tile.title), size);
+            }
+        }
+        apply(harness, Command::Maximise(None));
+    }
+
+    fn none_left(self) {
+        let lines: Vec<String> = self.0.iter().map(|(problem, place)| format!("{problem}\n      {place}")).collect();
+        assert!(lines.is_empty(), "{} problems\n{}", lines.len(), lines.join("\n"));
+    }
+}
+
+#[test]
+fn a_window_that_opens_says_so_everywhere_and_can_be_read() {
+    let (release, wait) = channel::<()>();
+    let wait = Mutex::new(wait);
+    let mut harness = harness(services(move || {
+        // Waits until the test has looked; a test that failed hangs up.
+        let _ = wait.lock().unwrap().recv();
+        ideals_shelf()
+    }));
+    let mut problems = Problems::default();
+    problems.bench(&mut harness, "opening");
+    problems.each_tile(&mut harness, "opening");
+    problems.none_left();
+    drop(release);
+}
+
+#[test]
+fn a_blind_at_noon_can_be_read_at_all_sizes_in_all_tiles_and_sheets() {
+    let mut harness = window();
+    let mut problems = Problems::default();
+    problems.bench(&mut harness, "noon");
+    problems.each_tile(&mut harness, "noon");
+    for folded in [Command::ToggleCatalogue, Command::ToggleScene] {
+        apply(&mut harness, folded);
+        problems.bench(&mut harness, "panels folded");
+        problems.look(&mut harness, "panels folded", SIZES[0]);
+    }
+    for folded in [Command::ToggleCatalogue, Command::ToggleScene] {
+        apply(&mut harness, folded);
+    }
+    let sheets = [
+        Sheet::Import,
+        Sheet::Findings,
+        Sheet::Keys,
+        Sheet::Accuracy,
+        Sheet::Goniophotometer,
+        Sheet::Path(PathUse::Open),
+        Sheet::Path(PathUse::ExportLid),
+        Sheet::Path(PathUse::ExportTile(TILES[0].tile)),
+    ];
+    for sheet in sheets {
+        apply(&mut harness, Command::Sheet(Some(sheet)));
+        for size in [SIZES[0], SIZES[1]] {
+            problems.look(&mut harness, &format!("{sheet:?}"), size);
+        }
+        apply(&mut harness, Command::Sheet(None));
+    }
+    apply(&mut harness, Command::Palette);
+    problems.look(&mut harness, "palette", SIZES[0]);
+    apply(&mut harness, Command::Palette);
+    apply(&mut harness, Command::Theme(ThemeChoice::Light));
+    problems.bench(&mut harness, "noon, light");
+    problems.none_left();
+}
+
+#[test]
+fn a_night_a_sun_behind_the_facade_and_other_products_can_be_read() {
+    let mut harness = window();
+    let mut problems = Problems::default();
+    apply(&mut harness, Command::Hour(11));
+    settle(&mut harness);
+    problems.bench(&mut harness, "night");
+    problems.each_tile(&mut harness, "night");
+    apply(&mut harness, Command::Hour(-11));
+    let mut scene = harness.state().state.document.scene.clone();
+    scene.site.azimuth = 0.0;
+    apply(&mut harness, Command::Scene(Box::new(scene.clone())));
+    settle(&mut harness);
+    problems.bench(&mut harness, "sun behind the façade");
+    scene.site.azimuth = 180.0;
+    apply(&mut harness, Command::Scene(Box::new(scene)));
+    select(&mut harness, |entry| entry.states.len() == 1);
+    problems.bench(&mut harness, "a product that does not move");
+    problems.each_tile(&mut harness, "a product that does not move");
+    select(&mut harness, |entry| entry.name == LONG);
+    problems.bench(&mut harness, "long names");
+    problems.none_left();
+}
+
+#[test]
+fn errors_can_be_read() {
+    let mut problems = Problems::default();
+    let mut harness = window();
+    let mut scene = harness.state().state.document.scene.clone();
+    scene.aperture[0].size = [40.0, 1.5];
+    apply(&mut harness, Command::Scene(Box::new(scene)));
+    settle(&mut harness);
+    let told = harness.state().results.room.error.clone().expect("a window wider than its wall");
+    assert!(!told.is_empty());
+    problems.bench(&mut harness, "a window wider than its wall");
+    let mut failed =
+        crate::driven::harness(services(|| Err(AppError::NotText(7, "a catalogue").about("catalogue.sqlite"))));
+    settle(&mut failed);
+    problems.bench(&mut failed, "no catalogue");
+    problems.none_left();
+}
