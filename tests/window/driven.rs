@@ -4,12 +4,12 @@ use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::dialogs::NoDialogs;
 use cfs::app::error::AppError;
-use cfs::app::shelf::{Addition, Shelf};
+use cfs::app::shelf::{Addition, Query, Shelf};
 use cfs::app::state::Settings;
 use cfs::app::{App, Services};
 use cfs::catalogue::{NewProduct, SourceFile};
 use egui_kittest::Harness;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -25,12 +25,15 @@ pub fn harness(services: Services) -> Harness<'static, App> {
     )
 }
 
+/// What was computed for one window is known to the next.
+static ENGINE: LazyLock<Arc<StudyEngine>> = LazyLock::new(Arc::default);
+
 pub fn services(open: impl Fn() -> Result<Arc<dyn Shelf>, AppError> + Send + Sync + 'static) -> Services {
     Services {
         open_catalogue: Arc::new(open),
         read: SourceFile::read,
         dialogs: Arc::new(NoDialogs),
-        engine: Arc::new(StudyEngine::default()),
+        engine: ENGINE.clone(),
     }
 }
 
@@ -56,31 +59,35 @@ pub fn coarsen(harness: &mut Harness<'_, App>) {
     (plane.nx, plane.ny) = (6, 10);
 }
 
-/// The real study on a catalogue in memory, with a product whose names are as long as makers' names are.
+/// A catalogue in memory, with a product whose names are as long as makers' names are.
+fn shelf() -> Result<Arc<dyn Shelf>, AppError> {
+    let shelf = memory_shelf()?;
+    let found = shelf.search(&Query::default())?;
+    let moving = found.entries.iter().find(|entry| entry.states.len() > 2).expect("a blind is built in");
+    let datasets = moving.states[..3].iter().zip(["fully retracted, upper part 20°", "cut-off 35°", "closed"]);
+    let datasets: Result<Vec<_>, AppError> = datasets
+        .map(|(state, name)| {
+            let mut dataset = (*shelf.load(&moving.key, Some(state))?).clone();
+            dataset.state = name.to_owned();
+            Ok(Arc::new(dataset))
+        })
+        .collect();
+    shelf.add(&Addition {
+        datasets: datasets?,
+        product: NewProduct {
+            name: LONG.to_owned(),
+            manufacturer: "Gesellschaft für Tageslichttechnik und Sonnenschutz mbH & Co. KG".to_owned(),
+            kind: "venetian blind between panes".to_owned(),
+            ..NewProduct::default()
+        },
+    })?;
+    Ok(shelf)
+}
+
+/// The window on that catalogue, which all tests of a program share: none of them changes it.
 pub fn window() -> Harness<'static, App> {
-    let mut harness = harness(services(|| {
-        let shelf = memory_shelf()?;
-        let found = shelf.search(&Default::default())?;
-        let moving = found.entries.iter().find(|entry| entry.states.len() > 2).expect("a blind is built in");
-        let datasets = moving.states[..3].iter().zip(["fully retracted, upper part 20°", "cut-off 35°", "closed"]);
-        let datasets: Result<Vec<_>, AppError> = datasets
-            .map(|(state, name)| {
-                let mut dataset = (*shelf.load(&moving.key, Some(state))?).clone();
-                dataset.state = name.to_owned();
-                Ok(Arc::new(dataset))
-            })
-            .collect();
-        shelf.add(&Addition {
-            datasets: datasets?,
-            product: NewProduct {
-                name: LONG.to_owned(),
-                manufacturer: "Gesellschaft für Tageslichttechnik und Sonnenschutz mbH & Co. KG".to_owned(),
-                kind: "venetian blind between panes".to_owned(),
-                ..NewProduct::default()
-            },
-        })?;
-        Ok(shelf)
-    }));
+    static SHELF: LazyLock<Arc<dyn Shelf>> = LazyLock::new(|| shelf().expect("a catalogue in memory"));
+    let mut harness = harness(services(|| Ok(SHELF.clone())));
     coarsen(&mut harness);
     settle(&mut harness);
     harness

@@ -201,7 +201,8 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
         let title = ui.add(egui::Label::new(RichText::new(words.title).size(TITLE).strong()));
         title.on_hover_text(words.subtitle);
         let mut tagged = true;
-        if let Some(tag) = status.tag() {
+        // Where there is no picture the words in its place say it.
+        if let Some(tag) = status.tag().filter(|_| words.empty.is_none()) {
             tagged = width(ui, tag, SMALL) + 2.0 <= ui.available_width();
             if tagged {
                 let tag = RichText::new(tag).size(SMALL).italics().color(palette.second);

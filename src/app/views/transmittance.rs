@@ -56,12 +56,18 @@ impl FluxSplit {
         format!("Of {} % transmitted, {} goes to the {zone}.", percent(self.total()), percent(share))
     }
 
-    /// The same and shorter.
-    fn sentences(&self) -> [String; 3] {
+    /// All zones in one line, in the order of the bar, and shorter.
+    fn lines(&self) -> [String; 4] {
         let all = percent(self.total());
+        let [ceiling, eye, work, floor] = self.parts().map(|(_, share)| percent(share));
         let (zone, share) = self.greatest();
         let share = percent(share);
-        [self.sentence(), format!("{share} of {all} % to the {zone}"), format!("{zone}: {share} %")]
+        [
+            format!("ceiling {ceiling} · eye zone {eye} · work zone {work} · floor {floor} %"),
+            format!("ceiling {ceiling}, eye {eye}, work {work}, floor {floor} %"),
+            format!("{share} of {all} % to the {zone}"),
+            format!("{zone}: {share} %"),
+        ]
     }
 }
 
@@ -370,8 +376,8 @@ fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence
     ui.painter().rect_stroke(bar, 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
     let font = FontId::proportional(13.0);
     let galley = |text: String| ui.painter().layout_no_wrap(text, font.clone(), palette.ink);
-    let galleys = split.sentences().map(galley);
-    let fitting = galleys.iter().find(|galley| galley.size().x <= width).unwrap_or(&galleys[2]);
+    let galleys = split.lines().map(galley);
+    let fitting = galleys.iter().find(|galley| galley.size().x <= width).unwrap_or(&galleys[3]);
     ui.painter().galley(pos2(left, bar.bottom() + 3.0), fitting.clone(), palette.ink);
 }
 
