@@ -11,6 +11,7 @@ pub mod control_curve;
 pub mod dataset_blob;
 pub mod eulumdat;
 mod family;
+pub mod gazetteer;
 pub mod ies;
 pub mod lid_tables;
 mod location;
