@@ -7,4 +7,5 @@ mod app_engine;
 mod common;
 mod control_view;
 mod goniophotometer_view;
+mod scene_panel;
 mod views;
