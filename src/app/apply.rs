@@ -58,7 +58,6 @@ impl App {
             Command::ResetScene => {
                 // The first scene names no product: the one that is chosen stays.
                 state.document.scene = first_scene();
-                state.document.daylight_follows = true;
                 fill(&mut state.document.scene, &state.document.selection);
             }
             Command::Sheet(sheet) => {
@@ -114,7 +113,6 @@ impl App {
                 }
             }
             Command::Scene(scene) => state.document.scene = *scene,
-            Command::DaylightFollows(follows) => state.document.daylight_follows = follows,
             Command::Find(query) => {
                 state.query = query;
                 self.search();

@@ -75,8 +75,6 @@ pub enum Command {
     Row(i32),
     /// Change the scene.
     Scene(Box<SceneFile>),
-    /// Illuminances follow the sun's altitude, or are typed.
-    DaylightFollows(bool),
     /// Search for something else.
     Find(Query),
     /// Set or take a star.

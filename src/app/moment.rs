@@ -4,7 +4,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::study::scene_file::{SceneFile, TimeKey};
 use crate::study::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
-use jiff::civil::DateTime;
+use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
 
 /// The scene's local standard time; `None` when it is given by sun angles or is no time.
@@ -50,22 +50,40 @@ pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
     }
 }
 
-/// Moves date and time to where the sun of the year comes nearest to a place in the sky \[rad\], in steps of 5 minutes;
-/// false without a place and a date to start from. Of the two days that fit, the one nearer to the present one.
-pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64) -> bool {
+/// Sets the date and leaves the clock; false where there is none.
+pub fn set_date(scene: &mut SceneFile, date: Date) -> bool {
+    let Some(now) = of(scene) else { return false };
+    set(scene, date.to_datetime(now.time()));
+    true
+}
+
+/// Sets the clock and leaves the date; false where there is none, or no such time.
+pub fn set_clock(scene: &mut SceneFile, hour: i8, minute: i8) -> bool {
+    let (Some(now), Ok(time)) = (of(scene), Time::new(hour, minute, 0, 0)) else { return false };
+    set(scene, now.date().to_datetime(time));
+    true
+}
+
+/// Moves the clock, and with `date` the date too, to where the sun comes nearest to a place in the sky \[rad\], in steps
+/// of 5 minutes; false without a place and a date to start from. The day stays else: on its path the sun above the
+/// horizon is looked for, where it rises. Of two days that fit, the one nearer to the present one.
+pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -> bool {
     let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };
     let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
     let miss = |time: DateTime| {
         sun_position(&place, time).map_or(f64::INFINITY, |(altitude, bearing)| {
-            1.0 - Dir::<World>::from_altitude_bearing(altitude, bearing).dot(aim)
+            // A sun below the horizon is the last choice.
+            let hidden = if altitude < 0.0 { 2.0 } else { 0.0 };
+            hidden + 1.0 - Dir::<World>::from_altitude_bearing(altitude, bearing).dot(aim)
         })
     };
     let moved = |days: i32, minutes: i32| now.checked_add(days.days().minutes(minutes)).ok();
-    // Days in steps of 4 and half hours first, then finer about the best; a day further away must be worth it.
+    let start = 60 * i32::from(now.hour()) + i32::from(now.minute());
+    // In steps of 4 days and half hours first, then finer about the best; a day further away must be worth it.
+    let far = if date { 180 } else { 0 };
     let mut best = (f64::INFINITY, now);
-    for days in (-180..=180).step_by(4) {
+    for days in (-far..=far).step_by(4) {
         for minutes in (0..24 * 60).step_by(30) {
-            let start = 60 * i32::from(now.hour()) + i32::from(now.minute());
             let Some(time) = moved(days, minutes - start) else { continue };
             let cost = miss(time) + 1e-6 * f64::from(days.abs());
             if time.year() == now.year() && cost < best.0 {
@@ -74,17 +92,24 @@ pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64) -> bool {
         }
     }
     let coarse = best.1;
-    for days in -3..=3 {
+    let near = if date { 3 } else { 0 };
+    for days in -near..=near {
         for minutes in (-30..=30).step_by(5) {
             let Ok(time) = coarse.checked_add(days.days().minutes(minutes)) else { continue };
             let cost = miss(time);
-            if time.year() == now.year() && cost < best.0 {
+            let stays = if date { time.year() == now.year() } else { time.date() == now.date() };
+            if stays && cost < best.0 {
                 best = (cost, time);
             }
         }
     }
     set(scene, best.1);
     true
+}
+
+/// Is the sun at an altitude \[rad\] and a bearing \[°\] before a façade that faces another? \[°\]
+pub fn before_facade((altitude, bearing): (f64, f64), facade: f64) -> bool {
+    altitude > 0.0 && (bearing - facade).to_radians().cos() * altitude.cos() > 0.0
 }
 
 /// `14:05` of hours since midnight.
@@ -102,8 +127,10 @@ pub fn words(time: DateTime) -> String {
 pub fn height_words(degrees: f64, decimals: usize) -> String {
     let shown = format!("{:.decimals$}°", degrees.abs());
     // What rounds to 0 is on the horizon, not under it.
-    let zero = shown.chars().all(|c| !c.is_ascii_digit() || c == '0');
-    if degrees < 0.0 && !zero { format!("{shown} below the horizon") } else { format!("{shown} high") }
+    if shown.chars().all(|c| !c.is_ascii_digit() || c == '0') {
+        return "on the horizon".to_owned();
+    }
+    if degrees < 0.0 { format!("{shown} below the horizon") } else { format!("{shown} high") }
 }
 
 /// A bearing in words: `south`, `south-west`.
@@ -142,9 +169,48 @@ mod tests {
         step(&mut scene, 20, 150);
         let (altitude, bearing) = sun(&scene).unwrap();
         let mut other = first_scene();
-        assert!(towards(&mut other, altitude, bearing.to_radians()));
+        assert!(towards(&mut other, altitude, bearing.to_radians(), true));
         let found = sun(&other).unwrap();
         assert!((found.0 - altitude).abs() < 0.02 && (found.1 - bearing).abs() < 1.5, "{found:?} {altitude} {bearing}");
+    }
+
+    #[test]
+    fn dragging_the_sun_stays_in_its_day() {
+        let start = of(&first_scene()).unwrap();
+        // Where the sun stands in August, in the south-east and low in the west, and where it never is.
+        for (altitude, bearing) in [(50.0_f64, 150.0_f64), (30.0, 120.0), (5.0, 262.0), (80.0, 10.0), (0.0, 0.0)] {
+            let mut scene = first_scene();
+            assert!(towards(&mut scene, altitude.to_radians(), bearing.to_radians(), false));
+            let now = of(&scene).unwrap();
+            assert_eq!(now.date(), start.date(), "{altitude} {bearing}");
+            let (height, _) = sun(&scene).unwrap();
+            assert!(height > 0.0, "{altitude} {bearing}: {now}");
+        }
+        // On the day's path it finds its moment.
+        let mut scene = first_scene();
+        assert!(set_clock(&mut scene, 15, 20));
+        let (altitude, bearing) = sun(&scene).unwrap();
+        let mut other = first_scene();
+        assert!(towards(&mut other, altitude, bearing.to_radians(), false));
+        assert_eq!(of(&other), of(&scene));
+    }
+
+    #[test]
+    fn date_and_clock_are_set_apart() {
+        let mut scene = first_scene();
+        assert!(set_date(&mut scene, jiff::civil::date(2026, 12, 1)) && set_clock(&mut scene, 9, 37));
+        assert_eq!(words(of(&scene).unwrap()), "1 Dec 09:37");
+        assert!(!set_clock(&mut scene, 24, 0));
+        assert_eq!(words(of(&scene).unwrap()), "1 Dec 09:37");
+    }
+
+    #[test]
+    fn the_sun_is_before_the_facade_or_behind_it() {
+        assert!(before_facade((0.5, 180.0), 180.0) && before_facade((0.5, 100.0), 180.0));
+        assert!(!before_facade((0.5, 80.0), 180.0) && !before_facade((-0.1, 180.0), 180.0));
+        assert!(before_facade((0.5, 350.0), 20.0));
+        assert_eq!(height_words(-14.6, 0), "15° below the horizon");
+        assert_eq!(height_words(0.2, 0), "on the horizon");
     }
 
     #[test]
@@ -159,6 +225,6 @@ mod tests {
     fn heights_read_as_words() {
         assert_eq!(height_words(41.24, 1), "41.2° high");
         assert_eq!(height_words(-15.2, 0), "15° below the horizon");
-        assert_eq!(height_words(-0.02, 1), "0.0° high");
+        assert_eq!(height_words(-0.02, 1), "on the horizon");
     }
 }

@@ -181,7 +181,6 @@ impl App {
             Outcome::ReadScene(path, Ok(scene)) => {
                 self.undoer.add_undo(&self.state.document);
                 self.state.document.scene = *scene;
-                self.state.document.daylight_follows = false;
                 self.state.scene_path = Some(path);
                 self.adopt_selection();
             }
@@ -386,9 +385,6 @@ impl App {
 
     /// Asks for everything that the document's change since the last call affects.
     pub fn refresh(&mut self) {
-        if self.state.document.daylight_follows {
-            super::daylight::follow(&mut self.state.document.scene);
-        }
         let Some(shelf) = self.state.shelf() else { return };
         let document = &self.state.document;
         if document.selection.product.is_empty() || self.asked.as_ref() == Some(document) {

@@ -1,10 +1,13 @@
 //! The scene as the window starts it, fills it and reads it.
 
+use super::moment;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile,
-    SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, DEFAULT_TURBIDITY, IlluminanceKey, PlaneKeys,
+    ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
+    TimeKey,
 };
+use crate::study::sky::illuminances;
 
 /// Product and state: the window's one selection.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,13 +41,16 @@ pub fn first_scene() -> SceneFile {
             latitude: Some(48.78),
             longitude: Some(9.18),
             utc_offset: Some(1.0),
+            elevation: 252.0,
             ground_reflectance: 0.2,
         },
         sky: SkyKeys {
             model: SkyModelKey::Cie,
             cie_type: Some(12),
-            diffuse_horizontal: Some(13_000.0),
-            sun: SunKeys { altitude: None, azimuth: None, direct_normal: Some(90_000.0) },
+            illuminance: IlluminanceKey::ClearSky,
+            turbidity: DEFAULT_TURBIDITY,
+            diffuse_horizontal: None,
+            sun: SunKeys::default(),
             time: Some(TimeKey::Text("2026-03-21T12:00".to_owned())),
             direct_horizontal_irradiance: None,
             diffuse_horizontal_irradiance: None,
@@ -59,6 +65,35 @@ pub fn first_scene() -> SceneFile {
         control: None,
         compute: ComputeKeys::default(),
     }
+}
+
+/// The scene that the last session left; `None` where the text is no scene.
+///
+/// Versions that did not know `sky.illuminance` followed the sun in every session, whatever was written; since then the
+/// key is always written. So a scene without it is theirs and goes on following the sun, where it knows the sun.
+pub fn kept_scene(text: &str) -> Option<SceneFile> {
+    let mut scene = SceneFile::parse(text).ok()?;
+    let table: toml::Table = text.parse().ok()?;
+    let says = table.get("sky").and_then(|sky| sky.get("illuminance")).is_some();
+    if !says && moment::sun(&scene).is_some() {
+        follow(&mut scene, IlluminanceKey::ClearSky);
+    }
+    Some(scene)
+}
+
+/// Lets the illuminances follow the sun, or leaves them to be typed, from what they are now.
+pub fn follow(scene: &mut SceneFile, by: IlluminanceKey) {
+    let now = illuminances(&scene.sky, &scene.site).ok().flatten();
+    let sky = &mut scene.sky;
+    if by == IlluminanceKey::Stated {
+        sky.diffuse_horizontal = Some(now.map_or(10_000.0, |light| light.diffuse_horizontal.round()));
+        sky.sun.direct_normal = Some(now.map_or(0.0, |light| light.direct_normal.round()));
+    } else if sky.model.takes_illuminances() {
+        // They would not be read, and a file should not hold figures that are not so.
+        sky.diffuse_horizontal = None;
+        sky.sun.direct_normal = None;
+    }
+    sky.illuminance = by;
 }
 
 /// The product that a scene's first aperture from the catalogue holds.
@@ -105,4 +140,48 @@ pub fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<Con
 /// The rule of an aperture: its own, else the scene's.
 pub fn rule(scene: &SceneFile, aperture: usize) -> Option<&ControlKeys> {
     scene.aperture.get(aperture).and_then(|aperture| aperture.control.as_ref()).or(scene.control.as_ref())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_session_kept_by_an_older_version_goes_on_following_the_sun() {
+        // What such a version wrote: figures of the moment, and no word of where they came from.
+        let mut old = first_scene();
+        old.sky.illuminance = IlluminanceKey::Stated;
+        old.sky.diffuse_horizontal = Some(12_900.0);
+        old.sky.sun.direct_normal = Some(90_400.0);
+        let text = toml::to_string(&old).unwrap();
+        let without: String =
+            text.lines().filter(|line| !line.starts_with("illuminance")).collect::<Vec<_>>().join("\n");
+        assert_ne!(text.len(), without.len() + 1);
+        assert_eq!(kept_scene(&without).unwrap().sky.illuminance, IlluminanceKey::ClearSky);
+        assert_eq!(kept_scene(&without).unwrap().sky.diffuse_horizontal, None);
+        // The same figures typed in this version stay.
+        assert_eq!(kept_scene(&text).unwrap(), old);
+        // Without a sun there was nothing to follow.
+        let sunless = without
+            .replace("type = 12", "type = 16")
+            .lines()
+            .filter(|line| !line.starts_with("time"))
+            .collect::<Vec<_>>()
+            .join("\n");
+        let kept = kept_scene(&sunless).unwrap();
+        assert_eq!((kept.sky.illuminance, kept.sky.diffuse_horizontal), (IlluminanceKey::Stated, Some(12_900.0)));
+        assert_eq!(kept_scene("no scene"), None);
+    }
+
+    #[test]
+    fn typed_figures_start_from_what_was_followed() {
+        let mut scene = first_scene();
+        let before = illuminances(&scene.sky, &scene.site).unwrap().unwrap();
+        follow(&mut scene, IlluminanceKey::Stated);
+        let typed = illuminances(&scene.sky, &scene.site).unwrap().unwrap();
+        assert!((typed.diffuse_horizontal - before.diffuse_horizontal).abs() <= 0.5);
+        assert!((typed.direct_normal - before.direct_normal).abs() <= 0.5 && typed.direct_normal > 50_000.0);
+        follow(&mut scene, IlluminanceKey::ClearSky);
+        assert_eq!(scene, first_scene());
+    }
 }

@@ -25,7 +25,6 @@ pub struct KeptSystem {
 pub struct Snapshot {
     scene: SceneText,
     selection: Selection,
-    daylight_follows: bool,
     scene_path: Option<PathBuf>,
     maximised: Option<&'static str>,
     import: Option<KeptImport>,
@@ -52,7 +51,6 @@ impl Snapshot {
         Self {
             scene: SceneText(Some(Box::new(document.scene.clone()))),
             selection: document.selection.clone(),
-            daylight_follows: document.daylight_follows,
             scene_path: state.scene_path.clone(),
             maximised: state.maximised.map(|tile| tile.title),
             import: state.import.as_ref().map(KeptImport::of).or_else(|| state.under_way.clone()),
@@ -67,7 +65,6 @@ impl Snapshot {
         let document = &state.document;
         self.scene.0.as_deref() == Some(&document.scene)
             && self.selection == document.selection
-            && self.daylight_follows == document.daylight_follows
             && self.scene_path == state.scene_path
             && self.maximised == state.maximised.map(|tile| tile.title)
             && match (&self.import, &state.import) {
@@ -89,7 +86,6 @@ impl Snapshot {
             scene: self.scene.0.as_ref().and_then(|scene| toml::to_string(&**scene).ok()).unwrap_or_default(),
             product: self.selection.product.clone(),
             state: self.selection.state.clone(),
-            daylight_follows: self.daylight_follows,
             scene_path: self.scene_path.clone(),
             maximised: self.maximised.map(str::to_owned),
             import: self.import.clone(),
@@ -114,8 +110,6 @@ pub struct Kept {
     pub product: String,
     /// Key of its state.
     pub state: String,
-    /// Illuminances follow the sun's altitude.
-    pub daylight_follows: bool,
     /// Where the scene was opened from or saved to.
     pub scene_path: Option<PathBuf>,
     /// Title of the tile that fills the bench.
@@ -159,7 +153,6 @@ impl Kept {
         state.sheet = sheet.filter(|sheet| *sheet != Sheet::Import);
         let scene = SceneFile::parse(&self.scene).map_err(|error| error.to_string())?;
         state.document.scene = scene;
-        state.document.daylight_follows = self.daylight_follows;
         state.document.selection = Selection { product: self.product.clone(), state: self.state.clone() };
         state.scene_path.clone_from(&self.scene_path);
         Ok(())
@@ -177,7 +170,6 @@ mod tests {
         state.document.scene = first_scene();
         state.document.scene.site.azimuth = 123.0;
         state.document.selection = Selection { product: "blind".to_owned(), state: "30".to_owned() };
-        state.document.daylight_follows = false;
         state.scene_path = Some("/tmp/a.toml".into());
         state.maximised = Some(TILES[2].tile);
         state.goniophotometer.set_text("name = \"half typed".to_owned());

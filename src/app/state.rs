@@ -6,7 +6,7 @@ use super::engine::{LidFigures, RoomFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::import::{Import, KeptImport};
-use super::scene::{Selection, first_scene, rule, selection_of};
+use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
 use crate::catalogue::{Deleted, Product};
@@ -37,8 +37,6 @@ pub struct Document {
     pub selection: Selection,
     /// Place, time, sky, room, sensors.
     pub scene: SceneFile,
-    /// Illuminances follow the sun's altitude instead of being typed.
-    pub daylight_follows: bool,
     /// Numbers of the additions that are in the catalogue now; see [`State::additions`].
     pub additions: Vec<usize>,
     /// Numbers of the changes to its products that hold now; see [`State::changes`].
@@ -262,13 +260,12 @@ pub struct State {
 impl State {
     /// At the start, before anything was read.
     pub fn new(settings: Settings) -> Self {
-        let scene = settings.last_scene.as_deref().and_then(|text| SceneFile::parse(text).ok());
+        let scene = settings.last_scene.as_deref().and_then(kept_scene);
         let scene = scene.unwrap_or_else(first_scene);
         Self {
             document: Document {
                 selection: selection_of(&scene).unwrap_or_default(),
                 scene,
-                daylight_follows: true,
                 additions: Vec::new(),
                 changes: Vec::new(),
             },

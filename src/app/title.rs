@@ -3,40 +3,22 @@
 use super::moment;
 use super::state::{CatalogueState, State};
 use crate::study::control::year::CONTROLLED;
+use crate::study::places::city_at;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 
-/// Cities of the short list: name, latitude, longitude \[°\], hours ahead of UTC (standard time).
-pub const CITIES: [(&str, f64, f64, f64); 14] = [
-    ("Stuttgart", 48.78, 9.18, 1.0),
-    ("Freiburg", 48.0, 7.85, 1.0),
-    ("Berlin", 52.52, 13.4, 1.0),
-    ("London", 51.51, -0.13, 0.0),
-    ("Lausanne", 46.52, 6.63, 1.0),
-    ("Rome", 41.9, 12.5, 1.0),
-    ("Stockholm", 59.33, 18.07, 1.0),
-    ("New York", 40.71, -74.01, -5.0),
-    ("Berkeley", 37.87, -122.27, -8.0),
-    ("Mexico City", 19.43, -99.13, -6.0),
-    ("Singapore", 1.35, 103.82, 8.0),
-    ("Tokyo", 35.68, 139.69, 9.0),
-    ("Sydney", -33.87, 151.21, 10.0),
-    ("Cape Town", -33.92, 18.42, 2.0),
-];
-
-/// The place in words: a city of the list, else coordinates.
+/// The place in words: the city that it lies in, else coordinates.
 pub fn place(scene: &SceneFile) -> String {
     let (Some(latitude), Some(longitude)) = (scene.site.latitude, scene.site.longitude) else {
         return "no place".to_owned();
     };
-    let near = |(_, lat, lon, _): &&(&str, f64, f64, f64)| (lat - latitude).hypot(lon - longitude) < 0.05;
-    CITIES.iter().find(near).map_or_else(
-        || {
-            let ns = if latitude < 0.0 { "S" } else { "N" };
-            let ew = if longitude < 0.0 { "W" } else { "E" };
-            format!("{:.2}°{ns} {:.2}°{ew}", latitude.abs(), longitude.abs())
-        },
-        |city| city.0.to_owned(),
-    )
+    city_at(latitude, longitude).map_or_else(|| coordinates(latitude, longitude), |city| city.name.to_string())
+}
+
+/// `48.78°N 9.18°E`
+pub fn coordinates(latitude: f64, longitude: f64) -> String {
+    let ns = if latitude < 0.0 { "S" } else { "N" };
+    let ew = if longitude < 0.0 { "W" } else { "E" };
+    format!("{:.2}°{ns} {:.2}°{ew}", latitude.abs(), longitude.abs())
 }
 
 /// The moment in words.
@@ -106,6 +88,7 @@ pub fn title(state: &State) -> String {
 mod tests {
     use super::*;
     use crate::app::scene::first_scene;
+    use crate::study::scene_file::SunKeys;
 
     #[test]
     fn scenes_read_as_words() {
@@ -115,5 +98,14 @@ mod tests {
         assert_eq!(sky(&scene), "clear (CIE 12)");
         scene.site.latitude = Some(-10.0);
         assert_eq!(place(&scene), "10.00°S 9.18°E");
+        scene.sky.time = None;
+        for (altitude, words) in [
+            (-15.0, "sun 15° below the horizon at 180°"),
+            (-0.4, "sun on the horizon at 180°"),
+            (15.0, "sun 15° high at 180°"),
+        ] {
+            scene.sky.sun = SunKeys { altitude: Some(altitude), azimuth: Some(180.0), direct_normal: None };
+            assert_eq!(time(&scene), words);
+        }
     }
 }

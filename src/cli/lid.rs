@@ -66,6 +66,9 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
             bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
+            eprintln!("note: {note}");
+        }
         let date = jiff::Zoned::now().date().to_string();
         let text = describe(&name, &read_scene_file(path)?, index, &date);
         Ok((Session::new().lid(&scene, index, &TerminalProgress::new())?.lid, text))

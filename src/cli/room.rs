@@ -18,7 +18,7 @@ use std::path::PathBuf;
 Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error) =
 E_error_numerical_lx (of the computation, were the data exact) + E_error_data_lx (how far the data leave the answer open), E_beam_lx (the part of
 E_direct_lx that is the sun's light come through as beams).
-Notes on standard error: sensors that lie too near to a blind or panel to see its mean alone, and what error was reached
+Notes on standard error: the sky's illuminances where they follow the sun; sensors that lie too near to a blind or panel to see its mean alone, and what error was reached
 where the scene asks for one.")]
 pub struct RoomArgs {
     /// Scene file (TOML)
@@ -65,6 +65,9 @@ const UNPLACED: f64 = 0.1;
 
 /// What a person should know beside the numbers, on standard error.
 fn notes(scene: &Scene, result: &RoomResult) {
+    if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
+        eprintln!("note: {note}");
+    }
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
             eprintln!(
@@ -100,6 +103,11 @@ fn notes(scene: &Scene, result: &RoomResult) {
 fn to_json(scene: &Scene, result: &RoomResult) -> serde_json::Value {
     json!({
         "near_field": { "method": scene.near_field.word(), "effort": scene.near_field.effort() },
+        "illuminance": scene.illuminances.map(|light| json!({
+            "source": light.origin(),
+            "diffuse_horizontal_lx": light.diffuse_horizontal,
+            "direct_normal_lx": light.direct_normal,
+        })),
         "error_target": scene.error_target,
         "reached": result.reached(),
         "apertures": scene.apertures.iter().zip(scene.too_near()).zip(&result.beams).map(|((one, too_near), (beam, reason))| json!({

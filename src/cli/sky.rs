@@ -7,7 +7,7 @@ use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::study::files;
-use crate::study::sky::outside_from_keys;
+use crate::study::sky::{illuminances, outside_from_keys};
 use anyhow::anyhow;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -53,6 +53,10 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
         println!("{:#}", json(&rows, &outside, sun.as_ref(), vertical, facade));
     } else if args.out.is_none() {
         print!("{}", csv(&rows));
+    }
+    let light = illuminances(&scene.sky, &scene.site).map_err(|error| anyhow!("{name}: {error}"))?;
+    if let Some(note) = light.and_then(|light| light.note()) {
+        eprintln!("note: {note}");
     }
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();

@@ -12,6 +12,7 @@ pub mod dataset_blob;
 pub mod eulumdat;
 mod family;
 pub mod figures_table;
+pub mod gazetteer;
 pub mod ies;
 pub mod lid_tables;
 mod location;

@@ -2,6 +2,7 @@
 //! header that says which scene, sky and product the light belongs to.
 
 use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys};
+use super::sky::{Source, illuminances};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, CGammaTable, Step};
@@ -146,14 +147,19 @@ fn sky_remark(scene: &SceneFile) -> String {
             parts.push(format!("{name} {value} {unit}"));
         }
     };
-    add("E_dh", sky.diffuse_horizontal, "lx");
-    add("E_dn", sky.sun.direct_normal, "lx");
+    // What is computed with, also where it is not written.
+    let followed = illuminances(sky, &scene.site).ok().flatten().filter(|light| light.source != Source::Stated);
+    add("E_dh", followed.map_or(sky.diffuse_horizontal, |light| Some(light.diffuse_horizontal.round())), "lx");
+    add("E_dn", followed.map_or(sky.sun.direct_normal, |light| Some(light.direct_normal.round())), "lx");
     add("diffuse horizontal irradiance", sky.diffuse_horizontal_irradiance, "W/m2");
     add("direct horizontal irradiance", sky.direct_horizontal_irradiance, "W/m2");
     add("sun altitude", sky.sun.altitude, "deg");
     add("sun azimuth", sky.sun.azimuth, "deg");
     add("facade azimuth", Some(scene.site.azimuth), "deg");
     parts.push(format!("ground reflectance {}", scene.site.ground_reflectance));
+    if let Some(light) = followed {
+        parts.push(format!("illuminances of a {}", light.origin()));
+    }
     if let Some(time) = &sky.time {
         parts.push(format!("time {}", time.text()));
     }

@@ -17,6 +17,7 @@ pub mod leaving_out;
 pub mod library;
 pub mod luminaire_file;
 pub mod near_field;
+pub mod places;
 pub mod plan;
 pub mod scene;
 pub mod scene_file;

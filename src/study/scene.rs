@@ -8,7 +8,7 @@ use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
     SurfaceKey, SystemKeys,
 };
-use super::sky::outside_from_keys;
+use super::sky::{Illuminances, illuminances, outside_from_keys};
 use super::sun_position::parse_local_time;
 use super::system::{Need, System, SystemLibrary};
 use crate::compute::angle::Bearing;
@@ -80,6 +80,8 @@ pub struct Scene {
     pub outside: Outside,
     /// The disc, if it shines.
     pub sun: Option<Sun>,
+    /// What sky and sun are scaled to; `None` for skies that bring their own.
+    pub illuminances: Option<Illuminances>,
     /// Where illuminance is asked for.
     pub sensors: Vec<Sensor>,
     /// Cells along x and y when the sensors come from `sensors.plane`.
@@ -120,6 +122,7 @@ impl Scene {
         let room = room(&file.room)?;
         let (outside, sun) =
             outside_from_keys(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
+        let illuminances = illuminances(&file.sky, &file.site).map_err(|e| StudyError::key(e.key, e.message))?;
         let facade = Bearing::from_degrees(file.site.azimuth);
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
@@ -184,6 +187,7 @@ impl Scene {
             facade,
             outside,
             sun,
+            illuminances,
             sensors,
             grid,
             interreflection: file.compute.interreflection,

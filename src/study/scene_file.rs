@@ -3,6 +3,9 @@
 //! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². What the keys mean together is
 //! [`super::scene`]'s business.
 
+mod sky;
+
+pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
 pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
@@ -245,126 +248,23 @@ pub struct SiteKeys {
     /// Hours ahead of UTC.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub utc_offset: Option<f64>,
+    /// Above the sea, for clear-sky illuminances. \[m\]
+    pub elevation: f64,
     /// Uniform ground, 0 … 1.
     pub ground_reflectance: f64,
 }
 
 impl Default for SiteKeys {
     fn default() -> Self {
-        Self { azimuth: 180.0, latitude: None, longitude: None, utc_offset: None, ground_reflectance: 0.0 }
-    }
-}
-
-/// `sky.model`
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SkyModelKey {
-    /// ISO 15469 types 1–15, 16 = traditional overcast.
-    Cie,
-    /// The same luminance everywhere.
-    Uniform,
-    /// Perez all-weather.
-    Perez,
-    /// 145 measured luminances.
-    Scan,
-}
-
-impl SkyModelKey {
-    /// All, in the order that lists show.
-    pub const ALL: [Self; 4] = [Self::Cie, Self::Uniform, Self::Perez, Self::Scan];
-
-    /// Words: in a list, for a scene's title, and in the header of a luminaire file.
-    pub const fn words(self) -> [&'static str; 3] {
-        match self {
-            Self::Cie => ["CIE general sky", "CIE sky", "CIE"],
-            Self::Uniform => ["Uniform", "uniform sky", "uniform"],
-            Self::Perez => ["Perez all-weather", "Perez sky", "Perez all-weather"],
-            Self::Scan => ["Measured (file)", "measured sky", "measured scan"],
+        Self {
+            azimuth: 180.0,
+            latitude: None,
+            longitude: None,
+            utc_offset: None,
+            elevation: 0.0,
+            ground_reflectance: 0.0,
         }
     }
-
-    /// Is it scaled to illuminances that are stated? Perez's sky and a measured one bring their own.
-    pub const fn takes_illuminances(self) -> bool {
-        !matches!(self, Self::Perez | Self::Scan)
-    }
-}
-
-/// `[sky]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SkyKeys {
-    /// Which model.
-    pub model: SkyModelKey,
-    /// CIE type 1 … 16.
-    #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
-    pub cie_type: Option<u8>,
-    /// Diffuse horizontal illuminance. \[lx\]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub diffuse_horizontal: Option<f64>,
-    /// The sun by angles, and its beam.
-    #[serde(default)]
-    pub sun: SunKeys,
-    /// Local standard time of `site.utc_offset`, `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub time: Option<TimeKey>,
-    /// Perez: direct irradiance on the horizontal plane. \[W/m²\]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direct_horizontal_irradiance: Option<f64>,
-    /// Perez: diffuse irradiance on the horizontal plane. \[W/m²\]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub diffuse_horizontal_irradiance: Option<f64>,
-    /// Scan: 145 Tregenza luminances.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<PathBuf>,
-    /// A horizontal skyline over the whole azimuth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub obstruction: Option<ObstructionKeys>,
-}
-
-/// `sky.time`: a string, or a TOML date-time without offset.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum TimeKey {
-    /// Quoted.
-    Text(String),
-    /// Bare TOML date-time.
-    Toml(toml::value::Datetime),
-}
-
-impl TimeKey {
-    /// The text, whichever way it was written.
-    pub fn text(&self) -> String {
-        match self {
-            Self::Text(text) => text.clone(),
-            Self::Toml(time) => time.to_string(),
-        }
-    }
-}
-
-/// `sky.sun`
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
-#[serde(deny_unknown_fields)]
-pub struct SunKeys {
-    /// True altitude, no refraction. \[°\]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub altitude: Option<f64>,
-    /// Compass bearing. \[°\]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub azimuth: Option<f64>,
-    /// Illuminance on a plane facing the sun, 0 = no disc. \[lx\]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direct_normal: Option<f64>,
-}
-
-/// `sky.obstruction`
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ObstructionKeys {
-    /// Of the skyline. \[°\]
-    pub altitude: f64,
-    /// Of what stands below it. \[cd/m²\]
-    #[serde(default)]
-    pub luminance: f64,
 }
 
 /// `[sensors]`

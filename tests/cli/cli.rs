@@ -205,6 +205,10 @@ fn a_wrong_key_is_named_with_what_would_be_right() {
         ("sky type", "type = 12", "type = 17", &["sky.type", "17", "16"]),
         ("sky type missing", "type = 12\n", "", &["sky.type"]),
         ("illuminance", "diffuse_horizontal = 12000.0", "diffuse_horizontal = -1.0", &["sky.diffuse_horizontal"]),
+        ("turbidity", "type = 12", "type = 12\nturbidity = 0.0", &["sky.turbidity", "1 to 12"]),
+        ("illuminance word", "type = 12", "type = 12\nilluminance = \"sunny\"", &["sunny", "clear-sky"]),
+        ("elevation", "[site]", "[site]\nelevation = 99999.0", &["site.elevation", "9000"]),
+        ("night", "altitude = 30.0", "altitude = -12.0", &["sky.diffuse_horizontal", "12.0° below the horizon"]),
         ("altitude", "altitude = 30.0", "altitude = 95.0", &["sky.sun.altitude", "95"]),
         ("azimuth missing", ", azimuth = 200.0", "", &["sky.sun.azimuth"]),
         ("plane", "z = 0.85", "z = 3.5", &["sensors.plane.z", "3.5"]),
@@ -233,6 +237,45 @@ fn a_wrong_key_is_named_with_what_would_be_right() {
         refused(what, &folder.cfs(&["room", "bad.toml", "--out", "out.csv"]), &words);
         assert_eq!(folder.names(), ["bad.toml"], "{what}");
     }
+}
+
+#[test]
+fn skies_that_follow_the_sun_say_with_what_they_are_computed_or_that_it_is_dark() {
+    let folder = Folder::new();
+    let at = |altitude: &str| {
+        let sky = format!(
+            "model = \"cie\"\ntype = 12\nilluminance = \"clear-sky\"\nturbidity = 3.0\ndiffuse_horizontal = 12900.0\n\
+             sun = {{ altitude = {altitude}, azimuth = 180.0, direct_normal = 90400.0 }}"
+        );
+        folder.write("a.toml", &Text { sky, ..Text::default() }.toml());
+        let room = folder.cfs(&["room", "a.toml", "--json"]);
+        let sky = folder.cfs(&["sky", "a.toml", "--json"]);
+        assert!(room.status.success() && sky.status.success(), "{}", text(&room.stderr));
+        let told = text(&room.stderr).to_owned() + text(&sky.stderr);
+        let read = |output: &Output| -> Value { serde_json::from_slice(&output.stdout).unwrap() };
+        (read(&room), read(&sky), told)
+    };
+    let (room, sky, told) = at("20.0");
+    // Ineichen and Perez 2002 at 20° and turbidity 3, sea level: between the figures for 15° and 25°.
+    let diffuse = sky["horizontal"]["diffuse_lx"].as_f64().unwrap();
+    assert!((8071.0..10_500.0).contains(&diffuse), "{diffuse}");
+    assert_eq!(room["illuminance"]["diffuse_horizontal_lx"], sky["horizontal"]["diffuse_lx"]);
+    assert_eq!(
+        told.matches("note: clear sky, Linke turbidity 3, 0 m above the sea, sun 20.0° high").count(),
+        2,
+        "{told}"
+    );
+    let (room, sky, told) = at("-12.0");
+    assert_eq!(sky["horizontal"]["global_lx"].as_f64(), Some(0.0));
+    assert_eq!(told.matches("12.0° below the horizon: no daylight").count(), 2, "{told}");
+    let sensors = room["sensors"].as_array().unwrap();
+    assert!(!sensors.is_empty() && sensors.iter().all(|sensor| sensor["E_lx"].as_f64() == Some(0.0)));
+    // A luminaire file's header tells what is computed with, not what is written and not read.
+    let (_, _, _) = at("20.0");
+    let lid = folder.cfs(&["lid", "a.toml", "--out", "a.ies"]);
+    assert!(lid.status.success() && text(&lid.stderr).contains("note: clear sky"), "{}", text(&lid.stderr));
+    let header = std::fs::read_to_string(folder.path("a.ies")).unwrap().replace("\r\n[MORE]", "");
+    assert!(header.contains(&format!("E_dh {diffuse:.0} lx")) && !header.contains("12900"), "{}", &header[..1500]);
 }
 
 #[test]

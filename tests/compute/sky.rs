@@ -218,6 +218,12 @@ fn wrong_keys_are_named() {
         ("model = 'uniform'\ndiffuse_horizontal = 1.0\nsun = { direct_normal = 1.0 }", "", "sky.sun"),
         ("model = 'uniform'\ndiffuse_horizontal = 1.0", "ground_reflectance = 1.5", "site.ground_reflectance"),
         ("model = 'perez'\nsun = { altitude = 30.0, azimuth = 0.0 }", "", "sky.direct_horizontal_irradiance"),
+        ("model = 'uniform'\nilluminance = 'clear-sky'", "", "sky.sun"),
+        ("model = 'cie'\ntype = 16\nilluminance = 'rp-21'", "", "sky.sun"),
+        ("model = 'uniform'\ndiffuse_horizontal = 1.0\nturbidity = 0.5", "", "sky.turbidity"),
+        ("model = 'uniform'\ndiffuse_horizontal = 1.0\nturbidity = nan", "", "sky.turbidity"),
+        ("model = 'uniform'\ndiffuse_horizontal = 1.0", "elevation = 9500.0", "site.elevation"),
+        ("model = 'uniform'\ndiffuse_horizontal = 1.0", "elevation = -2000.0", "site.elevation"),
         ("model = 'scan'", "", "sky.file"),
         ("model = 'scan'\nfile = 'none-such.csv'", "", "sky.file"),
     ];
@@ -225,6 +231,78 @@ fn wrong_keys_are_named() {
         let error = keys(sky, site).expect_err(sky);
         assert!(error.starts_with(key), "{sky}: {error}");
     }
+}
+
+/// Diffuse horizontal and direct normal illuminance \[lx\] of a clear sky's keys.
+fn followed(sky: &str, altitude: f64, site: &str) -> [f64; 2] {
+    let text = format!("model = 'cie'\n{sky}\nsun = {{ altitude = {altitude:?}, azimuth = 180.0 }}");
+    let (outside, sun) = keys(&text, site).unwrap();
+    [outside.diffuse_horizontal(), sun.map_or(0.0, |sun| sun.direct_normal)]
+}
+
+#[test]
+fn illuminances_follow_the_sun_by_turbidity_and_elevation() {
+    let Some(path) = data("reference/cases/sky/clear_sky.csv") else { return };
+    let text = std::fs::read_to_string(path).unwrap();
+    assert!(text.lines().count() > 100);
+    for line in text.lines().skip(1) {
+        let number: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+        let sky = format!("type = 13\nilluminance = 'clear-sky'\nturbidity = {:?}", number[1]);
+        let [diffuse, direct] = followed(&sky, number[0], &format!("elevation = {:?}", number[2]));
+        close(direct, number[5], 5e-4);
+        close(diffuse, number[6], 5e-4);
+    }
+}
+
+#[test]
+fn what_is_written_counts_where_it_is_stated_and_nowhere_else() {
+    let written = "diffuse_horizontal = 5000.0";
+    assert_eq!(followed(&format!("type = 12\n{written}"), 30.0, ""), [5000.0, 0.0]);
+    assert_eq!(followed(&format!("type = 12\nilluminance = 'stated'\n{written}"), 30.0, ""), [5000.0, 0.0]);
+    let clear = followed("type = 12\nilluminance = 'clear-sky'", 30.0, "");
+    assert_eq!(followed(&format!("type = 12\nilluminance = 'clear-sky'\n{written}"), 30.0, ""), clear);
+    // RP-21 at 30°: 800 + 15500·√½ of a clear sky, 300 + 45000/2 of a partly cloudy one, 300 + 21000/2 overcast.
+    for (kind, sky) in [(12, 11_760.155), (8, 22_800.0), (3, 10_800.0), (16, 10_800.0)] {
+        close(followed(&format!("type = {kind}\nilluminance = 'rp-21'"), 30.0, "")[0], sky, 1e-7);
+        let by_turbidity = followed(&format!("type = {kind}\nilluminance = 'clear-sky'\nturbidity = 5.0"), 30.0, "");
+        assert_eq!(
+            by_turbidity[0] == followed(&format!("type = {kind}\nilluminance = 'rp-21'"), 30.0, "")[0],
+            kind != 12
+        );
+    }
+    assert_eq!(followed("type = 16\nilluminance = 'rp-21'", 30.0, "")[1], 0.0);
+    // Perez's sky keeps its own.
+    let perez = |key: &str| {
+        let text = format!(
+            "model = 'perez'\n{key}sun = {{ altitude = 40.0, azimuth = 200.0 }}\ndirect_horizontal_irradiance = 350\n\
+             diffuse_horizontal_irradiance = 120"
+        );
+        keys(&text, "").unwrap().0.diffuse_horizontal()
+    };
+    assert_eq!(perez("illuminance = 'clear-sky'\n"), perez(""));
+}
+
+#[test]
+fn cie_skies_end_with_twilight() {
+    for by in ["clear-sky", "rp-21"] {
+        for kind in [1, 8, 12, 16] {
+            for altitude in [0.0, -0.1, -5.0, -12.0, -60.0] {
+                let sky = format!("type = {kind}\nilluminance = '{by}'\ndiffuse_horizontal = 9000.0");
+                assert_eq!(followed(&sky, altitude, "ground_reflectance = 0.2"), [0.0, 0.0], "{kind} {altitude}");
+            }
+        }
+    }
+    let stated = |altitude: f64, lux: f64| {
+        let text = format!(
+            "model = 'cie'\ntype = 12\ndiffuse_horizontal = {lux:?}\n\
+             sun = {{ altitude = {altitude:?}, azimuth = 0.0, direct_normal = 100.0 }}"
+        );
+        keys(&text, "")
+    };
+    assert!(stated(-5.9, 300.0).is_ok_and(|(outside, sun)| outside.diffuse_horizontal() == 300.0 && sun.is_none()));
+    let told = stated(-6.1, 300.0).unwrap_err();
+    assert!(told.starts_with("sky.diffuse_horizontal") && told.contains("6.1° below the horizon"), "{told}");
+    assert!(stated(-6.1, 0.0).is_ok_and(|(outside, _)| outside.diffuse_horizontal() == 0.0));
 }
 
 #[test]

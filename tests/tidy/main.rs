@@ -335,3 +335,14 @@ fn circles_are_seen() {
     assert!(arrows::circles(&arrows).is_empty());
     assert_eq!(arrows::circles(&arrows::between_rooms(&arrows, 2)), [["app/x", "app/y"]]);
 }
+
+#[test]
+fn data_of_others_are_named_with_their_licence() {
+    let read = |name: &str| std::fs::read_to_string(root().join(name)).unwrap();
+    for name in ["README.md", "assets/places/README.md"] {
+        let text = read(name);
+        assert!(text.contains("GeoNames") && text.contains("creativecommons.org/licenses/by/4.0"), "{name}");
+    }
+    let size = std::fs::metadata(root().join("assets/places/places.tsv.zst")).unwrap().len();
+    assert!(size < 400_000, "{size} bytes of places");
+}

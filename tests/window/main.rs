@@ -10,5 +10,6 @@ mod driven;
 mod files_view;
 mod goniophotometer_view;
 mod legible;
+mod scene_panel;
 mod truth;
 mod views;

@@ -330,7 +330,7 @@ fn the_sun_is_dragged_to_where_the_pointer_is() {
         .1
         .iter()
         .filter_map(|a| match a {
-            sky::Action::SunDragged { place, free } => Some((*place, *free)),
+            sky::Action::SunDragged { place, free, date } => Some((*place, *free || *date)),
             sky::Action::SunReleased => None,
         })
         .collect();

@@ -1,29 +1,217 @@
-//! Fields and buttons that panels share.
+//! Fields and buttons that panels share. What is typed and cannot be is told under its field and changes nothing.
 
 use crate::app::offer::{Offer, key_words};
-use egui::{Button, DragValue, Ui};
+use crate::app::theme;
+use crate::app::typing::read_number;
+use egui::accesskit::Role;
+use egui::text::{CCursor, CCursorRange, LayoutJob, TextWrapping};
+use egui::text_edit::TextEditState;
+use egui::{
+    Align, Button, Color32, DragValue, Key, Label, Layout, Response, RichText, Sense, TextEdit, TextStyle, Ui,
+    WidgetInfo, vec2,
+};
+use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-/// A labelled number with unit and range.
-pub fn number(ui: &mut Ui, label: &str, unit: &str, value: &mut f64, range: RangeInclusive<f64>, decimals: usize) {
-    let (low, high) = (*range.start(), *range.end());
-    let speed = ((high - low) / 400.0).max(0.1_f64.powi(decimals as i32));
-    ui.horizontal(|ui| {
-        let name = ui.label(label);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let drag = DragValue::new(value).range(range).speed(speed).fixed_decimals(decimals).suffix(unit);
-            ui.add(drag).labelled_by(name.id).on_hover_text(format!("{low} to {high}{unit}; drag, or click and type"));
-        });
-    });
+/// What is said under a field until it is used again.
+#[derive(Debug, Clone, PartialEq)]
+enum Told {
+    /// What was typed cannot be.
+    Refused(String),
+    /// Something else was changed with it.
+    Note(String),
 }
 
-/// The same of a number that the scene may lack: then it becomes `start`.
+fn key(ui: &Ui, label: &str) -> egui::Id {
+    ui.make_persistent_id((label, "told"))
+}
+
+/// Says under a field what its last change brought with it, until the next one.
+pub fn note(ui: &Ui, label: &str, text: String) {
+    let key = key(ui, label);
+    ui.data_mut(|data| data.insert_temp(key, Told::Note(text)));
+}
+
+fn told(ui: &mut Ui, label: &str) {
+    let key = key(ui, label);
+    let palette = theme::palette(ui);
+    let (text, colour) = match ui.data(|data| data.get_temp::<Told>(key)) {
+        Some(Told::Refused(text)) => (text, palette.error),
+        Some(Told::Note(text)) => (text, palette.warning),
+        None => return,
+    };
+    ui.add(Label::new(RichText::new(text).color(colour)).wrap());
+}
+
+/// A label on the left, its field on the right.
+pub fn row(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Response) -> Response {
+    ui.horizontal(|ui| {
+        let name = ui.label(label);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| field(ui).labelled_by(name.id)).inner
+    })
+    .inner
+}
+
+/// A labelled number with unit and range; true where it changed. A number beyond the range is told and not taken, and one
+/// that is there already is left as it is.
+pub fn number(
+    ui: &mut Ui,
+    label: &str,
+    unit: &str,
+    value: &mut f64,
+    range: RangeInclusive<f64>,
+    decimals: usize,
+) -> bool {
+    let (low, high) = (*range.start(), *range.end());
+    let speed = ((high - low) / 400.0).max(0.1_f64.powi(decimals as i32));
+    let shown = format!("{:.decimals$}", *value);
+    let refused = RefCell::new(None);
+    let read = |text: &str| {
+        // Looked at and left: not even rounded.
+        if text.trim() == shown {
+            return None;
+        }
+        match read_number(text, unit) {
+            Some(number) if range.contains(&number) => return Some(number),
+            Some(number) => {
+                *refused.borrow_mut() =
+                    Some(format!("{number}{unit} is not possible here: {low:.decimals$} to {high:.decimals$}{unit}"));
+            }
+            None => {
+                *refused.borrow_mut() =
+                    Some(format!("“{}” is no number: {low:.decimals$} to {high:.decimals$}{unit}", text.trim()))
+            }
+        }
+        None
+    };
+    let before = *value;
+    let response = row(ui, label, |ui| {
+        let drag = DragValue::new(value)
+            .range(range.clone())
+            .clamp_existing_to_range(false)
+            .update_while_editing(false)
+            .custom_parser(read)
+            .speed(speed)
+            .fixed_decimals(decimals)
+            .suffix(unit);
+        ui.add(drag).on_hover_text(format!("{low} to {high}{unit}; drag, or click and type"))
+    });
+    // Arrow keys step on beyond the range.
+    if *value != before && !range.contains(value) && range.contains(&before) {
+        *value = value.clamp(low, high);
+    }
+    let key = key(ui, label);
+    if let Some(text) = refused.into_inner() {
+        ui.data_mut(|data| data.insert_temp(key, Told::Refused(text)));
+    } else if *value != before || response.gained_focus() {
+        ui.data_mut(|data| data.remove::<Told>(key));
+    }
+    told(ui, label);
+    *value != before
+}
+
+/// The same of a number that the scene may lack: a button then sets it to `start`.
 pub fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, start: f64, range: RangeInclusive<f64>) {
-    let mut number_value = value.unwrap_or(start);
-    let before = number_value;
-    number(ui, label, unit, &mut number_value, range, 2);
-    if number_value != before || value.is_none() {
-        *value = Some(number_value);
+    match value {
+        Some(number_value) => {
+            number(ui, label, unit, number_value, range, 2);
+        }
+        None => {
+            let text = format!("Missing: set {start}{unit}");
+            if row(ui, label, |ui| ui.button(text)).clicked() {
+                *value = Some(start);
+            }
+        }
+    }
+}
+
+/// A figure that is shown and not typed.
+pub fn figure(ui: &mut Ui, label: &str, text: &str) {
+    row(ui, label, |ui| ui.label(text));
+}
+
+/// What somebody is typing, or has typed wrongly.
+#[derive(Debug, Clone)]
+struct Draft {
+    text: String,
+    /// What the field showed before.
+    of: String,
+    wrong: Option<String>,
+}
+
+/// A labelled field for something that is read as a whole when it is left; what cannot be read is told under it and
+/// changes nothing. What was read comes back.
+pub fn typed<T>(
+    ui: &mut Ui,
+    label: &str,
+    shown: &str,
+    tip: &str,
+    read: impl FnOnce(&str) -> Result<T, String>,
+) -> Option<T> {
+    let key = ui.make_persistent_id((label, "draft"));
+    let id = key.with("field");
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    // Once the scene has moved on by other means, what was refused is no longer of interest.
+    let draft: Option<Draft> = ui.data(|data| data.get_temp(key)).filter(|draft: &Draft| focused || draft.of == shown);
+    let (mut text, mut wrong) = draft.map_or_else(|| (shown.to_owned(), None), |draft| (draft.text, draft.wrong));
+    let response = row(ui, label, |ui| ui.add(TextEdit::singleline(&mut text).id(id).desired_width(96.0)));
+    let response = response.on_hover_text(tip);
+    if response.gained_focus() {
+        select_all(ui, id, &text);
+    }
+    if response.changed() {
+        wrong = None;
+    }
+    let mut taken = None;
+    if response.lost_focus() {
+        if ui.input(|input| input.key_pressed(Key::Escape)) || text.trim() == shown {
+            (text, wrong) = (shown.to_owned(), None);
+        } else {
+            match read(&text) {
+                Ok(value) => {
+                    (taken, wrong) = (Some(value), None);
+                    text = shown.to_owned();
+                }
+                Err(told) => wrong = Some(told),
+            }
+        }
+    }
+    if let Some(told) = &wrong {
+        ui.add(Label::new(RichText::new(told).color(theme::palette(ui).error)).wrap());
+    }
+    // Asked for before: the memory is locked while it is written.
+    let typing = response.has_focus();
+    ui.data_mut(|data| {
+        if typing || wrong.is_some() {
+            data.insert_temp(key, Draft { text, of: shown.to_owned(), wrong });
+        } else {
+            data.remove::<Draft>(key);
+        }
+    });
+    taken
+}
+
+/// Selects the whole text of a field, so that typing replaces it.
+pub fn select_all(ui: &Ui, id: egui::Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    state.cursor.set_char_range(Some(CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()))));
+    state.store(ui.ctx(), id);
+}
+
+/// Text that takes the room of `rows` lines whatever it says, so that nothing below it moves; in full on hovering.
+pub fn lines(ui: &mut Ui, text: &str, colour: Color32, rows: usize) {
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = ui.available_width();
+    let height = rows as f32 * ui.text_style_height(&TextStyle::Body);
+    let mut job = LayoutJob::simple(text.to_owned(), font, colour, width);
+    job.wrap = TextWrapping { max_width: width, max_rows: rows, ..TextWrapping::default() };
+    let galley = ui.painter().layout_job(job);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    let elided = galley.elided;
+    ui.painter().galley(rect.min, galley, colour);
+    if elided {
+        response.on_hover_text(text);
     }
 }
 

@@ -50,9 +50,9 @@ impl Drawn for Drawing {
             status: seen.status_of(&state.daylight, Lane::Scene),
         };
         for action in sky::show(ui, &input, &mut self.view) {
-            if let sky::Action::SunDragged { place, free } = action {
+            if let sky::Action::SunDragged { place, free, date } = action {
                 let mut scene = scene.clone();
-                if free || !moment::towards(&mut scene, place.altitude, place.bearing) {
+                if free || !moment::towards(&mut scene, place.altitude, place.bearing, date) {
                     scene.sky.time = None;
                     scene.sky.sun.altitude = Some(place.altitude.to_degrees());
                     scene.sky.sun.azimuth = Some(place.bearing.to_degrees());

@@ -61,12 +61,15 @@ impl fmt::Debug for Input<'_> {
 /// What the user did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// The sun was dragged to a place; date and time should follow, or with `free` (Alt held) the angles alone.
+    /// The sun was dragged to a place; the time should follow, with `date` (Shift held) the date too, or with `free` (Alt
+    /// held) the angles alone.
     SunDragged {
         /// Where to.
         place: Place,
         /// Angles independent of date and time.
         free: bool,
+        /// The date may change.
+        date: bool,
     },
     /// The sun was let go: scales may move again.
     SunReleased,
@@ -83,8 +86,8 @@ pub struct State {
 }
 
 const HELP: &str = "The sky as seen lying on one's back: north up, so east is left. Zenith in the middle, equal steps of \
-altitude. The half before the façade is bright. Drag the sun: date and time follow; with Alt its angles are free. Under \
-it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 or Perez et al. 1993, as chosen in the \
+altitude. The half before the façade is bright. Drag the sun along its path of the day: the time follows; with Shift \
+the date too; with Alt its angles are free. Under it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 or Perez et al. 1993, as chosen in the \
 scene.";
 
 /// Width from which the three illuminances stand in one line. \[points\]
@@ -234,9 +237,11 @@ fn dome(
     compass(ui, &disk, input, &palette);
     // The disk ends at the horizon: a sun under it has no place there.
     let sun_at = input.sun.filter(|sun| sun.altitude >= 0.0).map(|sun| disk.screen(disk_point(sun)));
+    let mut at_sun = false;
     if let Some(at) = sun_at {
         let near = state.dragging || response.hover_pos().is_some_and(|p| p.distance(at) < 14.0);
         ui.painter().circle(at, if near { 9.0 } else { 7.0 }, palette.sun, Stroke::new(1.5, Color32::BLACK));
+        at_sun = near && !state.dragging;
         if near {
             ui.set_cursor_icon(if state.dragging { egui::CursorIcon::Grabbing } else { egui::CursorIcon::Grab });
         }
@@ -249,8 +254,8 @@ fn dome(
     if state.dragging
         && let Some(at) = response.interact_pointer_pos()
     {
-        let free = ui.input(|i| i.modifiers.alt);
-        out.push(Action::SunDragged { place: place_of(disk.disk(at)), free });
+        let (free, date) = ui.input(|i| (i.modifiers.alt, i.modifiers.shift));
+        out.push(Action::SunDragged { place: place_of(disk.disk(at)), free, date });
     }
     // The end of a drag is not always told, as when the tile goes out of sight: the scale would be held for good.
     if state.dragging && (response.drag_stopped() || !response.dragged() && !response.drag_started()) {
@@ -266,6 +271,7 @@ fn dome(
     };
     tile::name(ui, &response, "Sky dome", sun_text.full());
     match (place, value) {
+        _ if at_sun => Foot::from("Drag: along the day's path · Shift: the date too · Alt: free angles"),
         (Some(p), Some(v)) => {
             let luminance = si(v, "cd/m²");
             let [full, short, _] = place_text("sky", p);

@@ -15,6 +15,26 @@ pub enum Cover {
     Overcast,
 }
 
+impl Cover {
+    /// The cover that a CIE type stands for: 1–5 overcast, 6–10 partly cloudy, 11–15 clear, 16 overcast.
+    pub const fn of_cie_type(cie_type: u8) -> Self {
+        match cie_type {
+            6..=10 => Self::Partly,
+            11..=15 => Self::Clear,
+            _ => Self::Overcast,
+        }
+    }
+
+    /// In words.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Clear => "clear",
+            Self::Partly => "partly cloudy",
+            Self::Overcast => "overcast",
+        }
+    }
+}
+
 /// Solar illuminance constant. \[lx\]
 const EXTRATERRESTRIAL: f64 = 127_500.0;
 

@@ -5,6 +5,7 @@
 //! | `distribution` | relative luminance of every model |
 //! | `cie`, `perez`, `scan` | their parameters |
 //! | `horizontal` | the exact illuminance of the horizontal plane, which scales a sky |
+//! | `availability`, `clear_sky` | illuminances that belong to an altitude of the sun |
 //! | `patches` | Tregenza's 145 patches of the dome |
 //! | `outside` | a scaled sky over ground, behind a skyline |
 //! | `region` | regions of the sphere and how horizon and skyline cut them |
@@ -17,6 +18,7 @@
 
 pub mod availability;
 pub mod cie;
+pub mod clear_sky;
 mod distribution;
 mod gradated;
 mod horizontal;

@@ -1,6 +1,6 @@
 //! The openings of the scene: where they are, how large, and what their room side reflects.
 
-use crate::app::panels::fields::number;
+use crate::app::panels::fields::{note, number};
 use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, SceneFile, SurfaceKey};
 use egui::{Button, Ui};
 
@@ -13,6 +13,16 @@ fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
         SurfaceKey::Facade => [room.width, room.height],
         SurfaceKey::Roof => [room.width, room.depth],
     }
+}
+
+/// Names of the fields of an aperture's size.
+const SIZES: [&str; 2] = ["Width", "Height"];
+
+/// Where an edge has to move so that a size fits from it; `None` where it may stay.
+fn pushed(origin: f64, size: f64, extent: f64) -> Option<f64> {
+    // To the millimetre, so that what is shown is what is meant.
+    let most = ((extent - size) * 1000.0).floor() / 1000.0;
+    (origin > extent - size + 1e-9).then_some(most.max(0.0))
 }
 
 const fn word(surface: SurfaceKey) -> &'static str {
@@ -30,19 +40,28 @@ fn overlap(a: &ApertureKeys, b: &ApertureKeys) -> bool {
     a.surface == b.surface && axis(0) && axis(1)
 }
 
-/// What is wrong with the apertures, and what would be right.
-pub fn problem(scene: &SceneFile) -> Option<String> {
-    for (i, a) in scene.aperture.iter().enumerate() {
+/// The first aperture that the room is too small for, and what would be right.
+pub fn beyond(scene: &SceneFile) -> Option<String> {
+    scene.aperture.iter().enumerate().find_map(|(i, a)| {
         let extent = extent(&scene.room, a.surface);
-        if (0..2).any(|k| a.origin[k] < 0.0 || a.origin[k] + a.size[k] > extent[k] + 1e-6) {
-            return Some(format!(
+        (0..2).any(|k| a.origin[k] < 0.0 || a.origin[k] + a.size[k] > extent[k] + 1e-6).then(|| {
+            format!(
                 "Aperture {} reaches beyond the {}, {:.2} × {:.2} m: move it or make it smaller.",
                 i + 1,
                 word(a.surface),
                 extent[0],
                 extent[1]
-            ));
-        }
+            )
+        })
+    })
+}
+
+/// What is wrong with the apertures, and what would be right.
+pub fn problem(scene: &SceneFile) -> Option<String> {
+    if let Some(text) = beyond(scene) {
+        return Some(text);
+    }
+    for (i, a) in scene.aperture.iter().enumerate() {
         if let Some(j) = scene.aperture.iter().skip(i + 1).position(|b| overlap(a, b)) {
             return Some(format!("Apertures {} and {} overlap: move one of them.", i + 1, i + j + 2));
         }
@@ -77,17 +96,21 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     let mut gone = None;
     for (index, aperture) in scene.aperture.iter_mut().enumerate() {
         ui.push_id(index, |ui| {
+            let mut moved = false;
             ui.horizontal(|ui| {
                 ui.label(format!("{} in the", index + 1));
                 for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
                     if ui.selectable_label(aperture.surface == surface, word(surface)).clicked() {
-                        move_to(aperture, surface, &room);
+                        moved = move_to(aperture, surface, &room);
                     }
                 }
                 if several && ui.small_button("×").on_hover_text("Take this aperture out").clicked() {
                     gone = Some(index);
                 }
             });
+            if moved {
+                note(ui, SIZES[1], "Made smaller, so that it fits there.".to_owned());
+            }
             one(ui, aperture, &room);
         });
     }
@@ -101,14 +124,16 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     }
 }
 
-/// Puts an aperture into another surface, inside its edges.
-fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) {
+/// Puts an aperture into another surface, inside its edges; true where it had to become smaller.
+fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) -> bool {
     aperture.surface = surface;
     let extent = extent(room, surface);
+    let before = aperture.size;
     for ((size, origin), extent) in aperture.size.iter_mut().zip(&mut aperture.origin).zip(extent) {
         *size = size.min(extent);
         *origin = origin.min(extent - *size);
     }
+    aperture.size != before
 }
 
 fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
@@ -117,13 +142,18 @@ fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
         SurfaceKey::Roof => "From the façade",
     };
     let extent = extent(room, aperture.surface);
-    for (k, label) in ["From the left", low].into_iter().enumerate() {
+    let origins = ["From the left", low];
+    for (k, label) in origins.into_iter().enumerate() {
         let most = (extent[k] - aperture.size[k]).max(0.0);
         number(ui, label, " m", &mut aperture.origin[k], 0.0..=most, 2);
     }
-    for (k, label) in ["Width", "Height"].into_iter().enumerate() {
-        let most = (extent[k] - aperture.origin[k]).max(LEAST);
-        number(ui, label, " m", &mut aperture.size[k], LEAST..=most, 2);
+    for (k, label) in SIZES.into_iter().enumerate() {
+        if number(ui, label, " m", &mut aperture.size[k], LEAST..=extent[k].max(LEAST), 2)
+            && let Some(origin) = pushed(aperture.origin[k], aperture.size[k], extent[k])
+        {
+            aperture.origin[k] = origin;
+            note(ui, label, format!("“{}” is {origin:.2} m now, so that it fits.", origins[k]));
+        }
     }
     let mut own = aperture.reflectance == ApertureReflectance::Dataset;
     let tip = "The dataset's back reflection where it has one, 0 for ideal systems; off: type a diffuse reflectance";
@@ -152,6 +182,14 @@ mod tests {
         }
         // The roof alone, 4 m × 6 m, takes 24 square metres.
         assert!(count >= 24, "{count}");
+    }
+
+    #[test]
+    fn a_size_pushes_the_edge_only_where_it_must() {
+        assert_eq!(pushed(1.2, 2.5, 3.0), Some(0.5));
+        assert_eq!(pushed(0.9, 2.1, 3.0), None);
+        assert_eq!(pushed(0.9, 3.0, 3.0), Some(0.0));
+        assert_eq!(pushed(0.0, 3.0, 3.0), None);
     }
 
     #[test]

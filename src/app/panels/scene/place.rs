@@ -1,0 +1,209 @@
+//! The place: a city from the list, coordinates, or latitude, longitude, clock and elevation by hand.
+
+use crate::app::panels::fields::{number, optional, select_all};
+use crate::app::theme;
+use crate::app::title::{coordinates, place};
+use crate::app::typing::read_coordinates;
+use crate::study::places::{City, city_at, nearest, search};
+use crate::study::scene_file::SceneFile;
+use crate::study::sky::{HIGHEST, LOWEST};
+use egui::accesskit::Role;
+use egui::{Align, Button, Key, Label, Layout, Modifiers, RichText, TextEdit, Ui, WidgetInfo};
+
+/// Cities that are listed at once.
+const MOST: usize = 8;
+
+/// What the search field holds.
+#[derive(Debug, Clone, Default)]
+struct Typed {
+    text: String,
+    row: usize,
+}
+
+/// A site that can be chosen.
+struct Choice {
+    words: String,
+    where_: String,
+    tip: String,
+    latitude: f64,
+    longitude: f64,
+    utc_offset: f64,
+    elevation: Option<f64>,
+}
+
+/// Hours ahead of UTC in words: `UTC+5.75`.
+fn clock_words(utc_offset: f64) -> String {
+    if utc_offset == 0.0 { "UTC".to_owned() } else { format!("UTC{utc_offset:+}") }
+}
+
+fn city_words(city: &City) -> String {
+    let region = if city.region.is_empty() { String::new() } else { format!(", {}", city.region) };
+    format!("{}{region}, {}", city.name, city.country)
+}
+
+fn of_city(city: &City) -> Choice {
+    let height =
+        city.elevation.map_or_else(|| "elevation unknown".to_owned(), |height| format!("{height} m above the sea"));
+    Choice {
+        words: city_words(city),
+        where_: format!("{:.1} {:.1}", city.latitude, city.longitude),
+        tip: format!("{}, {height}, {}", coordinates(city.latitude, city.longitude), clock_words(city.utc_offset)),
+        latitude: city.latitude,
+        longitude: city.longitude,
+        utc_offset: city.utc_offset,
+        elevation: city.elevation,
+    }
+}
+
+/// A place by coordinates keeps the clock of the city that is nearest, and its elevation where it lies in it.
+fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
+    let (city, distance) = nearest(latitude, longitude)?;
+    let elevation = city_at(latitude, longitude).and_then(|city| city.elevation);
+    let height = elevation.map_or_else(|| "elevation unknown: 0 m".to_owned(), |height| format!("{height} m as there"));
+    Some(Choice {
+        words: coordinates(latitude, longitude),
+        where_: clock_words(city.utc_offset),
+        tip: format!(
+            "Clock of {}, {distance:.0} km away: {}; {height}. Both can be changed below",
+            city.name,
+            clock_words(city.utc_offset)
+        ),
+        latitude,
+        longitude,
+        utc_offset: city.utc_offset,
+        elevation,
+    })
+}
+
+/// What answers to the text, how many do, and what is wrong with it.
+fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
+    match read_coordinates(text) {
+        Some(Ok(place)) => {
+            let list: Vec<_> = of_coordinates(place).into_iter().collect();
+            (list, 1, None)
+        }
+        Some(Err(told)) => (Vec::new(), 0, Some(told)),
+        None => {
+            let (list, count) = search(text, MOST);
+            let none = (count == 0).then(|| {
+                "No city of this name above 50 000 inhabitants: try one nearby, or coordinates such as 48.78 9.18."
+                    .to_owned()
+            });
+            (list.into_iter().map(of_city).collect(), count, none)
+        }
+    }
+}
+
+/// Draws the section.
+pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
+    ui.label(place(scene));
+    if let Some(choice) = find(ui) {
+        scene.site.latitude = Some(choice.latitude);
+        scene.site.longitude = Some(choice.longitude);
+        scene.site.utc_offset = Some(choice.utc_offset);
+        // The old place's elevation would be wrong without a sign of it.
+        scene.site.elevation = choice.elevation.unwrap_or(0.0);
+    }
+    if scene.sky.time.is_none() && scene.site.latitude.is_none() {
+        ui.weak("Not needed while the sun is given by angles.");
+        return;
+    }
+    optional(ui, "Latitude", "° N", &mut scene.site.latitude, 48.78, -90.0..=90.0);
+    optional(ui, "Longitude", "° E", &mut scene.site.longitude, 9.18, -180.0..=180.0);
+    optional(ui, "Ahead of UTC", " h", &mut scene.site.utc_offset, 1.0, -14.0..=14.0);
+    number(ui, "Elevation", " m", &mut scene.site.elevation, LOWEST..=HIGHEST, 0);
+}
+
+/// The search field with its list; what was chosen.
+fn find(ui: &mut Ui) -> Option<Choice> {
+    let key = ui.make_persistent_id("find a place");
+    let id = key.with("field");
+    let mut typed: Typed = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    // Up and down belong to the list; the field would take them.
+    let step = ui.input_mut(|input| {
+        let mut count = |key| if focused { input.count_and_consume_key(Modifiers::NONE, key) as isize } else { 0 };
+        count(Key::ArrowDown) - count(Key::ArrowUp)
+    });
+    let field = TextEdit::singleline(&mut typed.text).id(id).desired_width(f32::INFINITY);
+    let response = ui.add(field.hint_text("Find a city, or 48.78 9.18"));
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::TextInput, true, "Find a place");
+        info.current_text_value = Some(typed.text.clone());
+        info
+    });
+    let response =
+        response.on_hover_text("A city, also with its country: Valencia, Spain; or latitude and longitude in degrees");
+    if response.gained_focus() {
+        select_all(ui, id, &typed.text);
+    }
+    if response.changed() {
+        typed.row = 0;
+    }
+    let (entered, escaped) = ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
+    let mut chosen = None;
+    if response.lost_focus() && escaped {
+        typed = Typed::default();
+    }
+    if !typed.text.trim().is_empty() {
+        let (mut list, count, wrong) = choices(&typed.text);
+        typed.row = typed.row.saturating_add_signed(step).min(list.len().saturating_sub(1));
+        if let Some(told) = wrong {
+            ui.add(Label::new(RichText::new(told).color(theme::palette(ui).error)).wrap());
+        }
+        let mut picked = (response.lost_focus() && entered && !list.is_empty()).then_some(typed.row);
+        for (row, choice) in list.iter().enumerate() {
+            if choice_ui(ui, choice, row == typed.row) {
+                picked = Some(row);
+            }
+        }
+        if count > list.len() {
+            ui.weak(format!("{} more: type on, or add a country", count - list.len()));
+        }
+        if let Some(row) = picked {
+            chosen = Some(list.swap_remove(row));
+            typed = Typed::default();
+        }
+    }
+    ui.data_mut(|data| data.insert_temp(key, typed));
+    chosen
+}
+
+/// A row of the list; true where it was clicked.
+fn choice_ui(ui: &mut Ui, choice: &Choice, marked: bool) -> bool {
+    let height = ui.spacing().interact_size.y;
+    let size = egui::vec2(ui.available_width(), height);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.weak(&choice.where_);
+        let button = Button::selectable(marked, choice.words.as_str()).truncate();
+        let button = ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(button)).inner;
+        button.on_hover_text(&choice.tip).clicked()
+    })
+    .inner
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_says_where_it_is_and_whose_clock_it_keeps() {
+        let (list, count, wrong) = choices("stuttgart");
+        assert!(count >= 1 && wrong.is_none());
+        assert_eq!(list[0].words, "Stuttgart, Germany");
+        assert!(list[0].tip.contains("48.78°N 9.18°E") && list[0].tip.contains("UTC+1"), "{}", list[0].tip);
+        let (list, _, _) = choices("48.5 9.1");
+        assert_eq!((&*list[0].words, &*list[0].where_), ("48.50°N 9.10°E", "UTC+1"));
+        assert!(list[0].tip.contains("Tübingen"), "{}", list[0].tip);
+        // Far from every city the elevation is not known.
+        let (list, _, _) = choices("-45 90");
+        assert_eq!(list[0].elevation, None);
+        assert!(choices("95 9").2.is_some_and(|told| told.contains("latitude")));
+        assert!(choices("xyzxyz").2.is_some_and(|told| told.contains("coordinates")));
+    }
+
+    #[test]
+    fn clocks_read_as_words() {
+        assert_eq!([clock_words(0.0), clock_words(5.75), clock_words(-8.0)], ["UTC", "UTC+5.75", "UTC-8"]);
+    }
+}

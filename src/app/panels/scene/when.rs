@@ -1,0 +1,110 @@
+//! Date and time: typed, by sliders, or the sun by its angles. Every line stands where it stood, wherever the sun is.
+
+use crate::app::moment;
+use crate::app::panels::fields::{lines, number, typed};
+use crate::app::theme;
+use crate::app::typing::{read_clock, read_date};
+use crate::study::scene_file::SceneFile;
+use egui::{Slider, Stroke, Ui, WidgetInfo};
+
+/// Steps of the time's slider. \[min\]
+const STEP: i32 = 5;
+
+/// Draws the section.
+pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
+    let Some(time) = moment::of(scene) else { return angles(ui, scene) };
+    let shown = time.strftime("%-d %b %Y").to_string();
+    let date = typed(ui, "Date", &shown, "21.3., 21 Mar or 2026-03-21", |text| read_date(text, time.year()));
+    if let Some(date) = date {
+        moment::set_date(scene, date);
+    }
+    ui.spacing_mut().slider_width = ui.available_width() - 8.0;
+    let before = i32::from(time.day_of_year());
+    let mut day = before;
+    let slider = ui.add(Slider::new(&mut day, 1..=i32::from(time.days_in_year())).show_value(false));
+    slider.widget_info(|| WidgetInfo::slider(true, f64::from(day), "Day of the year"));
+    if day != before {
+        moment::step(scene, day - before, 0);
+    }
+    let clock = typed(
+        ui,
+        "Time",
+        &time.strftime("%H:%M").to_string(),
+        "12:30, 12.5 or 9; standard time, no summer time",
+        read_clock,
+    );
+    if let Some((hour, minute)) = clock {
+        moment::set_clock(scene, hour, minute);
+    }
+    let before = i32::from(time.hour()) * 60 + i32::from(time.minute());
+    let mut minutes = before;
+    let slider = ui.add(Slider::new(&mut minutes, 0..=1440 - STEP).show_value(false).smart_aim(false));
+    slider.widget_info(|| WidgetInfo::slider(true, f64::from(minutes) / 60.0, "Time of day"));
+    sun_marks(ui, scene, slider.rect);
+    // A time that was typed to the minute stays until the slider is moved. The slider ends before midnight does.
+    if minutes != before && before <= 1440 - STEP || slider.dragged() {
+        let stepped = (f64::from(minutes) / f64::from(STEP)).round() as i32 * STEP;
+        moment::step(scene, 0, stepped - before);
+    }
+    sun(ui, scene);
+}
+
+/// When the sun rises and sets, and where it stands.
+fn sun(ui: &mut Ui, scene: &SceneFile) {
+    let day = match moment::sun_hours(scene).map(|hours| (hours.rise, hours.set)) {
+        Some((Some(rise), Some(set))) => format!("Sunrise {}, sunset {}", moment::clock(rise), moment::clock(set)),
+        Some((Some(rise), None)) => format!("Sunrise {}, no sunset", moment::clock(rise)),
+        Some((None, Some(set))) => format!("No sunrise, sunset {}", moment::clock(set)),
+        Some((None, None)) => "No sunrise or sunset on this day".to_owned(),
+        None => "No place: the sun is not known".to_owned(),
+    };
+    let weak = theme::palette(ui).weak;
+    lines(ui, &day, weak, 1);
+    lines(ui, &position(scene), weak, 1);
+}
+
+/// Where the sun stands, against horizon and façade.
+fn position(scene: &SceneFile) -> String {
+    let Some((altitude, bearing)) = moment::sun(scene) else { return String::new() };
+    let words = moment::height_words(altitude.to_degrees(), 0);
+    if altitude <= 0.0 {
+        format!("Sun {words}")
+    } else if moment::before_facade((altitude, bearing), scene.site.azimuth) {
+        format!("Sun {words}, before the façade")
+    } else {
+        format!("Sun {words}, behind the façade")
+    }
+}
+
+fn angles(ui: &mut Ui, scene: &mut SceneFile) {
+    ui.weak("The sun is given by angles.");
+    let sun = &mut scene.sky.sun;
+    let mut altitude = sun.altitude.unwrap_or(40.0);
+    let mut azimuth = sun.azimuth.unwrap_or(180.0);
+    let changed = number(ui, "Sun altitude", "°", &mut altitude, -90.0..=90.0, 1)
+        | number(ui, "Sun bearing", "°", &mut azimuth, 0.0..=360.0, 1);
+    if changed {
+        sun.altitude = Some(altitude);
+        sun.azimuth = Some(azimuth);
+    }
+    let weak = theme::palette(ui).weak;
+    lines(ui, &position(scene), weak, 1);
+    if ui.button("By date and time").clicked() {
+        moment::set(scene, jiff::civil::date(2026, 3, 21).at(12, 0, 0, 0));
+        scene.site.latitude.get_or_insert(48.78);
+        scene.site.longitude.get_or_insert(9.18);
+        scene.site.utc_offset.get_or_insert(1.0);
+    }
+}
+
+/// Sunrise and sunset as ticks under the time's slider.
+fn sun_marks(ui: &Ui, scene: &SceneFile, rect: egui::Rect) {
+    let Some(hours) = moment::sun_hours(scene) else { return };
+    let colour = theme::palette(ui).sun;
+    // The handle's radius is kept free at both ends of a slider.
+    let margin = rect.height() / 2.5;
+    for hour in [hours.rise, hours.set].into_iter().flatten() {
+        let x = egui::lerp(rect.left() + margin..=rect.right() - margin, (hour / 24.0) as f32);
+        ui.painter().vline(x, rect.bottom() - 4.0..=rect.bottom() + 2.0, Stroke::new(2.0, colour));
+    }
+}

@@ -1,0 +1,203 @@
+//! Some thousand cities to choose a site from: found by what somebody types, or by nearness.
+//!
+//! The data are those of GeoNames (see `assets/places`): latitude, longitude, elevation, and what standard time is ahead
+//! of UTC.
+
+pub use crate::formats::gazetteer::City;
+
+use crate::formats::gazetteer::read_cities;
+use std::sync::LazyLock;
+
+/// All, the largest first.
+pub static CITIES: LazyLock<Vec<City>> = LazyLock::new(|| {
+    // The table is part of the program, and a test reads it.
+    read_cities(include_bytes!("../../assets/places/places.tsv.zst")).expect("the table of places is whole")
+});
+
+/// A place this near to a city's middle bears its name. \[km\]
+const IN_CITY: f64 = 10.0;
+
+/// Along a meridian. \[km/°\]
+const KM_PER_DEGREE: f64 = 111.2;
+
+/// Lower case, without the accents of European languages.
+fn plain(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.trim().to_lowercase().chars() {
+        match letter {
+            'ß' => plain.push_str("ss"),
+            'æ' => plain.push_str("ae"),
+            'œ' => plain.push_str("oe"),
+            'þ' => plain.push_str("th"),
+            'à'..='å' | 'ā' | 'ă' | 'ą' => plain.push('a'),
+            'ç' | 'ć' | 'ĉ' | 'ċ' | 'č' => plain.push('c'),
+            'ð' | 'ď' | 'đ' => plain.push('d'),
+            'è'..='ë' | 'ē' | 'ĕ' | 'ė' | 'ę' | 'ě' | 'ə' => plain.push('e'),
+            'ĝ' | 'ğ' | 'ġ' | 'ģ' => plain.push('g'),
+            'ĥ' | 'ħ' => plain.push('h'),
+            'ì'..='ï' | 'ĩ' | 'ī' | 'ĭ' | 'į' | 'ı' => plain.push('i'),
+            'ĵ' => plain.push('j'),
+            'ķ' => plain.push('k'),
+            'ĺ' | 'ļ' | 'ľ' | 'ł' => plain.push('l'),
+            'ñ' | 'ń' | 'ņ' | 'ň' => plain.push('n'),
+            'ò'..='ö' | 'ø' | 'ō' | 'ŏ' | 'ő' => plain.push('o'),
+            'ŕ' | 'ŗ' | 'ř' => plain.push('r'),
+            'ś' | 'ŝ' | 'ş' | 'š' | 'ș' => plain.push('s'),
+            'ţ' | 'ť' | 'ț' => plain.push('t'),
+            'ù'..='ü' | 'ũ' | 'ū' | 'ŭ' | 'ů' | 'ű' | 'ų' => plain.push('u'),
+            'ŵ' => plain.push('w'),
+            'ý' | 'ÿ' | 'ŷ' => plain.push('y'),
+            'ź' | 'ż' | 'ž' => plain.push('z'),
+            // The dot that lower-casing İ leaves behind.
+            '\u{307}' => {}
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+/// How well a city answers to a name, 0 the best; `None` where it does not.
+fn rank(city: &City, name: &str) -> Option<u8> {
+    let own = city.name.to_lowercase();
+    let known = || std::iter::once(&*own).chain(city.other_names.iter().map(|other| &**other));
+    // Of a name with accents the plain form is written the same way.
+    let spelled = || known().take(if own.is_ascii() { 1 } else { 2 });
+    if known().any(|known| known == name) {
+        Some(0)
+    } else if spelled().any(|known| known.starts_with(name)) {
+        Some(1)
+    } else if known().any(|known| known.starts_with(name))
+        || spelled().any(|known| known.split([' ', '-']).any(|word| word.starts_with(name)))
+    {
+        Some(2)
+    } else {
+        None
+    }
+}
+
+/// Is a city in a country or state that begins so, or has this code?
+fn within(city: &City, area: &str) -> bool {
+    let code: String = city.code.iter().collect();
+    code.eq_ignore_ascii_case(area) || city.region.eq_ignore_ascii_case(area) || plain(&city.country).starts_with(area)
+}
+
+/// Cities that answer to what was typed, the best first: `stutt`, `münchen`, `portland, us`. At most `most`, and how many
+/// there are.
+pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
+    let typed = plain(typed);
+    let (name, area) = typed.split_once(',').unwrap_or((&typed, ""));
+    let (name, area) = (name.trim(), area.trim());
+    if name.is_empty() {
+        return (Vec::new(), 0);
+    }
+    let mut found: Vec<(u8, &City)> = CITIES
+        .iter()
+        .filter(|city| area.is_empty() || within(city, area))
+        .filter_map(|city| Some((rank(city, name)?, city)))
+        .collect();
+    // Of the same rank the larger city stays before the smaller.
+    found.sort_by_key(|(rank, _)| *rank);
+    let count = found.len();
+    (found.into_iter().take(most).map(|(_, city)| city).collect(), count)
+}
+
+/// The city that lies nearest to a place \[°\], and how far away it is. \[km\]
+pub fn nearest(latitude: f64, longitude: f64) -> Option<(&'static City, f64)> {
+    closest(latitude, longitude, 180.0)
+}
+
+/// The same among those at most `most` degrees of latitude away.
+fn closest(latitude: f64, longitude: f64, most: f64) -> Option<(&'static City, f64)> {
+    let distance = |city: &City| {
+        let east = (city.longitude - longitude + 540.0).rem_euclid(360.0) - 180.0;
+        let middle = 0.5 * (city.latitude + latitude).to_radians();
+        KM_PER_DEGREE * (city.latitude - latitude).hypot(east * middle.cos())
+    };
+    let near = CITIES.iter().filter(|city| (city.latitude - latitude).abs() <= most);
+    near.map(|city| (city, distance(city))).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The city that a place \[°\] lies in.
+pub fn city_at(latitude: f64, longitude: f64) -> Option<&'static City> {
+    closest(latitude, longitude, IN_CITY / KM_PER_DEGREE)
+        .filter(|(_, distance)| *distance < IN_CITY)
+        .map(|(city, _)| city)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn first(typed: &str) -> &'static City {
+        search(typed, 1).0.first().unwrap_or_else(|| panic!("{typed}"))
+    }
+
+    #[test]
+    fn cities_are_found_as_people_write_them() {
+        for (typed, name, country) in [
+            ("stutt", "Stuttgart", "Germany"),
+            ("München", "Munich", "Germany"),
+            ("munich", "Munich", "Germany"),
+            ("koln", "Köln", "Germany"),
+            ("Cologne", "Köln", "Germany"),
+            ("Zurich", "Zürich", "Switzerland"),
+            ("wien", "Vienna", "Austria"),
+            ("Praha", "Prague", "Czechia"),
+            ("new york", "New York City", "United States"),
+            ("vaduz", "Vaduz", "Liechtenstein"),
+        ] {
+            let city = first(typed);
+            assert_eq!((&*city.name, &*city.country), (name, country), "{typed}");
+        }
+        assert_eq!(&*first("Portland, ME").region, "ME");
+        assert_eq!(&*first("Valencia, Venezuela").country, "Venezuela");
+        assert_eq!(search("no such place", 5), (Vec::new(), 0));
+        assert_eq!(search("  ", 5).1, 0);
+        let (list, count) = search("san", 4);
+        assert!(list.len() == 4 && count > 50);
+    }
+
+    #[test]
+    fn clocks_are_standard_time_and_heights_are_those_of_the_place() {
+        for (typed, offset, low, high) in [
+            ("Stuttgart", 1.0, 200.0, 300.0),
+            ("London", 0.0, 0.0, 60.0),
+            ("Dublin, IE", 0.0, 0.0, 60.0),
+            ("Denver", -7.0, 1500.0, 1700.0),
+            ("Kathmandu", 5.75, 1200.0, 1500.0),
+            ("Sydney, AU", 10.0, 0.0, 100.0),
+            ("La Paz, BO", -4.0, 3400.0, 3900.0),
+            ("Casablanca", 1.0, 0.0, 100.0),
+        ] {
+            let city = first(typed);
+            assert_eq!(city.utc_offset, offset, "{typed}");
+            assert!((low..high).contains(&city.elevation.unwrap()), "{typed}: {:?}", city.elevation);
+        }
+    }
+
+    #[test]
+    fn the_table_is_sound() {
+        assert!((5000..20_000).contains(&CITIES.len()), "{}", CITIES.len());
+        for city in CITIES.iter() {
+            // A clock differs by some hours at most from what the sun says.
+            let solar = city.longitude / 15.0;
+            let off = (city.utc_offset - solar + 36.0).rem_euclid(24.0) - 12.0;
+            assert!(off.abs() < 4.0, "{} {off}", city.name);
+            assert!(city.other_names.iter().all(|name| *name.to_lowercase() == **name), "{}", city.name);
+        }
+        // Every city answers to its own name, whatever letters it has.
+        for city in CITIES.iter().step_by(37) {
+            assert!(search(&format!("{}, {}", city.name, city.country), 400).0.contains(&city), "{}", city.name);
+        }
+    }
+
+    #[test]
+    fn places_near_a_city_bear_its_name() {
+        assert_eq!(&*city_at(48.78, 9.18).unwrap().name, "Stuttgart");
+        assert_eq!(&*city_at(48.74, 9.31).unwrap().name, "Esslingen");
+        assert!(city_at(-10.0, 9.18).is_none());
+        // Over the date line.
+        let (city, distance) = nearest(-18.14, -179.9).unwrap();
+        assert!(&*city.country == "Fiji" && distance < 200.0, "{} {distance}", city.name);
+    }
+}

@@ -1,0 +1,131 @@
+//! The illuminances that a sky and its sun are scaled to: as written, or by the sun's altitude.
+
+use super::keys::{SkyKeyError, check_ranges, sun_direction, wrong};
+use crate::compute::direction::{Dir, World};
+use crate::compute::sky::availability::{Cover, typical_illuminances};
+use crate::compute::sky::clear_sky::clear_sky_illuminances;
+use crate::study::scene_file::{IlluminanceKey, SiteKeys, SkyKeys, SkyModelKey};
+
+/// Altitude of the sun at which civil twilight ends: below it no CIE sky is meant, and what lights the ground is not the
+/// sun. \[rad\]
+pub const TWILIGHT: f64 = -6.0 * std::f64::consts::PI / 180.0;
+
+/// Where illuminances come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Source {
+    /// Written in the scene.
+    Stated,
+    /// A clear sky's, by Linke turbidity and elevation \[m\]; Ineichen and Perez 2002.
+    ClearSky {
+        /// Linke turbidity.
+        turbidity: f64,
+        /// Above the sea. \[m\]
+        elevation: f64,
+    },
+    /// Those of a cover; RP-21, 1984.
+    Cover(Cover),
+}
+
+/// What a sky and its sun are scaled to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Illuminances {
+    /// On a horizontal plane, from the sky. \[lx\]
+    pub diffuse_horizontal: f64,
+    /// On a plane facing the sun, from its disc. \[lx\]
+    pub direct_normal: f64,
+    /// Where they come from.
+    pub source: Source,
+    /// Altitude of the sun, where there is one. \[rad\]
+    pub altitude: Option<f64>,
+}
+
+impl Illuminances {
+    /// Do they follow the sun, and has it set?
+    pub fn is_night(&self) -> bool {
+        self.source != Source::Stated && self.altitude.is_some_and(|altitude| altitude <= 0.0)
+    }
+
+    /// In words where they come from: `clear sky, Linke turbidity 3, 245 m above the sea`.
+    pub fn origin(&self) -> String {
+        match self.source {
+            Source::Stated => "as written in the scene".to_owned(),
+            Source::ClearSky { turbidity, elevation } => {
+                format!("clear sky, Linke turbidity {turbidity}, {elevation} m above the sea")
+            }
+            Source::Cover(cover) => format!("{} sky of IES RP-21", cover.word()),
+        }
+    }
+
+    /// One sentence for those who wrote no figures: what is computed with, or that it is dark; `None` where they did.
+    pub fn note(&self) -> Option<String> {
+        let altitude = self.altitude.filter(|_| self.source != Source::Stated)?.to_degrees();
+        Some(if self.is_night() {
+            format!("the sun is {:.1}° below the horizon: no daylight (sky.illuminance follows the sun)", -altitude)
+        } else {
+            format!(
+                "{}, sun {altitude:.1}° high: diffuse horizontal {:.0} lx, direct normal {:.0} lx",
+                self.origin(),
+                self.diffuse_horizontal,
+                self.direct_normal
+            )
+        })
+    }
+}
+
+/// Of a scene's sky; `None` for models that bring their own (Perez's, a measured one).
+///
+/// # Errors
+/// The key that is wrong or missing.
+pub fn illuminances(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Illuminances>, SkyKeyError> {
+    check_ranges(sky, site)?;
+    if !sky.model.takes_illuminances() {
+        return Ok(None);
+    }
+    of_sun(sky, site, sun_direction(sky, site)?).map(Some)
+}
+
+/// The same for a known sun and keys in their ranges, of a model that takes illuminances.
+pub(super) fn of_sun(sky: &SkyKeys, site: &SiteKeys, sun: Option<Dir<World>>) -> Result<Illuminances, SkyKeyError> {
+    let altitude = sun.map(Dir::altitude);
+    if sky.illuminance == IlluminanceKey::Stated {
+        return stated(sky, altitude);
+    }
+    let Some(height) = altitude else {
+        let message = format!("illuminance = \"{}\" needs altitude and azimuth, or sky.time", sky.illuminance.word());
+        return Err(wrong("sky.sun", message));
+    };
+    // A uniform sky is that of thick cloud.
+    let cover = match sky.model {
+        SkyModelKey::Cie => Cover::of_cie_type(sky.cie_type.unwrap_or(16)),
+        _ => Cover::Overcast,
+    };
+    let (source, (direct_normal, diffuse_horizontal)) =
+        if sky.illuminance == IlluminanceKey::ClearSky && cover == Cover::Clear {
+            let (turbidity, elevation) = (sky.turbidity, site.elevation);
+            (Source::ClearSky { turbidity, elevation }, clear_sky_illuminances(height, turbidity, elevation))
+        } else {
+            (Source::Cover(cover), typical_illuminances(cover, height))
+        };
+    Ok(Illuminances { diffuse_horizontal, direct_normal, source, altitude })
+}
+
+/// As written.
+fn stated(sky: &SkyKeys, altitude: Option<f64>) -> Result<Illuminances, SkyKeyError> {
+    let diffuse_horizontal = sky.diffuse_horizontal.ok_or_else(|| {
+        let message = "missing: this model needs it, in lx; or illuminance = \"clear-sky\" or \"rp-21\"";
+        wrong("sky.diffuse_horizontal", message)
+    })?;
+    if let Some(altitude) = altitude.filter(|altitude| *altitude < TWILIGHT)
+        && sky.model == SkyModelKey::Cie
+        && diffuse_horizontal > 0.0
+    {
+        let message = format!(
+            "{diffuse_horizontal} lx with the sun {:.1}° below the horizon: a CIE sky ends with twilight, 6° below; \
+             give 0, another time, or illuminance = \"clear-sky\", which is dark then",
+            -altitude.to_degrees()
+        );
+        return Err(wrong("sky.diffuse_horizontal", message));
+    }
+    let direct_normal = sky.sun.direct_normal.unwrap_or(0.0);
+    Ok(Illuminances { diffuse_horizontal, direct_normal, source: Source::Stated, altitude })
+}

@@ -1,0 +1,100 @@
+//! Keys of `[sky]` and `[site]` judged alone and together, and where the sun is.
+
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
+use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
+use crate::study::sun_position::{Place, parse_local_time, sun_position};
+
+/// Where people live, with some room. \[m\]
+pub const LOWEST: f64 = -500.0;
+/// The same upwards. \[m\]
+pub const HIGHEST: f64 = 9000.0;
+/// Linke turbidity of clean dry air; less there is not.
+pub const CLEANEST: f64 = 1.0;
+/// Linke turbidity beyond which the sky is no clear one.
+pub const HAZIEST: f64 = 12.0;
+
+/// A key of the scene that is wrong, and what would be right.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{key}: {message}")]
+pub struct SkyKeyError {
+    /// Full name of the key, e.g. `sky.type`.
+    pub key: &'static str,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+pub(super) fn wrong(key: &'static str, message: impl Into<String>) -> SkyKeyError {
+    SkyKeyError { key, message: message.into() }
+}
+
+/// Ranges that hold whatever the model.
+pub(super) fn check_ranges(sky: &SkyKeys, site: &SiteKeys) -> Result<(), SkyKeyError> {
+    let within = |key, value: Option<f64>, min: f64, max: f64, unit: &str| match value {
+        Some(value) if !(min..=max).contains(&value) => {
+            let allowed = if max == f64::MAX { format!("{min} and above") } else { format!("{min} to {max}") };
+            let value = format!("{value} {unit}");
+            Err(wrong(key, format!("{} is out of range (allowed: {allowed})", value.trim_end())))
+        }
+        _ => Ok(()),
+    };
+    const NO_LIMIT: f64 = f64::MAX;
+    within("site.ground_reflectance", Some(site.ground_reflectance), 0.0, 1.0, "")?;
+    within("site.azimuth", Some(site.azimuth), -360.0, 360.0, "°")?;
+    within("site.elevation", Some(site.elevation), LOWEST, HIGHEST, "m")?;
+    within("sky.turbidity", Some(sky.turbidity), CLEANEST, HAZIEST, "")?;
+    within("sky.sun.altitude", sky.sun.altitude, -90.0, 90.0, "°")?;
+    within("sky.sun.azimuth", sky.sun.azimuth, -360.0, 360.0, "°")?;
+    within("sky.sun.direct_normal", sky.sun.direct_normal, 0.0, NO_LIMIT, "lx")?;
+    within("sky.diffuse_horizontal", sky.diffuse_horizontal, 0.0, NO_LIMIT, "lx")?;
+    within("sky.direct_horizontal_irradiance", sky.direct_horizontal_irradiance, 0.0, 1500.0, "W/m²")?;
+    within("sky.diffuse_horizontal_irradiance", sky.diffuse_horizontal_irradiance, 0.0, 1500.0, "W/m²")?;
+    if let Some(obstruction) = sky.obstruction {
+        within("sky.obstruction.altitude", Some(obstruction.altitude), 0.0, 89.999, "°")?;
+        within("sky.obstruction.luminance", Some(obstruction.luminance), 0.0, NO_LIMIT, "cd/m²")?;
+    }
+    Ok(())
+}
+
+/// Keys that only one model takes, and the other way round.
+pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
+    let only = |key, given: bool, model: SkyModelKey, name: &str| {
+        if given && sky.model != model {
+            Err(wrong(key, format!("belongs to model = \"{name}\" alone: leave it out")))
+        } else {
+            Ok(())
+        }
+    };
+    only("sky.type", sky.cie_type.is_some(), SkyModelKey::Cie, "cie")?;
+    only("sky.file", sky.file.is_some(), SkyModelKey::Scan, "scan")?;
+    let (direct, diffuse) = (sky.direct_horizontal_irradiance, sky.diffuse_horizontal_irradiance);
+    only("sky.direct_horizontal_irradiance", direct.is_some(), SkyModelKey::Perez, "perez")?;
+    only("sky.diffuse_horizontal_irradiance", diffuse.is_some(), SkyModelKey::Perez, "perez")
+}
+
+/// From angles or from time; `None` with neither.
+pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir<World>>, SkyKeyError> {
+    let Some(time) = &sky.time else {
+        return match (sky.sun.altitude, sky.sun.azimuth) {
+            (Some(altitude), Some(azimuth)) => {
+                Ok(Some(Dir::from_altitude_bearing(altitude.to_radians(), Bearing::from_degrees(azimuth))))
+            }
+            // At the zenith every bearing is the same.
+            (Some(90.0), None) => Ok(Some(Dir::from_unit(glam::DVec3::Z))),
+            (None, None) => Ok(None),
+            (Some(_), None) => Err(wrong("sky.sun.azimuth", "missing: sun.altitude needs a compass bearing beside it")),
+            (None, Some(_)) => Err(wrong("sky.sun.altitude", "missing: sun.azimuth needs an altitude beside it")),
+        };
+    };
+    if sky.sun.altitude.is_some() || sky.sun.azimuth.is_some() {
+        return Err(wrong("sky.time", "given together with sun angles: give either the time or altitude and azimuth"));
+    }
+    let need = |key, value: Option<f64>| value.ok_or_else(|| wrong(key, "missing: sky.time needs it"));
+    let latitude = need("site.latitude", site.latitude)?;
+    let longitude = need("site.longitude", site.longitude)?;
+    let utc_offset = need("site.utc_offset", site.utc_offset)?;
+    let place = Place::new(latitude, longitude, utc_offset).map_err(|error| wrong("site", error.to_string()))?;
+    let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
+    let (altitude, bearing) = sun_position(&place, time).map_err(|error| wrong("sky.time", error.to_string()))?;
+    Ok(Some(Dir::from_altitude_bearing(altitude, bearing)))
+}
