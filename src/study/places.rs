@@ -56,12 +56,14 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// How well a city answers to a name, 0 the best; `None` where it does not.
-fn rank(city: &City, name: &str) -> Option<u8> {
-    let own = city.name.to_lowercase();
-    let known = || std::iter::once(&*own).chain(city.other_names.iter().map(|other| &**other));
+/// The cities' names as the search compares them.
+static PLAIN: LazyLock<Vec<String>> = LazyLock::new(|| CITIES.iter().map(|city| plain(&city.name)).collect());
+
+/// How well a city, `own` its plain name, answers to a name: 0 the best; `None` where it does not.
+fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
+    let known = || std::iter::once(own).chain(city.other_names.iter().map(|other| &**other));
     // Of a name with accents the plain form is written the same way.
-    let spelled = || known().take(if own.is_ascii() { 1 } else { 2 });
+    let spelled = || known().take(if city.name.is_ascii() { 1 } else { 2 });
     if known().any(|known| known == name) {
         Some(0)
     } else if spelled().any(|known| known.starts_with(name)) {
@@ -92,8 +94,9 @@ pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     }
     let mut found: Vec<(u8, &City)> = CITIES
         .iter()
-        .filter(|city| area.is_empty() || within(city, area))
-        .filter_map(|city| Some((rank(city, name)?, city)))
+        .zip(PLAIN.iter())
+        .filter(|(city, _)| area.is_empty() || within(city, area))
+        .filter_map(|(city, own)| Some((rank(city, own, name)?, city)))
         .collect();
     // Of the same rank the larger city stays before the smaller.
     found.sort_by_key(|(rank, _)| *rank);
