@@ -2,8 +2,8 @@
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::error::AppError;
-use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, Imported, NewProduct, Product, default_path};
+use super::shelf::{Addition, Found, Query, Shelf};
+use crate::catalogue::{Catalogue, Imported, NewProduct, Product, default_path};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Progress;
 use crate::formats::ies::IesEdition;
@@ -68,33 +68,7 @@ fn lock(catalogue: &Mutex<Catalogue>) -> MutexGuard<'_, Catalogue> {
 
 impl Shelf for CatalogueShelf {
     fn search(&self, query: &Query) -> Result<Found, AppError> {
-        let catalogue = self.lock();
-        let words = catalogue::Query {
-            text: query.text.clone(),
-            favourite: query.favourites.then_some(true),
-            ..catalogue::Query::default()
-        };
-        let mut found = Found { total: catalogue.facets()?.all, ..Found::default() };
-        let mut kinds = std::collections::BTreeMap::new();
-        for row in catalogue.search(&words)? {
-            *kinds.entry(row.kind.clone()).or_insert(0) += 1;
-            if !query.kinds.is_empty() && !query.kinds.contains(&row.kind) {
-                continue;
-            }
-            found.entries.push(Entry {
-                key: row.key,
-                name: row.name,
-                manufacturer: row.manufacturer,
-                kind: row.kind,
-                states: row.state_keys,
-                tau_normal: row.tau_normal,
-                tau_hemispherical: row.tau_hemispherical,
-                profile: row.tau_profile.iter().map(|&tau| tau as f32).collect(),
-                favourite: row.favourite,
-            });
-        }
-        found.kinds = kinds.into_iter().collect();
-        Ok(found)
+        Ok(self.lock().find(query)?)
     }
 
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError> {
@@ -102,9 +76,10 @@ impl Shelf for CatalogueShelf {
         match state {
             Some(state) => Ok(catalogue.dataset(product, Some(state))?),
             None => {
-                let first = catalogue.product(product)?.states.into_iter().next();
-                let first = first.ok_or_else(|| AppError::NoState(product.to_owned()))?;
-                Ok(catalogue.dataset(product, Some(&first.key))?)
+                let known = catalogue.product(product)?;
+                let state = known.states.get(known.representative().1);
+                let state = state.ok_or_else(|| AppError::NoState(product.to_owned()))?;
+                Ok(catalogue.dataset(product, Some(&state.key))?)
             }
         }
     }
@@ -158,7 +133,9 @@ impl SystemLibrary for WindowLibrary<'_> {
         let dataset =
             self.shelf.load(key, state.as_deref()).map_err(|error| StudyError::Catalogue(error.to_string()))?;
         let very = self.files.very_of(&dataset);
-        Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
+        // The product's name: a dataset's own may be that of another product with the same data.
+        let label = self.shelf.product(key).map_err(|error| StudyError::Catalogue(error.to_string()))?.name.clone();
+        Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {

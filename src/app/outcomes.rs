@@ -1,16 +1,17 @@
 //! Starts jobs, and takes what they bring back into the window.
 
+use super::apply::first_choice;
 use super::command::Command;
 use super::disk::read_bytes;
 use super::engine::Question;
 use super::error::AppError;
 use super::jobs::Lane;
-use super::scene::{Selection, fill, selection_of};
+use super::scene::selection_of;
 use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::window::{App, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
-use crate::catalogue::Imported;
+use crate::catalogue::{Imported, Product};
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::PathBuf;
@@ -47,7 +48,15 @@ impl App {
 
     /// Stores an addition of this session.
     pub(super) fn store_addition(&mut self, number: usize, addition: Addition) {
-        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Added(number, shelf.add(&addition))));
+        self.pending_changes.push_back(Box::new(move |shelf| {
+            Outcome::Added(number, shelf.add(&addition).and_then(|key| shelf.product(&key)))
+        }));
+        self.start_pending_change();
+    }
+
+    /// Looks a product up that is to be chosen, behind all changes: it may be what one of them stores.
+    pub(super) fn look_up(&mut self, product: String) {
+        self.pending_changes.push_back(Box::new(move |shelf| Outcome::Choice(shelf.product(&product))));
         self.start_pending_change();
     }
 
@@ -167,6 +176,8 @@ impl App {
                 self.tell(&error);
             }
             Outcome::Added(number, result) => self.take_added(number, result),
+            Outcome::Choice(Ok(product)) => self.choose_product(&product),
+            Outcome::Choice(Err(error)) => self.tell(&error),
             Outcome::Imported(result) => self.take_imported(result),
             Outcome::Stored(result) => {
                 if let Err(error) = result {
@@ -200,16 +211,24 @@ impl App {
         self.state.daylight.take(daylight);
     }
 
-    fn take_added(&mut self, number: usize, result: Result<String, AppError>) {
+    fn take_added(&mut self, number: usize, result: Result<Arc<Product>, AppError>) {
         match result {
             // Undone while it was being stored.
-            Ok(key) if !self.state.document.additions.contains(&number) => self.store(move |shelf| shelf.remove(&key)),
-            Ok(key) => {
+            Ok(product) if !self.state.document.additions.contains(&number) => {
+                self.store(move |shelf| shelf.remove(&product.key));
+            }
+            Ok(product) => {
                 self.toasts.success("Added to the catalogue; Ctrl+Z takes it out again");
-                self.state.additions[number].key = Some(key.clone());
+                self.state.additions[number].key = Some(product.key.clone());
                 // The step that added it also shows it.
-                self.state.document.selection = Selection { product: key, state: String::new() };
-                fill(&mut self.state.document.scene, &self.state.document.selection);
+                let (rule, place) = product.representative();
+                let state = product.states.get(place).filter(|_| product.states.len() > 1);
+                first_choice(
+                    &mut self.state.document,
+                    product.key.clone(),
+                    rule,
+                    state.map(|state| state.key.as_str()),
+                );
                 self.undoer.add_undo(&self.state.document);
             }
             Err(error) => {
@@ -256,12 +275,12 @@ impl App {
         // Something that moves makes every tile alive; else something that guides light.
         const GUIDES: [&str; 3] = ["laser", "prism", "double"];
         let entries = &self.state.found.entries;
-        let moving = entries.iter().find(|entry| entry.states.len() > 1);
+        let moving = entries.iter().find(|entry| entry.moves());
         let guiding =
             || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
-        let chosen = moving.or_else(guiding).unwrap_or(&entries[0]);
-        self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
-        fill(&mut self.state.document.scene, &self.state.document.selection);
+        let chosen = Arc::clone(moving.or_else(guiding).unwrap_or(&entries[0]));
+        let state = Some(chosen.state()).filter(|_| chosen.moves());
+        first_choice(&mut self.state.document, chosen.key.clone(), chosen.rule, state);
         self.undoer = fresh_undoer(&self.state.document);
     }
 

@@ -10,7 +10,7 @@ use super::jobs::{JobState, Jobs, Lane};
 use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, State};
 use super::tiles::Bench;
-use super::views::{accuracy, section};
+use super::views::{accuracy, section, states};
 use super::work::{Outcome, ReadDataset};
 use crate::catalogue::SourceFile;
 use crate::study::Library;
@@ -55,6 +55,7 @@ pub struct App {
     pub(super) bench: Bench,
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
+    pub(super) states_view: states::State,
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
@@ -86,6 +87,7 @@ impl App {
             bench: Bench::default(),
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
+            states_view: states::State::default(),
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),

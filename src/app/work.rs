@@ -70,7 +70,9 @@ pub enum Outcome {
     /// A control curve was read.
     ReadCurve(Result<Vec<[f64; 2]>, AppError>),
     /// An addition is in the catalogue.
-    Added(usize, Result<String, AppError>),
+    Added(usize, Result<Arc<Product>, AppError>),
+    /// A product to be chosen was looked up.
+    Choice(Result<Arc<Product>, AppError>),
     /// A package is in the catalogue.
     Imported(Result<Vec<Imported>, AppError>),
     /// Something else in the catalogue was changed.
@@ -133,7 +135,7 @@ pub(super) fn take_from_shelf(
         let asked = ControlQuestion { keys, base, hour, facing };
         shelf.controlled_state(&selection.product, &asked)?
     } else if selection.state.is_empty() {
-        product.states.first().map(|state| state.key.clone()).unwrap_or_default()
+        product.states.get(product.representative().1).map(|state| state.key.clone()).unwrap_or_default()
     } else {
         selection.state.clone()
     };

@@ -19,12 +19,17 @@ mod described;
 mod error;
 mod exchange;
 mod gather;
+mod index;
 mod open;
 mod product;
+mod query;
+mod representative;
+mod rows;
 mod search;
 mod store;
 mod systems;
 mod validate;
+mod words;
 
 pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION};
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
@@ -32,11 +37,14 @@ pub use connection::Catalogue;
 pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
+pub use index::{Facet, Facets, Found, Index};
 pub use open::default_path;
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,
     profile_transmittances,
 };
-pub use search::{Facet, Facets, ProductRow, Query};
-pub use systems::{SYSTEMS, blind_of, builtin_system};
+pub use query::{Figure, Filter, Query, Sort, Within};
+pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
+pub use rows::{ProductRow, Sought};
+pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part};
 pub use validate::check;

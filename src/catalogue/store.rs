@@ -2,7 +2,7 @@
 
 use super::described::{common_description, described_state};
 use super::product::slug;
-use super::search::list;
+use super::rows::list_of;
 use super::{
     Catalogue, CatalogueError, CurvePoint, NewProduct, Origin, Product, ProductFinding, Provenance, State, check,
     profile_transmittances,
@@ -272,7 +272,7 @@ fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
         dataset: row.get(3)?,
         tau_normal: row.get(4)?,
         tau_hemispherical: row.get(5)?,
-        tau_profile: list(&row.get::<_, String>(6)?),
+        tau_profile: list_of(&row.get::<_, String>(6)?),
     })
 }
 

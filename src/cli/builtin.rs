@@ -2,11 +2,13 @@
 
 use super::output;
 use super::progress::TerminalProgress;
-use crate::catalogue::{Catalogue, Origin, ProductRow, Query};
+use crate::catalogue::{Catalogue, CurvePoint, Numbers, Origin, ProductRow, Query, Sought, representative};
 use crate::compute::estimate::Progress;
+use crate::study::control::Device;
 use crate::study::goniophotometer::Described;
 use crate::study::{Library, files};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Arguments of `cfs catalogue build`.
 #[derive(Debug, clap::Args)]
@@ -37,31 +39,43 @@ pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Res
     complete(catalogue, |name| name.strip_suffix(".system.toml").is_some_and(|key| keys.iter().any(|k| k == key)))
 }
 
-/// Built-in products that are not computed yet, without figures, as far as words and kind ask for them.
-pub(super) fn not_computed(catalogue: &Catalogue, search: &str, kind: Option<&str>) -> anyhow::Result<Vec<ProductRow>> {
+/// Built-in products that are not computed yet, without figures.
+pub(super) fn not_computed(catalogue: &Catalogue) -> anyhow::Result<Vec<Sought>> {
     let library = Library::default();
-    let words: Vec<String> = search.split_whitespace().map(str::to_lowercase).collect();
     let mut list = Vec::new();
     for name in catalogue.missing_builtin()? {
         let Some(described) = Described::builtin(name) else { continue };
         let system = &described.file.system;
-        let text = format!("{} {} {}", system.name, system.description, described.file.tags.join(" ")).to_lowercase();
-        let asked = kind.is_none_or(|kind| kind == system.family().word());
-        if asked && words.iter().all(|word| text.contains(word)) {
-            list.push(ProductRow {
-                key: described.file.key.clone(),
-                name: system.name.clone(),
-                manufacturer: String::new(),
-                kind: system.family().word().to_owned(),
-                origin: Origin::Computed,
-                state_keys: described.states(&library)?,
-                tau_normal: None,
-                tau_hemispherical: None,
-                tau_profile: Vec::new(),
-                favourite: false,
-                builtin: true,
-            });
-        }
+        let device = Device::described(&described.file, &described.text, described.states(&library)?);
+        let value = |place: usize| device.values.as_ref().and_then(|values| values.get(place).copied());
+        let numbers: Vec<Numbers> =
+            (0..device.keys.len()).map(|place| Numbers { value: value(place), tau_hemispherical: None }).collect();
+        let point = |[profile_angle, value]: [f64; 2]| CurvePoint { profile_angle, value };
+        let curve: Vec<CurvePoint> = device.curve.iter().copied().map(point).collect();
+        let (rule, representative) = representative(&numbers, &curve, &described.text);
+        let row = ProductRow {
+            key: described.file.key.clone(),
+            name: system.name.clone(),
+            manufacturer: String::new(),
+            kind: system.family().word().to_owned(),
+            origin: Origin::Computed,
+            states: device.keys,
+            representative,
+            rule,
+            tau_normal: None,
+            tau_hemispherical: None,
+            tau_profile: Vec::new(),
+            to_ceiling: None,
+            sun_blocked: None,
+            view: None,
+            favourite: false,
+            builtin: true,
+        };
+        list.push(Sought {
+            row: Arc::new(row),
+            description: system.description.clone(),
+            tags: described.file.tags.clone(),
+        });
     }
     Ok(list)
 }
@@ -73,6 +87,6 @@ pub(super) fn build(catalogue: &Catalogue, args: &BuildArgs) -> anyhow::Result<(
     if let Some(out) = &args.out {
         files::write(out, &catalogue.export_package(&keys)?)?;
     }
-    let states: usize = rows.iter().map(|row| row.state_keys.len().max(1)).sum();
+    let states: usize = rows.iter().map(|row| row.states.len().max(1)).sum();
     output::print(&format!("{} built-in products, {states} states\n", keys.len()))
 }

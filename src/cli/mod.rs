@@ -11,6 +11,7 @@ mod dataset_file;
 pub mod goniophotometer;
 pub mod info;
 pub mod lid;
+pub mod listing;
 mod luminaire_info;
 mod output;
 pub mod packages;

@@ -5,3 +5,4 @@ mod catalogue;
 mod datasets;
 mod described;
 mod packages;
+mod search;

@@ -160,7 +160,7 @@ fn control_closes_the_blind_against_the_sun_and_the_room_follows() {
     let greatest = product.states.iter().map(|state| state.value.unwrap()).fold(f64::MIN, f64::max);
     assert_eq!(values(&closed), greatest, "the noon sun stands before a south façade");
     assert!(means(&harness).0 < 0.7 * open, "{} {open}", means(&harness).0);
-    assert!(cfs::app::title::title(&harness.state().state).contains(&format!(", {closed} ·")));
+    assert!(cfs::app::title::title(&harness.state().state).contains(&format!(", {closed}° ·")));
     // The dataset shown is that of the picked state.
     let shelf = harness.state().state.shelf().unwrap();
     let dataset = harness.state().state.dataset.value.clone().unwrap();
