@@ -4,11 +4,22 @@ use super::command::Command;
 use super::jobs::Lane;
 use super::moment;
 use super::scene::{Selection, fill, first_scene, rule, set_rule};
-use super::state::PathUse;
+use super::state::{Document, PathUse};
 use super::window::App;
+use super::{control, title};
+use crate::catalogue::{FirstRule, Product};
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode};
+
+/// Puts a product into a document as it is first shown: by its own rule, else in the state that is named.
+pub(super) fn first_choice(document: &mut Document, product: String, rule: FirstRule, state: Option<&str>) {
+    let keys = control::first_keys(rule);
+    let state = if keys.is_some() { CONTROLLED } else { state.unwrap_or_default() };
+    document.selection = Selection { product, state: state.to_owned() };
+    set_rule(&mut document.scene, None, keys);
+    fill(&mut document.scene, &document.selection);
+}
 
 impl App {
     /// Does what a command says.
@@ -89,7 +100,7 @@ impl App {
                     self.toasts.info(told);
                 }
             }
-            Command::Select(product) => self.select(Selection { product, state: String::new() }),
+            Command::Select(product) => self.select_product(product),
             Command::SelectState(key) => {
                 let product = state.document.selection.product.clone();
                 // With one aperture in hand the click means that aperture: the others go on by their rules.
@@ -109,7 +120,7 @@ impl App {
                 };
                 if let Some(entry) = state.found.entries.get(state.row) {
                     let product = entry.key.clone();
-                    self.select(Selection { product, state: String::new() });
+                    self.select_product(product);
                 }
             }
             Command::Scene(scene) => state.document.scene = *scene,
@@ -160,6 +171,33 @@ impl App {
             Command::Dismiss(id) => self.toasts.dismiss(id),
             Command::ForgetMessages => self.toasts.clear(),
         }
+    }
+
+    /// Chooses a product by its key; one that the list does not hold is looked up first.
+    fn select_product(&mut self, product: String) {
+        let state = &self.state;
+        if state.document.selection.product == product {
+            return;
+        }
+        match state.found.entries.iter().find(|entry| entry.key == product).cloned() {
+            Some(entry) => self.choose(product, entry.rule, Some(entry.state()).filter(|_| entry.moves())),
+            None => self.look_up(product),
+        }
+    }
+
+    /// Chooses a product that was looked up.
+    pub(super) fn choose_product(&mut self, product: &Product) {
+        let (rule, place) = product.representative();
+        let state = product.states.get(place).filter(|_| product.states.len() > 1);
+        self.choose(product.key.clone(), rule, state.map(|state| state.key.as_str()));
+    }
+
+    /// Chooses a product, moved by its own rule or in the state that stands for it: one step.
+    fn choose(&mut self, product: String, rule: FirstRule, state: Option<&str>) {
+        self.undoer.add_undo(&self.state.document);
+        first_choice(&mut self.state.document, product, rule, state);
+        self.state.control_of = None;
+        self.undoer.add_undo(&self.state.document);
     }
 
     fn select(&mut self, selection: Selection) {
@@ -236,13 +274,14 @@ impl App {
 
     fn step_state(&mut self, step: i32) {
         let selection = &self.state.document.selection;
-        let Some(entry) = self.state.found.entries.iter().find(|entry| entry.key == selection.product) else { return };
+        let Some(known) = title::selected(&self.state) else { return };
         // From where control has put it, if it does: stepping by hand takes over.
-        let from = if selection.state == CONTROLLED { &self.state.shown_state } else { &selection.state };
-        let here = entry.states.iter().position(|key| key == from).unwrap_or(0);
-        let next = here.saturating_add_signed(step as isize).min(entry.states.len().saturating_sub(1));
-        if let Some(state) = entry.states.get(next) {
-            let (product, state) = (selection.product.clone(), state.clone());
+        let picked = selection.state == CONTROLLED || selection.state.is_empty();
+        let from = if picked { &self.state.shown_state } else { &selection.state };
+        let here = known.states.iter().position(|state| state.key == *from).unwrap_or(0);
+        let next = here.saturating_add_signed(step as isize).min(known.states.len().saturating_sub(1));
+        if let Some(state) = known.states.get(next) {
+            let (product, state) = (selection.product.clone(), state.key.clone());
             self.select(Selection { product, state });
         }
     }

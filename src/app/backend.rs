@@ -3,8 +3,8 @@
 use super::at_work::AtWork;
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::error::AppError;
-use super::shelf::{Addition, Entry, Found, Query, Shelf};
-use crate::catalogue::{self, Catalogue, Deleted, Imported, Known, NewProduct, Product, StateKey, Words, default_path};
+use super::shelf::{Addition, Found, Query, Shelf};
+use crate::catalogue::{Catalogue, Deleted, Imported, Known, NewProduct, Product, StateKey, Words, default_path};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::{Progress, Silent};
 use crate::formats::ies::IesEdition;
@@ -65,13 +65,14 @@ impl CatalogueShelf {
         lock(&self.catalogue)
     }
 
-    /// The state that is meant where none is named: the first.
-    fn state_or_first(&self, product: &str, state: Option<&str>) -> Result<String, AppError> {
+    /// The state that is meant where none is named: the one that stands for the product.
+    fn state_or_own(&self, product: &str, state: Option<&str>) -> Result<String, AppError> {
         if let Some(state) = state {
             return Ok(state.to_owned());
         }
-        let first = self.lock().product(product)?.states.into_iter().next();
-        Ok(first.ok_or_else(|| AppError::NoState(product.to_owned()))?.key)
+        let known = self.lock().product(product)?;
+        let own = known.states.get(known.representative().1);
+        Ok(own.ok_or_else(|| AppError::NoState(product.to_owned()))?.key.clone())
     }
 }
 
@@ -82,48 +83,22 @@ fn lock(catalogue: &Mutex<Catalogue>) -> MutexGuard<'_, Catalogue> {
 
 impl Shelf for CatalogueShelf {
     fn search(&self, query: &Query) -> Result<Found, AppError> {
-        let catalogue = self.lock();
-        let words = catalogue::Query {
-            text: query.text.clone(),
-            favourite: query.favourites.then_some(true),
-            ..catalogue::Query::default()
-        };
-        let mut found = Found { total: catalogue.facets()?.all, ..Found::default() };
-        let mut kinds = std::collections::BTreeMap::new();
-        for row in catalogue.search(&words)? {
-            *kinds.entry(row.kind.clone()).or_insert(0) += 1;
-            if !query.kinds.is_empty() && !query.kinds.contains(&row.kind) {
-                continue;
-            }
-            found.entries.push(Entry {
-                key: row.key,
-                name: row.name,
-                manufacturer: row.manufacturer,
-                kind: row.kind,
-                states: row.state_keys,
-                tau_normal: row.tau_normal,
-                tau_hemispherical: row.tau_hemispherical,
-                profile: row.tau_profile.iter().map(|&tau| tau as f32).collect(),
-                favourite: row.favourite,
-            });
-        }
-        found.kinds = kinds.into_iter().collect();
-        Ok(found)
+        Ok(self.lock().find(query)?)
     }
 
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError> {
-        let state = self.state_or_first(product, state)?;
+        let state = self.state_or_own(product, state)?;
         self.provide(product, Some(&state), &Silent)?;
         Ok(self.lock().dataset(product, Some(&state))?)
     }
 
     fn is_ready(&self, product: &str, state: Option<&str>) -> Result<bool, AppError> {
-        let state = self.state_or_first(product, state)?;
+        let state = self.state_or_own(product, state)?;
         Ok(self.lock().to_compute(product, Some(&state))?.is_none())
     }
 
     fn provide(&self, product: &str, state: Option<&str>, progress: &dyn Progress) -> Result<(), AppError> {
-        let one = StateKey { product: product.to_owned(), state: self.state_or_first(product, state)? };
+        let one = StateKey { product: product.to_owned(), state: self.state_or_own(product, state)? };
         let is_there = || Ok(self.lock().to_compute(product, Some(&one.state))?.is_none());
         let compute = || {
             let product = self.lock().product(product)?;
@@ -217,7 +192,9 @@ impl SystemLibrary for WindowLibrary<'_> {
         self.shelf.provide(key, state.as_deref(), self.progress).map_err(told)?;
         let dataset = self.shelf.load(key, state.as_deref()).map_err(told)?;
         let very = self.files.very_of(&dataset);
-        Ok(Arc::new(System { label: dataset.name.clone(), state: dataset.state.clone(), dataset, very }))
+        // The product's name: a dataset's own may be that of another product with the same data.
+        let label = self.shelf.product(key).map_err(|error| StudyError::Catalogue(error.to_string()))?.name.clone();
+        Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {

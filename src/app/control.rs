@@ -3,7 +3,7 @@
 //! Today and the year are told for a sun that shines: which hours it is before the façade, and which state it asks for.
 
 use super::moment;
-use crate::catalogue::Product;
+use crate::catalogue::{FirstRule, Product, State};
 use crate::compute::direction::Surface;
 use crate::compute::estimate::Progress;
 use crate::study::StudyError;
@@ -75,6 +75,27 @@ pub const fn words(mode: ControlMode) -> Words {
     Words { short, does, order, tip }
 }
 
+/// A state in words: slat angles and other numbers as degrees, else as the product calls it.
+pub fn state_words(state: &State) -> String {
+    match state.value {
+        // A key that is the number: the format wrote an angle.
+        Some(value) if state.key.parse() == Ok(value) => format!("{value}°"),
+        _ if state.label.is_empty() => state.key.clone(),
+        _ => state.label.clone(),
+    }
+}
+
+/// The control of a product that was just chosen; `None`: by hand.
+pub fn first_keys(rule: FirstRule) -> Option<ControlKeys> {
+    let mode = match rule {
+        FirstRule::ByHand => return None,
+        FirstRule::Curve => ControlMode::Curve,
+        FirstRule::CutOff => ControlMode::CutOff,
+        FirstRule::Redirect => ControlMode::Redirect,
+    };
+    Some(ControlKeys::of(mode))
+}
+
 /// Place, façade and rule: all that a year of control hangs on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearKey {
@@ -117,7 +138,7 @@ pub struct Year {
 
 /// Keys and numbers of the states, by rising value. Without numbers their order stands for them.
 pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
-    let number = |(i, state): (usize, &crate::catalogue::State)| (state.key.clone(), state.value.unwrap_or(i as f64));
+    let number = |(i, state): (usize, &State)| (state.key.clone(), state.value.unwrap_or(i as f64));
     let mut list: Vec<(String, f64)> = product.states.iter().enumerate().map(number).collect();
     list.sort_by(|a, b| a.1.total_cmp(&b.1));
     list

@@ -1,11 +1,12 @@
 //! Starts jobs, and takes what they bring back into the window.
 
+use super::apply::first_choice;
 use super::command::Command;
 use super::disk::read_bytes;
 use super::engine::Question;
 use super::error::AppError;
 use super::jobs::Lane;
-use super::scene::{Selection, fill, selection_of};
+use super::scene::selection_of;
 use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::window::{App, fresh_undoer};
@@ -67,8 +68,14 @@ impl App {
     /// Stores additions of this session.
     pub(super) fn store_additions(&mut self, additions: Vec<(usize, Addition)>) {
         self.queue(move |shelf| {
-            Outcome::Added(additions.iter().map(|(number, addition)| (*number, shelf.add(addition))).collect())
+            let store = |addition: &Addition| shelf.add(addition).and_then(|key| shelf.product(&key));
+            Outcome::Added(additions.iter().map(|(number, addition)| (*number, store(addition))).collect())
         });
+    }
+
+    /// Looks a product up that is to be chosen, behind all changes: it may be what one of them stores.
+    pub(super) fn look_up(&mut self, product: String) {
+        self.queue(move |shelf| Outcome::Choice(shelf.product(&product)));
     }
 
     /// Asks or changes the catalogue after everything that was asked before.
@@ -195,6 +202,8 @@ impl App {
                 self.tell(&error);
             }
             Outcome::Added(results) => self.take_added(results),
+            Outcome::Choice(Ok(product)) => self.choose_product(&product),
+            Outcome::Choice(Err(error)) => self.tell(&error),
             Outcome::Changed(number, forth, result) => self.take_changed(number, forth, result),
             Outcome::Editing(product) => self.take_editing(product),
             Outcome::Deleted(list) => self.take_deleted(list),
@@ -239,18 +248,18 @@ impl App {
         self.state.daylight.take(daylight);
     }
 
-    fn take_added(&mut self, results: Vec<(usize, Result<String, AppError>)>) {
+    fn take_added(&mut self, results: Vec<(usize, Result<Arc<Product>, AppError>)>) {
         self.state.under_way = None;
         let mut added = Vec::new();
         for (number, result) in results {
             match result {
                 // Undone while it was being stored.
-                Ok(key) if !self.state.document.additions.contains(&number) => {
-                    self.store(move |shelf| shelf.remove(&key));
+                Ok(product) if !self.state.document.additions.contains(&number) => {
+                    self.store(move |shelf| shelf.remove(&product.key));
                 }
-                Ok(key) => {
-                    self.state.additions[number].key = Some(key.clone());
-                    added.push(key);
+                Ok(product) => {
+                    self.state.additions[number].key = Some(product.key.clone());
+                    added.push(product);
                 }
                 Err(error) => {
                     self.state.document.additions.retain(|&other| other != number);
@@ -268,8 +277,10 @@ impl App {
             let again = if added.len() == 1 { "it" } else { "them" };
             self.toasts.success(format!("{what}; Ctrl+Z takes {again} out again"));
             // The step that added it also shows it.
-            self.state.document.selection = Selection { product: first.clone(), state: String::new() };
-            fill(&mut self.state.document.scene, &self.state.document.selection);
+            let (rule, place) = first.representative();
+            let state = first.states.get(place).filter(|_| first.states.len() > 1);
+            let state = state.map(|state| state.key.as_str());
+            first_choice(&mut self.state.document, first.key.clone(), rule, state);
             self.undoer.add_undo(&self.state.document);
         }
         self.search();
@@ -311,12 +322,12 @@ impl App {
         // Something that moves makes every tile alive; else something that guides light.
         const GUIDES: [&str; 3] = ["laser", "prism", "double"];
         let entries = &self.state.found.entries;
-        let moving = entries.iter().find(|entry| entry.states.len() > 1);
+        let moving = entries.iter().find(|entry| entry.moves());
         let guiding =
             || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
-        let chosen = moving.or_else(guiding).unwrap_or(&entries[0]);
-        self.state.document.selection = Selection { product: chosen.key.clone(), state: String::new() };
-        fill(&mut self.state.document.scene, &self.state.document.selection);
+        let chosen = Arc::clone(moving.or_else(guiding).unwrap_or(&entries[0]));
+        let state = Some(chosen.state()).filter(|_| chosen.moves());
+        first_choice(&mut self.state.document, chosen.key.clone(), chosen.rule, state);
         self.undoer = fresh_undoer(&self.state.document);
     }
 

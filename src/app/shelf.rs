@@ -9,49 +9,9 @@ use crate::study::control::ControlQuestion;
 use std::sync::Arc;
 
 /// A row of the list.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
-    /// Product key.
-    pub key: String,
-    /// Product name.
-    pub name: String,
-    /// Maker; may be empty.
-    pub manufacturer: String,
-    /// Kind of system in words, e.g. `venetian blind`; may be empty.
-    pub kind: String,
-    /// Keys of the states; one empty key for a product without states.
-    pub states: Vec<String>,
-    /// τ at normal incidence, of the first state.
-    pub tau_normal: Option<f64>,
-    /// τ under uniform luminance, of the first state.
-    pub tau_hemispherical: Option<f64>,
-    /// τ from below (−90°) over the normal to above (+90°) in the vertical plane, equal steps; the thumbnail.
-    pub profile: Vec<f32>,
-    /// Starred by the user.
-    pub favourite: bool,
-}
-
-/// What is asked for.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Query {
-    /// Words that must occur.
-    pub text: String,
-    /// Kinds that are chosen; empty = all.
-    pub kinds: Vec<String>,
-    /// Starred ones alone.
-    pub favourites: bool,
-}
-
-/// What was found.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Found {
-    /// Rows in order.
-    pub entries: Vec<Entry>,
-    /// Kinds with the number of products that the words alone would find.
-    pub kinds: Vec<(String, usize)>,
-    /// Products in the catalogue altogether.
-    pub total: usize,
-}
+pub use crate::catalogue::ProductRow as Entry;
+/// What is asked for, and what was found.
+pub use crate::catalogue::{Found, Query};
 
 /// A product to be stored: its states, and what the user said about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +26,8 @@ pub struct Addition {
 pub trait Shelf: Send + Sync {
     /// Looks products up.
     fn search(&self, query: &Query) -> Result<Found, AppError>;
-    /// The dataset of a state; without a key the first state's. Computed now where the catalogue does not hold it.
+    /// The dataset of a state, computed now where the catalogue does not hold it; without a key of the state that stands for
+    /// the product.
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError>;
     /// Everything about a product but its datasets: states with their numbers, control curve.
     fn product(&self, product: &str) -> Result<Arc<Product>, AppError>;

@@ -1,7 +1,8 @@
 //! The window's title: what is selected, where and when, in words.
 
-use super::moment;
 use super::state::{CatalogueState, State};
+use super::{control, moment};
+use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
 use crate::study::places::city_at;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
@@ -50,20 +51,29 @@ pub fn sky(scene: &SceneFile) -> String {
     }
 }
 
+/// Name of the selected product: the product's own, whatever the list shows. While it is read, the list's, else its key.
+pub fn product(state: &State) -> String {
+    let key = &state.document.selection.product;
+    let listed = || state.found.entries.iter().find(|entry| entry.key == *key).map(|entry| entry.name.clone());
+    selected(state).map(|product| product.name.clone()).or_else(listed).unwrap_or_else(|| key.clone())
+}
+
+/// The selected product, once it was read.
+pub fn selected(state: &State) -> Option<&Product> {
+    state.product.as_deref().filter(|product| product.key == state.document.selection.product)
+}
+
 /// Product and state in words.
 pub fn selection(state: &State) -> String {
-    let selection = &state.document.selection;
-    let Some(entry) = state.found.entries.iter().find(|entry| entry.key == selection.product) else {
-        let name = state.dataset.value.as_deref().map_or("", |dataset| dataset.name.as_str());
-        return if name.is_empty() { selection.product.clone() } else { name.to_owned() };
-    };
-    let key = match selection.state.as_str() {
-        "" => entry.states.first().map_or("", String::as_str),
+    let name = product(state);
+    let key = match state.document.selection.state.as_str() {
         CONTROLLED if state.shown_state.is_empty() => CONTROLLED,
-        CONTROLLED => state.shown_state.as_str(),
+        "" | CONTROLLED => state.shown_state.as_str(),
         key => key,
     };
-    if key.is_empty() { entry.name.clone() } else { format!("{}, {key}", entry.name) }
+    let known = selected(state).and_then(|product| product.states.iter().find(|one| one.key == key));
+    let words = known.map_or_else(|| key.to_owned(), control::state_words);
+    if words.is_empty() || name.is_empty() { name } else { format!("{name}, {words}") }
 }
 
 /// The whole title.

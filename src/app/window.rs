@@ -13,7 +13,7 @@ use super::messages::Messages;
 use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, State};
 use super::tiles::Bench;
-use super::views::{accuracy, section};
+use super::views::{accuracy, section, states};
 use super::work::{Outcome, ReadDataset};
 use crate::catalogue::{Grouping, SourceFile};
 use crate::study::Library;
@@ -67,6 +67,7 @@ pub struct App {
     pub(super) bench: Bench,
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
+    pub(super) states_view: states::State,
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
@@ -102,6 +103,7 @@ impl App {
             bench: Bench::default(),
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
+            states_view: states::State::default(),
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),

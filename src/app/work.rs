@@ -73,8 +73,10 @@ pub enum Outcome {
     ReadScene(PathBuf, Result<Box<SceneFile>, AppError>),
     /// A control curve was read.
     ReadCurve(Result<Vec<[f64; 2]>, AppError>),
-    /// Additions are in the catalogue under these keys, or why not.
-    Added(Vec<(usize, Result<String, AppError>)>),
+    /// Additions are in the catalogue, or why not.
+    Added(Vec<(usize, Result<Arc<Product>, AppError>)>),
+    /// A product to be chosen was looked up.
+    Choice(Result<Arc<Product>, AppError>),
     /// A change of this session was made in the catalogue, or taken back.
     Changed(usize, bool, Result<(), AppError>),
     /// A product whose words are to be edited.
@@ -144,7 +146,7 @@ pub(super) fn take_from_shelf(
         let asked = ControlQuestion { keys, base, hour, facing };
         shelf.controlled_state(&selection.product, &asked)?
     } else if selection.state.is_empty() {
-        product.states.first().map(|state| state.key.clone()).unwrap_or_default()
+        product.states.get(product.representative().1).map(|state| state.key.clone()).unwrap_or_default()
     } else {
         selection.state.clone()
     };

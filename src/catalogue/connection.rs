@@ -1,6 +1,7 @@
 //! A connection to a catalogue's file, as every other file of this folder uses it.
 
 use super::CatalogueError;
+use super::index::Index;
 use crate::compute::btdf::Dataset;
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 use std::cell::RefCell;
@@ -13,7 +14,12 @@ pub struct Catalogue {
     pub(super) db: Connection,
     /// The datasets used last, decoded, newest at the end.
     pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
+    /// What the search looks through, with the state of the file that it was made of.
+    pub(super) index: RefCell<Option<(Stamp, Arc<Index>)>>,
 }
+
+/// State of a file as one connection sees it: changes of others (`PRAGMA data_version`), and its own.
+pub(super) type Stamp = (i64, u64);
 
 impl Catalogue {
     /// Begins a change. Immediate: it waits for another writer at the start, not in the middle.

@@ -20,16 +20,21 @@ mod error;
 mod exchange;
 mod gather;
 mod grouping;
+mod index;
 mod keeping;
 mod open;
 mod product;
+mod query;
 mod record;
+mod representative;
+mod rows;
 mod search;
 mod sight;
 mod store;
 mod systems;
 mod validate;
 mod waiting;
+mod words;
 
 pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, TABLE, builtin_method, fingerprint, key_of_builtin};
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
@@ -38,13 +43,16 @@ pub use described::{METHODS, control_curve, described_dataset, method, product_o
 pub use error::CatalogueError;
 pub use gather::{Gathered, SourceFile, gather};
 pub use grouping::Grouping;
+pub use index::{Facet, Facets, Found, Index};
 pub use keeping::{Deleted, Known, Words};
 pub use open::default_path;
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,
     profile_transmittances,
 };
-pub use search::{Facet, Facets, ProductRow, Query};
-pub use systems::{SYSTEMS, blind_of, builtin_system};
+pub use query::{Figure, Filter, Query, Sort, Within};
+pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
+pub use rows::{ProductRow, Sought};
+pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part};
 pub use validate::check;
 pub use waiting::StateKey;

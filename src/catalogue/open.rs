@@ -76,7 +76,7 @@ impl Catalogue {
     fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
         db.busy_timeout(PATIENCE)?;
         db.pragma_update(None, "foreign_keys", true)?;
-        let mut catalogue = Self { db, recent: RefCell::default() };
+        let mut catalogue = Self { db, recent: RefCell::default(), index: RefCell::default() };
         // Judged before anything is written: a foreign file stays as it is.
         catalogue.judge()?;
         catalogue.write_ahead()?;
@@ -144,7 +144,7 @@ mod tests {
     fn bare() -> Catalogue {
         let db = Connection::open_in_memory().unwrap();
         db.pragma_update(None, "foreign_keys", true).unwrap();
-        Catalogue { db, recent: RefCell::default() }
+        Catalogue { db, recent: RefCell::default(), index: RefCell::default() }
     }
 
     fn schema(db: &Connection) -> Vec<(String, String)> {

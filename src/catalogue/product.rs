@@ -1,5 +1,6 @@
 //! Products as the rest of the program sees them.
 
+use super::words::unmarked;
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
 
@@ -192,18 +193,7 @@ pub struct Imported {
 pub(crate) fn slug(name: &str) -> String {
     let mut slug = String::new();
     for c in name.chars().flat_map(char::to_lowercase) {
-        let folded = match c {
-            'ä' | 'à' | 'á' | 'â' | 'ã' | 'å' => "a",
-            'ö' | 'ò' | 'ó' | 'ô' | 'õ' | 'ø' => "o",
-            'ü' | 'ù' | 'ú' | 'û' => "u",
-            'è' | 'é' | 'ê' | 'ë' => "e",
-            'ì' | 'í' | 'î' | 'ï' => "i",
-            'ç' => "c",
-            'ñ' => "n",
-            'ß' => "ss",
-            'æ' => "ae",
-            _ => "",
-        };
+        let folded = unmarked(c).unwrap_or_default();
         if !folded.is_empty() {
             slug.push_str(folded);
         } else if c.is_ascii_alphanumeric() {

@@ -2,7 +2,7 @@
 
 use super::described::described_state;
 use super::record::Record;
-use super::search::list;
+use super::rows::list_of;
 use super::sight::bring_back;
 use super::{Catalogue, CatalogueError, CurvePoint, Origin, Product, ProductFinding, Provenance, State, check};
 use crate::compute::btdf::{Dataset, DescribedState, LightFigures, Severity};
@@ -173,7 +173,7 @@ fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
         dataset: row.get(3)?,
         tau_normal: row.get(4)?,
         tau_hemispherical: row.get(5)?,
-        tau_profile: list(&row.get::<_, String>(6)?),
+        tau_profile: list_of(&row.get::<_, String>(6)?),
         light: match row.get(8)? {
             Some(sun_blocked) => Some(LightFigures {
                 to_ceiling: row.get(7)?,

@@ -1,8 +1,8 @@
 //! The descriptions that come with the program: files under `assets/systems`.
 
-use crate::compute::system::SystemKind;
 use crate::compute::system::slats::Venetian;
 use crate::compute::system::stack::LayerSource;
+use crate::compute::system::{SystemDescription, SystemKind};
 use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use include_dir::{Dir, File, include_dir};
 use std::sync::LazyLock;
@@ -40,20 +40,27 @@ pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
     Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
 }
 
-/// The slats of a description, also of a moving layer of a built-in stack.
+/// The slats of a description, also of a moving layer of a built-in stack. `None` for slats that stand upright: rules and
+/// curves follow the profile angle, which says nothing about their shadows.
 pub fn blind_of(system: &str) -> Option<Venetian> {
-    match system_toml::read(system.as_bytes()).ok()?.system.kind {
-        SystemKind::Venetian(blind) => Some(blind),
-        SystemKind::Stack(layers) => {
-            let moving = layers.into_iter().find(|layer| layer.state == EACH_STATE)?;
-            match moving.source {
-                LayerSource::File(name) => builtin_system(&name).and_then(|(_, text)| blind_of(text)),
-                LayerSource::Text(text) => blind_of(&text),
-                LayerSource::Catalogue(_) => None,
-            }
-        }
+    let moving = moving_part(system)?;
+    match moving.kind {
+        SystemKind::Venetian(blind) if !moving.upright => Some(blind),
         _ => None,
     }
+}
+
+/// What the states of a description are states of: of a stack its moving layer, turned as the stack is; of anything else
+/// itself. `None` for a stack in which nothing moves or what moves is not at hand, and for a text that cannot be read.
+pub fn moving_part(system: &str) -> Option<SystemDescription> {
+    let system = system_toml::read(system.as_bytes()).ok()?.system;
+    let SystemKind::Stack(layers) = system.kind else { return Some(system) };
+    let moving = match layers.into_iter().find(|layer| layer.state == EACH_STATE)?.source {
+        LayerSource::File(name) => moving_part(builtin_system(&name)?.1),
+        LayerSource::Text(text) => moving_part(&text),
+        LayerSource::Catalogue(_) => None,
+    }?;
+    Some(SystemDescription { upright: moving.upright != system.upright, ..moving })
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
-use crate::catalogue::{Catalogue, Gathered, Grouping, Imported, Product, Query, SourceFile, gather};
+use crate::catalogue::{Catalogue, Gathered, Grouping, Imported, Product, SourceFile, gather};
 use crate::cli::builtin::{BuildArgs, build, provide};
 use crate::cli::keeping::{self, DeleteArgs, RenameArgs, RestoreArgs};
+pub use crate::cli::listing::ListArgs;
+use crate::cli::listing::{figure, list};
 use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::cli::validate::{ValidateArgs, finding_json, validate};
@@ -50,20 +52,6 @@ pub enum Action {
     Diff(DiffArgs),
     /// Two packages as one.
     Merge(MergeArgs),
-}
-
-/// Arguments of `cfs catalogue list`.
-#[derive(Debug, clap::Args)]
-pub struct ListArgs {
-    /// Words that must begin words of name, maker, kind, description or tags.
-    #[arg(long, default_value = "")]
-    pub search: String,
-    /// Products of this kind alone.
-    #[arg(long)]
-    pub kind: Option<String>,
-    /// A JSON array instead of a table.
-    #[arg(long)]
-    pub json: bool,
 }
 
 /// Arguments of `cfs catalogue show`.
@@ -170,42 +158,6 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Diff(args) => packages::diff(args),
         Action::Merge(args) => packages::merge(args),
     }
-}
-
-fn figure(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
-}
-
-fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
-    let kinds = args.kind.iter().cloned().collect();
-    let rows = catalogue.search(&Query { text: args.search.clone(), kinds, ..Query::default() })?;
-    if args.json {
-        let rows = rows.iter().map(|row| {
-            json!({
-                "key": row.key, "name": row.name, "manufacturer": row.manufacturer, "kind": row.kind,
-                "origin": row.origin.word(), "tau_normal_hemispherical": row.tau_normal,
-                "tau_hemispherical_hemispherical": row.tau_hemispherical, "states": row.state_keys.len(),
-                "favourite": row.favourite, "builtin": row.builtin,
-            })
-        });
-        return print(&(serde_json::to_string_pretty(&rows.collect::<Vec<_>>())? + "\n"));
-    }
-    let width = rows.iter().map(|row| row.key.chars().count()).max().unwrap_or(0).max(3);
-    let kind = rows.iter().map(|row| row.kind.chars().count()).max().unwrap_or(0).max(4);
-    let mut text = format!("{:width$}  {:kind$}  τ normal  τ hemi  states  name\n", "key", "kind");
-    for row in rows {
-        let (normal, hemispherical) = (figure(row.tau_normal), figure(row.tau_hemispherical));
-        let star = if row.favourite { " ★" } else { "" };
-        writeln!(
-            text,
-            "{:width$}  {:kind$}  {normal:>8}  {hemispherical:>6}  {:>6}  {}{star}",
-            row.key,
-            row.kind,
-            row.state_keys.len(),
-            row.name
-        )?;
-    }
-    print(&text)
 }
 
 fn product_json(product: &Product) -> Value {

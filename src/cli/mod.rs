@@ -12,6 +12,7 @@ pub mod goniophotometer;
 pub mod info;
 pub mod keeping;
 pub mod lid;
+pub mod listing;
 mod luminaire_info;
 mod output;
 pub mod packages;

@@ -10,3 +10,4 @@ mod described;
 mod families;
 mod keeping;
 mod packages;
+mod search;

@@ -41,7 +41,7 @@ fn products_go_out_and_in_again() {
         // What is there already comes in once.
         let show = ShowArgs { key: "laser-cut-panel".into(), json };
         run(&CatalogueArgs { action: Action::Show(show) }, Some(&other)).unwrap();
-        let list = ListArgs { search: "laser".into(), kind: None, json };
+        let list = ListArgs { search: "laser".into(), json, ..ListArgs::default() };
         run(&CatalogueArgs { action: Action::List(list) }, Some(&other)).unwrap();
         let all = ValidateArgs { items: vec![], json };
         run(&CatalogueArgs { action: Action::Validate(all) }, Some(&other)).unwrap();

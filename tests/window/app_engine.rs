@@ -84,7 +84,7 @@ fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
     // All of them are in the list, with figures, while hardly any data are there.
     let entries = harness.state().state.found.entries.clone();
     assert_eq!(entries.len(), SYSTEMS.len() + 2);
-    assert!(entries.iter().all(|entry| entry.tau_normal.is_some() && entry.profile.len() > 10));
+    assert!(entries.iter().all(|entry| entry.tau_normal.is_some() && entry.tau_profile.len() > 10));
     let waiting = || Catalogue::open(&path).unwrap().waiting().unwrap().len();
     let left = waiting();
     assert!(left > entries.len(), "nothing that is not in sight came before: {left} states are left");
@@ -219,7 +219,7 @@ fn control_closes_the_blind_against_the_sun_and_the_room_follows() {
     let greatest = product.states.iter().map(|state| state.value.unwrap()).fold(f64::MIN, f64::max);
     assert_eq!(values(&closed), greatest, "the noon sun stands before a south façade");
     assert!(means(&harness).0 < 0.7 * open, "{} {open}", means(&harness).0);
-    assert!(cfs::app::title::title(&harness.state().state).contains(&format!(", {closed} ·")));
+    assert!(cfs::app::title::title(&harness.state().state).contains(&format!(", {closed}° ·")));
     // The dataset shown is that of the picked state.
     let shelf = harness.state().state.shelf().unwrap();
     let dataset = harness.state().state.dataset.value.clone().unwrap();

@@ -22,6 +22,7 @@ fn tile() -> Harness<'static, (control::State, Curve)> {
         move |ui, (state, curve): &mut (control::State, Curve)| {
             let input = control::Input {
                 states: &states,
+                still: "",
                 quantity: "slat angle / °",
                 curve,
                 editable: true,

@@ -3,6 +3,7 @@
 mod accuracy_view;
 mod app;
 mod app_engine;
+mod catalogue_panel;
 #[path = "../common/mod.rs"]
 mod common;
 mod control_view;

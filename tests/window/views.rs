@@ -355,6 +355,7 @@ fn tiles_without_data_say_what_is_missing() {
         place(ui, left.translate(vec2(0.0, 240.0)), "control", |ui| {
             let input = control::Input {
                 states: &[],
+                still: "This pane has one state.",
                 quantity: "slat angle / °",
                 curve: &[],
                 editable: false,
@@ -452,6 +453,7 @@ fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
         place(ui, rect(2, 1), "6", |ui| {
             let input = control::Input {
                 states: &states,
+                still: "",
                 quantity: "slat angle / °",
                 curve: &curve,
                 editable: false,

@@ -1,16 +1,28 @@
-//! What is there: search field, chips, list.
+//! What is there: search field, filters, list, and the states of what is chosen.
+
+mod filters;
+mod names;
 
 mod menu;
 
 use crate::app::command::Command;
+use crate::app::control;
 use crate::app::shelf::{Entry, Query};
 use crate::app::state::{CatalogueState, State};
-use crate::app::theme;
+use crate::app::views::states;
+use crate::app::{theme, title};
+use crate::catalogue::{Sort, moving_part};
 use crate::study::control::year::CONTROLLED;
-use egui::{Align2, FontId, Key, Pos2, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Key, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use std::sync::Arc;
+
+/// What a second line of a name adds to a row. \[points\]
+const SECOND_LINE: f32 = 18.0;
+/// Mean width of a letter of a name. \[points\]
+const LETTER: f32 = 6.6;
 
 /// Draws the panel.
-pub fn show(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+pub fn show(ui: &mut Ui, state: &mut State, strip: &mut states::State, commands: &mut Vec<Command>) {
     ui.heading("Catalogue");
     match &state.catalogue {
         CatalogueState::Opening => {
@@ -31,26 +43,23 @@ pub fn show(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
     }
     let mut query = state.query.clone();
     search_field(ui, state, &mut query, commands);
-    chips(ui, state, &mut query);
+    filters::facets(ui, state, &mut query);
+    filters::order(ui, state, &mut query);
     if query != state.query {
         commands.push(Command::Find(query));
     }
     if let Some(error) = &state.search_error {
         ui.colored_label(theme::palette(ui).error, error);
     }
-    ui.weak(format!("{} of {} products", state.found.entries.len(), state.found.total));
+    filters::read_as(ui, &state.found);
+    let below = below(ui, state);
     if state.found.entries.is_empty() {
-        ui.add_space(20.0);
-        ui.vertical_centered(|ui| {
-            ui.label("Nothing has all these words.");
-            if ui.button("Show all").clicked() {
-                commands.push(Command::Find(Query::default()));
-            }
-        });
-        return;
+        filters::nothing(ui, state, commands);
+    } else {
+        rows(ui, state, below, commands);
     }
-    rows(ui, state, commands);
-    states(ui, state, commands);
+    // The chosen product keeps its states at hand, whatever is searched.
+    states_strip(ui, state, strip, commands);
 }
 
 fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mut Vec<Command>) {
@@ -68,30 +77,19 @@ fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mu
     }
 }
 
-fn chips(ui: &mut Ui, state: &State, query: &mut Query) {
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
-        if ui.selectable_label(query.favourites, "★ starred").clicked() {
-            query.favourites = !query.favourites;
-        }
-        for (kind, count) in &state.found.kinds {
-            let chosen = query.kinds.contains(kind);
-            let word = if kind.is_empty() { "other" } else { kind };
-            if ui.selectable_label(chosen, format!("{word} {count}")).clicked() {
-                if chosen {
-                    query.kinds.retain(|other| other != kind);
-                } else {
-                    query.kinds.push(kind.clone());
-                }
-            }
-        }
-    });
+/// Height of the list's rows: all the same, so that only those in sight are drawn. Higher where a name of the list may
+/// need a second line.
+fn row_height(ui: &Ui, longest_name: usize) -> f32 {
+    let room = ui.available_width() - theme::ROW_HEIGHT - 26.0;
+    let second = if longest_name as f32 * LETTER > room { SECOND_LINE } else { 0.0 };
+    theme::ROW_HEIGHT + second
 }
 
-fn rows(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+fn rows(ui: &mut Ui, state: &mut State, below: f32, commands: &mut Vec<Command>) {
     let found = state.found.clone();
     let entries = &found.entries;
-    let height = (ui.available_height() - 54.0).max(80.0);
+    let height = (ui.available_height() - below).max(80.0);
+    let row_height = row_height(ui, found.longest_name);
     let mut area = ScrollArea::vertical().id_salt("rows").max_height(height).auto_shrink([false, false]);
     let product = &state.document.selection.product;
     if state.scrolled_to != *product
@@ -99,14 +97,15 @@ fn rows(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
     {
         // Bring a new selection into view, with a row above it for context.
         state.scrolled_to.clone_from(product);
-        let step = theme::ROW_HEIGHT + ui.spacing().item_spacing.y;
+        let step = row_height + ui.spacing().item_spacing.y;
         if area_hides(ui, row, height, step) {
             area = area.vertical_scroll_offset((row as f32 - 1.0).max(0.0) * step);
         }
     }
-    let output = area.show_rows(ui, theme::ROW_HEIGHT, entries.len(), |ui, range| {
-        for entry in &entries[range] {
-            row(ui, entry, entry.key == state.document.selection.product, commands);
+    let output = area.show_rows(ui, row_height, entries.len(), |ui, range| {
+        for place in range {
+            let chosen = entries[place].key == state.document.selection.product;
+            row(ui, entries, place, row_height, (chosen, state.query.sort), commands);
         }
     });
     let key = offset_key(ui);
@@ -129,28 +128,70 @@ fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2}"))
 }
 
+/// The state that a row's figures are of, in words; empty for a product of one.
+fn figures_of(entry: &Entry) -> String {
+    match entry.state() {
+        _ if !entry.moves() => String::new(),
+        state if state.parse::<f64>().is_ok() => format!(" at {state}°"),
+        state => format!(" ({state})"),
+    }
+}
+
 /// What a row says under the name, most important first: the end may be cut.
-fn figures(entry: &Entry) -> String {
-    let mut text = format!("τ {} · {}", figure(entry.tau_normal), figure(entry.tau_hemispherical));
-    if entry.states.len() > 1 {
+fn figures(entry: &Entry, sort: Sort) -> String {
+    let mut text = String::new();
+    // What the list is ordered by is seen.
+    if let Sort::By(figure) = sort
+        && !figure.words().starts_with('τ')
+    {
+        text = format!("{} {} · ", figure.words(), self::figure(entry.figure(figure)));
+    }
+    text += &format!("τ {} · {}{}", figure(entry.tau_normal), figure(entry.tau_hemispherical), figures_of(entry));
+    if entry.moves() {
         text += &format!(" · {} states", entry.states.len());
     }
-    let kind = if entry.kind.is_empty() { &entry.manufacturer } else { &entry.kind };
+    let kind = if entry.kind.is_empty() || sort == Sort::Maker { &entry.manufacturer } else { &entry.kind };
     if !kind.is_empty() {
         text += &format!(" · {}", kind.replace('-', " "));
     }
     text
 }
 
-fn row(ui: &mut Ui, entry: &Entry, chosen: bool, commands: &mut Vec<Command>) {
+/// A row's tip: the whole name, and what its figures are.
+fn tip(entry: &Entry) -> String {
+    let mut text = entry.name.clone();
+    for line in [&entry.manufacturer, &entry.kind.replace('-', " ")] {
+        if !line.is_empty() {
+            text += &format!("\n{line}");
+        }
+    }
+    let state = figures_of(entry);
+    text += &format!(
+        "\nτ at normal incidence {}, under uniform light {}{state}",
+        figure(entry.tau_normal),
+        figure(entry.tau_hemispherical)
+    );
+    if entry.moves() {
+        text += &format!("\n{} states; the picture is of the one{state}", entry.states.len());
+    }
+    text
+}
+
+fn row(
+    ui: &mut Ui,
+    entries: &[Arc<Entry>],
+    place: usize,
+    height: f32,
+    (chosen, sort): (bool, Sort),
+    commands: &mut Vec<Command>,
+) {
+    let entry = &*entries[place];
     let palette = theme::palette(ui);
-    let size = vec2(ui.available_width(), theme::ROW_HEIGHT);
+    let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let response = response.on_hover_text(format!(
-        "{}\n{}\nτ at normal incidence · under uniform light",
-        entry.name,
-        figures(entry)
-    ));
+    let response = response.on_hover_ui(|ui| {
+        ui.label(tip(entry));
+    });
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, true, chosen, &entry.name));
     if response.clicked() {
@@ -166,16 +207,21 @@ fn row(ui: &mut Ui, entry: &Entry, chosen: bool, commands: &mut Vec<Command>) {
         palette.surface
     };
     painter.rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4, fill);
-    let picture = Rect::from_min_size(rect.min + vec2(5.0, 7.0), Vec2::splat(theme::ROW_HEIGHT - 14.0));
+    let side = theme::ROW_HEIGHT - 14.0;
+    let picture = Rect::from_min_size(pos2(rect.left() + 5.0, rect.center().y - 0.5 * side), Vec2::splat(side));
     thumbnail(&painter, picture, entry, palette);
     let left = picture.right() + 8.0;
-    let text = Rect::from_min_max(pos2(left, rect.top()), pos2(rect.right() - 26.0, rect.bottom()));
-    let line = |y: f32, words: &str, size: f32, colour| {
-        let galley = theme::one_line(&painter, words, FontId::proportional(size), colour, text.width());
-        painter.galley(pos2(left, rect.top() + y - 0.5 * galley.size().y), galley, colour);
-    };
-    line(16.0, &entry.name, 13.5, palette.text);
-    line(36.0, &figures(entry), 13.0, palette.weak);
+    let width = rect.right() - 26.0 - left;
+    let name = |place: usize| entries.get(place).map(|entry| entry.name.as_str());
+    let beside = [place.checked_sub(1).and_then(name), name(place + 1)];
+    let look = (FontId::proportional(13.5), palette.text);
+    let name = names::layout(&painter, &entry.name, beside, look, width);
+    let words = theme::one_line(&painter, &figures(entry, sort), FontId::proportional(13.0), palette.weak, width);
+    // Both in the middle of the row, however many lines the name has.
+    let top = rect.center().y - 0.5 * (name.size().y + 2.0 + words.size().y);
+    let under = top + name.size().y + 2.0;
+    painter.galley(pos2(left, top), name, palette.text);
+    painter.galley(pos2(left, under), words, palette.weak);
     star(ui, rect, entry, commands);
 }
 
@@ -195,41 +241,53 @@ fn star(ui: &mut Ui, row: Rect, entry: &Entry, commands: &mut Vec<Command>) {
 /// τ in the vertical plane, sun from below on the left to above on the right.
 fn thumbnail(painter: &egui::Painter, rect: Rect, entry: &Entry, palette: &theme::Palette) {
     painter.rect_filled(rect, 3, palette.raised);
-    let last = entry.profile.len().saturating_sub(1);
+    let last = entry.tau_profile.len().saturating_sub(1);
     if last == 0 {
         return;
     }
-    let point = |(i, tau): (usize, &f32)| -> Pos2 {
+    let point = |(i, tau): (usize, &f64)| -> Pos2 {
         let x = rect.left() + 2.0 + (rect.width() - 4.0) * i as f32 / last as f32;
-        pos2(x, rect.bottom() - 2.0 - (rect.height() - 4.0) * tau.clamp(0.0, 1.0))
+        pos2(x, rect.bottom() - 2.0 - (rect.height() - 4.0) * tau.clamp(0.0, 1.0) as f32)
     };
-    let line: Vec<Pos2> = entry.profile.iter().enumerate().map(point).collect();
+    let line: Vec<Pos2> = entry.tau_profile.iter().enumerate().map(point).collect();
     painter.add(Shape::line(line, Stroke::new(1.5, palette.accent)));
 }
 
+/// Height of what stands under the list.
+fn below(ui: &Ui, state: &State) -> f32 {
+    let line = ui.spacing().interact_size.y + 2.0 * ui.spacing().item_spacing.y;
+    match title::selected(state).map_or(0, |product| product.states.len()) {
+        0 | 1 => line,
+        states => line + states::height(ui.available_width(), states) + ui.spacing().item_spacing.y,
+    }
+}
+
 /// Under the list: the states of the selected product.
-fn states(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let selection = &state.document.selection;
-    let Some(entry) = state.found.entries.iter().find(|entry| entry.key == selection.product) else { return };
-    if entry.states.len() < 2 {
+fn states_strip(ui: &mut Ui, state: &State, strip: &mut states::State, commands: &mut Vec<Command>) {
+    let Some(product) = title::selected(state) else { return };
+    if product.states.len() < 2 {
         ui.weak("One state");
         return;
     }
-    ui.horizontal(|ui| {
-        ui.label("State");
-        ScrollArea::horizontal().id_salt("states").show(ui, |ui| {
-            ui.horizontal(|ui| {
-                for (i, key) in entry.states.iter().enumerate() {
-                    let chosen = match selection.state.as_str() {
-                        "" => i == 0,
-                        CONTROLLED => *key == state.shown_state,
-                        fixed => *key == fixed,
-                    };
-                    if ui.selectable_label(chosen, RichText::new(key)).clicked() {
-                        commands.push(Command::SelectState(key.clone()));
-                    }
-                }
-            });
-        });
-    });
+    let selection = &state.document.selection;
+    let key = match selection.state.as_str() {
+        "" | CONTROLLED => &state.shown_state,
+        fixed => fixed,
+    };
+    let shown = product.states.iter().position(|one| one.key == key);
+    let mark = |one: &crate::catalogue::State| states::Mark {
+        key: one.key.clone(),
+        words: control::state_words(one),
+        angle: one.value,
+        tau: one.tau_hemispherical,
+    };
+    let marks: Vec<states::Mark> = product.states.iter().map(mark).collect();
+    let words = shown.map_or("–", |place| marks[place].words.as_str());
+    let does = control::words(state.control_mode()).does;
+    let line = format!("State {words} of {}, {does}", marks.len());
+    ui.add(egui::Label::new(&line).truncate()).on_hover_text(format!("{line}; [ and ] step through the states"));
+    let input = states::Input { product: [&product.key, &product.system], describe: moving_part, marks: &marks, shown };
+    if let Some(place) = states::show(ui, &input, strip) {
+        commands.push(Command::SelectState(marks[place].key.clone()));
+    }
 }

@@ -20,6 +20,14 @@ use super::window::App;
 
 /// Narrower windows have no room for catalogue, bench and sheet. \[points\]
 const TIGHT: f32 = 1150.0;
+/// Least width that a panel beside it leaves to the bench. \[points\]
+const LEAST_BENCH: f32 = 360.0;
+
+/// Widths that a side panel may be given: as wide as one wants, as long as the bench keeps its least. Kept from one start
+/// to the next.
+fn widths(ui: &egui::Ui, least: f32) -> std::ops::RangeInclusive<f32> {
+    least..=(ui.available_width() - LEAST_BENCH).max(least)
+}
 
 /// Draws the whole window.
 pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
@@ -39,9 +47,10 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     if app.state.settings.catalogue_open && !tight {
         egui::Panel::left("catalogue")
             .frame(side)
-            .default_size(250.0)
-            .size_range(240.0..=380.0)
-            .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut commands));
+            .resizable(true)
+            .default_size(280.0)
+            .size_range(widths(ui, 240.0))
+            .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut app.states_view, &mut commands));
     }
     // The goniophotometer needs the bench's room; the scene's sun goes on shining on its drawing.
     let wide = app.state.sheet == Some(Sheet::Goniophotometer);
@@ -51,14 +60,14 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         egui::Panel::right("scene")
             .frame(side)
             .default_size(250.0)
-            .size_range(250.0..=340.0)
+            .size_range(widths(ui, 250.0))
             .show(ui, |ui| scene::show(ui, &app.state, &mut commands));
     }
     if let Some(sheet) = app.state.sheet.filter(|_| !wide) {
         egui::Panel::right("sheet")
             .frame(side)
             .default_size(330.0)
-            .size_range(280.0..=460.0)
+            .size_range(widths(ui, 280.0))
             .show(ui, |ui| sheets::show(ui, app, sheet, &mut commands));
     }
     let ground = egui::Frame::new().fill(theme::palette(ui).ground).inner_margin(theme::TILE_GAP);

@@ -4,7 +4,7 @@ use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::control as rules;
 use crate::app::facing::sun_incident;
-use crate::app::state::{State, Tile};
+use crate::app::state::{CatalogueState, State, Tile};
 use crate::app::views::{Cache, control};
 use crate::app::{moment, title};
 use crate::compute::profile_angle::profile_angle;
@@ -44,6 +44,31 @@ fn quantity(product: &crate::catalogue::Product) -> &'static str {
         (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
         (true, _) => "state / °",
         (false, _) => "state",
+    }
+}
+
+/// Why nothing moves: nothing is selected, it is not here yet, or it has one state.
+fn still(state: &State) -> String {
+    match (&state.catalogue, title::selected(state)) {
+        (CatalogueState::Opening, _) => "The catalogue is opening.".to_owned(),
+        (CatalogueState::Failed(_), None) => "There is no catalogue to take a product from.".to_owned(),
+        (CatalogueState::Ready(_), None) if state.document.selection.product.is_empty() => {
+            "Nothing is selected: choose a product in the catalogue.".to_owned()
+        }
+        (CatalogueState::Ready(_), None) => "The product is being read.".to_owned(),
+        (_, Some(product)) => {
+            let what = match product.kind.as_str() {
+                "pane" => "This pane has",
+                "stack" => "This glazing has",
+                "venetian" => "These slats are fixed: they have",
+                "woven" => "This screen has",
+                "diffuser" => "This diffuser has",
+                "laser-cut-panel" | "prismatic" => "This panel has",
+                "perforated" => "This sheet has",
+                _ => "This product has",
+            };
+            format!("{what} one state. Blinds, louvres and switchable glazing are controlled here.")
+        }
     }
 }
 
@@ -202,14 +227,20 @@ impl Drawn for Drawing {
             year.states.iter().eq(states.iter().map(|point| &point.key))
                 && key.as_ref().is_some_and(|key| key.product == year.key.product)
         });
-        let mut name = format!("{} · {}", title::selection(state), rules::words(mode).does);
+        let mut name = title::selection(state);
+        // What does not move does not do so by hand either.
+        if states.len() > 1 {
+            name.push_str(&format!(" · {}", rules::words(mode).does));
+        }
         if let Some(year) = year.filter(|_| mode != ControlMode::Fixed) {
             name.push_str(&format!(" · {} movements a year", year.movements));
         }
         let moving = states.len() > 1;
         let sun = sun_incident(scene);
+        let still = still(state);
         let input = control::Input {
             states: &states,
+            still: &still,
             quantity: product.as_deref().map_or("state", quantity),
             curve,
             editable: mode == ControlMode::Curve,

@@ -66,8 +66,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         title: "Control",
         subtitle: input.name,
         help: HELP,
-        empty: (input.states.len() < 2)
-            .then_some("This product does not move: it has one state, whatever the sun does."),
+        empty: (input.states.len() < 2).then_some(input.still),
         controls_width: 0.0,
     };
     tile::show(ui, &words, &input.status, |_| {}, |ui, rect| picture(ui, rect, input, state, &mut actions));

@@ -9,6 +9,7 @@ pub mod lid;
 pub mod room;
 pub mod section;
 pub mod sky;
+pub mod states;
 pub mod transmittance;
 
 use crate::compute::basis::RingBasis;

@@ -27,6 +27,8 @@ pub struct TracePoint {
 pub struct Input<'a> {
     /// The product's states, by rising value; fewer than two: nothing moves.
     pub states: &'a [StatePoint],
+    /// Why nothing moves, where nothing does.
+    pub still: &'a str,
     /// What a state sets, with unit, e.g. "slat angle / °".
     pub quantity: &'a str,
     /// The rule: value [unit of the states] over profile angle \[°\], rising angle.

@@ -1,0 +1,467 @@
+//! What the search looks through, in memory: every word of every product, and for every answer the counts of what could
+//! be chosen next.
+//!
+//! A typed word is compared with all different words of the catalogue, not with all products: as the whole, the
+//! beginning or (from three letters) a part of one; where nothing has it so, as one with a typing error or two. What is
+//! written apart is also found written together ("lasercut"). A match weighs by where it was (name before kind before
+//! tags before description) and by how well it fits.
+
+use super::ProductRow;
+use super::query::{Figure, Filter, Query, Sort};
+use super::rows::Sought;
+use super::words::{self, distance, folded, forgiven, letters, parts, runs, without_written_marks};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// One value of a facet with the number of products that have it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Facet {
+    /// The value.
+    pub value: String,
+    /// How many products.
+    pub count: usize,
+}
+
+/// Values to filter by, most frequent first. Every count is what choosing the value would find with all other filters as
+/// they are.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Facets {
+    /// Kinds; an empty one for products that tell none.
+    pub kinds: Vec<Facet>,
+    /// Makers, those without left out.
+    pub manufacturers: Vec<Facet>,
+    /// Tags.
+    pub tags: Vec<Facet>,
+    /// Measured, computed, unknown.
+    pub origins: Vec<Facet>,
+    /// Products of several states, and of one.
+    pub moving: [usize; 2],
+    /// For every figure that any product has: products by [`Figure::LIMITS`].
+    pub ranges: Vec<(Figure, Vec<usize>)>,
+    /// Favourites.
+    pub favourites: usize,
+    /// Built-in products.
+    pub builtin: usize,
+    /// The user's products.
+    pub own: usize,
+    /// All products of the catalogue, whatever is asked.
+    pub all: usize,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Found {
+    /// Products in order.
+    pub entries: Vec<Arc<ProductRow>>,
+    /// Products in the catalogue altogether.
+    pub total: usize,
+    /// What else could be chosen.
+    pub facets: Facets,
+    /// Where nothing was found: filters (and words, one by one) without which there is something, and how many.
+    pub without: Vec<(Filter, usize)>,
+    /// Words that occur nowhere, and what they were read as.
+    pub read_as: Vec<(String, String)>,
+    /// Characters of the longest name among the entries.
+    pub longest_name: usize,
+}
+
+/// Where a word stands, by weight.
+mod place {
+    pub const NAME: f32 = 10.0;
+    pub const KIND: f32 = 6.0;
+    pub const MAKER: f32 = 5.0;
+    pub const TAG: f32 = 4.0;
+    pub const KEY: f32 = 4.0;
+    pub const GERMAN: f32 = 3.0;
+    pub const DESCRIPTION: f32 = 1.0;
+}
+/// What words are worth that were put together.
+const JOINED: f32 = 0.9;
+/// Shortest part of a word that is looked for.
+const SHORTEST_PART: usize = 3;
+
+/// A word of the catalogue.
+#[derive(Debug)]
+struct Word {
+    text: String,
+    letters: u64,
+    /// Products that have it, with the weight of the best place.
+    products: Vec<(u32, f32)>,
+}
+
+/// A product in the index.
+#[derive(Debug)]
+struct Item {
+    row: Arc<ProductRow>,
+    kind: usize,
+    manufacturer: usize,
+    tags: Vec<usize>,
+    /// Places among all names, makers and kinds in order.
+    order: [usize; 3],
+    /// Names of few words come before longer ones that fit as well.
+    brevity: f32,
+}
+
+/// All products with their words: answers any number of queries.
+#[derive(Debug, Default)]
+pub struct Index {
+    items: Vec<Item>,
+    words: Vec<Word>,
+    kinds: Vec<String>,
+    manufacturers: Vec<String>,
+    tags: Vec<String>,
+}
+
+/// How well the typed words fit each product.
+struct Fit {
+    /// Sum over the words; products that lack one have it too.
+    score: Vec<f32>,
+    /// Places of the query's words that a product lacks: how many, and the last.
+    lacks: Vec<(u16, usize)>,
+    read_as: Vec<(String, String)>,
+}
+
+/// Numbers for texts, in the order of their first use.
+#[derive(Default)]
+struct Numbered {
+    texts: Vec<String>,
+    numbers: HashMap<String, usize>,
+}
+
+impl Numbered {
+    fn of(&mut self, text: &str) -> usize {
+        if let Some(number) = self.numbers.get(text) {
+            return *number;
+        }
+        self.texts.push(text.to_owned());
+        self.numbers.insert(text.to_owned(), self.texts.len() - 1);
+        self.texts.len() - 1
+    }
+}
+
+impl Index {
+    /// Of a list of products, whose order is that of equally good ones.
+    pub fn new(products: Vec<Sought>) -> Self {
+        let mut all = Numbered::default();
+        let mut found_in: Vec<Vec<(u32, f32)>> = Vec::new();
+        let [mut kinds, mut manufacturers, mut tags] = [(); 3].map(|()| Numbered::default());
+        let order = [
+            places(&products, |product| folded(&product.row.name)),
+            places(&products, |product| folded(&product.row.manufacturer)),
+            places(&products, |product| folded(&product.row.kind)),
+        ];
+        let mut items = Vec::with_capacity(products.len());
+        for (number, product) in products.into_iter().enumerate() {
+            let row = &product.row;
+            let mut put = |text: &str, weight: f32, join: bool| {
+                words_of(text, join, &mut |word, joined| {
+                    let at = all.of(word);
+                    if at == found_in.len() {
+                        found_in.push(Vec::new());
+                    }
+                    let weight = if joined { JOINED * weight } else { weight };
+                    match found_in[at].last_mut() {
+                        Some((last, best)) if *last as usize == number => *best = best.max(weight),
+                        _ => found_in[at].push((number as u32, weight)),
+                    }
+                });
+            };
+            put(&row.name, place::NAME, true);
+            put(&row.kind, place::KIND, true);
+            put(&row.manufacturer, place::MAKER, true);
+            put(&row.key, place::KEY, true);
+            put(words::german(&row.kind), place::GERMAN, false);
+            for tag in &product.tags {
+                put(tag, place::TAG, true);
+                put(words::german(tag), place::GERMAN, false);
+            }
+            put(&product.description, place::DESCRIPTION, false);
+            items.push(Item {
+                kind: kinds.of(&row.kind),
+                manufacturer: manufacturers.of(&row.manufacturer),
+                tags: product.tags.iter().map(|tag| tags.of(tag)).collect(),
+                order: [order[0][number], order[1][number], order[2][number]],
+                brevity: 0.5 / (1.0 + row.name.split_whitespace().count() as f32),
+                row: product.row,
+            });
+        }
+        let word = |(text, products): (String, Vec<(u32, f32)>)| {
+            let letters = letters(&text.chars().collect::<Vec<char>>());
+            Word { text, letters, products }
+        };
+        let words = all.texts.into_iter().zip(found_in).map(word).collect();
+        Self { items, words, kinds: kinds.texts, manufacturers: manufacturers.texts, tags: tags.texts }
+    }
+
+    /// Answers a query.
+    pub fn find(&self, query: &Query) -> Found {
+        let fit = self.fit(query);
+        let misses: Vec<u16> = (0..self.items.len()).map(|number| self.misses(query, &fit, number)).collect();
+        let mut order: Vec<usize> = (0..self.items.len()).filter(|number| misses[*number] == 0).collect();
+        self.sort(&mut order, query, &fit);
+        let entries: Vec<Arc<ProductRow>> = order.into_iter().map(|number| self.items[number].row.clone()).collect();
+        let without = if entries.is_empty() { self.without(query, &fit, &misses) } else { Vec::new() };
+        Found {
+            longest_name: entries.iter().map(|row| row.name.chars().count()).max().unwrap_or(0),
+            total: self.items.len(),
+            facets: self.facets(query, &misses),
+            entries,
+            without,
+            read_as: fit.read_as,
+        }
+    }
+
+    fn fit(&self, query: &Query) -> Fit {
+        let count = self.items.len();
+        let mut fit = Fit { score: vec![0.0; count], lacks: vec![(0, 0); count], read_as: Vec::new() };
+        let typed = query.typed_words();
+        let mut own = vec![0.0_f32; count];
+        let mut last = None;
+        let mut lacking = vec![false; count];
+        for (place, word) in &typed {
+            if last != Some(*place) {
+                lacking.fill(false);
+                last = Some(*place);
+            }
+            own.fill(0.0);
+            let (matches, read_as) = self.matches(word);
+            for (at, quality) in matches {
+                for (product, weight) in &self.words[at].products {
+                    let best = &mut own[*product as usize];
+                    *best = best.max(quality * weight);
+                }
+            }
+            fit.read_as.extend(read_as.map(|read_as| (word.clone(), read_as)));
+            for number in 0..count {
+                fit.score[number] += own[number];
+                if own[number] == 0.0 && !std::mem::replace(&mut lacking[number], true) {
+                    fit.lacks[number] = (fit.lacks[number].0 + 1, *place);
+                }
+            }
+        }
+        if !typed.is_empty() {
+            fit.score.iter_mut().zip(&self.items).for_each(|(score, item)| *score += item.brevity);
+        }
+        fit
+    }
+
+    /// Words of the catalogue that fit a typed one, and how well, up to 1; what it was read as where it occurs nowhere.
+    fn matches(&self, typed: &str) -> (Vec<(usize, f32)>, Option<String>) {
+        let plain = without_written_marks(typed);
+        let length = typed.chars().count();
+        let quality = |word: &str, typed: &str| {
+            if word == typed {
+                Some(1.0)
+            } else if word.starts_with(typed) {
+                Some(0.7 + 0.2 * typed.len() as f32 / word.len() as f32)
+            } else {
+                (length >= SHORTEST_PART && word.contains(typed)).then_some(0.45)
+            }
+        };
+        let fits = |word: &Word| {
+            let own = quality(&word.text, typed);
+            own.or_else(|| plain.as_deref().and_then(|plain| quality(&word.text, plain)))
+        };
+        let found: Vec<(usize, f32)> =
+            self.words.iter().enumerate().filter_map(|(at, word)| Some((at, fits(word)?))).collect();
+        if !found.is_empty() {
+            return (found, None);
+        }
+        let typed: Vec<char> = typed.chars().collect();
+        let (most, own) = (forgiven(&typed), letters(&typed));
+        if most == 0 {
+            return (found, None);
+        }
+        let near = |(at, word): (usize, &Word)| {
+            if (own & !word.letters).count_ones() as usize > most {
+                return None;
+            }
+            let letters: Vec<char> = word.text.chars().collect();
+            let errors = distance(&typed, &letters, most)?;
+            Some((at, errors, letters.len().abs_diff(typed.len())))
+        };
+        let near: Vec<(usize, usize, usize)> = self.words.iter().enumerate().filter_map(near).collect();
+        // The one that is most likely meant: fewest errors, nearest in length, in most products.
+        let meant = near.iter().min_by_key(|(at, errors, longer)| {
+            (*errors, *longer, usize::MAX - self.words[*at].products.len(), &self.words[*at].text)
+        });
+        let read_as = meant.map(|(at, ..)| self.words[*at].text.clone());
+        let worth = |errors: usize, longer: usize| 0.3 - 0.05 * errors as f32 - if longer > 2 { 0.05 } else { 0.0 };
+        (near.into_iter().map(|(at, errors, longer)| (at, worth(errors, longer))).collect(), read_as)
+    }
+
+    /// Filters that a product does not pass, a bit each.
+    fn misses(&self, query: &Query, fit: &Fit, number: usize) -> u16 {
+        let row = &*self.items[number].row;
+        let in_list = |list: &[String], value: &str| list.is_empty() || list.iter().any(|one| one == value);
+        let passes = |filter: Filter| match filter {
+            Filter::Words | Filter::Word(_) => fit.lacks[number].0 == 0,
+            Filter::Kinds => in_list(&query.kinds, &row.kind),
+            Filter::Manufacturers => in_list(&query.manufacturers, &row.manufacturer),
+            Filter::Tags => {
+                let own = &self.items[number].tags;
+                query.tags.iter().all(|tag| own.iter().any(|at| self.tags[*at] == *tag))
+            }
+            Filter::Favourite => query.favourite.is_none_or(|favourite| row.favourite == favourite),
+            Filter::Origin => query.origin.is_none_or(|origin| row.origin == origin),
+            Filter::Builtin => query.builtin.is_none_or(|builtin| row.builtin == builtin),
+            Filter::Moving => query.moving.is_none_or(|moving| row.moves() == moving),
+            Filter::Range(figure) => {
+                let mut ranges = query.ranges.iter().filter(|range| range.figure == figure).peekable();
+                ranges.peek().is_none()
+                    || row.figure(figure).is_some_and(|value| ranges.any(|range| range.holds(value)))
+            }
+        };
+        Filter::all().enumerate().fold(0, |bits, (bit, filter)| bits | u16::from(!passes(filter)) << bit)
+    }
+
+    fn sort(&self, order: &mut [usize], query: &Query, fit: &Fit) {
+        let item = |number: &usize| &self.items[*number];
+        match query.sort {
+            // Equally good ones stay in the catalogue's order.
+            Sort::Match => order.sort_by(|a, b| fit.score[*b].total_cmp(&fit.score[*a])),
+            Sort::Name => order.sort_by_key(|number| item(number).order[0]),
+            Sort::Maker => order.sort_by_key(|number| (item(number).order[1], item(number).order[0])),
+            Sort::Kind => order.sort_by_key(|number| (item(number).order[2], item(number).order[0])),
+            Sort::States => order.sort_by_key(|number| item(number).row.states.len()),
+            Sort::By(figure) => {
+                let value = |number: &usize| item(number).row.figure(figure).unwrap_or(f64::NAN);
+                order.sort_by(|a, b| value(a).total_cmp(&value(b)));
+            }
+        }
+        if query.descending {
+            order.reverse();
+        }
+        // What has no value has no place in an order: at the end, whichever way.
+        match query.sort {
+            Sort::By(figure) => order.sort_by_key(|number| item(number).row.figure(figure).is_none()),
+            Sort::Maker => order.sort_by_key(|number| item(number).row.manufacturer.is_empty()),
+            Sort::Kind => order.sort_by_key(|number| item(number).row.kind.is_empty()),
+            Sort::Match | Sort::Name | Sort::States => {}
+        }
+    }
+
+    fn facets(&self, query: &Query, misses: &[u16]) -> Facets {
+        let counted = |filter: Filter| {
+            let bit = bit(filter);
+            self.items.iter().zip(misses).filter(move |(_, misses)| **misses & !bit == 0).map(|(item, _)| item)
+        };
+        let list = |texts: &[String], counts: Vec<usize>, chosen: &[String], empty: bool| {
+            let shown =
+                |(text, count): &(&String, usize)| (*count > 0 || chosen.contains(text)) && (empty || !text.is_empty());
+            let mut list: Vec<Facet> = texts
+                .iter()
+                .zip(counts)
+                .filter(shown)
+                .map(|(value, count)| Facet { value: value.clone(), count })
+                .collect();
+            list.sort_by(|a, b| b.count.cmp(&a.count).then_with(|| a.value.cmp(&b.value)));
+            list
+        };
+        let tally = |filter: Filter, texts: &[String], of: &dyn Fn(&Item, &mut dyn FnMut(usize))| {
+            let mut counts = vec![0; texts.len()];
+            counted(filter).for_each(|item| of(item, &mut |at| counts[at] += 1));
+            counts
+        };
+        let kinds = tally(Filter::Kinds, &self.kinds, &|item, add| add(item.kind));
+        let makers = tally(Filter::Manufacturers, &self.manufacturers, &|item, add| add(item.manufacturer));
+        // All chosen tags must hold: another one is counted among those that have them.
+        let tags = tally(Filter::Words, &self.tags, &|_, _| {});
+        let tags =
+            self.items.iter().zip(misses).filter(|(_, misses)| **misses == 0).fold(tags, |mut tags, (item, _)| {
+                item.tags.iter().for_each(|at| tags[*at] += 1);
+                tags
+            });
+        let mut origins = Vec::new();
+        for origin in [super::Origin::Measured, super::Origin::Computed, super::Origin::Unknown] {
+            let count = counted(Filter::Origin).filter(|item| item.row.origin == origin).count();
+            if count > 0 || query.origin == Some(origin) {
+                origins.push(Facet { value: origin.word().to_owned(), count });
+            }
+        }
+        let ranges = Figure::ALL.into_iter().filter_map(|figure| {
+            self.items.iter().any(|item| item.row.figure(figure).is_some()).then(|| {
+                let mut counts = vec![0; Figure::LIMITS.len()];
+                for value in counted(Filter::Range(figure)).filter_map(|item| item.row.figure(figure)) {
+                    if let Some(place) = (0..counts.len()).find(|place| figure.range(*place).holds(value)) {
+                        counts[place] += 1;
+                    }
+                }
+                (figure, counts)
+            })
+        });
+        Facets {
+            kinds: list(&self.kinds, kinds, &query.kinds, true),
+            manufacturers: list(&self.manufacturers, makers, &query.manufacturers, false),
+            tags: list(&self.tags, tags, &query.tags, false),
+            origins,
+            moving: [true, false]
+                .map(|moving| counted(Filter::Moving).filter(|item| item.row.moves() == moving).count()),
+            ranges: ranges.collect(),
+            favourites: counted(Filter::Favourite).filter(|item| item.row.favourite).count(),
+            builtin: counted(Filter::Builtin).filter(|item| item.row.builtin).count(),
+            own: counted(Filter::Builtin).filter(|item| !item.row.builtin).count(),
+            all: self.items.len(),
+        }
+    }
+
+    /// What would be found without one of the filters or one of the words, most first.
+    fn without(&self, query: &Query, fit: &Fit, misses: &[u16]) -> Vec<(Filter, usize)> {
+        let mut list: Vec<(Filter, usize)> = Filter::all()
+            .filter(|filter| query.has(*filter))
+            .map(|filter| (filter, misses.iter().filter(|misses| **misses & !bit(filter) == 0).count()))
+            .collect();
+        let places = query.text.split_whitespace().count();
+        let lacks_only = |place: usize| {
+            let other = !bit(Filter::Words);
+            let all = misses.iter().zip(&fit.lacks);
+            all.filter(|(misses, lacks)| **misses & other == 0 && (lacks.0 == 0 || **lacks == (1, place))).count()
+        };
+        if places > 1 {
+            list.extend((0..places).map(|place| (Filter::Word(place), lacks_only(place))));
+        }
+        list.retain(|(_, count)| *count > 0);
+        list.sort_by(|a, b| b.1.cmp(&a.1));
+        list
+    }
+}
+
+/// Place of a filter among the bits of what a product misses.
+fn bit(filter: Filter) -> u16 {
+    Filter::all().position(|one| one == filter).map_or(0, |place| 1 << place)
+}
+
+/// Places of products in the order of a text.
+fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec<usize> {
+    let texts: Vec<String> = products.iter().map(of).collect();
+    let mut order: Vec<usize> = (0..products.len()).collect();
+    order.sort_by(|a, b| texts[*a].cmp(&texts[*b]));
+    let mut places = vec![0; products.len()];
+    let mut place = 0;
+    for (at, number) in order.iter().enumerate() {
+        // Equal texts have equal places: what is asked next decides.
+        if at > 0 && texts[order[at - 1]] != texts[*number] {
+            place = at;
+        }
+        places[*number] = place;
+    }
+    places
+}
+
+/// Words of a text, their parts, and (where asked for) neighbours written together; the latter told apart.
+fn words_of(text: &str, join: bool, put: &mut dyn FnMut(&str, bool)) {
+    let folded = folded(text);
+    let short = |word: &str| word.chars().count() <= words::LONGEST;
+    let list: Vec<&str> = runs(&folded).filter(|run| short(run)).collect();
+    for (at, run) in list.iter().enumerate() {
+        put(run, false);
+        parts(run).into_iter().for_each(|part| put(part, false));
+        if join {
+            let mut joined = (*run).to_owned();
+            for next in list[at + 1..].iter().take(2) {
+                joined.push_str(next);
+                put(&joined, true);
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Products as lists show them, read out of the tables: the one place that knows which columns they come from.
+
+use super::query::Figure;
+use super::representative::{FirstRule, Numbers, representative};
+use super::sight::IN_SIGHT;
+use super::{CatalogueError, CurvePoint, Origin};
+use rusqlite::Connection;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Columns of table `state` that hold figures. A file of a layout without one of them has no such figure.
+const COLUMNS: [(Figure, &str); 5] = [
+    (Figure::TauNormal, "tau_normal"),
+    (Figure::TauHemispherical, "tau_hemispherical"),
+    (Figure::ToCeiling, "to_ceiling"),
+    (Figure::SunBlocked, "sun_blocked"),
+    (Figure::View, "view"),
+];
+
+/// A product as lists show it. Figures are those of the state that stands for it, see
+/// [`representative`](super::representative()).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProductRow {
+    /// Key by which scenes name it.
+    pub key: String,
+    /// Name.
+    pub name: String,
+    /// Maker; may be empty.
+    pub manufacturer: String,
+    /// Kind; may be empty.
+    pub kind: String,
+    /// Measured or computed.
+    pub origin: Origin,
+    /// Keys of the states in order; one empty key for a product without states.
+    pub states: Vec<String>,
+    /// Place of the state that stands for the product.
+    pub representative: usize,
+    /// The rule by which it works when nobody has said otherwise.
+    pub rule: FirstRule,
+    /// Visible transmittance of light from outside at normal incidence.
+    pub tau_normal: Option<f64>,
+    /// The same under uniform luminance.
+    pub tau_hemispherical: Option<f64>,
+    /// The same at the profile angles [`PROFILE_ANGLES`](super::PROFILE_ANGLES), from light from below to light from
+    /// above; empty when unknown.
+    pub tau_profile: Vec<f64>,
+    /// Share of the transmitted light that goes to the ceiling, where it is known.
+    pub to_ceiling: Option<f64>,
+    /// Share of direct sun that is kept out, where it is known.
+    pub sun_blocked: Option<f64>,
+    /// How much of the view is left, where it is known.
+    pub view: Option<f64>,
+    /// Marked by the user.
+    pub favourite: bool,
+    /// Comes with the program.
+    pub builtin: bool,
+}
+
+impl ProductRow {
+    /// A figure of the state that stands for the product.
+    pub const fn figure(&self, figure: Figure) -> Option<f64> {
+        match figure {
+            Figure::TauNormal => self.tau_normal,
+            Figure::TauHemispherical => self.tau_hemispherical,
+            Figure::ToCeiling => self.to_ceiling,
+            Figure::SunBlocked => self.sun_blocked,
+            Figure::View => self.view,
+        }
+    }
+
+    /// Has it more than one state?
+    pub const fn moves(&self) -> bool {
+        self.states.len() > 1
+    }
+
+    /// Key of the state that stands for it; empty for a product without states.
+    pub fn state(&self) -> &str {
+        self.states.get(self.representative).map_or("", String::as_str)
+    }
+}
+
+/// A product with what it is found by beside its row.
+#[derive(Debug, Clone)]
+pub struct Sought {
+    /// What lists show.
+    pub row: Arc<ProductRow>,
+    /// Free text.
+    pub description: String,
+    /// Words to find it by.
+    pub tags: Vec<String>,
+}
+
+/// A state while it is read.
+struct StateRow {
+    key: String,
+    numbers: Numbers,
+    figures: [Option<f64>; COLUMNS.len()],
+    profile: String,
+}
+
+/// Reads lists of one table into those of each product.
+fn gathered<T>(
+    db: &Connection,
+    sql: &str,
+    read: impl Fn(&rusqlite::Row<'_>) -> rusqlite::Result<T>,
+) -> Result<HashMap<i64, Vec<T>>, CatalogueError> {
+    let mut statement = db.prepare(sql)?;
+    let mut rows = statement.query([])?;
+    let mut lists: HashMap<i64, Vec<T>> = HashMap::new();
+    while let Some(row) = rows.next()? {
+        lists.entry(row.get(0)?).or_default().push(read(row)?);
+    }
+    Ok(lists)
+}
+
+fn states(db: &Connection) -> Result<HashMap<i64, Vec<StateRow>>, CatalogueError> {
+    let mut ask = db.prepare("SELECT name FROM pragma_table_info('state')")?;
+    let there: Vec<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
+    let columns = COLUMNS.map(|(_, name)| if there.iter().any(|column| column == name) { name } else { "NULL" });
+    let figures = columns.join(", ");
+    gathered(
+        db,
+        &format!("SELECT product, key, value, tau_profile, {figures} FROM state ORDER BY product, position"),
+        |row| {
+            let mut figures = [None; COLUMNS.len()];
+            for (place, figure) in figures.iter_mut().enumerate() {
+                *figure = row.get(4 + place)?;
+            }
+            let tau_hemispherical = figures[1];
+            let numbers = Numbers { value: row.get(2)?, tau_hemispherical };
+            Ok(StateRow { key: row.get(1)?, numbers, figures, profile: row.get(3)? })
+        },
+    )
+}
+
+/// All products in the catalogue's order: built-in ones first in their own, then the user's by name.
+pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
+    let mut states = states(db)?;
+    let mut tags = gathered(db, "SELECT product, tag FROM tag ORDER BY product, tag", |row| row.get::<_, String>(1))?;
+    let mut curves =
+        gathered(db, "SELECT product, profile_angle, value FROM control_point ORDER BY product, position", |row| {
+            Ok(CurvePoint { profile_angle: row.get(1)?, value: row.get(2)? })
+        })?;
+    // Descriptions are read for those whose rule hangs on them alone: what moves and brings no curve. Keys last: products
+    // of the same name keep their places from one search to the next.
+    let mut statement = db.prepare(&format!(
+        "SELECT p.id, p.key, p.name, p.manufacturer, p.kind, p.origin, p.builtin, p.description,
+                EXISTS (SELECT 1 FROM favourite WHERE product_key = p.key),
+                CASE WHEN EXISTS (SELECT 1 FROM control_point WHERE product = p.id)
+                       OR NOT EXISTS (SELECT 1 FROM state WHERE product = p.id AND position = 1)
+                     THEN '' ELSE p.system END
+         FROM product p WHERE 1{IN_SIGHT} ORDER BY p.builtin DESC, p.rank, p.name COLLATE NOCASE, p.key"
+    ))?;
+    let mut rows = statement.query([])?;
+    let mut list = Vec::new();
+    while let Some(row) = rows.next()? {
+        let id: i64 = row.get(0)?;
+        let own = states.remove(&id).unwrap_or_default();
+        let curve = curves.remove(&id).unwrap_or_default();
+        let numbers: Vec<Numbers> = own.iter().map(|state| state.numbers).collect();
+        let (rule, place) = representative(&numbers, &curve, row.get_ref(9)?.as_str().unwrap_or_default());
+        let stands = own.get(place);
+        let figure = |figure: Figure| {
+            let at = COLUMNS.iter().position(|(column, _)| *column == figure)?;
+            stands.and_then(|state| state.figures[at])
+        };
+        let product = ProductRow {
+            key: row.get(1)?,
+            name: row.get(2)?,
+            manufacturer: row.get(3)?,
+            kind: row.get(4)?,
+            origin: Origin::from_word(&row.get::<_, String>(5)?),
+            representative: place,
+            rule,
+            tau_normal: figure(Figure::TauNormal),
+            tau_hemispherical: figure(Figure::TauHemispherical),
+            tau_profile: stands.map(|state| list_of(&state.profile)).unwrap_or_default(),
+            to_ceiling: figure(Figure::ToCeiling),
+            sun_blocked: figure(Figure::SunBlocked),
+            view: figure(Figure::View),
+            states: own.into_iter().map(|state| state.key).collect(),
+            favourite: row.get(8)?,
+            builtin: row.get(6)?,
+        };
+        list.push(Sought {
+            row: Arc::new(product),
+            description: row.get(7)?,
+            tags: tags.remove(&id).unwrap_or_default(),
+        });
+    }
+    Ok(list)
+}
+
+/// A stored list, e.g. of transmittances; empty when it is none.
+pub(super) fn list_of<T: serde::de::DeserializeOwned>(text: &str) -> Vec<T> {
+    serde_json::from_str(text).unwrap_or_default()
+}

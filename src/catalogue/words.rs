@@ -1,0 +1,216 @@
+//! Words as the search compares them: without case and marks, German words for what products say in English, and the
+//! distance between a typed word and one that may be meant.
+
+/// Longest word that is compared, in characters.
+pub(super) const LONGEST: usize = 64;
+
+/// German words for kinds and tags: who looks for a "Raffstore" means an exterior venetian blind. A product that has the
+/// kind or the tag on the left is also found by the words on the right, written without marks.
+const GERMAN: &[(&str, &str)] = &[
+    ("venetian", "jalousie jalousien lamelle lamellen lamellenjalousie lamellenstore"),
+    ("exterior venetian blind", "raffstore raffstoren aussenjalousie aussenraffstore"),
+    ("interior venetian blind", "innenjalousie"),
+    ("mirror venetian blind", "spiegellamelle spiegellamellen lichtlenkjalousie"),
+    ("vertical blind", "vertikallamelle vertikallamellen vertikaljalousie"),
+    ("glazing with blind", "jalousie lamellen verglasung isolierglas"),
+    ("glazing with screen", "screen rollo verglasung isolierglas"),
+    ("louvres", "grosslamelle grosslamellen sonnenschutzlamelle sonnenschutzlamellen"),
+    ("vertical louvres", "grosslamelle grosslamellen vertikallamelle vertikallamellen"),
+    ("micro-louvre screen", "mikrolamelle mikrolamellen"),
+    ("roller blind", "rollo rollos springrollo"),
+    ("woven", "gewebe stoff textil screen rollo"),
+    ("fabric", "gewebe stoff textil"),
+    ("prismatic", "prisma prismen prismenplatte prismensystem"),
+    ("prismatic panel", "prismenplatte"),
+    ("prismatic film", "prismenfolie folie"),
+    ("laser-cut-panel", "laserschnittplatte acrylglas"),
+    ("laser-cut panel", "laserschnittplatte acrylglas"),
+    ("redirecting-glass", "lichtlenkglas"),
+    ("diffuser", "diffusor streuscheibe"),
+    ("diffusing", "streuend diffus"),
+    ("diffusing glass", "milchglas streuglas mattglas"),
+    ("opal sheet", "opalplatte opalglas"),
+    ("pane", "glas scheibe verglasung"),
+    ("glass", "glas verglasung"),
+    ("clear glazing", "klarglas floatglas isolierglas"),
+    ("tinted glass", "farbglas getoentes glas"),
+    ("coated glazing", "beschichtetes waermeschutzglas sonnenschutzglas"),
+    ("electrochromic glazing", "elektrochrom schaltbar schaltbares"),
+    ("perforated", "gelocht"),
+    ("perforated metal", "lochblech"),
+    ("expanded metal", "streckmetall"),
+    ("egg-crate grid", "raster wabe"),
+    ("membrane", "membran"),
+    ("multiwall sheet", "stegplatte hohlkammerplatte"),
+    ("translucent insulation", "waermedaemmung transluzent"),
+    ("acrylic", "acrylglas plexiglas"),
+    ("redirecting", "lichtlenkung lichtlenkend umlenkend"),
+    ("retro-reflecting", "retroreflektierend ruecklenkend"),
+    ("solar control", "sonnenschutz"),
+    ("glare protection", "blendschutz"),
+    ("moving", "beweglich"),
+    ("ideal", "ideal referenz"),
+];
+
+/// German words for a kind or a tag; empty without any.
+pub(super) fn german(kind_or_tag: &str) -> &'static str {
+    GERMAN.iter().find(|(english, _)| *english == kind_or_tag).map_or("", |(_, words)| words)
+}
+
+/// A lower-case letter without its marks; empty for a mark alone, `None` for what has none.
+pub(super) const fn unmarked(letter: char) -> Option<&'static str> {
+    Some(match letter {
+        'à' | 'á' | 'â' | 'ã' | 'ä' | 'å' | 'ā' | 'ă' | 'ą' => "a",
+        'ç' | 'ć' | 'ĉ' | 'ċ' | 'č' => "c",
+        'ď' | 'đ' | 'ð' => "d",
+        'è' | 'é' | 'ê' | 'ë' | 'ē' | 'ĕ' | 'ė' | 'ę' | 'ě' => "e",
+        'ĝ' | 'ğ' | 'ġ' | 'ģ' => "g",
+        'ĥ' | 'ħ' => "h",
+        'ì' | 'í' | 'î' | 'ï' | 'ĩ' | 'ī' | 'ĭ' | 'į' | 'ı' => "i",
+        'ĵ' => "j",
+        'ķ' => "k",
+        'ĺ' | 'ļ' | 'ľ' | 'ł' => "l",
+        'ñ' | 'ń' | 'ņ' | 'ň' => "n",
+        'ò' | 'ó' | 'ô' | 'õ' | 'ö' | 'ø' | 'ō' | 'ŏ' | 'ő' => "o",
+        'ŕ' | 'ŗ' | 'ř' => "r",
+        'ś' | 'ŝ' | 'ş' | 'š' | 'ș' => "s",
+        'ţ' | 'ť' | 'ŧ' | 'ț' => "t",
+        'ù' | 'ú' | 'û' | 'ü' | 'ũ' | 'ū' | 'ŭ' | 'ů' | 'ű' | 'ų' => "u",
+        'ŵ' => "w",
+        'ý' | 'ÿ' | 'ŷ' => "y",
+        'ź' | 'ż' | 'ž' => "z",
+        'ß' => "ss",
+        'æ' => "ae",
+        'œ' => "oe",
+        'þ' => "th",
+        // Marks of their own, behind the letter that they belong to.
+        '\u{300}'..='\u{36f}' => "",
+        _ => return None,
+    })
+}
+
+/// A text in lower case without marks.
+pub(super) fn folded(text: &str) -> String {
+    let mut folded = String::with_capacity(text.len());
+    for letter in text.chars().flat_map(char::to_lowercase) {
+        match unmarked(letter) {
+            Some(plain) => folded.push_str(plain),
+            None => folded.push(letter),
+        }
+    }
+    folded
+}
+
+/// Runs of letters and digits of a folded text.
+pub(super) fn runs(folded: &str) -> impl Iterator<Item = &str> {
+    folded.split(|c: char| !c.is_alphanumeric()).filter(|run| !run.is_empty())
+}
+
+/// Where letters meet digits in a run, its parts; none for a run of one sort.
+pub(super) fn parts(run: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let mut start = 0;
+    let mut before: Option<bool> = None;
+    for (at, letter) in run.char_indices() {
+        let digit = letter.is_ascii_digit();
+        if before.is_some_and(|before| before != digit) {
+            parts.push(&run[start..at]);
+            start = at;
+        }
+        before = Some(digit);
+    }
+    if start > 0 {
+        parts.push(&run[start..]);
+    }
+    parts
+}
+
+/// A word with vowels written out (ae, oe, ue) as marked ones come out of folding (a, o, u); `None` without any.
+pub(super) fn without_written_marks(word: &str) -> Option<String> {
+    let plain = word.replace("ae", "a").replace("oe", "o").replace("ue", "u");
+    (plain != word).then_some(plain)
+}
+
+/// Typing errors that are forgiven in a word of so many characters. Words with digits are sizes: none.
+pub(super) fn forgiven(word: &[char]) -> usize {
+    match word.len() {
+        _ if word.iter().any(char::is_ascii_digit) => 0,
+        0..=3 => 0,
+        4..=7 => 1,
+        _ => 2,
+    }
+}
+
+/// Fewest typing errors (a letter left out, put in, changed, or two swapped) between a typed word and the beginning of
+/// another; `None` above `most`.
+pub(super) fn distance(typed: &[char], word: &[char], most: usize) -> Option<usize> {
+    let word = &word[..word.len().min(typed.len() + most)];
+    let width = word.len() + 1;
+    // Three rows: the one before the last tells swapped letters.
+    let mut rows = [vec![0; width], (0..width).collect::<Vec<usize>>(), vec![0; width]];
+    for (i, letter) in typed.iter().enumerate() {
+        let [before, last, this] = &mut rows;
+        this[0] = i + 1;
+        for (j, other) in word.iter().enumerate() {
+            let changed = last[j] + usize::from(letter != other);
+            let mut best = changed.min(last[j + 1] + 1).min(this[j] + 1);
+            if i > 0 && j > 0 && *letter == word[j - 1] && typed[i - 1] == *other {
+                best = best.min(before[j - 1] + 1);
+            }
+            this[j + 1] = best;
+        }
+        if this.iter().min().is_none_or(|least| *least > most) {
+            return None;
+        }
+        rows.rotate_left(1);
+    }
+    rows[1].iter().min().copied().filter(|least| *least <= most)
+}
+
+/// Which letters and digits a word has, a bit each: words that differ in many cannot be near each other.
+pub(super) fn letters(word: &[char]) -> u64 {
+    word.iter().fold(0, |set, letter| set | 1 << (u32::from(*letter) % 61))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn apart(typed: &str, word: &str) -> Option<usize> {
+        let [typed, word] = [typed, word].map(|text| text.chars().collect::<Vec<char>>());
+        distance(&typed, &word, forgiven(&typed))
+    }
+
+    #[test]
+    fn typing_errors_are_counted_to_the_beginning_of_a_word() {
+        assert_eq!(apart("venezian", "venetian"), Some(1));
+        assert_eq!(apart("prismtic", "prismatic"), Some(1));
+        assert_eq!(apart("vneetian", "venetian"), Some(1));
+        assert_eq!(apart("venez", "venetian"), Some(1));
+        assert_eq!(apart("prism", "prismatic"), Some(0));
+        assert_eq!(apart("laser", "blind"), None);
+        // Too short, and a size: to the letter.
+        assert_eq!((apart("abc", "abd"), apart("80x72", "80x73")), (None, None));
+    }
+
+    #[test]
+    fn words_lose_case_and_marks_and_fall_into_parts() {
+        assert_eq!(folded("Écran TISSÉ, weiß – Grün"), "ecran tisse, weiss – grun");
+        assert_eq!(folded("e\u{301}cran"), "ecran");
+        assert_eq!(runs(&folded("Single Clear45 80/72")).collect::<Vec<_>>(), ["single", "clear45", "80", "72"]);
+        assert_eq!(parts("clear45"), ["clear", "45"]);
+        assert!(parts("clear").is_empty());
+        assert_eq!(without_written_marks("gruen").as_deref(), Some("grun"));
+        assert!(german("exterior venetian blind").contains("raffstore"));
+    }
+
+    #[test]
+    fn german_words_are_folded_themselves() {
+        for (_, words) in GERMAN {
+            for word in words.split(' ') {
+                assert_eq!(folded(word), word);
+                assert!(word.chars().all(char::is_alphanumeric), "{word}");
+            }
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! `cfs catalogue list`: products found by words and filters, in the order that is asked for.
+
+use super::output::print;
+use crate::catalogue::{Catalogue, Figure, Origin, ProductRow, Query, Sort, Within};
+use serde_json::json;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+/// Arguments of `cfs catalogue list`.
+#[derive(Debug, Default, clap::Args)]
+pub struct ListArgs {
+    /// Words or parts of words in name, maker, kind, tags or description; typing errors and German words for kinds are
+    /// understood
+    #[arg(long, default_value = "")]
+    pub search: String,
+    /// Products of this kind; several: any of them
+    #[arg(long)]
+    pub kind: Vec<String>,
+    /// Products of this maker; several: any of them
+    #[arg(long)]
+    pub maker: Vec<String>,
+    /// Products with this tag; several: all of them
+    #[arg(long = "tag")]
+    pub tags: Vec<String>,
+    /// Products of several states alone
+    #[arg(long, conflicts_with = "fixed")]
+    pub moving: bool,
+    /// Products of one state alone
+    #[arg(long)]
+    pub fixed: bool,
+    /// Measured data alone
+    #[arg(long, conflicts_with = "computed")]
+    pub measured: bool,
+    /// Computed data alone
+    #[arg(long)]
+    pub computed: bool,
+    /// Starred products alone
+    #[arg(long)]
+    pub starred: bool,
+    /// A figure within a range: tau-normal=0.2..0.5, tau-hemispherical, to-ceiling, sun-blocked or view; either end may
+    /// be left out
+    #[arg(long, value_name = "FIGURE=FROM..TO", value_parser = range)]
+    pub within: Vec<Within>,
+    /// Order: match, name, maker, kind, states or a figure
+    #[arg(long, default_value = "match", value_parser = sort)]
+    pub sort: Sort,
+    /// The greatest (or last) first
+    #[arg(long)]
+    pub descending: bool,
+    /// A JSON array instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A range as typed: `tau-normal=0.2..0.5`, both ends included.
+fn range(text: &str) -> Result<Within, String> {
+    let figures = || Figure::ALL.map(Figure::word).join(", ");
+    let wrong = || format!("expected FIGURE=FROM..TO, e.g. tau-normal=0.2..0.5; figures: {}", figures());
+    let (word, ends) = text.split_once('=').ok_or_else(wrong)?;
+    let figure = Figure::ALL.into_iter().find(|figure| figure.word() == word).ok_or_else(wrong)?;
+    let (low, high) = ends.split_once("..").ok_or_else(wrong)?;
+    let number = |text: &str, otherwise: f64| match text.trim() {
+        "" => Ok(otherwise),
+        text => text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(wrong),
+    };
+    let (low, high) = (number(low, 0.0)?, number(high, f64::INFINITY)?);
+    if low > high {
+        return Err(format!("{low} is above {high}: the lower end comes first"));
+    }
+    // The greatest value that is asked for belongs to it.
+    Ok(Within { figure, low, high: high.next_up() })
+}
+
+fn sort(text: &str) -> Result<Sort, String> {
+    let words: Vec<&str> = Sort::all().map(Sort::word).collect();
+    Sort::all().find(|sort| sort.word() == text).ok_or_else(|| format!("expected one of {}", words.join(", ")))
+}
+
+impl ListArgs {
+    /// What is asked for.
+    pub fn query(&self) -> Query {
+        Query {
+            text: self.search.clone(),
+            kinds: self.kind.clone(),
+            manufacturers: self.maker.clone(),
+            tags: self.tags.clone(),
+            favourite: self.starred.then_some(true),
+            origin: match (self.measured, self.computed) {
+                (true, _) => Some(Origin::Measured),
+                (_, true) => Some(Origin::Computed),
+                _ => None,
+            },
+            builtin: None,
+            moving: match (self.moving, self.fixed) {
+                (true, _) => Some(true),
+                (_, true) => Some(false),
+                _ => None,
+            },
+            ranges: self.within.clone(),
+            sort: self.sort,
+            descending: self.descending,
+        }
+    }
+}
+
+pub(super) fn figure(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
+}
+
+/// Writes what was found.
+pub(super) fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
+    let query = args.query();
+    let found = catalogue.find(&query)?;
+    for (typed, read_as) in &found.read_as {
+        eprintln!("note: no product has \"{typed}\"; read as \"{read_as}\"");
+    }
+    let rows = found.entries;
+    if rows.is_empty() && !args.json {
+        for (filter, count) in &found.without {
+            eprintln!("{count} products without \"{}\"", query.words_of(*filter));
+        }
+    }
+    print(&if args.json { as_json(&rows)? } else { as_table(&rows)? })
+}
+
+fn as_json(rows: &[Arc<ProductRow>]) -> anyhow::Result<String> {
+    let rows = rows.iter().map(|row| {
+        json!({
+            "key": row.key, "name": row.name, "manufacturer": row.manufacturer, "kind": row.kind,
+            "origin": row.origin.word(), "tau_normal_hemispherical": row.tau_normal,
+            "tau_hemispherical_hemispherical": row.tau_hemispherical, "to_ceiling": row.to_ceiling,
+            "sun_blocked": row.sun_blocked, "view": row.view, "states": row.states.len(), "state": row.state(),
+            "favourite": row.favourite, "builtin": row.builtin,
+        })
+    });
+    Ok(serde_json::to_string_pretty(&rows.collect::<Vec<_>>())? + "\n")
+}
+
+fn as_table(rows: &[Arc<ProductRow>]) -> anyhow::Result<String> {
+    let widest = |of: fn(&ProductRow) -> &str, least: usize| {
+        rows.iter().map(|row| of(row).chars().count()).max().unwrap_or(0).max(least)
+    };
+    let (width, kind, state) = (widest(|row| &row.key, 3), widest(|row| &row.kind, 4), widest(ProductRow::state, 5));
+    let mut text = format!("{:width$}  {:kind$}  τ normal  τ hemi  {:>state$}  states  name\n", "key", "kind", "state");
+    for row in rows {
+        let (normal, hemispherical) = (figure(row.tau_normal), figure(row.tau_hemispherical));
+        let star = if row.favourite { " ★" } else { "" };
+        let own = if row.state().is_empty() { "-" } else { row.state() };
+        writeln!(
+            text,
+            "{:width$}  {:kind$}  {normal:>8}  {hemispherical:>6}  {own:>state$}  {:>6}  {}{star}",
+            row.key,
+            row.kind,
+            row.states.len(),
+            row.name
+        )?;
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_read_with_both_ends() {
+        let both = range("tau-normal=0.2..0.5").unwrap();
+        assert!(both.holds(0.2) && both.holds(0.5) && !both.holds(0.500_001) && !both.holds(0.1));
+        assert!(range("view=0.8..").unwrap().holds(1.0) && range("view=..0.8").unwrap().holds(0.0));
+        for wrong in ["tau=0..1", "tau-normal", "tau-normal=a..1", "tau-normal=0.5..0.2", "view=0.5"] {
+            assert!(range(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(sort("tau-normal"), Ok(Sort::By(Figure::TauNormal)));
+        assert!(sort("price").unwrap_err().contains("match, name"));
+    }
+}

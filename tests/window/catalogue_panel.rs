@@ -1,0 +1,267 @@
+//! The catalogue's panel: what a product is called, how it is first shown, its states, and how the list is narrowed.
+
+use cfs::app::App;
+use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::command::Command;
+use cfs::app::shelf::{Addition, Query};
+use cfs::app::state::{CatalogueState, State};
+use cfs::app::tiles::TILES;
+use cfs::app::title;
+use cfs::catalogue::{Filter, NewProduct, Sort};
+use cfs::compute::btdf::{Btdf, Dataset};
+use cfs::study::control::year::CONTROLLED;
+use cfs::study::scene_file::ControlMode;
+use egui::accesskit::{Role, Toggled};
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+fn window() -> Harness<'static, App> {
+    let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
+    let mut harness = Harness::builder().with_size([1400.0, 900.0]).with_max_steps(200).build_ui_state(
+        |ui, app: &mut App| {
+            let ctx = ui.ctx().clone();
+            app.logic(&ctx);
+            app.draw(ui);
+        },
+        app,
+    );
+    let plane = harness.state_mut().state.document.scene.sensors.plane.as_mut().unwrap();
+    (plane.nx, plane.ny) = (1, 2);
+    settle(&mut harness);
+    harness
+}
+
+/// Steps until no job is left.
+fn settle(harness: &mut Harness<'_, App>) {
+    let start = Instant::now();
+    harness.run_steps(3);
+    while harness.state().busy() && start.elapsed() < Duration::from_secs(120) {
+        std::thread::sleep(Duration::from_millis(2));
+        harness.step();
+    }
+    assert!(!harness.state().busy(), "jobs end");
+    harness.run_steps(3);
+}
+
+fn apply(harness: &mut Harness<'_, App>, command: Command) {
+    harness.state_mut().apply(command);
+    settle(harness);
+}
+
+fn find(harness: &mut Harness<'_, App>, text: &str) {
+    apply(harness, Command::Find(Query { text: text.to_owned(), ..Query::default() }));
+}
+
+fn state<'a>(harness: &'a Harness<'_, App>) -> &'a State {
+    &harness.state().state
+}
+
+/// Stores a product whose datasets have a name of their own, as a maker's file has.
+fn add(harness: &mut Harness<'_, App>, name: &str, states: &[(&str, f64)]) -> String {
+    let dataset = |(key, tau): &(&str, f64)| {
+        let mut dataset = Dataset { name: "Single Clear45".to_owned(), state: (*key).to_owned(), ..Dataset::default() };
+        dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(*tau));
+        Arc::new(dataset)
+    };
+    let product = NewProduct { name: name.to_owned(), kind: "venetian".to_owned(), ..NewProduct::default() };
+    let datasets = states.iter().map(dataset).collect();
+    let key = state(harness).shelf().unwrap().add(&Addition { datasets, product }).unwrap();
+    find(harness, "");
+    key
+}
+
+#[test]
+fn a_product_keeps_its_name_whatever_is_searched() {
+    let mut h = window();
+    let key = add(&mut h, "My venetian 45", &[("", 0.4)]);
+    apply(&mut h, Command::Select(key));
+    assert_eq!(title::selection(state(&h)), "My venetian 45");
+    find(&mut h, "laser");
+    assert!(state(&h).found.entries.iter().all(|entry| entry.name != "My venetian 45"));
+    assert_eq!(title::selection(state(&h)), "My venetian 45");
+    assert!(title::title(state(&h)).contains("My venetian 45") && h.query_by_label_contains("Clear45").is_none());
+    // The luminaire is called like the product, too.
+    let lid = h.state().results.lid.value.clone().expect("a LID");
+    assert!(format!("{:?}", lid.description).contains("My venetian 45"), "{:?}", lid.description);
+}
+
+#[test]
+fn a_moving_product_starts_with_its_own_rule_in_one_step() {
+    let mut h = window();
+    let blind = |h: &Harness<'_, App>| {
+        let state = state(h);
+        (state.document.selection.product.clone(), state.document.selection.state.clone(), state.control_mode())
+    };
+    // At the first start, too.
+    assert_eq!(blind(&h), ("venetian-80-72".to_owned(), CONTROLLED.to_owned(), ControlMode::Curve));
+    assert_eq!(state(&h).document.scene.control.as_ref().map(|keys| keys.mode), Some(ControlMode::Curve));
+    assert_eq!(state(&h).shown_state, "5", "noon of the equinox at 41°");
+    apply(&mut h, Command::Select("clear-double".into()));
+    assert_eq!(blind(&h), ("clear-double".to_owned(), String::new(), ControlMode::Fixed));
+    assert!(state(&h).document.scene.control.is_none());
+    let before = state(&h).document.clone();
+    apply(&mut h, Command::Select("venetian-80-72".into()));
+    assert_eq!(blind(&h).2, ControlMode::Curve);
+    apply(&mut h, Command::Undo);
+    assert_eq!(state(&h).document, before);
+    // Without a curve and a description: the most open state, by hand.
+    let key = add(&mut h, "Tinted", &[("-60", 0.1), ("-15", 0.5), ("15", 0.3)]);
+    apply(&mut h, Command::Select(key.clone()));
+    assert_eq!(blind(&h), (key.clone(), "-15".to_owned(), ControlMode::Fixed));
+    assert_eq!(title::selection(state(&h)), "Tinted, -15°");
+    let listed = state(&h).found.entries.iter().find(|entry| entry.key == key).unwrap();
+    assert!((listed.tau_hemispherical.unwrap() - 0.5).abs() < 1e-6);
+    // One that the list does not hold is looked up.
+    apply(&mut h, Command::Select("clear-double".into()));
+    find(&mut h, "laser");
+    apply(&mut h, Command::Select(key.clone()));
+    assert_eq!(blind(&h), (key, "-15".to_owned(), ControlMode::Fixed));
+    apply(&mut h, Command::Undo);
+    assert_eq!(blind(&h).0, "clear-double");
+}
+
+#[test]
+fn all_states_are_in_reach_by_their_angles_also_by_keyboard() {
+    let mut h = window();
+    let product = state(&h).product.clone().unwrap();
+    assert_eq!(product.states.len(), 16);
+    for one in &product.states {
+        assert!(h.query_by_label(&format!("State {}°", one.key)).is_some(), "{}", one.key);
+    }
+    let chosen =
+        |h: &Harness<'_, App>, label: &str| h.get_by_label(label).accesskit_node().toggled() == Some(Toggled::True);
+    assert!(chosen(&h, "State 5°"));
+    h.get_by_label("State 45°").focus();
+    h.run_steps(2);
+    h.key_press(Key::Enter);
+    settle(&mut h);
+    assert_eq!(state(&h).shown_state, "45");
+    assert!(chosen(&h, "State 45°") && !chosen(&h, "State 5°"));
+    assert!(h.query_by_label_contains("State 45° of 16").is_some());
+    // Also of a product that the search has put out of the list.
+    find(&mut h, "laser");
+    assert!(h.query_by_label("State 75°").is_some());
+    h.key_press(Key::CloseBracket);
+    settle(&mut h);
+    assert_eq!(state(&h).shown_state, "50");
+}
+
+fn control_tile(h: &mut Harness<'_, App>) {
+    let tile = TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == "Control").unwrap();
+    apply(h, Command::Maximise(Some(tile)));
+}
+
+#[test]
+fn the_control_tile_says_why_nothing_moves() {
+    let mut h = window();
+    control_tile(&mut h);
+    apply(&mut h, Command::Select("clear-double".into()));
+    let fixed = "This pane has one state. Blinds, louvres and switchable glazing are controlled here.";
+    assert!(h.query_by_label(fixed).is_some());
+    assert!(h.query_by_label_contains("by hand").is_none(), "what does not move is not set by hand");
+    // Without a product nothing is said of one.
+    let known = std::mem::replace(&mut h.state_mut().state.catalogue, CatalogueState::Opening);
+    h.state_mut().state.product = None;
+    h.run_steps(2);
+    assert!(h.query_by_label("The catalogue is opening.").is_some());
+    h.state_mut().state.catalogue = known;
+    h.state_mut().state.document.selection.product.clear();
+    h.run_steps(2);
+    assert!(h.query_by_label("Nothing is selected: choose a product in the catalogue.").is_some());
+    assert!(h.query_by_label_contains("does not move").is_none());
+}
+
+#[test]
+fn facets_fold_into_menus_and_what_is_chosen_goes_by_a_click() {
+    let mut h = window();
+    let all = state(&h).found.total;
+    let moving = state(&h).found.facets.moving;
+    assert_eq!((moving[0] + moving[1], moving[0]), (all, 1));
+    h.get_by_label("Filter by moves").click();
+    h.run_steps(3);
+    h.get_by_label(&format!("fixed  {}", moving[1])).click();
+    settle(&mut h);
+    assert_eq!((state(&h).query.moving, state(&h).found.entries.len()), (Some(false), moving[1]));
+    // The menu is still open: a second choice takes the first back.
+    h.get_by_label("moving  1").click();
+    settle(&mut h);
+    assert_eq!(state(&h).query.moving, Some(true));
+    h.key_press(Key::Escape);
+    h.run_steps(3);
+    h.get_by_label("Filter by kind").click();
+    h.run_steps(3);
+    h.get_by_label("venetian  1").click();
+    settle(&mut h);
+    h.key_press(Key::Escape);
+    h.run_steps(3);
+    assert_eq!(state(&h).found.entries.len(), 1);
+    h.get_by_label("Without moving").click();
+    settle(&mut h);
+    assert!(!state(&h).query.has(Filter::Moving) && state(&h).query.has(Filter::Kinds));
+    h.get_by_label("Without venetian").click();
+    settle(&mut h);
+    assert_eq!(state(&h).found.entries.len(), all);
+}
+
+#[test]
+fn where_nothing_is_found_a_click_relaxes_what_stands_in_the_way() {
+    let mut h = window();
+    let query = Query { text: "laser".into(), moving: Some(true), ..Query::default() };
+    apply(&mut h, Command::Find(query));
+    assert!(state(&h).found.entries.is_empty());
+    let panels = state(&h).found.without.iter().find(|(filter, _)| *filter == Filter::Moving).unwrap().1;
+    let products = if panels == 1 { "1 product".to_owned() } else { format!("{panels} products") };
+    h.get_by_label(&format!("{products} without “moving”")).click();
+    settle(&mut h);
+    assert_eq!((state(&h).query.text.as_str(), state(&h).query.moving), ("laser", None));
+    assert_eq!(state(&h).found.entries.len(), panels);
+}
+
+#[test]
+fn typing_errors_are_forgiven_and_told() {
+    let mut h = window();
+    h.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    h.run_steps(3);
+    h.get_by_role_and_label(Role::TextInput, "Search").type_text("venezian");
+    settle(&mut h);
+    assert!(h.query_by_role_and_label(Role::ListBoxOption, "Venetian blind 80/72, matt").is_some());
+    assert!(h.query_by_label_contains("read as “venetian”").is_some());
+}
+
+#[test]
+fn the_list_is_ordered_by_what_is_chosen() {
+    let mut h = window();
+    h.get_by_label("Order").click();
+    h.run_steps(3);
+    h.get_by_label("τ normal").click();
+    settle(&mut h);
+    let values = |h: &Harness<'_, App>| -> Vec<f64> {
+        state(h).found.entries.iter().filter_map(|entry| entry.tau_normal).collect()
+    };
+    assert!(matches!(state(&h).query.sort, Sort::By(_)));
+    assert!(values(&h).len() > 3 && values(&h).is_sorted_by(|a, b| a >= b), "the greatest first");
+    h.get_by_label("Falling order").click();
+    settle(&mut h);
+    assert!(values(&h).is_sorted());
+}
+
+#[test]
+fn the_panel_may_be_made_wide() {
+    let mut h = window();
+    let width = |h: &Harness<'_, App>| h.get_by_role_and_label(Role::TextInput, "Search").rect().width();
+    let before = width(&h);
+    assert!(before < 300.0, "{before}");
+    let edge = egui::pos2(h.get_by_role_and_label(Role::TextInput, "Search").rect().right() + 10.0, 450.0);
+    h.hover_at(edge);
+    h.run_steps(2);
+    h.drag_at(edge);
+    h.run_steps(2);
+    h.hover_at(edge + egui::vec2(320.0, 0.0));
+    h.run_steps(2);
+    h.drop_at(edge + egui::vec2(320.0, 0.0));
+    settle(&mut h);
+    assert!(width(&h) > before + 250.0, "{} {before}", width(&h));
+}
