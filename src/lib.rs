@@ -60,7 +60,7 @@
 //! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], its extension in [`study::luminaire_file`] |
 //! | add a sky model | a file in [`compute::sky`], its key and words in [`study::scene_file`], its arm in [`study::sky`] |
 //! | add a family of systems | a room in [`compute::system`] that answers [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
-//! | add a built-in product | a description under `assets/systems`: all of them are [`catalogue::SYSTEMS`] |
+//! | add a built-in product | a description under `assets/systems`, whose README says how the table of figures follows: all are [`catalogue::SYSTEMS`] |
 //! | add a check or a repair of data | [`compute::doctor`] |
 //! | add a control rule | [`compute::control`], its key in [`study::scene_file`] |
 //! | change an angle convention | [`compute::direction`], nowhere else |

@@ -336,13 +336,14 @@ impl Catalogue {
     /// computed yet are told as such.
     pub fn validate(&self, key: &str) -> Result<Vec<ProductFinding>, CatalogueError> {
         let snapshot = self.db.unchecked_transaction()?;
-        let mut findings = Vec::new();
-        for state in &read_product(&snapshot, key)?.states {
+        let (mut findings, mut waiting) = (Vec::new(), 0);
+        let states = read_product(&snapshot, key)?.states;
+        for state in &states {
             let mut tell = |severity, code: &str, message: String| {
                 findings.push(ProductFinding { state: state.key.clone(), severity, code: code.to_owned(), message });
             };
             let Some(hash) = &state.dataset else {
-                tell(Severity::Info, "not-computed", "The data are computed when they are first asked for.".to_owned());
+                waiting += 1;
                 continue;
             };
             let blob: Vec<u8> = snapshot
@@ -360,6 +361,12 @@ impl Catalogue {
                     }
                 }
             }
+        }
+        if waiting > 0 {
+            let message =
+                format!("{waiting} of {} states: data are computed when they are first asked for.", states.len());
+            let (state, code) = (String::new(), "not-computed".to_owned());
+            findings.push(ProductFinding { state, severity: Severity::Info, code, message });
         }
         Ok(findings)
     }

@@ -101,7 +101,7 @@ const SAMPLE: [(&str, &str); 12] = [
     ("venetian-80-72", "0"),
     ("venetian-80-72", "45"),
     ("exterior-80-72-white", "30"),
-    ("fixed-louvre-150-45", ""),
+    ("fixed-louvre-150-45", "45"),
     ("low-e-double-interior-screen", ""),
 ];
 

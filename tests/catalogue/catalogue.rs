@@ -261,7 +261,8 @@ fn searching_finds_prefixes_without_marks_and_filters() {
         assert!(keys(&Query { text: text.into(), ..Query::default() }).contains(&key), "{text}");
     }
     assert_eq!(keys(&Query { text: "ecran venetian".into(), ..Query::default() }), Vec::<String>::new());
-    assert_eq!(keys(&Query { text: "80/72".into(), ..Query::default() }), ["venetian-80-72"]);
+    let sized = keys(&Query { text: "80/72".into(), ..Query::default() });
+    assert!(sized.contains(&"venetian-80-72".to_owned()) && !sized.contains(&key), "{sized:?}");
     assert_eq!(keys(&Query { favourite: Some(true), ..Query::default() }), std::slice::from_ref(&key));
     assert_eq!(keys(&Query { builtin: Some(false), ..Query::default() }), std::slice::from_ref(&key));
     assert_eq!(keys(&Query { kinds: vec!["woven".into()], ..Query::default() }), std::slice::from_ref(&key));

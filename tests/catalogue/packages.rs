@@ -157,7 +157,9 @@ fn a_package_of_what_is_there_changes_nothing_and_data_of_built_in_ones_find_the
     let import = |to: &mut Catalogue| to.import_package(&package).unwrap().remove(0);
     let imported = import(&mut to);
     assert_eq!((imported.key.as_str(), imported.same_content_as.len()), ("screen-grey-5", 0));
-    assert_eq!(to.product("screen-grey-5").unwrap(), from.product("screen-grey-5").unwrap());
+    let (own, other) = (to.product("screen-grey-5").unwrap(), from.product("screen-grey-5").unwrap());
+    assert_eq!((own.states, own.builtin, own.system), (other.states, true, other.system));
+    assert!(own.findings.iter().any(|finding| finding.code == "computed"));
     assert_eq!(*to.dataset("screen-grey-5", None).unwrap(), *from.dataset("screen-grey-5", None).unwrap());
     assert_eq!(import(&mut to).same_content_as, ["screen-grey-5"]);
     assert_eq!(to.search(&Query::default()).unwrap().len(), before);
