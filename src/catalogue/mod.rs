@@ -25,6 +25,7 @@ mod open;
 mod product;
 mod search;
 mod sight;
+mod source_file;
 mod store;
 mod systems;
 mod validate;
@@ -34,7 +35,7 @@ pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, me
 pub use connection::Catalogue;
 pub use described::{control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
-pub use gather::{Gathered, SourceFile, gather};
+pub use gather::{Gathered, gather};
 pub use grouping::Grouping;
 pub use keeping::{Deleted, Known, Words};
 pub use open::default_path;
@@ -43,5 +44,6 @@ pub use product::{
     profile_transmittances,
 };
 pub use search::{Facet, Facets, ProductRow, Query};
+pub use source_file::SourceFile;
 pub use systems::{SYSTEMS, blind_of, builtin_system};
 pub use validate::check;
