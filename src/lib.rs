@@ -68,6 +68,8 @@
 //! | skip work that a scene does not need | [`study::plan`] |
 //! | add a subcommand | a file in [`cli`] named like it |
 //! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
+//! | change what belongs to a product when files come in | [`catalogue::Grouping`] and its file |
+//! | keep something more from one start to the next | [`app::session`], or [`app::state::Settings`] |
 //! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
 //! | add a tile to the bench | a picture, a file in [`app::tiles`] that feeds it, its entry in [`app::tiles::TILES`] |
 //! | add a plot, in the window or in a file | its numbers as a [`drawing::plot::Plot`]; [`app::paint::plot`] and [`drawing::chart`] draw it |

@@ -5,7 +5,7 @@
 //! close: the next window that starts takes it up. A window that closes leaves its session as [`LAST`].
 
 use super::clock;
-use super::disk::{read_bytes, write_whole};
+use super::disk::{ends_in, read_bytes, write_whole};
 use super::session::{Kept, Snapshot};
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
@@ -18,6 +18,9 @@ use std::time::Duration;
 const LAST: &str = "last.json";
 /// Between two writings at least; longer than a fast disk needs and far below a second.
 const PAUSE: Duration = Duration::from_millis(200);
+
+/// Leftovers of killed programs are taken away after this time.
+const OLD: Duration = Duration::from_secs(3600);
 
 /// What was there at the start.
 #[derive(Debug, Default)]
@@ -80,6 +83,7 @@ impl Autosave {
     /// The folder cannot be made or written to.
     pub fn begin(folder: &Path, take_up: bool) -> std::io::Result<(Self, Found)> {
         std::fs::create_dir_all(folder)?;
+        tidy(folder);
         let mut found = Found::default();
         let mut own = None;
         if take_up {
@@ -171,6 +175,22 @@ impl Autosave {
         }
         self.lock = None;
         remove(&self.lock_file);
+    }
+}
+
+/// Takes away what killed programs leave beside their sessions: half of a file that has not taken its name, locks of
+/// windows that ended before they wrote anything. Only what is old: another window may be about to use it.
+fn tidy(folder: &Path) {
+    let old = |path: &Path| {
+        let modified = std::fs::metadata(path).and_then(|meta| meta.modified()).ok();
+        modified.and_then(|at| at.elapsed().ok()).is_some_and(|age| age > OLD)
+    };
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for path in entries.flatten().map(|entry| entry.path()).filter(|path| old(path)) {
+        let lone_lock = ends_in(&path, "lock") && !path.with_extension("json").exists();
+        if ends_in(&path, "part") || (lone_lock && lock(&path).is_ok_and(|held| held.is_some())) {
+            remove(&path);
+        }
     }
 }
 

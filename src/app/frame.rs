@@ -48,6 +48,8 @@ impl App {
             self.apply(command);
             ui.ctx().request_repaint();
         }
+        // Now, not with the next frame: a slow one would take its time from the second that may be lost.
+        self.keep_session();
         let title = title::title(&self.state);
         if title != self.shown_title {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));

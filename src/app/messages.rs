@@ -10,6 +10,9 @@ const SECONDS: [f64; 2] = [4.0, 40.0];
 /// Seconds per character on top: a slow reader's pace.
 const PER_CHARACTER: f64 = 0.07;
 
+/// A frame that took longer came late. \[s\]
+const LATE: f64 = 0.5;
+
 /// How much it matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
@@ -55,6 +58,8 @@ pub struct Message {
 pub struct Messages {
     list: VecDeque<Message>,
     next: u64,
+    /// When time was last let pass: the window's own clock. \[s\]
+    clock: f64,
 }
 
 /// Seconds that a text is shown.
@@ -115,8 +120,16 @@ impl Messages {
         self.list.iter().filter(|message| message.left > 0.0)
     }
 
-    /// Lets time pass \[s\] for all that are shown, but for the one under the pointer.
-    pub fn pass(&mut self, seconds: f64, held: Option<u64>) {
+    /// Lets time pass up to a moment of the window's clock \[s\] for all that are shown, but for the one under the
+    /// pointer. A frame that came late counts as a moment: what was not in sight was not read.
+    pub fn pass_to(&mut self, now: f64, held: Option<u64>) {
+        let passed = (now - self.clock).clamp(0.0, LATE);
+        self.clock = now;
+        self.pass(passed, held);
+    }
+
+    /// Lets time pass \[s\].
+    fn pass(&mut self, seconds: f64, held: Option<u64>) {
         for message in self.list.iter_mut().filter(|message| Some(message.id) != held) {
             message.left = (message.left - seconds).max(0.0);
         }

@@ -1,41 +1,10 @@
 //! From dataset files to products: which files belong together, what they say about themselves.
 
 use super::grouping::{Family, Grouping, group};
+use super::source_file::SourceFile;
 use super::{NewProduct, Origin, Provenance};
 use crate::compute::btdf::Dataset;
-use crate::formats::{CatalogueFields, Format, FormatError, merge_sides};
-use crate::formats::{catalogue_fields, read_dataset};
-
-/// A dataset file that was read.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct SourceFile {
-    /// Its name, without folder.
-    pub name: String,
-    /// Where it lies; empty when that is not known. States of a product lie together.
-    pub folder: String,
-    /// BLAKE3 hash of its bytes, 64 hexadecimal digits.
-    pub hash: String,
-    /// What it holds.
-    pub datasets: Vec<Dataset>,
-    /// What it tells about the product.
-    pub fields: CatalogueFields,
-}
-
-impl SourceFile {
-    /// Reads a file's bytes.
-    ///
-    /// # Errors
-    /// Of the reader.
-    pub fn read(name: &str, bytes: &[u8]) -> Result<Self, FormatError> {
-        Ok(Self {
-            name: name.to_owned(),
-            folder: String::new(),
-            hash: blake3::hash(bytes).to_hex().to_string(),
-            datasets: read_dataset(name, bytes)?,
-            fields: catalogue_fields(name, bytes)?,
-        })
-    }
-}
+use crate::formats::{CatalogueFields, Format, merge_sides};
 
 /// A product as files tell it: what to import, state by state.
 #[derive(Debug, Clone, PartialEq, Default)]

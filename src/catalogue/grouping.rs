@@ -3,7 +3,7 @@
 //! In doubt every file is a product of its own: two products that are taken for one are wrong everywhere afterwards, one
 //! that is taken for two is seen at once.
 
-use super::SourceFile;
+use super::source_file::SourceFile;
 use crate::formats::{Format, is_one_function};
 use std::collections::BTreeMap;
 
@@ -125,12 +125,15 @@ fn distinct(values: &[f64]) -> bool {
     sorted.windows(2).all(|pair| pair[0] < pair[1])
 }
 
+/// A file's place, what it has in common with its family, and its name's pattern.
+type Named<K> = (usize, K, Pattern);
+
 /// Which places hold files of one family, with their angles; by the patterns of one name of each.
 ///
 /// Files of one skeleton whose other numbers agree and whose angles are distinct. `marked_alone`: only numbers that are
 /// called angles count.
-fn families<K: Ord>(names: &[(usize, K, Pattern)], marked_alone: bool) -> Vec<Vec<(usize, f64)>> {
-    let mut by_skeleton: BTreeMap<(&K, &str), Vec<&(usize, K, Pattern)>> = BTreeMap::new();
+fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f64)>> {
+    let mut by_skeleton: BTreeMap<(&K, &str), Vec<&Named<K>>> = BTreeMap::new();
     for entry in names {
         by_skeleton.entry((&entry.1, &entry.2.skeleton)).or_default().push(entry);
     }
@@ -209,7 +212,7 @@ fn proposed(files: &[SourceFile]) -> Vec<Member> {
         let nameless = places.len() > 1 && states.iter().all(|state| state.is_empty());
         if one_function && nameless && one_side(files, &places) {
             // States that only the names of their files tell apart.
-            let names: Vec<(usize, (), Pattern)> =
+            let names: Vec<Named<()>> =
                 places.iter().map(|&place| (place, (), Pattern::of(Format::stem(&files[place].name)))).collect();
             if let Some(family) = families(&names, false).into_iter().find(|family| family.len() == places.len()) {
                 places.iter().for_each(|&place| taken[place] = true);
@@ -224,7 +227,7 @@ fn proposed(files: &[SourceFile]) -> Vec<Member> {
         }
     }
     for by_file_name in [true, false] {
-        let names: Vec<(usize, [String; 5], Pattern)> = (0..files.len())
+        let names: Vec<Named<[String; 5]>> = (0..files.len())
             .filter(|&place| !taken[place])
             .filter_map(|place| {
                 let file = &files[place];
@@ -245,7 +248,7 @@ fn proposed(files: &[SourceFile]) -> Vec<Member> {
 /// All as one: with angles where the names of all have them.
 fn joined(files: &[SourceFile]) -> Member {
     let nameless = |file: &SourceFile| matches!(file.datasets.as_slice(), [one] if one.state.is_empty());
-    let names: Vec<(usize, (), Pattern)> =
+    let names: Vec<Named<()>> =
         files.iter().enumerate().map(|(place, file)| (place, (), Pattern::of(Format::stem(&file.name)))).collect();
     let whole = families(&names, false).into_iter().find(|family| family.len() == files.len());
     match whole.filter(|_| files.iter().all(nameless) && !files.iter().all(|file| one_function_name(file).is_some())) {

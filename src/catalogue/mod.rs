@@ -30,6 +30,7 @@ mod representative;
 mod rows;
 mod search;
 mod sight;
+mod source_file;
 mod store;
 mod systems;
 mod validate;
@@ -41,7 +42,7 @@ pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, me
 pub use connection::Catalogue;
 pub use described::{METHODS, control_curve, described_dataset, method, product_of};
 pub use error::CatalogueError;
-pub use gather::{Gathered, SourceFile, gather};
+pub use gather::{Gathered, gather};
 pub use grouping::Grouping;
 pub use index::{Facet, Facets, Found, Index};
 pub use keeping::{Deleted, Known, Words};
@@ -53,6 +54,7 @@ pub use product::{
 pub use query::{Figure, Filter, Query, Sort, Within};
 pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
 pub use rows::{ProductRow, Sought};
+pub use source_file::SourceFile;
 pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part};
 pub use validate::check;
 pub use waiting::StateKey;

@@ -71,7 +71,7 @@ impl Arguments {
     pub fn no_files(&self) -> anyhow::Result<()> {
         match self.open.iter().chain(&self.files).next() {
             Some(file) => Err(anyhow::anyhow!(
-                "{}: named before a command; files for the window and a command do not go together",
+                "{}: a file named before a command; files for the window and a command do not go together",
                 file.display()
             )),
             None => Ok(()),
@@ -86,6 +86,11 @@ fn not_there(path: &Path) -> anyhow::Error {
     let names: Vec<String> = Arguments::command().get_subcommands().map(|one| one.get_name().to_owned()).collect();
     let near = names.iter().min_by_key(|name| distance(name, &text)).filter(|name| distance(name, &text) <= 2);
     match near {
+        Some(name) if *name == text => {
+            anyhow::anyhow!(
+                "{text}: files were named before a command; files for the window and a command do not go together"
+            )
+        }
         Some(name) => anyhow::anyhow!("{text}: neither a command nor a file; did you mean \"cfs {name}\"?"),
         None if plain => {
             anyhow::anyhow!("{text}: neither a command nor a file; commands are {}", names.join(", "))

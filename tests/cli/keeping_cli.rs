@@ -37,7 +37,7 @@ fn a_word_that_is_neither_a_command_nor_a_file_is_refused_with_a_hint() {
     refused(&cfs(folder.path(), &["--open", "blind.xml"]), &["blind.xml", "no such file"]);
     std::fs::write(folder.path().join("there.xml"), "").unwrap();
     refused(&cfs(folder.path(), &["there.xml", "gone.xml"]), &["gone.xml", "no such file"]);
-    refused(&cfs(folder.path(), &["there.xml", "catalogue", "list"]), &["there.xml", "command"]);
+    refused(&cfs(folder.path(), &["there.xml", "catalogue", "list"]), &["catalogue", "before a command"]);
 }
 
 #[test]

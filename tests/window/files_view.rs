@@ -175,11 +175,12 @@ fn unlike_files_become_products_of_their_own_and_can_be_taken_otherwise_before_t
     assert_eq!(venetian.states.iter().map(|state| state.value).collect::<Vec<_>>(), [Some(0.0), Some(45.0)]);
     assert_eq!(shelf.product("my-fabric").unwrap().states.len(), 1);
     // One step took them in, one takes them out.
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    settle(&mut harness);
-    if products(&harness) != before {
+    let mut steps = 0;
+    while products(&harness) != before && steps < 3 {
         harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
         settle(&mut harness);
+        assert!([before, before + 3].contains(&products(&harness)), "all or none");
+        steps += 1;
     }
     assert_eq!(products(&harness), before);
 }

@@ -50,9 +50,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
             }
         }
     });
-    // A frame that came late counts as a moment: what was not in sight was not read.
-    let passed = ui.input(|input| f64::from(input.stable_dt.min(0.5)));
-    messages.pass(passed, held);
+    messages.pass_to(ui.input(|input| input.time), held);
     ui.ctx().request_repaint_after(Duration::from_millis(250));
 }
 
