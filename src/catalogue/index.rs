@@ -358,15 +358,15 @@ impl Index {
             list.sort_by(|a, b| b.count.cmp(&a.count).then_with(|| a.value.cmp(&b.value)));
             list
         };
-        let tally = |filter: Filter, texts: &[String], of: &dyn Fn(&Item, &mut dyn FnMut(usize))| {
+        let tally = |filter: Filter, texts: &[String], of: fn(&Item) -> usize| {
             let mut counts = vec![0; texts.len()];
-            counted(filter).for_each(|item| of(item, &mut |at| counts[at] += 1));
+            counted(filter).for_each(|item| counts[of(item)] += 1);
             counts
         };
-        let kinds = tally(Filter::Kinds, &self.kinds, &|item, add| add(item.kind));
-        let makers = tally(Filter::Manufacturers, &self.manufacturers, &|item, add| add(item.manufacturer));
+        let kinds = tally(Filter::Kinds, &self.kinds, |item| item.kind);
+        let makers = tally(Filter::Manufacturers, &self.manufacturers, |item| item.manufacturer);
         // All chosen tags must hold: another one is counted among those that have them.
-        let tags = tally(Filter::Words, &self.tags, &|_, _| {});
+        let tags = vec![0; self.tags.len()];
         let tags =
             self.items.iter().zip(misses).filter(|(_, misses)| **misses == 0).fold(tags, |mut tags, (item, _)| {
                 item.tags.iter().for_each(|at| tags[*at] += 1);
@@ -379,16 +379,15 @@ impl Index {
                 origins.push(Facet { value: origin.word().to_owned(), count });
             }
         }
-        let ranges = Figure::ALL.into_iter().filter_map(|figure| {
-            self.items.iter().any(|item| item.row.figure(figure).is_some()).then(|| {
-                let mut counts = vec![0; Figure::LIMITS.len()];
-                for value in counted(Filter::Range(figure)).filter_map(|item| item.row.figure(figure)) {
-                    if let Some(place) = (0..counts.len()).find(|place| figure.range(*place).holds(value)) {
-                        counts[place] += 1;
-                    }
+        let known = |figure: &Figure| self.items.iter().any(|item| item.row.figure(*figure).is_some());
+        let ranges = Figure::ALL.into_iter().filter(known).map(|figure| {
+            let mut counts = vec![0; Figure::LIMITS.len()];
+            for value in counted(Filter::Range(figure)).filter_map(|item| item.row.figure(figure)) {
+                if let Some(place) = (0..counts.len()).find(|place| figure.range(*place).holds(value)) {
+                    counts[place] += 1;
                 }
-                (figure, counts)
-            })
+            }
+            (figure, counts)
         });
         Facets {
             kinds: list(&self.kinds, kinds, &query.kinds, true),
@@ -421,7 +420,7 @@ impl Index {
             list.extend((0..places).map(|place| (Filter::Word(place), lacks_only(place))));
         }
         list.retain(|(_, count)| *count > 0);
-        list.sort_by(|a, b| b.1.cmp(&a.1));
+        list.sort_by_key(|one| std::cmp::Reverse(one.1));
         list
     }
 }

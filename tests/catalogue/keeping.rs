@@ -34,7 +34,7 @@ fn other_words_are_found_and_the_key_stays() {
     assert_eq!((product.name.as_str(), product.manufacturer.as_str()), ("Sonnensegel", "Tuch AG"));
     assert_eq!((product.kind.as_str(), product.tags), ("screen", vec!["summer".to_owned()]));
     for text in ["sonnen", "tuch", "summer"] {
-        assert_eq!(found(&catalogue, text), [key.clone()], "{text}");
+        assert_eq!(found(&catalogue, text), std::slice::from_ref(&key), "{text}");
     }
     assert!(found(&catalogue, "unnamed").is_empty());
     let nameless = catalogue.describe(&key, &Words { name: "  ".to_owned(), ..words.clone() });

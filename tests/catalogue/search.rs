@@ -280,7 +280,7 @@ fn flat(state: &str, tau: f64) -> Dataset {
 fn lists_show_the_state_that_stands_for_a_product_and_follow_changes() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.sqlite");
-    let mut catalogue = Catalogue::open_to_fill(&path).unwrap();
+    let mut catalogue = Catalogue::open(&path).unwrap();
     let before = catalogue.find(&Query::default()).unwrap();
     let states = ["dark", "clear", "mid"].map(|label| StateName { label: label.into(), value: None }).to_vec();
     let meta = NewProduct { name: "Switchable".into(), states, ..NewProduct::default() };
@@ -291,7 +291,7 @@ fn lists_show_the_state_that_stands_for_a_product_and_follow_changes() {
     assert!((found.tau_hemispherical.unwrap() - 0.6).abs() < 1e-6 && !found.tau_profile.is_empty());
     assert_eq!(catalogue.find(&Query::default()).unwrap().total, before.total + 1);
     // What another connection changes is seen, too.
-    let mut other = Catalogue::open_to_fill(&path).unwrap();
+    let mut other = Catalogue::open(&path).unwrap();
     other.set_favourite(&key, true).unwrap();
     assert!(row(&catalogue).favourite);
     // The first product of all works by its own curve.
@@ -306,7 +306,7 @@ fn lists_show_the_state_that_stands_for_a_product_and_follow_changes() {
 fn figures_are_counted_as_soon_as_the_table_has_their_columns() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.sqlite");
-    drop(Catalogue::open_to_fill(&path).unwrap());
+    drop(Catalogue::open(&path).unwrap());
     let db = rusqlite::Connection::open(&path).unwrap();
     for column in ["to_ceiling", "sun_blocked", "view"] {
         let there: bool = db
@@ -321,7 +321,7 @@ fn figures_are_counted_as_soon_as_the_table_has_their_columns() {
     }
     db.execute_batch("UPDATE state SET to_ceiling = 0.7, sun_blocked = 1.0, view = 0.1 WHERE key = '5'").unwrap();
     drop(db);
-    let catalogue = Catalogue::open_to_fill(&path).unwrap();
+    let catalogue = Catalogue::open(&path).unwrap();
     let mine =
         |query: &Query| -> Vec<String> { catalogue.search(query).unwrap().into_iter().map(|row| row.key).collect() };
     let facets = catalogue.facets().unwrap();

@@ -71,7 +71,7 @@ fn vertical_planes(surface: Surface, peaks: Option<&Peaks>) -> Vec<LidPlane> {
     let peak = peaks.and_then(|peaks| peaks.scattered).filter(tilted);
     if let Some(peak) = peak {
         let c = peak.c.to_degrees().round().rem_euclid(360.0) as u16;
-        if c % 180 != 0 {
+        if !c.is_multiple_of(180) {
             planes.push(LidPlane::Vertical(c));
         }
     }
