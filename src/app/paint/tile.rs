@@ -102,7 +102,8 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
             _ => None,
         };
         if let Some(tag) = tag {
-            ui.label(RichText::new(tag).size(13.0).italics().color(palette.second));
+            // Cut where the tile is narrow: what is beside it stays to be clicked.
+            ui.add(egui::Label::new(RichText::new(tag).size(13.0).italics().color(palette.second)).truncate());
         }
         ui.add(egui::Label::new(RichText::new(words.subtitle).size(13.0).color(palette.weak)).truncate());
     });
