@@ -144,6 +144,8 @@ pub fn install(ctx: &Context) {
             style.spacing.button_padding = Vec2::new(7.0, 3.0);
             style.spacing.interact_size.y = 22.0;
             style.spacing.indent = 12.0;
+            // Room for the bar beside what is scrolled: floating over it, it would cut fields at the right edge.
+            style.spacing.scroll.floating_allocated_width = 8.0;
             style.animation_time = 0.09;
             // A tip is for who waits for it: not while the pointer passes, nor at once over the next thing.
             style.interaction.tooltip_delay = 0.8;
