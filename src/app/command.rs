@@ -67,7 +67,7 @@ pub enum Command {
     Sheet(Option<Sheet>),
     /// Withdraw a job.
     Cancel(Lane),
-    /// Choose a product, in its first state.
+    /// Choose a product: moved by its own rule, or in the state that stands for it.
     Select(String),
     /// Choose a state.
     SelectState(String),

@@ -14,7 +14,7 @@ use crate::study::sky::illuminances;
 pub struct Selection {
     /// Product key.
     pub product: String,
-    /// Key of the state; empty for the first or only one; `controlled` when the scene's control picks it.
+    /// Key of the state; empty for the one that stands for the product; `controlled` when the scene's control picks it.
     pub state: String,
 }
 

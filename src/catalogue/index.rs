@@ -84,7 +84,9 @@ const SHORTEST_PART: usize = 3;
 #[derive(Debug)]
 struct Word {
     text: String,
+    /// Which letters it has, and how many.
     letters: u64,
+    length: usize,
     /// Products that have it, with the weight of the best place.
     products: Vec<(u32, f32)>,
 }
@@ -186,8 +188,8 @@ impl Index {
             });
         }
         let word = |(text, products): (String, Vec<(u32, f32)>)| {
-            let letters = letters(&text.chars().collect::<Vec<char>>());
-            Word { text, letters, products }
+            let spelt: Vec<char> = text.chars().collect();
+            Word { letters: letters(&spelt), length: spelt.len(), text, products }
         };
         let words = all.texts.into_iter().zip(found_in).map(word).collect();
         Self { items, words, kinds: kinds.texts, manufacturers: manufacturers.texts, tags: tags.texts }
@@ -247,38 +249,42 @@ impl Index {
 
     /// Words of the catalogue that fit a typed one, and how well, up to 1; what it was read as where it occurs nowhere.
     fn matches(&self, typed: &str) -> (Vec<(usize, f32)>, Option<String>) {
-        let plain = without_written_marks(typed);
-        let length = typed.chars().count();
+        let spelt: Vec<char> = typed.chars().collect();
+        let plain = without_written_marks(typed).map(|plain| (letters(&plain.chars().collect::<Vec<char>>()), plain));
+        let own = letters(&spelt);
         let quality = |word: &str, typed: &str| {
             if word == typed {
                 Some(1.0)
             } else if word.starts_with(typed) {
                 Some(0.7 + 0.2 * typed.len() as f32 / word.len() as f32)
             } else {
-                (length >= SHORTEST_PART && word.contains(typed)).then_some(0.45)
+                (spelt.len() >= SHORTEST_PART && word.contains(typed)).then_some(0.45)
             }
         };
+        // Most words lack a letter of the typed one: those need no look.
+        let looked_at = |word: &Word, letters: u64, typed: &str| {
+            if letters & !word.letters == 0 { quality(&word.text, typed) } else { None }
+        };
         let fits = |word: &Word| {
-            let own = quality(&word.text, typed);
-            own.or_else(|| plain.as_deref().and_then(|plain| quality(&word.text, plain)))
+            let plainly = || plain.as_ref().and_then(|(letters, plain)| looked_at(word, *letters, plain));
+            looked_at(word, own, typed).or_else(plainly)
         };
         let found: Vec<(usize, f32)> =
             self.words.iter().enumerate().filter_map(|(at, word)| Some((at, fits(word)?))).collect();
         if !found.is_empty() {
             return (found, None);
         }
-        let typed: Vec<char> = typed.chars().collect();
-        let (most, own) = (forgiven(&typed), letters(&typed));
+        let most = forgiven(&spelt);
         if most == 0 {
             return (found, None);
         }
         let near = |(at, word): (usize, &Word)| {
-            if (own & !word.letters).count_ones() as usize > most {
+            let foreign = (own & !word.letters).count_ones() as usize > most;
+            if foreign || word.length + most < spelt.len() {
                 return None;
             }
-            let letters: Vec<char> = word.text.chars().collect();
-            let errors = distance(&typed, &letters, most)?;
-            Some((at, errors, letters.len().abs_diff(typed.len())))
+            let errors = distance(&spelt, &word.text.chars().collect::<Vec<char>>(), most)?;
+            Some((at, errors, word.length.abs_diff(spelt.len())))
         };
         let near: Vec<(usize, usize, usize)> = self.words.iter().enumerate().filter_map(near).collect();
         // The one that is most likely meant: fewest errors, nearest in length, in most products.

@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Import => import::show(ui, &app.state, commands),
         Sheet::Findings => match app.state.dataset.value.as_ref() {
             Some(dataset) => {
-                ui.strong(&dataset.name);
+                ui.strong(crate::app::title::selection(&app.state));
                 import::of_selection(ui, dataset);
             }
             None => {
