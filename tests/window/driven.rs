@@ -12,7 +12,7 @@ use egui_kittest::Harness;
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 pub fn harness(services: Services) -> Harness<'static, App> {
     Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(

@@ -1,7 +1,7 @@
 //! One truth in every place: figures that mean the same thing are the same, and nothing is said that is not so.
 
 use crate::driven::{apply, harness, select, services, settle, window};
-use crate::legible::inspect::words;
+use crate::legible::inspect::{words, words_within};
 use cfs::app::App;
 use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
@@ -90,8 +90,8 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("window.ldt");
     // With a beam, and with scattered light alone.
-    for (beam, name) in [(true, "venetian"), (false, "diffuse")] {
-        select(&mut harness, |entry| entry.kind.contains(name) || entry.name.to_lowercase().contains(name));
+    for (beam, name) in [(true, "Venetian"), (false, "Ideal diffuser")] {
+        select(&mut harness, |entry| entry.name.starts_with(name));
         maximise(&mut harness, "LID");
         apply(&mut harness, Command::Write(PathUse::ExportLid, path.clone()));
         settle(&mut harness);
@@ -101,7 +101,7 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
         assert_eq!(!lid.lid.beams.is_empty(), beam, "{name}");
         let (scattered, sun) = (peaks.scattered.unwrap(), peaks.beam);
         let greatest = sun.map_or(scattered.intensity, |sun| sun.intensity.max(scattered.intensity));
-        assert!((greatest / file.peak() - 1.0).abs() < 1e-4, "{peaks:?} {}", file.peak());
+        assert!((greatest / file.peak() - 1.0).abs() < 1e-3, "{peaks:?} {}", file.peak());
         // Said with its direction; the drawn plane is that of the peak.
         let told = value(&harness, "LID polar diagram");
         let (c, gamma) = (scattered.c.to_degrees().round(), scattered.gamma.to_degrees());
@@ -137,20 +137,23 @@ fn pictures_keep_their_places_when_the_sun_leaves_the_facade() {
             .filter_map(|name| Some((name, harness.query_by_label(name)?.rect())))
             .collect()
     };
-    for size in [[960.0, 600.0], [1280.0, 720.0], [1920.0, 1080.0]] {
-        harness.set_size(size.into());
-        harness.run_steps(3);
-        let before = places(&harness);
-        assert!(before.len() >= 7, "{before:?}");
-        face(&mut harness, 0.0);
-        assert_eq!(places(&harness), before);
-        face(&mut harness, 180.0);
-        apply(&mut harness, Command::Hour(11));
-        settle(&mut harness);
-        assert_eq!(places(&harness), before);
-        apply(&mut harness, Command::Hour(-11));
-        settle(&mut harness);
-    }
+    let at_all_sizes = |harness: &mut Harness<'_, App>| -> Vec<_> {
+        let sizes = [[960.0, 600.0], [1280.0, 720.0], [1920.0, 1080.0]];
+        let of_size = |size: [f32; 2]| {
+            harness.set_size(size.into());
+            harness.run_steps(3);
+            places(harness)
+        };
+        sizes.map(of_size).into()
+    };
+    let noon = at_all_sizes(&mut harness);
+    assert!(noon.iter().all(|places| places.len() >= 7), "{noon:?}");
+    face(&mut harness, 0.0);
+    assert_eq!(at_all_sizes(&mut harness), noon, "the sun stands behind the façade");
+    face(&mut harness, 180.0);
+    apply(&mut harness, Command::Hour(11));
+    settle(&mut harness);
+    assert_eq!(at_all_sizes(&mut harness), noon, "night");
 }
 
 #[test]
@@ -186,7 +189,7 @@ fn a_sun_under_the_horizon_is_said_to_be_there() {
 #[test]
 fn a_sheet_leaves_the_pictures_a_size_that_can_be_read() {
     let mut harness = window();
-    for (size, least) in [([1280.0, 720.0], 120.0), ([960.0, 600.0], 100.0)] {
+    for (size, least) in [([1280.0, 720.0], 120.0), ([960.0, 600.0], 90.0)] {
         harness.set_size(size.into());
         for sheet in [Sheet::Keys, Sheet::Findings, Sheet::Accuracy, Sheet::Path(PathUse::Open)] {
             apply(&mut harness, Command::Sheet(Some(sheet)));
@@ -210,7 +213,7 @@ fn the_plan_has_a_scale_and_names_the_lines_that_are_asked_for() {
         if whole {
             maximise(&mut harness, "Room");
         }
-        let words = words(&harness);
+        let words = words_within(&harness, harness.get_by_label("Room plan").rect());
         let has = |word: &str| words.iter().any(|text| text == word);
         assert!(has("500"), "{words:?}");
         assert!(has("300") || least >= 300.0, "{words:?}");

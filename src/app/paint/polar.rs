@@ -6,7 +6,7 @@ use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{PI, TAU};
 
 /// Room for the angles round the rim. \[points\]
-const RIM: f32 = 22.0;
+const RIM: f32 = 26.0;
 
 /// The axes of a polar diagram.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ impl PolarAxes {
         for k in 0..12 {
             let angle = f64::from(k) * PI / 6.0;
             painter.line_segment([self.centre, self.screen(angle, self.max)], grid);
-            let at = self.centre + (self.screen(angle, self.max) - self.centre) * (1.0 + 0.6 * RIM / self.radius);
+            let at = self.centre + (self.screen(angle, self.max) - self.centre) * (1.0 + 0.47 * RIM / self.radius);
             if self.radius > 55.0 || k % 3 == 0 {
                 painter.text(at, Align2::CENTER_CENTER, label(angle), font.clone(), palette.weak);
             }

@@ -160,7 +160,7 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
             map.with_max_x(map.right() - 4.0)
         }
         (Some(split), false) => {
-            let (map, place) = rect.split_top_bottom_at_y(rect.bottom() - STRIP_HEIGHT);
+            let (map, place) = rect.split_top_bottom_at_y(rect.bottom() - strip_height(rect));
             split_strip(ui, place, &split, &input.incidence, &palette);
             map
         }
@@ -224,12 +224,20 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
 
 /// Width of the flux split beside the map. \[points\]
 const BAR_WIDTH: f32 = 124.0;
-/// Height of the flux split under it: a bar and two lines. \[points\]
+/// Height of the flux split under it: whose light it is, a bar, and the zones. \[points\]
 const STRIP_HEIGHT: f32 = 50.0;
+/// The same without its first line. \[points\]
+const LOW_STRIP_HEIGHT: f32 = 34.0;
+/// In a lower tile the line under the picture alone says whose light it is. \[points\]
+const LOW_TILE: f32 = 220.0;
+
+fn strip_height(rect: Rect) -> f32 {
+    if rect.height() < LOW_TILE { LOW_STRIP_HEIGHT } else { STRIP_HEIGHT }
+}
 
 /// Has the flux split room beside the map, so that the map is no smaller than over it?
 fn beside(rect: Rect) -> bool {
-    rect.width() - BAR_WIDTH >= (rect.height() - STRIP_HEIGHT - LEGEND_HEIGHT).min(rect.width())
+    rect.width() - BAR_WIDTH >= (rect.height() - strip_height(rect) - LEGEND_HEIGHT).min(rect.width())
 }
 
 /// τ in colours. Measured cells stay flat, so that the picture shows no resolution that the data do not have.
@@ -363,8 +371,10 @@ fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence
     let total = split.total();
     name_split(ui, rect, split, incidence);
     let (left, width) = (rect.left() + 2.0, rect.width() - 4.0);
-    tile::caption(ui, pos2(left, rect.top()), Align2::LEFT_TOP, &split_title(ui, incidence, width));
-    let bar = Rect::from_min_size(pos2(left, rect.top() + 18.0), vec2(width, 12.0));
+    if rect.height() >= STRIP_HEIGHT {
+        tile::caption(ui, pos2(left, rect.top()), Align2::LEFT_TOP, &split_title(ui, incidence, width));
+    }
+    let bar = Rect::from_min_size(pos2(left, rect.bottom() - 32.0), vec2(width, 12.0));
     ui.painter().rect_filled(bar, 0, palette.face);
     let mut start = bar.left();
     for (k, (_, share)) in split.parts().into_iter().enumerate() {

@@ -13,6 +13,7 @@ const TOLERANCE: f32 = 1.5;
 
 /// Text must not be smaller. \[points\]
 const LEAST_SIZE: f32 = 13.0;
+const LEAST_NUMBER: f32 = 11.0;
 
 /// A text on the screen.
 struct Text {
@@ -75,11 +76,16 @@ impl Painted {
 
 /// All words that the last frame would put on the screen.
 pub fn words(harness: &Harness<'_, App>) -> Vec<String> {
+    words_within(harness, harness.ctx.content_rect())
+}
+
+/// Those whose middle lies in a part of it.
+pub fn words_within(harness: &Harness<'_, App>, part: Rect) -> Vec<String> {
     let mut painted = Painted::default();
     for ClippedShape { clip_rect, shape, .. } in &harness.output().shapes {
         painted.add(shape, *clip_rect);
     }
-    let in_sight = |text: &Text| text.ink.intersects(text.clip);
+    let in_sight = |text: &Text| text.ink.intersects(text.clip) && part.contains(text.ink.center());
     painted.texts.into_iter().filter(in_sight).map(|text| text.words).collect()
 }
 
@@ -111,7 +117,9 @@ pub fn problems(harness: &Harness<'_, App>) -> Vec<String> {
         if text.elided && !row && !may_be_cut.iter().any(|start| text.words.starts_with(start)) {
             list.push(format!("cut with …: {:?}", text.words));
         }
-        if text.size < LEAST_SIZE {
+        // The bare numbers of small swatches may be a little smaller.
+        let number = text.words.parse::<f64>().is_ok();
+        if text.size < if number { LEAST_NUMBER } else { LEAST_SIZE } {
             list.push(format!("smaller than {LEAST_SIZE} points: {:?}", text.words));
         }
         // A row of a list may stand half out of sight: it is scrolled to.
