@@ -265,11 +265,10 @@ fn searching_finds_prefixes_without_marks_and_filters() {
     assert!(sized.contains(&"venetian-80-72".to_owned()) && !sized.contains(&key), "{sized:?}");
     assert_eq!(keys(&Query { favourite: Some(true), ..Query::default() }), std::slice::from_ref(&key));
     assert_eq!(keys(&Query { builtin: Some(false), ..Query::default() }), std::slice::from_ref(&key));
-    assert_eq!(keys(&Query { kinds: vec!["woven".into()], ..Query::default() }), std::slice::from_ref(&key));
-    assert_eq!(
-        keys(&Query { tags: vec!["grey".into(), "screen".into()], ..Query::default() }),
-        std::slice::from_ref(&key)
-    );
+    let woven = keys(&Query { kinds: vec!["woven".into()], ..Query::default() });
+    assert!(woven.contains(&key) && !woven.contains(&"venetian-80-72".to_owned()), "{woven:?}");
+    let grey = keys(&Query { tags: vec!["grey".into(), "screen".into()], ..Query::default() });
+    assert!(grey.contains(&key) && grey.len() < woven.len(), "{grey:?}");
     assert_eq!(keys(&Query { manufacturers: vec!["Müller & Søn".into()], ..Query::default() }), [key]);
     assert!(keys(&Query { origin: Some(Origin::Measured), ..Query::default() }).is_empty());
     let facets = catalogue.facets().unwrap();

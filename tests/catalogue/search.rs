@@ -319,7 +319,11 @@ fn figures_are_counted_as_soon_as_the_table_has_their_columns() {
         }
         db.execute_batch(&format!("UPDATE state SET {column} = NULL")).unwrap();
     }
-    db.execute_batch("UPDATE state SET to_ceiling = 0.7, sun_blocked = 1.0, view = 0.1 WHERE key = '5'").unwrap();
+    db.execute_batch(
+        "UPDATE state SET to_ceiling = 0.7, sun_blocked = 1.0, view = 0.1
+         WHERE key = '5' AND product = (SELECT id FROM product WHERE key = 'venetian-80-72')",
+    )
+    .unwrap();
     drop(db);
     let catalogue = Catalogue::open(&path).unwrap();
     let mine =
