@@ -107,18 +107,6 @@ pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -
     true
 }
 
-/// An altitude of the sun \[°\] in words: `15° high`, `15° below the horizon`.
-pub fn height_words(altitude: f64) -> String {
-    let degrees = altitude.round();
-    if degrees > 0.0 {
-        format!("{degrees:.0}° high")
-    } else if degrees < 0.0 {
-        format!("{:.0}° below the horizon", -degrees)
-    } else {
-        "on the horizon".to_owned()
-    }
-}
-
 /// Is the sun at an altitude \[rad\] and a bearing \[°\] before a façade that faces another? \[°\]
 pub fn before_facade((altitude, bearing): (f64, f64), facade: f64) -> bool {
     altitude > 0.0 && (bearing - facade).to_radians().cos() * altitude.cos() > 0.0
@@ -133,6 +121,14 @@ pub fn clock(hours: f64) -> String {
 /// `21 Mar 12:00`
 pub fn words(time: DateTime) -> String {
     time.strftime("%-d %b %H:%M").to_string()
+}
+
+/// An altitude in degrees in words, with so many decimals: `41° high`, `15° below the horizon`.
+pub fn height_words(degrees: f64, decimals: usize) -> String {
+    let shown = format!("{:.decimals$}°", degrees.abs());
+    // What rounds to 0 is on the horizon, not under it.
+    let zero = shown.chars().all(|c| !c.is_ascii_digit() || c == '0');
+    if degrees < 0.0 && !zero { format!("{shown} below the horizon") } else { format!("{shown} high") }
 }
 
 /// A bearing in words: `south`, `south-west`.
@@ -211,8 +207,6 @@ mod tests {
         assert!(before_facade((0.5, 180.0), 180.0) && before_facade((0.5, 100.0), 180.0));
         assert!(!before_facade((0.5, 80.0), 180.0) && !before_facade((-0.1, 180.0), 180.0));
         assert!(before_facade((0.5, 350.0), 20.0));
-        assert_eq!(height_words(-14.6), "15° below the horizon");
-        assert_eq!(height_words(0.2), "on the horizon");
     }
 
     #[test]
@@ -221,5 +215,12 @@ mod tests {
         assert_eq!(bearing_word(-44.0), "north-west");
         assert_eq!(bearing_word(359.0), "north");
         assert_eq!(clock(6.508), "06:30");
+    }
+
+    #[test]
+    fn heights_read_as_words() {
+        assert_eq!(height_words(41.24, 1), "41.2° high");
+        assert_eq!(height_words(-15.2, 0), "15° below the horizon");
+        assert_eq!(height_words(-0.02, 1), "0.0° high");
     }
 }

@@ -26,7 +26,7 @@ pub fn time(scene: &SceneFile) -> String {
     moment::of(scene).map_or_else(
         || match (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
             (Some(altitude), Some(azimuth)) => {
-                format!("sun {} at {azimuth:.0}°", moment::height_words(altitude))
+                format!("sun {} at {azimuth:.0}°", moment::height_words(altitude, 0))
             }
             _ => "no sun".to_owned(),
         },
@@ -97,7 +97,7 @@ mod tests {
         scene.sky.time = None;
         for (altitude, words) in [
             (-15.0, "sun 15° below the horizon at 180°"),
-            (-0.4, "sun on the horizon at 180°"),
+            (-0.4, "sun 0° high at 180°"),
             (15.0, "sun 15° high at 180°"),
         ] {
             scene.sky.sun = SunKeys { altitude: Some(altitude), azimuth: Some(180.0), direct_normal: None };

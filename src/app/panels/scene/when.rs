@@ -66,7 +66,7 @@ fn sun(ui: &mut Ui, scene: &SceneFile) {
 /// Where the sun stands, against horizon and façade.
 fn position(scene: &SceneFile) -> String {
     let Some((altitude, bearing)) = moment::sun(scene) else { return String::new() };
-    let words = moment::height_words(altitude.to_degrees());
+    let words = moment::height_words(altitude.to_degrees(), 0);
     if altitude <= 0.0 {
         format!("Sun {words}")
     } else if moment::before_facade((altitude, bearing), scene.site.azimuth) {
