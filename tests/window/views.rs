@@ -4,6 +4,7 @@
 //! noted as not looked at and pass: what the tiles do is tested by the others.
 
 use crate::common::compares_pictures;
+use crate::legible::inspect::words_within;
 use cfs::app::incidence::{Incidence, Source};
 use cfs::app::paint::hemisphere::{Projection, incident_disk};
 use cfs::app::paint::tile::Status;
@@ -512,6 +513,26 @@ fn a_state_is_chosen_in_the_control_curve() {
     h.drop_at(at);
     h.run();
     assert_eq!(h.state().control.1, vec![control::Action::ChooseState(0)]);
+}
+
+#[test]
+fn the_plan_has_a_scale_and_names_the_lines_that_are_asked_for() {
+    let cells = grid(16, 24);
+    let [least, most] = cells.iter().fold([f64::INFINITY, 0.0], |[a, b], c| [a.min(c.total), b.max(c.total)]);
+    assert!(least < 300.0 && most > 500.0, "{least} {most}");
+    for size in [[150.0, 265.0], [250.0, 320.0], [760.0, 560.0]] {
+        let cells = cells.clone();
+        let mut h = tile(size, Theme::Light, move |ui, bench| {
+            room::show(ui, &room_input(&cells, 16, 24), &mut bench.room);
+        });
+        h.run();
+        // On the plan itself: the scale of colours may have the same numbers.
+        let words = words_within(&h, h.get_by_label("Room plan").rect());
+        for wanted in ["300", "500"] {
+            assert!(words.iter().any(|text| text == wanted), "{wanted} at {size:?}: {words:?}");
+        }
+        assert!(words.iter().any(|text| text == "1 m" || text == "2 m"), "{size:?}: {words:?}");
+    }
 }
 
 #[test]

@@ -75,12 +75,12 @@ impl Painted {
 }
 
 /// All words that the last frame would put on the screen.
-pub fn words(harness: &Harness<'_, App>) -> Vec<String> {
+pub fn words<S>(harness: &Harness<'_, S>) -> Vec<String> {
     words_within(harness, harness.ctx.content_rect())
 }
 
 /// Those whose middle lies in a part of it.
-pub fn words_within(harness: &Harness<'_, App>, part: Rect) -> Vec<String> {
+pub fn words_within<S>(harness: &Harness<'_, S>, part: Rect) -> Vec<String> {
     let mut painted = Painted::default();
     for ClippedShape { clip_rect, shape, .. } in &harness.output().shapes {
         painted.add(shape, *clip_rect);
@@ -165,11 +165,13 @@ fn catalogue_edge(harness: &Harness<'_, App>, tiles: &[Rect]) -> f32 {
     if open { tiles.iter().map(|tile| tile.left()).fold(f32::INFINITY, f32::min) } else { 0.0 }
 }
 
-/// Beginnings of texts that may be cut, since all of them is in a tip: the second titles of tiles and the selection in
-/// the menu bar.
+/// Beginnings of texts that may be cut, since all of them is in a tip: the second titles of tiles, the selection in the
+/// menu bar, and in the narrowest tile the words for a sun behind the façade.
 fn cut_with_a_tip(harness: &Harness<'_, App>) -> Vec<String> {
     let state = &harness.state().state;
-    vec![title::selection(state), title::sky(&state.document.scene), title::title(state).replace("cfs – ", "")]
+    let sun_behind = "the sun is not before the façade".to_owned();
+    let selection = title::title(state).replace("cfs – ", "");
+    vec![title::selection(state), title::sky(&state.document.scene), selection, sun_behind]
         .into_iter()
         .filter(|start| !start.is_empty())
         .collect()
