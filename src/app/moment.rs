@@ -127,15 +127,10 @@ pub fn words(time: DateTime) -> String {
 pub fn height_words(degrees: f64, decimals: usize) -> String {
     let shown = format!("{:.decimals$}°", degrees.abs());
     // What rounds to 0 is on the horizon, not under it.
-<<<<<<< HEAD
     if shown.chars().all(|c| !c.is_ascii_digit() || c == '0') {
         return "on the horizon".to_owned();
     }
     if degrees < 0.0 { format!("{shown} below the horizon") } else { format!("{shown} high") }
-=======
-    let zero = shown.chars().all(|c| !c.is_ascii_digit() || c == '0');
-    if degrees < 0.0 && !zero { format!("{shown} below the horizon") } else { format!("{shown} high") }
->>>>>>> 509fa0e995a21551dc8871bc64228c5344f29d19
 }
 
 /// A bearing in words: `south`, `south-west`.
@@ -214,11 +209,8 @@ mod tests {
         assert!(before_facade((0.5, 180.0), 180.0) && before_facade((0.5, 100.0), 180.0));
         assert!(!before_facade((0.5, 80.0), 180.0) && !before_facade((-0.1, 180.0), 180.0));
         assert!(before_facade((0.5, 350.0), 20.0));
-<<<<<<< HEAD
         assert_eq!(height_words(-14.6, 0), "15° below the horizon");
         assert_eq!(height_words(0.2, 0), "on the horizon");
-=======
->>>>>>> 509fa0e995a21551dc8871bc64228c5344f29d19
     }
 
     #[test]
@@ -233,10 +225,6 @@ mod tests {
     fn heights_read_as_words() {
         assert_eq!(height_words(41.24, 1), "41.2° high");
         assert_eq!(height_words(-15.2, 0), "15° below the horizon");
-<<<<<<< HEAD
         assert_eq!(height_words(-0.02, 1), "on the horizon");
-=======
-        assert_eq!(height_words(-0.02, 1), "0.0° high");
->>>>>>> 509fa0e995a21551dc8871bc64228c5344f29d19
     }
 }
