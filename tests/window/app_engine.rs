@@ -129,7 +129,10 @@ fn a_state_that_is_to_be_computed_is_told_and_everything_else_is_shown_meanwhile
     let state = &harness.state().state;
     assert!(state.product.as_ref().is_some_and(|product| product.key == key && product.states.len() > 5));
     assert!(state.daylight.value.is_some() && !state.daylight.stale && state.dataset.stale);
-    let label = state.product.as_ref().unwrap().states[0].label.clone();
+    // The state that stands for the product, not its first one.
+    let product = state.product.as_ref().unwrap();
+    let label = product.states[product.representative().1].label.clone();
+    assert_ne!(label, product.states[0].label);
     assert_eq!(state.computing.as_deref(), Some(format!("computing {label}…").as_str()));
     assert!(harness.query_all_by_label(&format!("computing {label}…")).count() >= 2, "the tiles say so");
     assert!(harness.query_by_label_contains("product data").is_some(), "and so does the line below");

@@ -166,11 +166,11 @@ fn the_control_tile_says_why_nothing_moves() {
     let known = std::mem::replace(&mut h.state_mut().state.catalogue, CatalogueState::Opening);
     h.state_mut().state.product = None;
     h.run_steps(2);
-    assert!(h.query_by_label("The catalogue is opening.").is_some());
+    assert!(h.query_by_label("Opening the catalogue…").is_some());
     h.state_mut().state.catalogue = known;
     h.state_mut().state.document.selection.product.clear();
     h.run_steps(2);
-    assert!(h.query_by_label("Nothing is selected: choose a product in the catalogue.").is_some());
+    assert!(h.query_by_label("No product chosen: choose one in the catalogue.").is_some());
     assert!(h.query_by_label_contains("does not move").is_none());
 }
 

@@ -92,6 +92,10 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
     // With a beam, and with scattered light alone.
     for (beam, name) in [(true, "Venetian"), (false, "Ideal diffuser")] {
         select(&mut harness, |entry| entry.name.starts_with(name));
+        if beam {
+            apply(&mut harness, Command::SelectState("0".to_owned()));
+            settle(&mut harness);
+        }
         maximise(&mut harness, "LID");
         apply(&mut harness, Command::Write(PathUse::ExportLid, path.clone()));
         settle(&mut harness);

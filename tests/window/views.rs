@@ -377,7 +377,7 @@ fn tiles_without_data_say_what_is_missing() {
         });
     });
     h.run();
-    for part in ["Choose a product", "No illuminances yet", "does not move", "diffuse illuminance above 0 lx"] {
+    for part in ["Choose a product", "No illuminances yet", "one state", "diffuse illuminance above 0 lx"] {
         assert!(h.query_by_label_contains(part).is_some(), "{part}");
     }
     assert!(h.query_by_label("Room plan").is_none());

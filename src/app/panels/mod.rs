@@ -48,7 +48,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         egui::Panel::left("catalogue")
             .frame(side)
             .resizable(true)
-            .default_size(280.0)
+            .default_size(250.0)
             .size_range(widths(ui, 240.0))
             .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut app.states_view, &mut commands));
     }

@@ -4,7 +4,7 @@ use super::drawn::{Drawn, Revision, TileInput};
 use crate::app::command::Command;
 use crate::app::control as rules;
 use crate::app::facing::sun_incident;
-use crate::app::state::{CatalogueState, State, Tile};
+use crate::app::state::{State, Tile};
 use crate::app::views::{Cache, control};
 use crate::app::{moment, title};
 use crate::compute::profile_angle::profile_angle;
@@ -47,29 +47,20 @@ fn quantity(product: &crate::catalogue::Product) -> &'static str {
     }
 }
 
-/// Why nothing moves: nothing is selected, it is not here yet, or it has one state.
-fn still(state: &State) -> String {
-    match (&state.catalogue, title::selected(state)) {
-        (CatalogueState::Opening, _) => "The catalogue is opening.".to_owned(),
-        (CatalogueState::Failed(_), None) => "There is no catalogue to take a product from.".to_owned(),
-        (CatalogueState::Ready(_), None) if state.document.selection.product.is_empty() => {
-            "Nothing is selected: choose a product in the catalogue.".to_owned()
-        }
-        (CatalogueState::Ready(_), None) => "The product is being read.".to_owned(),
-        (_, Some(product)) => {
-            let what = match product.kind.as_str() {
-                "pane" => "This pane has",
-                "stack" => "This glazing has",
-                "venetian" => "These slats are fixed: they have",
-                "woven" => "This screen has",
-                "diffuser" => "This diffuser has",
-                "laser-cut-panel" | "prismatic" => "This panel has",
-                "perforated" => "This sheet has",
-                _ => "This product has",
-            };
-            format!("{what} one state. Blinds, louvres and switchable glazing are controlled here.")
-        }
-    }
+/// Why nothing moves: the product has one state. What is waited for before there is a product, the bench says.
+fn still(product: Option<&crate::catalogue::Product>) -> String {
+    let Some(product) = product else { return "The product is being read.".to_owned() };
+    let what = match product.kind.as_str() {
+        "pane" => "This pane has",
+        "stack" => "This glazing has",
+        "venetian" => "These slats are fixed: they have",
+        "woven" => "This screen has",
+        "diffuser" => "This diffuser has",
+        "laser-cut-panel" | "prismatic" => "This panel has",
+        "perforated" => "This sheet has",
+        _ => "This product has",
+    };
+    format!("{what} one state. Blinds, louvres and switchable glazing are controlled here.")
 }
 
 /// A small number with unit that is 0 where the scene says nothing.
@@ -237,7 +228,7 @@ impl Drawn for Drawing {
         }
         let moving = states.len() > 1;
         let sun = sun_incident(scene);
-        let still = still(state);
+        let still = still(title::selected(state));
         let input = control::Input {
             states: &states,
             still: &still,

@@ -33,11 +33,11 @@ const CIE: [&str; 16] = [
 const fn words(by: IlluminanceKey) -> (&'static str, &'static str) {
     match by {
         IlluminanceKey::ClearSky => (
-            "Follow the sun, clear sky by turbidity",
+            "Follow the sun, turbidity",
             "Clear skies by turbidity and elevation (Ineichen and Perez 2002), others typical ones (IES RP-21, 1984)",
         ),
         IlluminanceKey::Rp21 => {
-            ("Follow the sun, IES RP-21", "Typical values of clear, partly cloudy or overcast skies (IES RP-21, 1984)")
+            ("Follow the sun, RP-21", "Typical values of clear, partly cloudy or overcast skies (IES RP-21, 1984)")
         }
         IlluminanceKey::Stated => ("Typed", "The figures below, wherever the sun is"),
     }
