@@ -147,6 +147,10 @@ fn figures_of_light_say_what_designers_know_of_the_products() {
     // Opal: half of the light goes up, nothing is seen.
     let opal = light("opal-dense", "");
     assert!((opal.to_ceiling.unwrap() - 0.5).abs() < 0.02 && opal.view < 0.01, "{opal:?}");
+    // Without a description the data themselves are asked: an even diffuser is no window.
+    let even = light("ideal-diffuser", "");
+    assert!((even.to_ceiling.unwrap() - 0.5).abs() < 1e-6 && even.view < 1e-9, "{even:?}");
+    assert_eq!(light("open-aperture", "").view, 1.0);
     // A screen of 5 % openness is seen through by about 5 %.
     let screen = light("screen-grey-5", "");
     assert!((0.03..0.07).contains(&screen.view), "{screen:?}");

@@ -118,8 +118,9 @@ fn view(btdf: &Btdf) -> f64 {
     // All sectors of the innermost ring hold the normal.
     let [q, weight] = mean(&|cell| cell.theta_min == own.theta_min);
     let [surroundings, around] = mean(&|cell| cell.theta_min > own.theta_min && cell.theta_min < reach);
-    // Where one cell is all there is, nothing tells what is straight.
-    regular + if around > 0.0 && q > STANDS_OUT * surroundings { (q - surroundings) * weight } else { 0.0 }
+    // A single cell stands out of nothing: that is a diffuser.
+    let beam = around > 0.0 && q > STANDS_OUT * surroundings;
+    regular + if beam { (q - surroundings) * weight } else { 0.0 }
 }
 
 #[cfg(test)]
