@@ -10,6 +10,7 @@ use cfs::study::control::{Device, settings};
 use cfs::study::scene_file::{ControlKeys, ControlMode};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Built-in products by their descriptions, not computed: names, kinds and tags are those of the program.
 fn builtins() -> Vec<Sought> {
@@ -350,17 +351,21 @@ fn ten_thousand_products_are_searched_at_a_glance() {
         row.manufacturer = format!("Maker {}", number % 300);
         list.push(one);
     }
-    let mut worst = std::time::Duration::ZERO;
+    let mut worst = Duration::ZERO;
     let index = Index::new(list);
     for text in ["v", "ve", "venet", "venezian", "raffstore 80", "laser cut 7", "blind maker 99 silver", "qwxyz", ""] {
         for query in [words(text), Query { moving: Some(true), sort: Sort::Name, ..words(text) }] {
-            let start = std::time::Instant::now();
-            let found = index.find(&query);
-            worst = worst.max(start.elapsed());
-            assert_eq!(found.total, 10_000);
+            // The best of some: other work on the machine is not the search's.
+            let mut least = Duration::MAX;
+            for _ in 0..4 {
+                let start = Instant::now();
+                assert_eq!(index.find(&query).total, 10_000);
+                least = least.min(start.elapsed());
+            }
+            worst = worst.max(least);
         }
     }
     eprintln!("10,000 products: {worst:?} at worst");
     // A hundred times the time of a program that is optimised: not a measurement, but nothing that grows with the square.
-    assert!(worst < std::time::Duration::from_secs(3), "{worst:?}");
+    assert!(worst < Duration::from_secs(3), "{worst:?}");
 }

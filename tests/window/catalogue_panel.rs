@@ -38,7 +38,7 @@ fn window() -> Harness<'static, App> {
 fn settle(harness: &mut Harness<'_, App>) {
     let start = Instant::now();
     harness.run_steps(3);
-    while harness.state().busy() && start.elapsed() < Duration::from_secs(120) {
+    while harness.state().busy() && start.elapsed() < Duration::from_secs(600) {
         std::thread::sleep(Duration::from_millis(2));
         harness.step();
     }
