@@ -236,6 +236,28 @@ fn a_folder_is_read_and_what_is_no_dataset_is_listed_with_the_reason() {
 }
 
 #[test]
+fn a_typed_folder_is_opened_by_the_keyboard_alone_and_added_from_the_palette() {
+    let folder = tempfile::tempdir().unwrap();
+    four(folder.path());
+    let mut harness = window();
+    let before = products(&harness);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    settle(&mut harness);
+    harness.get_by_role_and_label(Role::TextInput, "Path").type_text(&folder.path().display().to_string());
+    settle(&mut harness);
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    assert_eq!(import(&harness).products.len(), 3);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::TextInput, "Command").type_text("add what was read");
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    assert_eq!(products(&harness), before + 3);
+}
+
+#[test]
 fn a_scene_among_datasets_is_opened_and_the_datasets_go_to_the_sheet() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = window();
