@@ -79,7 +79,7 @@ pub fn number(
             }
             None => {
                 *refused.borrow_mut() =
-                    Some(format!("“{}” is no number: {low:.decimals$} to {high:.decimals$}{unit}", text.trim()))
+                    Some(format!("“{}” is no number: {low:.decimals$} to {high:.decimals$}{unit}", text.trim()));
             }
         }
         None
