@@ -125,7 +125,9 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let mut left = ui.available_width() - GAP;
     let figures = figures(app);
     let all = |k: usize| figures.iter().map(|figure| width(ui, &figure.words[k]) + GAP).sum::<f32>();
-    let jobs = app.jobs.views();
+    let mut jobs = app.jobs.views();
+    // What the others wait for is told first.
+    jobs.sort_by_key(|job| job.lane != Lane::Product);
     // Durations are left out first, where something else wants the room.
     let short = usize::from(all(0) + if jobs.is_empty() { 0.0 } else { 200.0 } > left);
     let mut first = true;
