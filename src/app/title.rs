@@ -111,7 +111,7 @@ mod tests {
         scene.sky.time = None;
         for (altitude, words) in [
             (-15.0, "sun 15° below the horizon at 180°"),
-            (-0.4, "sun 0° high at 180°"),
+            (-0.4, "sun on the horizon at 180°"),
             (15.0, "sun 15° high at 180°"),
         ] {
             scene.sky.sun = SunKeys { altitude: Some(altitude), azimuth: Some(180.0), direct_normal: None };
