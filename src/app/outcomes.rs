@@ -34,10 +34,14 @@ impl App {
         }
     }
 
-    /// Computes data of built-in products that nobody has asked for yet, behind everything else: those of the chosen product
-    /// first, then those of the list as it is, then the rest. Stopped, it goes on when the catalogue is opened next.
+    /// Computes data of built-in products that nobody has asked for yet, while nothing else is computed: those of the chosen
+    /// product first, then those of the list as it is, then the rest. Stopped, it goes on when the catalogue is opened next.
     pub(super) fn fill_catalogue(&mut self) {
+        if !self.fill_due || !self.jobs.views().is_empty() {
+            return;
+        }
         let Some(shelf) = self.state.shelf() else { return };
+        self.fill_due = false;
         let chosen = std::iter::once(self.state.document.selection.product.clone());
         let order: Vec<String> = chosen.chain(self.state.found.entries.iter().map(|entry| entry.key.clone())).collect();
         self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, &order, progress)));
@@ -137,12 +141,12 @@ impl App {
                 self.state.catalogue = CatalogueState::Ready(shelf);
                 self.search();
                 self.look_up_deleted();
-                self.fill_catalogue();
+                self.fill_due = true;
                 self.asked = None;
                 self.start_waiting_files();
             }
             Outcome::Builtin(Ok(0)) => self.search(),
-            Outcome::Builtin(Ok(_)) => self.fill_catalogue(),
+            Outcome::Builtin(Ok(_)) => self.fill_due = true,
             Outcome::Provided(Ok(())) => {
                 self.state.computing = None;
                 // LID and room wait for the same data in their own lanes.
@@ -402,6 +406,9 @@ impl App {
             return;
         }
         self.asked = Some(document.clone());
+        // What is in sight has the computer to itself.
+        self.fill_due |= self.jobs.cancel(Lane::Builtin);
+        let document = &self.state.document;
         let question = Question { scene: document.scene.clone(), base: self.state.base(), shelf };
         self.stop_computing();
         self.state.dataset.stale = true;

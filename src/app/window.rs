@@ -51,6 +51,8 @@ pub struct App {
     pub(super) library: Arc<Library>,
     pub(super) jobs: Jobs<Outcome>,
     pub(super) pending_changes: VecDeque<Change>,
+    /// Some built-in products wait for their data.
+    pub(super) fill_due: bool,
     pub(super) undoer: Undoer<Document>,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
@@ -92,6 +94,7 @@ impl App {
             library: Arc::default(),
             jobs: Jobs::default(),
             pending_changes: VecDeque::new(),
+            fill_due: false,
             asked: None,
             asked_year: None,
             asked_peaks: None,
@@ -136,6 +139,6 @@ impl App {
 
     /// Is something still being read or computed?
     pub fn busy(&self) -> bool {
-        !self.jobs.views().is_empty() || !self.pending_changes.is_empty()
+        !self.jobs.views().is_empty() || !self.pending_changes.is_empty() || self.fill_due
     }
 }
