@@ -92,19 +92,22 @@ def first_start(given):
     seen = given.desk.start()
     tiles = ["Tile BTDF", "Tile Transmittance", "Tile Sky", "Tile LID", "Tile Room", "Tile Control"]
     untrue = re.compile(r"does not move|has no sky yet|dataset: no warnings")
-    full = None
-    while time.time() - given.desk.started < 6 and full is None:
+    full, last = None, None
+    while time.time() - given.desk.started < 12 and last is None:
         names = given.desk.names()
         words = "\n".join(names)
         moment = time.time() - given.desk.started
         read = re.search(r"θ \d+°, φ \d+° · τ", words)
         expect(read or not untrue.search(words), f"at {moment:.1f} s, with nothing read yet: {untrue.search(words)}")
-        loaded = re.search(r"peak [\d.]+ k?cd", words) and re.search(r"mean [\d.]+ k?lx", words)
+        # Of the LID's peak, which takes a table of all directions, the tile says that it is being computed.
+        loaded = re.search(r"peak: computing|peak [\d.]+ k?cd", words) and re.search(r"mean [\d.]+ k?lx", words)
         if loaded and all(tile in names for tile in tiles) and "updating" not in words:
-            full = moment
+            full = full or moment
+            if not last and "computing…" not in words:
+                last = moment
     given.picture()
-    print(f"    window {seen:.2f} s, six tiles {full and round(full, 2)} s")
-    expect(full is not None, "no figures in the tiles within 6 s")
+    print(f"    window {seen:.2f} s, six tiles {full and round(full, 2)} s, last figure {last and round(last, 2)} s")
+    expect(full is not None, "no figures in the tiles within 12 s")
     expect(seen <= 1.0 and full <= 2.0, f"window {seen:.2f} s, tiles {full:.2f} s")
 
 
@@ -285,6 +288,17 @@ def family(given):
     expect(values == [0, 10, 30, 45, 60], f"values {values}")
 
 
+@check("a typed path is opened by the keyboard alone")
+def typed_path(given):
+    path = given.copy("bsdf", "honeycomb_panel", "CS-TBK7-12.xml")
+    given.desk.start()
+    given.desk.quiet()
+    given.desk.key("ctrl+o")
+    given.desk.field("^Path$", path, "entry")
+    given.desk.need("Add .*to (the )?catalogue", wait=20)
+    given.picture()
+
+
 @check("a folder is read")
 def folder(given):
     for name in DIFFERENT:
@@ -450,10 +464,10 @@ def messages(given):
     given.desk.start()
     given.desk.quiet()
     given.desk.key("ctrl+o")
-    given.desk.field("^Path$", f"{given.home}/nothing.xml", "entry")
+    given.desk.field("^Path$", f"{given.home}/nothing.toml", "entry")
+    given.picture()
     message = given.desk.need("Dismiss: ")
     line = given.desk.need("^room: ")
-    given.picture()
     expect(message.rect[1] + message.rect[3] <= line.rect[1], f"{message.rect} covers {line.rect}")
     gone = given.desk.until(lambda: given.desk.find("Dismiss: ", wait=0) is None, 25)
     expect(gone, "still there after 25 s")

@@ -102,7 +102,7 @@ class Desk:
         self.window = None
         while self.window is None:
             if self.app.poll() is not None:
-                raise AssertionError(f"the program ended with {self.app.returncode}")
+                raise AssertionError(f"the program ended with {self.app.returncode}: {open(log.name).read()[-300:]}")
             if time.time() - self.started > 30:
                 raise AssertionError("no window within 30 s")
             found = run("xdotool", "search", "--onlyvisible", "--pid", str(self.app.pid)).stdout.split()

@@ -360,7 +360,9 @@ impl App {
         let lid = &self.results.lid;
         let Some(figures) = lid.value.as_ref().filter(|_| !lid.stale) else { return };
         let asked = self.asked_peaks.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, figures));
-        if asked || self.jobs.busy(Lane::Lid) || self.ctx.input(|input| input.pointer.any_down()) {
+        // A table of all directions takes seconds: not before the pictures are there.
+        let sooner = [Lane::Scene, Lane::Product, Lane::Lid, Lane::Room].into_iter().any(|lane| self.jobs.busy(lane));
+        if asked || sooner || self.ctx.input(|input| input.pointer.any_down()) {
             return;
         }
         let figures = figures.clone();
