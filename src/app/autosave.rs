@@ -2,7 +2,7 @@
 //!
 //! Every window has a file of its own in the folder of sessions, and holds a lock on a file beside it for as long as it
 //! lives; the system takes the lock away however the program ends. A session without a lock is one whose window did not
-//! close: the next window that starts takes it up. A window that closes leaves its session as [`LAST`].
+//! close: the next window that starts takes it up. A window that closes leaves its session as `last.json`.
 
 use super::clock;
 use super::disk::{ends_in, read_bytes, write_whole};
