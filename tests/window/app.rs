@@ -1,5 +1,6 @@
 //! The window without a display: driven by labels, keys and scripted services, checked by what it then knows and says.
 
+use crate::driven::{frames, settle};
 use cfs::app::App;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
 use cfs::app::error::AppError;
@@ -67,16 +68,7 @@ impl Engine for Scripted {
 
 fn window() -> (Harness<'static, App>, Arc<Scripted>) {
     let engine = Arc::new(Scripted::default());
-    let app = App::for_test(engine.clone());
-    let mut harness =
-        Harness::builder().with_size([1280.0, 720.0]).with_theme(egui::Theme::Dark).with_max_steps(200).build_ui_state(
-            |ui, app: &mut App| {
-                let ctx = ui.ctx().clone();
-                app.logic(&ctx);
-                app.draw(ui);
-            },
-            app,
-        );
+    let mut harness = frames(App::for_test(engine.clone()), [1280.0, 720.0]);
     settle(&mut harness);
     (harness, engine)
 }
@@ -84,18 +76,6 @@ fn window() -> (Harness<'static, App>, Arc<Scripted>) {
 /// Title of the tile that fills the bench.
 fn maximised(harness: &Harness<'_, App>) -> Option<&'static str> {
     harness.state().state.maximised.map(|tile| tile.title)
-}
-
-/// Steps until no job is left, then a few frames more.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(2);
-    while harness.state().busy() && start.elapsed() < Duration::from_secs(20) {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(!harness.state().busy(), "jobs end");
-    harness.run_steps(3);
 }
 
 fn title(harness: &Harness<'_, App>) -> String {

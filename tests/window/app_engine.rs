@@ -2,6 +2,7 @@
 //! computed, and what is written can be read.
 
 use crate::common::data;
+use crate::driven::{apply, coarsen, frames, settle, step_until};
 use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::command::Command;
 use cfs::app::dialogs::NoDialogs;
@@ -21,27 +22,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-const PATIENCE: Duration = Duration::from_secs(120);
-
-fn harness(app: App) -> Harness<'static, App> {
-    Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).build_ui_state(
-        |ui, app: &mut App| {
-            let ctx = ui.ctx().clone();
-            app.logic(&ctx);
-            app.draw(ui);
-        },
-        app,
-    )
-}
 
 fn window() -> Harness<'static, App> {
-    let mut harness = harness(App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf));
-    // Coarse: what is tested is the wiring.
-    let sensors = &mut harness.state_mut().state.document.scene.sensors;
-    let plane = sensors.plane.as_mut().unwrap();
-    (plane.nx, plane.ny) = (2, 4);
+    let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
+    let mut harness = frames(app, [1280.0, 720.0]);
+    coarsen(&mut harness, [2, 4]);
     settle(&mut harness);
     harness
 }
@@ -49,25 +34,13 @@ fn window() -> Harness<'static, App> {
 /// A window on a catalogue's file, with the real study.
 fn window_on(path: &Path, settings: Settings) -> Harness<'static, App> {
     let path = path.to_owned();
-    harness(App::new(
-        Services {
-            open_catalogue: Arc::new(move || open_shelf(Some(&path))),
-            read: SourceFile::read,
-            dialogs: Arc::new(NoDialogs),
-            engine: Arc::new(StudyEngine::default()),
-        },
-        settings,
-    ))
-}
-
-/// Steps until something holds.
-fn step_until(harness: &mut Harness<'_, App>, what: &str, holds: impl Fn(&App) -> bool) {
-    let start = Instant::now();
-    while !holds(harness.state()) {
-        assert!(start.elapsed() < PATIENCE, "{what}: {:?}", harness.state().state.dataset.error);
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
+    let services = Services {
+        open_catalogue: Arc::new(move || open_shelf(Some(&path))),
+        read: SourceFile::read,
+        dialogs: Arc::new(NoDialogs),
+        engine: Arc::new(StudyEngine::default()),
+    };
+    frames(App::new(services, settings), [1280.0, 720.0])
 }
 
 #[test]
@@ -156,24 +129,6 @@ fn a_scene_whose_product_is_not_computed_yet_is_shown_when_it_is() {
     let mut harness = window_on(&folder.path().join("catalogue.sqlite"), settings);
     let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
     step_until(&mut harness, "clear-double", |app| shown(app) && app.results.room.value.is_some());
-}
-
-/// Steps until no job is left, then a few frames more.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(3);
-    while harness.state().busy() && start.elapsed() < PATIENCE {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(!harness.state().busy(), "jobs end");
-    harness.run_steps(3);
-    assert!(!harness.state().busy(), "nothing is asked again and again");
-}
-
-fn apply(harness: &mut Harness<'_, App>, command: Command) {
-    harness.state_mut().apply(command);
-    settle(harness);
 }
 
 /// Mean illuminance over the sensors: total and direct. [lx]

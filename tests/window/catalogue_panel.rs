@@ -1,5 +1,6 @@
 //! The catalogue's panel: what a product is called, how it is first shown, its states, and how the list is narrowed.
 
+use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
@@ -16,39 +17,13 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 fn window() -> Harness<'static, App> {
     let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
-    let mut harness = Harness::builder().with_size([1400.0, 900.0]).with_max_steps(200).build_ui_state(
-        |ui, app: &mut App| {
-            let ctx = ui.ctx().clone();
-            app.logic(&ctx);
-            app.draw(ui);
-        },
-        app,
-    );
-    let plane = harness.state_mut().state.document.scene.sensors.plane.as_mut().unwrap();
-    (plane.nx, plane.ny) = (1, 2);
+    let mut harness = frames(app, [1400.0, 900.0]);
+    coarsen(&mut harness, [1, 2]);
     settle(&mut harness);
     harness
-}
-
-/// Steps until no job is left.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(3);
-    while harness.state().busy() && start.elapsed() < Duration::from_secs(600) {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(!harness.state().busy(), "jobs end");
-    harness.run_steps(3);
-}
-
-fn apply(harness: &mut Harness<'_, App>, command: Command) {
-    harness.state_mut().apply(command);
-    settle(harness);
 }
 
 fn find(harness: &mut Harness<'_, App>, text: &str) {

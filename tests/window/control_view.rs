@@ -1,5 +1,6 @@
 //! Controls in the window: a curve edited by pointer and by keys, rules of the scene and of single apertures, undo.
 
+use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
@@ -10,7 +11,6 @@ use egui::{Key, PointerButton, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 type Curve = Vec<[f64; 2]>;
 
@@ -176,17 +176,9 @@ fn the_keyboard_alone_makes_a_curve() {
 
 fn window() -> Harness<'static, App> {
     let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
-    let mut harness = Harness::builder().with_size([1600.0, 900.0]).with_max_steps(200).build_ui_state(
-        |ui, app: &mut App| {
-            let ctx = ui.ctx().clone();
-            app.logic(&ctx);
-            app.draw(ui);
-        },
-        app,
-    );
+    let mut harness = frames(app, [1600.0, 900.0]);
+    coarsen(&mut harness, [1, 2]);
     let scene = &mut harness.state_mut().state.document.scene;
-    let plane = scene.sensors.plane.as_mut().unwrap();
-    (plane.nx, plane.ny) = (1, 2);
     // A lower and an upper part.
     scene.aperture[0].size[1] = 1.0;
     let mut upper = scene.aperture[0].clone();
@@ -195,23 +187,6 @@ fn window() -> Harness<'static, App> {
     scene.aperture.push(upper);
     settle(&mut harness);
     harness
-}
-
-/// Steps until no job is left.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(3);
-    while harness.state().busy() && start.elapsed() < Duration::from_secs(120) {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(!harness.state().busy(), "jobs end");
-    harness.run_steps(3);
-}
-
-fn apply(harness: &mut Harness<'_, App>, command: Command) {
-    harness.state_mut().apply(command);
-    settle(harness);
 }
 
 #[test]

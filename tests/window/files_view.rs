@@ -1,14 +1,11 @@
 //! The window and its files: what is taken in and how, what is kept, what is written, what is said.
 
+use crate::driven::{Idle, apply, frames, settle};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
-use cfs::app::error::AppError;
 use cfs::app::import::Import;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::catalogue::Grouping;
-use cfs::compute::estimate::Progress;
-use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -17,66 +14,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Nothing is computed here.
-struct Idle;
-
-impl Engine for Idle {
-    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, AppError> {
-        Err(AppError::NoAperture)
-    }
-
-    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {
-        Err(AppError::NoLid)
-    }
-
-    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, AppError> {
-        Err(AppError::NoAperture)
-    }
-
-    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, AppError> {
-        Err(AppError::NoLid)
-    }
-}
-
-fn harness(app: App) -> Harness<'static, App> {
-    let mut harness =
-        Harness::builder().with_size([1280.0, 720.0]).with_theme(egui::Theme::Dark).with_max_steps(200).build_ui_state(
-            |ui, app: &mut App| {
-                let ctx = ui.ctx().clone();
-                app.logic(&ctx);
-                app.draw(ui);
-            },
-            app,
-        );
+/// A window that computes nothing.
+fn opened(app: App) -> Harness<'static, App> {
+    let mut harness = frames(app, [1280.0, 720.0]);
     settle(&mut harness);
     harness
 }
 
 fn window() -> Harness<'static, App> {
-    harness(App::for_test(Arc::new(Idle)))
+    opened(App::for_test(Arc::new(Idle)))
 }
 
 /// A window whose session lies in a folder.
 fn window_in(folder: &Path) -> Harness<'static, App> {
     let mut app = App::for_test(Arc::new(Idle));
     app.begin_session(Some(folder), true);
-    harness(app)
-}
-
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(2);
-    while harness.state().busy() && start.elapsed() < Duration::from_secs(30) {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(!harness.state().busy(), "jobs end");
-    harness.run_steps(3);
-}
-
-fn apply(harness: &mut Harness<'_, App>, command: Command) {
-    harness.state_mut().apply(command);
-    settle(harness);
+    opened(app)
 }
 
 fn import<'a>(harness: &'a Harness<'_, App>) -> &'a Import {

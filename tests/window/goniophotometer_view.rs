@@ -1,76 +1,28 @@
 //! The window's goniophotometer: from an example or a file to a product of the catalogue, and out again.
 
+use crate::driven::{Idle, frames_in, step_until};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
-use cfs::app::error::AppError;
 use cfs::app::goniophotometer::{Emergence, Incidence, Setup};
 use cfs::app::jobs::Lane;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::catalogue::{Catalogue, Origin};
-use cfs::compute::estimate::{Estimate, Progress};
-use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Theme};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-/// Nothing of the room is asked here.
-struct Idle;
-
-impl Engine for Idle {
-    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, AppError> {
-        let estimate = vec![Estimate::new(500.0, 2.0)];
-        Ok(RoomFigures {
-            positions: vec![[2.0, 3.0, 0.85]],
-            direct: estimate.clone(),
-            interreflected: estimate,
-            grid: Some([1, 1]),
-            seconds: 0.001,
-            ..RoomFigures::default()
-        })
-    }
-
-    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {
-        Err(AppError::NoLid)
-    }
-
-    fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, AppError> {
-        Err(AppError::NoAperture)
-    }
-
-    fn luminaire(&self, _lid: &LidFigures, _path: &Path) -> Result<Vec<u8>, AppError> {
-        Err(AppError::NoLid)
-    }
-}
 
 fn window(theme: Theme) -> Harness<'static, App> {
-    let app = App::for_test(Arc::new(Idle));
-    let mut harness =
-        Harness::builder().with_size([1280.0, 800.0]).with_theme(theme).with_max_steps(200).build_ui_state(
-            |ui, app: &mut App| {
-                let ctx = ui.ctx().clone();
-                app.logic(&ctx);
-                app.draw(ui);
-            },
-            app,
-        );
+    let mut harness = frames_in(theme, App::for_test(Arc::new(Idle)), [1280.0, 800.0]);
     wait(&mut harness, |app| !app.busy());
     harness
 }
 
 /// Steps until the window is as wanted, then a few frames more.
 fn wait(harness: &mut Harness<'_, App>, wanted: impl Fn(&App) -> bool) {
-    let start = Instant::now();
     harness.run_steps(2);
-    while !wanted(harness.state()) && start.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(wanted(harness.state()));
+    step_until(harness, "as wanted", wanted);
     harness.run_steps(3);
 }
 

@@ -126,14 +126,12 @@ fn a_night_a_sun_behind_the_facade_and_other_products_can_be_read() {
     let mut harness = window();
     let mut problems = Problems::default();
     apply(&mut harness, Command::Hour(11));
-    settle(&mut harness);
     problems.bench(&mut harness, "night");
     problems.each_tile(&mut harness, "night");
     apply(&mut harness, Command::Hour(-11));
     let mut scene = harness.state().state.document.scene.clone();
     scene.site.azimuth = 0.0;
     apply(&mut harness, Command::Scene(Box::new(scene.clone())));
-    settle(&mut harness);
     problems.bench(&mut harness, "sun behind the façade");
     scene.site.azimuth = 180.0;
     apply(&mut harness, Command::Scene(Box::new(scene)));
@@ -152,7 +150,6 @@ fn errors_can_be_read() {
     let mut scene = harness.state().state.document.scene.clone();
     scene.aperture[0].size = [40.0, 1.5];
     apply(&mut harness, Command::Scene(Box::new(scene)));
-    settle(&mut harness);
     let told = harness.state().results.room.error.clone().expect("a window wider than its wall");
     assert!(!told.is_empty());
     problems.bench(&mut harness, "a window wider than its wall");

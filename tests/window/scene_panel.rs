@@ -1,5 +1,6 @@
 //! The scene panel: what is typed is taken or told, nothing else changes, and the illuminances are those of the moment.
 
+use crate::driven::{coarsen, frames, settle};
 use cfs::app::App;
 use cfs::app::backend::StudyEngine;
 use cfs::app::command::Command;
@@ -11,39 +12,13 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 /// A tall window with the real study, few sensors, and a catalogue of ideal systems.
 fn window() -> Harness<'static, App> {
-    let mut app = App::for_test(Arc::new(StudyEngine::default()));
-    let plane = app.state.document.scene.sensors.plane.as_mut().unwrap();
-    (plane.nx, plane.ny) = (2, 3);
-    let mut harness = Harness::builder()
-        .with_size([1280.0, 1400.0])
-        .with_theme(egui::Theme::Dark)
-        .with_max_steps(200)
-        .build_ui_state(
-            |ui, app: &mut App| {
-                let ctx = ui.ctx().clone();
-                app.logic(&ctx);
-                app.draw(ui);
-            },
-            app,
-        );
+    let mut harness = frames(App::for_test(Arc::new(StudyEngine::default())), [1280.0, 1400.0]);
+    coarsen(&mut harness, [2, 3]);
     settle(&mut harness);
     harness
-}
-
-/// Steps until no job is left, then a few frames more.
-fn settle(harness: &mut Harness<'_, App>) {
-    let start = Instant::now();
-    harness.run_steps(3);
-    while harness.state().busy() && start.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(2));
-        harness.step();
-    }
-    assert!(!harness.state().busy(), "jobs end");
-    harness.run_steps(3);
 }
 
 fn scene<'a>(harness: &'a Harness<'_, App>) -> &'a SceneFile {

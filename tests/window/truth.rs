@@ -28,7 +28,6 @@ fn face(harness: &mut Harness<'_, App>, azimuth: f64) {
     let mut scene = harness.state().state.document.scene.clone();
     scene.site.azimuth = azimuth;
     apply(harness, Command::Scene(Box::new(scene)));
-    settle(harness);
 }
 
 fn maximise(harness: &mut Harness<'_, App>, title: &str) {
@@ -60,7 +59,6 @@ fn all_that_speaks_of_an_incidence_speaks_of_the_same_one() {
     assert!(says(&harness, "θ 40°, φ 120°") >= 3, "{:?}", words(&harness));
     apply(&mut harness, Command::Incidence(None));
     apply(&mut harness, Command::Hour(11));
-    settle(&mut harness);
     for name in OF_ONE_INCIDENCE {
         let text = value(&harness, name);
         assert!(text.starts_with("perpendicular light at θ 0°"), "{name}: {text}");
@@ -94,11 +92,9 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
         select(&mut harness, |entry| entry.name.starts_with(name));
         if beam {
             apply(&mut harness, Command::SelectState("0".to_owned()));
-            settle(&mut harness);
         }
         maximise(&mut harness, "LID");
         apply(&mut harness, Command::Write(PathUse::ExportLid, path.clone()));
-        settle(&mut harness);
         let file = eulumdat::read(&std::fs::read(&path).unwrap()).unwrap();
         let peaks = *harness.state().results.lid_peaks().expect("peaks");
         let lid = harness.state().results.lid.value.clone().unwrap();
@@ -156,7 +152,6 @@ fn pictures_keep_their_places_when_the_sun_leaves_the_facade() {
     assert_eq!(at_all_sizes(&mut harness), noon, "the sun stands behind the façade");
     face(&mut harness, 180.0);
     apply(&mut harness, Command::Hour(11));
-    settle(&mut harness);
     assert_eq!(at_all_sizes(&mut harness), noon, "night");
 }
 
@@ -184,7 +179,6 @@ fn before_anything_is_there_nothing_is_said_of_it() {
 fn a_sun_under_the_horizon_is_said_to_be_there() {
     let mut harness = window();
     apply(&mut harness, Command::Hour(11));
-    settle(&mut harness);
     let told = value(&harness, "Sky dome");
     assert!(told.starts_with("sun ") && told.contains("° below the horizon, bearing "), "{told}");
     assert!(!told.contains('-'), "{told}");
