@@ -85,10 +85,6 @@ fn rank(name: &str) -> i64 {
 
 /// Stores a product in place of its older self and of another process's copy.
 fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), CatalogueError> {
-    tx.execute(
-        "DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1 AND key = ?)",
-        [&record.product.key],
-    )?;
     tx.execute("DELETE FROM product WHERE builtin = 1 AND key = ?", [&record.product.key])?;
     record.product.builtin = true;
     record.product.key = store::free_key(tx, &record.product.key)?;
@@ -195,7 +191,6 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
         light_up(&tx, product)?;
     }
     if version(&tx)? < BUILTIN_VERSION {
-        tx.execute("DELETE FROM product_text WHERE rowid IN (SELECT id FROM product WHERE builtin = 1)", [])?;
         tx.execute("DELETE FROM product WHERE builtin = 1", [])?;
         for (rank, ideal) in (0..).zip(ideals) {
             put(&tx, ideal, rank)?;

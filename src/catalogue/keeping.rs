@@ -66,10 +66,6 @@ impl Catalogue {
         for tag in &tags {
             tx.execute("INSERT INTO tag VALUES (?, ?)", (id, tag))?;
         }
-        tx.execute(
-            "UPDATE product_text SET name = ?1, manufacturer = ?2, kind = ?3, tags = ?4 WHERE rowid = ?5",
-            (name, manufacturer, kind, tags.join(" "), id),
-        )?;
         tx.commit()?;
         Ok(())
     }

@@ -95,10 +95,6 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     if p.favourite {
         tx.execute("INSERT OR IGNORE INTO favourite VALUES (?)", [&p.key])?;
     }
-    tx.prepare_cached(
-        "INSERT INTO product_text (rowid, name, manufacturer, kind, description, tags) VALUES (?, ?, ?, ?, ?, ?)",
-    )?
-    .execute(params![id, p.name, p.manufacturer, p.kind, p.description, p.tags.join(" ")])?;
     Ok(())
 }
 
@@ -123,7 +119,6 @@ pub(super) fn sweep(tx: &Transaction) -> Result<(), CatalogueError> {
 
 /// Takes a product's rows out; datasets that no state refers to any more go with it.
 pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> {
-    tx.execute("DELETE FROM product_text WHERE rowid = (SELECT id FROM product WHERE key = ?)", [key])?;
     tx.execute("DELETE FROM product WHERE key = ?", [key])?;
     sweep(tx)
 }
