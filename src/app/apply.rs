@@ -92,6 +92,7 @@ impl App {
                     }
                     Lane::Builtin => "Stopped; the others are computed when they are chosen".to_owned(),
                     Lane::Product => "Stopped; choose another state or product".to_owned(),
+                    Lane::Lid if !self.results.lid.stale => "Stopped; the LID's peak is not computed".to_owned(),
                     Lane::Import | Lane::Export => format!("{} stopped", lane.word()),
                     _ => format!("{} stopped; what is shown is older than the scene", lane.word()),
                 };

@@ -5,14 +5,15 @@
 //! close: the next window that starts takes it up. A window that closes leaves its session as `last.json`.
 
 use super::clock;
-use super::disk::{ends_in, read_bytes, write_whole};
+use super::disk::{ends_in, read_bytes};
 use super::session::{Kept, Snapshot};
+use crate::study::files::write_at_once;
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 /// The session of the window that was closed last.
 const LAST: &str = "last.json";
@@ -60,16 +61,21 @@ fn lock(path: &Path) -> std::io::Result<Option<File>> {
     }
 }
 
+/// When a file was written last; `None` where there is none.
+fn changed(file: &Path) -> Option<SystemTime> {
+    std::fs::metadata(file).and_then(|meta| meta.modified()).ok()
+}
+
 /// Sessions in the folder, the newest first.
 fn sessions(folder: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
-    let mut list: Vec<(std::time::SystemTime, PathBuf)> = entries
+    let mut list: Vec<(SystemTime, PathBuf)> = entries
         .flatten()
         .filter(|entry| {
             let name = entry.file_name().to_string_lossy().into_owned();
             name.starts_with("session-") && name.ends_with(".json")
         })
-        .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
+        .filter_map(|entry| Some((changed(&entry.path())?, entry.path())))
         .collect();
     list.sort();
     list.into_iter().rev().map(|(_, path)| path).collect()
@@ -112,6 +118,13 @@ impl Autosave {
             None => Self::new_place(folder)?,
         };
         let last = folder.join(LAST);
+        if found.lost && changed(&last) > changed(&file) {
+            // Another window was closed since: this one will leave its own session there, so the next start takes that up.
+            let (other, other_lock, held) = Self::new_place(folder)?;
+            std::fs::rename(&last, other)?;
+            drop(held);
+            remove(&other_lock);
+        }
         if found.kept.is_none() && last.exists() {
             match read(&last) {
                 Ok(kept) => found.kept = Some(kept),
@@ -181,10 +194,7 @@ impl Autosave {
 /// Takes away what killed programs leave beside their sessions: half of a file that has not taken its name, locks of
 /// windows that ended before they wrote anything. Only what is old: another window may be about to use it.
 fn tidy(folder: &Path) {
-    let old = |path: &Path| {
-        let modified = std::fs::metadata(path).and_then(|meta| meta.modified()).ok();
-        modified.and_then(|at| at.elapsed().ok()).is_some_and(|age| age > OLD)
-    };
+    let old = |path: &Path| changed(path).and_then(|at| at.elapsed().ok()).is_some_and(|age| age > OLD);
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for path in entries.flatten().map(|entry| entry.path()).filter(|path| old(path)) {
         let lone_lock = ends_in(&path, "lock") && !path.with_extension("json").exists();
@@ -204,8 +214,24 @@ fn remove(file: &Path) {
     drop(std::fs::remove_file(file));
 }
 
-/// Writes what it is told until told to close; of several changes at once the last.
+/// Writes what it is told until told to close; of several changes at once the last. What is written is safe from the end
+/// of the program at once; a second thread waits for the disk, which takes seconds when it is busy.
 fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<String>) {
+    let (written, waiting) = channel::<File>();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            while let Ok(file) = waiting.recv() {
+                // Of several the last: the others are no longer there under any name.
+                if let Err(error) = waiting.try_iter().last().unwrap_or(file).sync_all() {
+                    drop(told.send(format!("The session is not safe from a power cut: {error}")));
+                }
+            }
+        });
+        write_until_closed(file, orders, told, written);
+    });
+}
+
+fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<String>, written: Sender<File>) {
     let mut failing = false;
     let mut closing = false;
     while !closing {
@@ -222,16 +248,21 @@ fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<String>) {
             }
         }
         if let Some(snapshot) = newest {
-            let written = serde_json::to_vec_pretty(&snapshot.kept(clock::stamp()))
+            let done = serde_json::to_vec_pretty(&snapshot.kept(clock::stamp()))
                 .map_err(|error| error.to_string())
-                .and_then(|bytes| write_whole(file, &bytes).map_err(|error| error.to_string()));
-            if let Err(error) = &written
-                && !failing
-            {
-                // Nobody may listen any more.
-                drop(told.send(format!("The session is not kept: {error}")));
+                .and_then(|bytes| write_at_once(file, &bytes).map_err(|error| error.to_string()));
+            match done {
+                Ok(file) => {
+                    drop(written.send(file));
+                    failing = false;
+                }
+                // Told once; nobody may listen any more.
+                Err(error) if !failing => {
+                    drop(told.send(format!("The session is not kept: {error}")));
+                    failing = true;
+                }
+                Err(_) => {}
             }
-            failing = written.is_err();
         }
         if !closing {
             std::thread::sleep(PAUSE);
@@ -290,6 +321,28 @@ mod tests {
         let (_third, found) = Autosave::begin(folder.path(), true).unwrap();
         assert!(!found.lost, "it was closed");
         assert_eq!(azimuth(&found.kept.unwrap()), 70.0);
+    }
+
+    #[test]
+    fn an_older_lost_session_takes_no_newer_one_away() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut lost, _) = Autosave::begin(folder.path(), true).unwrap();
+        lost.keep(&state(10.0));
+        wait_for(&lost, 10.0);
+        kill(lost);
+        std::thread::sleep(Duration::from_millis(20));
+        let (mut newer, _) = Autosave::begin(folder.path(), false).unwrap();
+        newer.keep(&state(20.0));
+        newer.close();
+        let mut seen = Vec::new();
+        for _ in 0..3 {
+            let (mut next, found) = Autosave::begin(folder.path(), true).unwrap();
+            let found = azimuth(&found.kept.unwrap());
+            seen.push(found);
+            next.keep(&state(found));
+            next.close();
+        }
+        assert_eq!(seen, [10.0, 20.0, 20.0]);
     }
 
     #[test]

@@ -29,25 +29,31 @@ struct CatalogueShelf {
     filler: Option<Mutex<Catalogue>>,
     /// States that are being computed because somebody waits for them.
     at_work: AtWork,
+    /// States that cannot be computed: tried once.
+    failing: Mutex<Vec<StateKey>>,
+}
+
+impl CatalogueShelf {
+    fn new(catalogue: Mutex<Catalogue>, filler: Option<Mutex<Catalogue>>) -> Self {
+        Self { catalogue, filler, at_work: AtWork::default(), failing: Mutex::default() }
+    }
 }
 
 /// Opens a catalogue's file, or the user's own.
 pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, AppError> {
     let path = path.map_or_else(default_path, |path| Ok(path.to_owned()))?;
     let open = || Catalogue::open(&path).map(Mutex::new);
-    Ok(Arc::new(CatalogueShelf { catalogue: open()?, filler: Some(open()?), at_work: AtWork::default() }))
+    Ok(Arc::new(CatalogueShelf::new(open()?, Some(open()?))))
 }
 
 /// A new catalogue in memory with the built-in products.
 pub fn memory_shelf() -> Result<Arc<dyn Shelf>, AppError> {
-    let catalogue = Mutex::new(Catalogue::in_memory()?);
-    Ok(Arc::new(CatalogueShelf { catalogue, filler: None, at_work: AtWork::default() }))
+    Ok(Arc::new(CatalogueShelf::new(Mutex::new(Catalogue::in_memory()?), None)))
 }
 
 /// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
 pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
-    let catalogue = Mutex::new(Catalogue::empty_in_memory()?);
-    let shelf = CatalogueShelf { catalogue, filler: None, at_work: AtWork::default() };
+    let shelf = CatalogueShelf::new(Mutex::new(Catalogue::empty_in_memory()?), None);
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
     {
         let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
@@ -119,12 +125,13 @@ impl Shelf for CatalogueShelf {
 
     fn fill_one(&self, order: &[String], progress: &dyn Progress) -> Result<[usize; 2], AppError> {
         let Some(filler) = &self.filler else { return Ok([0; 2]) };
-        let (waiting, all) = {
+        let (mut waiting, all) = {
             let mut filler = lock(filler);
             // Of what older programs stored it may not be known where light goes; found out once, it is nothing to do.
             filler.fill_figures(progress)?;
             (filler.waiting()?, filler.builtin_states()?)
         };
+        waiting.retain(|one| !self.failing.lock().unwrap_or_else(PoisonError::into_inner).contains(one));
         let place = |one: &StateKey| order.iter().position(|key| *key == one.product).unwrap_or(order.len());
         // The first of equals stays first, as the catalogue has them.
         let Some(one) = waiting.iter().min_by_key(|one| place(one)) else { return Ok([0, all]) };
@@ -132,7 +139,12 @@ impl Shelf for CatalogueShelf {
         // Not by way of `at_work`: who waits for this state would wait for one who rests while somebody waits.
         let withdrawn = Withdrawn(progress);
         let product = lock(filler).product(&one.product)?;
-        let dataset = builtin::compute(&product, &one.state, &Library::default(), &withdrawn)?;
+        let dataset = builtin::compute(&product, &one.state, &Library::default(), &withdrawn).map_err(|error| {
+            if !progress.cancelled() {
+                self.failing.lock().unwrap_or_else(PoisonError::into_inner).push(one.clone());
+            }
+            AppError::from(error).about(format_args!("{}, state {}", one.product, one.state))
+        })?;
         lock(filler).put_state(&product, &dataset)?;
         Ok([waiting.len() - 1, all])
     }
@@ -210,10 +222,15 @@ impl SystemLibrary for WindowLibrary<'_> {
 #[derive(Default)]
 pub struct StudyEngine {
     session: Session,
-    files: Library,
+    files: Arc<Library>,
 }
 
 impl StudyEngine {
+    /// Files that systems name, and the catalogue that their layers name, are of this library.
+    pub fn new(files: Arc<Library>) -> Self {
+        Self { session: Session::default(), files }
+    }
+
     fn scene(&self, question: &Question, progress: &dyn Progress) -> Result<Scene, AppError> {
         let library = WindowLibrary { files: &self.files, shelf: &*question.shelf, progress };
         Ok(Scene::resolve(&question.scene, &question.base, &library)?)

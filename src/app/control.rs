@@ -7,7 +7,7 @@ use crate::catalogue::{FirstRule, Product, State};
 use crate::compute::direction::Surface;
 use crate::compute::estimate::Progress;
 use crate::study::StudyError;
-use crate::study::control::year::{ClearSky, Moment, Moving, Setting, Situation, day, year as study_year};
+use crate::study::control::year::{Moment, Moving, Setting, Situation, day, year as study_year};
 use crate::study::control::{Device, curve, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use jiff::civil::Date;
@@ -159,7 +159,7 @@ fn ordered_keys(product: &Product) -> Vec<String> {
 /// The year of a product. Called in a job.
 pub fn year(product: &Arc<Product>, key: YearKey, progress: &dyn Progress) -> Result<Year, StudyError> {
     let moving = key.moving(product)?;
-    let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &ClearSky, progress)?;
+    let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &key.situation.sky, progress)?;
     let states = ordered_keys(product);
     let of = |moment: &Moment| seen(product, &states, &moment.settings[0]).map(|(_, index)| index);
     let hours = moments.iter().map(of).collect();
@@ -175,7 +175,7 @@ pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<
     let Some(time) = moment::of(scene) else { return Ok(Vec::new()) };
     let date: Date = time.date();
     let moving = key.moving(product)?;
-    let moments = day(&key.situation, &key.base, &moving, date, DAY_STEP, &ClearSky)?;
+    let moments = day(&key.situation, &key.base, &moving, date, DAY_STEP, &key.situation.sky)?;
     let states = ordered_keys(product);
     let hour = |step: usize| step as f64 * f64::from(DAY_STEP) / 60.0;
     Ok(moments.iter().enumerate().map(|(k, moment)| (hour(k), seen(product, &states, &moment.settings[0]))).collect())

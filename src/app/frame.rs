@@ -103,7 +103,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
                 open_catalogue: Arc::new(move || open_shelf(catalogue.as_deref())),
                 read: SourceFile::read,
                 dialogs: Arc::new(NativeDialogs),
-                engine: Arc::new(StudyEngine::default()),
+                engine: Arc::new(StudyEngine::new(library.clone())),
             };
             let mut app = App::new(services, settings);
             app.library = library;

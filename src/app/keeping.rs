@@ -1,8 +1,8 @@
 //! Products after they are stored: other words about them, out of sight and back. Undo goes over both.
 
+use super::apply::first_choice;
 use super::changes::{Change, Editing};
 use super::error::AppError;
-use super::scene::{Selection, fill};
 use super::state::Sheet;
 use super::window::App;
 use super::work::Outcome;
@@ -59,9 +59,9 @@ impl App {
             let neighbour =
                 entries.entries.get(place + 1).or_else(|| place.checked_sub(1).map(|i| &entries.entries[i]));
             if let Some(neighbour) = neighbour {
-                let document = &mut self.state.document;
-                document.selection = Selection { product: neighbour.key.clone(), state: String::new() };
-                fill(&mut document.scene, &document.selection);
+                let state = Some(neighbour.state()).filter(|_| neighbour.moves());
+                first_choice(&mut self.state.document, neighbour.key.clone(), neighbour.rule, state);
+                self.state.control_of = None;
             }
         }
         self.toasts.info(format!("Deleted: {name}. Ctrl+Z, or Recently deleted in the Edit menu, brings it back"));
@@ -91,6 +91,8 @@ impl App {
             }
             self.tell(&error);
         }
+        // What is shown, and the header of the LID, carry the words of before.
+        self.asked = None;
         self.search();
         self.look_up_deleted();
     }

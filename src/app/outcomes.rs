@@ -18,6 +18,9 @@ use crate::study::sky::{SkyKeyError, outside_from_keys};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// After so many failures built-in products are no longer computed before they are asked for.
+const FILL_FAILURES: usize = 5;
+
 impl App {
     /// Opens the catalogue in a job.
     pub(super) fn open_catalogue(&mut self) {
@@ -158,6 +161,9 @@ impl App {
             }
             Outcome::Builtin(Err(error)) => {
                 self.toasts.warning(format!("Built-in products: {error}"));
+                // What failed is left out from now on; a catalogue that cannot be written to fails for good.
+                self.fill_failures += 1;
+                self.fill_due = self.fill_failures < FILL_FAILURES;
             }
             Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error.to_string()),
             Outcome::Found(Ok(found)) => {
@@ -168,10 +174,7 @@ impl App {
             Outcome::Found(Err(error)) => self.state.search_error = Some(error.to_string()),
             Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
             Outcome::Year(result) => self.results.year.take(result),
-            Outcome::Accuracy(result) => {
-                self.results.accuracy_revision += 1;
-                self.results.accuracy.take(result);
-            }
+            Outcome::Accuracy(result) => self.results.accuracy.take(result),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
             Outcome::Room(result) => self.results.room.take(result),
@@ -238,8 +241,7 @@ impl App {
                 self.state.dataset.error = None;
                 match dataset {
                     Some(dataset) => {
-                        self.state.dataset.value = Some(dataset);
-                        self.state.dataset.stale = false;
+                        self.state.dataset.put(dataset);
                         self.stop_computing();
                     }
                     None => self.compute_state(&product, state),
@@ -272,6 +274,8 @@ impl App {
                 }
             }
         }
+        // What was asked before they were there has failed.
+        self.asked = None;
         if let Some(first) = added.first() {
             let what = if added.len() == 1 {
                 "Added to the catalogue".to_owned()

@@ -54,7 +54,7 @@ pub trait Shelf: Send + Sync {
         Ok(true)
     }
     /// Computes the dataset of a state and keeps it, where the catalogue does not hold it yet; who asks for one that is
-    /// being computed waits for it. Without a key the first state's.
+    /// being computed waits for it. Without a key the state that stands for the product.
     fn provide(&self, _product: &str, _state: Option<&str>, _progress: &dyn Progress) -> Result<(), AppError> {
         Ok(())
     }

@@ -20,6 +20,7 @@ use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A tile of the bench, by what it says of itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -61,7 +62,7 @@ pub struct Settings {
     pub catalogue_open: bool,
     /// Scene panel open?
     pub scene_open: bool,
-    /// The scene as it was left, in TOML.
+    /// The scene as older programs kept it here, in TOML; now it is in the session.
     pub last_scene: Option<String>,
     /// The folder that was written to or read from last.
     pub folder: Option<PathBuf>,
@@ -91,11 +92,13 @@ pub struct Shown<T> {
     pub stale: bool,
     /// Why there is no newer one.
     pub error: Option<String>,
+    /// Another with every value: what is drawn from one is kept as long as this stays.
+    pub revision: u64,
 }
 
 impl<T> Default for Shown<T> {
     fn default() -> Self {
-        Self { value: None, stale: true, error: None }
+        Self { value: None, stale: true, error: None, revision: 0 }
     }
 }
 
@@ -103,9 +106,19 @@ impl<T> Shown<T> {
     /// Takes a new result; a failure keeps the last good one, marked stale.
     pub fn take(&mut self, result: Result<T, impl std::fmt::Display>) {
         match result {
-            Ok(value) => *self = Self { value: Some(Arc::new(value)), stale: false, error: None },
+            Ok(value) => self.put(Arc::new(value)),
             Err(error) => self.error = Some(error.to_string()),
         }
+    }
+
+    /// Shows a value; one that is shown already keeps its revision.
+    pub fn put(&mut self, value: Arc<T>) {
+        // Counted over all of them, so that one that begins anew does not meet a number of its own past. An address would
+        // not do: the next value may lie where the last but one lay.
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let same = self.value.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, &value));
+        let revision = if same { self.revision } else { COUNT.fetch_add(1, Ordering::Relaxed) + 1 };
+        *self = Self { value: Some(value), stale: false, error: None, revision };
     }
 }
 
@@ -122,8 +135,6 @@ pub struct Results {
     pub year: Shown<Year>,
     /// Error against run time, of the scene that it was asked for.
     pub accuracy: Shown<Accuracy>,
-    /// Counts the ladders that came in.
-    pub accuracy_revision: u64,
 }
 
 impl Results {
@@ -343,5 +354,31 @@ impl State {
             CatalogueState::Ready(shelf) => Some(shelf.clone()),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_values_in_turn_have_the_same_revision() {
+        let mut shown = Shown::<usize>::default();
+        let mut seen = vec![shown.revision];
+        for value in 0..100 {
+            // The one before it is freed: the next but one may lie in its place.
+            shown.take(Ok::<_, String>(value));
+            seen.push(shown.revision);
+        }
+        let same = shown.value.clone().unwrap();
+        shown.put(same);
+        assert_eq!(seen.last(), Some(&shown.revision), "nothing new");
+        shown = Shown::default();
+        shown.take(Ok::<_, String>(0));
+        seen.push(shown.revision);
+        let all = seen.len();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(seen.len(), all);
     }
 }

@@ -53,6 +53,7 @@ pub struct App {
     pub(super) pending_changes: VecDeque<Change>,
     /// Some built-in products wait for their data.
     pub(super) fill_due: bool,
+    pub(super) fill_failures: usize,
     pub(super) undoer: Undoer<Document>,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
@@ -95,6 +96,7 @@ impl App {
             jobs: Jobs::default(),
             pending_changes: VecDeque::new(),
             fill_due: false,
+            fill_failures: 0,
             asked: None,
             asked_year: None,
             asked_peaks: None,

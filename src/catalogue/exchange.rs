@@ -64,6 +64,7 @@ impl Catalogue {
                 bring_back(&tx, &key)?;
                 imported.push(Imported { same_content_as: vec![key.clone()], key });
             } else if adopt(&tx, &record)? {
+                bring_back(&tx, &key)?;
                 // A built-in product that another file computed already.
                 imported.push(Imported { key, same_content_as: Vec::new() });
             } else {

@@ -58,3 +58,4 @@ pub use source_file::SourceFile;
 pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part};
 pub use validate::check;
 pub use waiting::StateKey;
+pub use words::folded;

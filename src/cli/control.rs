@@ -2,7 +2,7 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
-use crate::study::control::year::{ClearSky, Moment, Moving, Situation, Summary, moving, summary, year};
+use crate::study::control::year::{Moment, Moving, Situation, Summary, moving, summary, year};
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::{Library, files, read_scene_file};
 use anyhow::anyhow;
@@ -42,7 +42,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let list = moving(&file, base, &|key| library.product(key)).map_err(told)?;
     let situation = Situation::of(&file).map_err(told)?;
     let progress = TerminalProgress::new();
-    let moments = year(&situation, base, &list, args.step, &ClearSky, &progress).map_err(told)?;
+    let moments = year(&situation, base, &list, args.step, &situation.sky, &progress).map_err(told)?;
     drop(progress);
     if let Some(path) = &args.out {
         files::write(path, csv(&list, &moments).as_bytes())?;

@@ -34,16 +34,35 @@ pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
 /// # Errors
 /// One sentence that names the file.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+    // On the disk before it takes the name: otherwise a power cut could leave the name with nothing in it.
+    replace(path, bytes, std::fs::File::sync_all).map(drop)
+}
+
+/// The same without waiting for the disk, which under load takes seconds: a program that ends loses nothing, a power cut
+/// before the returned file is synchronised may.
+///
+/// # Errors
+/// One sentence that names the file.
+pub fn write_at_once(path: &Path, bytes: &[u8]) -> Result<std::fs::File, StudyError> {
+    replace(path, bytes, |_| Ok(()))
+}
+
+fn replace(
+    path: &Path,
+    bytes: &[u8],
+    wait: impl Fn(&std::fs::File) -> std::io::Result<()>,
+) -> Result<std::fs::File, StudyError> {
     let mut part = path.as_os_str().to_owned();
     // A name that no other has: another program may write the same file.
     part.push(format!(".{:016x}.part", RandomState::new().build_hasher().finish()));
     let whole = |part: &Path| {
         let mut file = std::fs::File::create(part)?;
         file.write_all(bytes)?;
-        // On the disk before it takes the name: otherwise a power cut could leave the name with nothing in it.
-        file.sync_all()
+        wait(&file)?;
+        std::fs::rename(part, path)?;
+        Ok(file)
     };
-    whole(Path::new(&part)).and_then(|()| std::fs::rename(&part, path)).map_err(|error| {
+    whole(Path::new(&part)).map_err(|error: std::io::Error| {
         // What matters is the first error; the part may not even exist.
         drop(std::fs::remove_file(&part));
         wrong(path, format!("cannot be written ({error}); expected a writable place"))

@@ -5,6 +5,7 @@
 
 pub use crate::formats::gazetteer::City;
 
+use crate::catalogue::folded;
 use crate::formats::gazetteer::read_cities;
 use std::sync::LazyLock;
 
@@ -20,44 +21,9 @@ const IN_CITY: f64 = 10.0;
 /// Along a meridian. \[km/°\]
 const KM_PER_DEGREE: f64 = 111.2;
 
-/// Lower case, without the accents of European languages.
-fn plain(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    for letter in text.trim().to_lowercase().chars() {
-        match letter {
-            'ß' => plain.push_str("ss"),
-            'æ' => plain.push_str("ae"),
-            'œ' => plain.push_str("oe"),
-            'þ' => plain.push_str("th"),
-            'à'..='å' | 'ā' | 'ă' | 'ą' => plain.push('a'),
-            'ç' | 'ć' | 'ĉ' | 'ċ' | 'č' => plain.push('c'),
-            'ð' | 'ď' | 'đ' => plain.push('d'),
-            'è'..='ë' | 'ē' | 'ĕ' | 'ė' | 'ę' | 'ě' | 'ə' => plain.push('e'),
-            'ĝ' | 'ğ' | 'ġ' | 'ģ' => plain.push('g'),
-            'ĥ' | 'ħ' => plain.push('h'),
-            'ì'..='ï' | 'ĩ' | 'ī' | 'ĭ' | 'į' | 'ı' => plain.push('i'),
-            'ĵ' => plain.push('j'),
-            'ķ' => plain.push('k'),
-            'ĺ' | 'ļ' | 'ľ' | 'ł' => plain.push('l'),
-            'ñ' | 'ń' | 'ņ' | 'ň' => plain.push('n'),
-            'ò'..='ö' | 'ø' | 'ō' | 'ŏ' | 'ő' => plain.push('o'),
-            'ŕ' | 'ŗ' | 'ř' => plain.push('r'),
-            'ś' | 'ŝ' | 'ş' | 'š' | 'ș' => plain.push('s'),
-            'ţ' | 'ť' | 'ț' => plain.push('t'),
-            'ù'..='ü' | 'ũ' | 'ū' | 'ŭ' | 'ů' | 'ű' | 'ų' => plain.push('u'),
-            'ŵ' => plain.push('w'),
-            'ý' | 'ÿ' | 'ŷ' => plain.push('y'),
-            'ź' | 'ż' | 'ž' => plain.push('z'),
-            // The dot that lower-casing İ leaves behind.
-            '\u{307}' => {}
-            other => plain.push(other),
-        }
-    }
-    plain
-}
-
-/// The cities' names as the search compares them.
-static PLAIN: LazyLock<Vec<String>> = LazyLock::new(|| CITIES.iter().map(|city| plain(&city.name)).collect());
+/// The cities' names and countries as the search compares them.
+static PLAIN: LazyLock<Vec<[String; 2]>> =
+    LazyLock::new(|| CITIES.iter().map(|city| [&*city.name, &*city.country].map(folded)).collect());
 
 /// How well a city, `own` its plain name, answers to a name: 0 the best; `None` where it does not.
 fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
@@ -77,16 +43,16 @@ fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
     }
 }
 
-/// Is a city in a country or state that begins so, or has this code?
-fn within(city: &City, area: &str) -> bool {
+/// Is a city, `country` its plain country, in a country or state that begins so, or has this code?
+fn within(city: &City, country: &str, area: &str) -> bool {
     let code: String = city.code.iter().collect();
-    code.eq_ignore_ascii_case(area) || city.region.eq_ignore_ascii_case(area) || plain(&city.country).starts_with(area)
+    code.eq_ignore_ascii_case(area) || city.region.eq_ignore_ascii_case(area) || country.starts_with(area)
 }
 
 /// Cities that answer to what was typed, the best first: `stutt`, `münchen`, `portland, us`. At most `most`, and how many
 /// there are.
 pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
-    let typed = plain(typed);
+    let typed = folded(typed.trim());
     let (name, area) = typed.split_once(',').unwrap_or((&typed, ""));
     let (name, area) = (name.trim(), area.trim());
     if name.is_empty() {
@@ -95,8 +61,8 @@ pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     let mut found: Vec<(u8, &City)> = CITIES
         .iter()
         .zip(PLAIN.iter())
-        .filter(|(city, _)| area.is_empty() || within(city, area))
-        .filter_map(|(city, own)| Some((rank(city, own, name)?, city)))
+        .filter(|(city, [_, country])| area.is_empty() || within(city, country, area))
+        .filter_map(|(city, [own, _])| Some((rank(city, own, name)?, city)))
         .collect();
     // Of the same rank the larger city stays before the smaller.
     found.sort_by_key(|(rank, _)| *rank);

@@ -9,7 +9,9 @@ use cfs::compute::sky::SUN_HALF_ANGLE;
 use cfs::compute::system::slats::SlatProfile;
 use cfs::study::control::Device;
 use cfs::study::control::keys::{ControlKeys, ControlMode};
-use cfs::study::control::year::{ClearSky, Moment, Moving, Situation, day, year};
+use cfs::study::control::year::{ClearSky, Moment, Moving, Situation, Weather, day, year};
+use cfs::study::scene_file::SceneFile;
+use cfs::study::sky::illuminances;
 use cfs::study::sun_position::Place;
 use rayon::prelude::*;
 use std::path::Path;
@@ -96,6 +98,9 @@ fn device(angles: impl IntoIterator<Item = i32>) -> Device {
     }
 }
 
+/// A usual one at sea level.
+const SKY: ClearSky = ClearSky::Air { turbidity: 3.0, elevation: 0.0 };
+
 fn situation(latitude: f64, facade: f64) -> Situation {
     Situation {
         place: Place::new(latitude, 9.2, 1.0).unwrap(),
@@ -103,6 +108,7 @@ fn situation(latitude: f64, facade: f64) -> Situation {
         facade: cfs::compute::angle::Bearing::from_degrees(facade),
         ground_reflectance: 0.2,
         skyline: 0.0,
+        sky: SKY,
     }
 }
 
@@ -164,7 +170,7 @@ fn hourly(section: &SlatRow, device: &Device, facades: &[f64]) -> Count {
         .into_par_iter()
         .map(|(latitude, facade)| {
             let list = moving(section, device, keys.clone());
-            let moments = year(&situation(latitude, facade), Path::new("."), &list, 60, &ClearSky, &Silent).unwrap();
+            let moments = year(&situation(latitude, facade), Path::new("."), &list, 60, &SKY, &Silent).unwrap();
             assert_eq!(moments.len(), 8760);
             let mut count = Count::default();
             judge(section, device, &moments, facade, &mut count);
@@ -210,7 +216,7 @@ fn every_five_minutes_of_the_year_s_corner_days_no_sun_passes_even_with_hysteres
                 let date = jiff::civil::date(2026, month, date);
                 let run = |keys: &ControlKeys| {
                     let list = moving(&section, &device, keys.clone());
-                    day(&here, Path::new("."), &list, date, 5, &ClearSky).unwrap()
+                    day(&here, Path::new("."), &list, date, 5, &SKY).unwrap()
                 };
                 let calm = run(&keys);
                 let mut count = Count::default();
@@ -248,7 +254,7 @@ fn rays_catch_a_cut_off_for_a_sun_without_extent_and_a_lazy_one() {
         let curve = exact.iter().map(|[psi, tilt]| [*psi, (tilt + shift).max(0.0)]).collect();
         let keys = ControlKeys { curve, ..ControlKeys::of(ControlMode::Curve) };
         let here = situation(48.8, 135.0);
-        let moments = year(&here, Path::new("."), &moving(&section, &device, keys), 60, &ClearSky, &Silent).unwrap();
+        let moments = year(&here, Path::new("."), &moving(&section, &device, keys), 60, &SKY, &Silent).unwrap();
         let mut count = Count::default();
         judge(&section, &device, &moments, 135.0, &mut count);
         // The program's own word for it agrees with the rays.
@@ -267,9 +273,25 @@ fn slats_too_narrow_for_it_say_that_the_sun_passes() {
     let device = device((0..=16).map(|k| 5 * k));
     let keys = ControlKeys::of(ControlMode::CutOff);
     let here = situation(48.8, 180.0);
-    let moments = year(&here, Path::new("."), &moving(&section, &device, keys), 60, &ClearSky, &Silent).unwrap();
+    let moments = year(&here, Path::new("."), &moving(&section, &device, keys), 60, &SKY, &Silent).unwrap();
     let mut count = Count::default();
     judge(&section, &device, &moments, 180.0, &mut count);
     assert!(count.leaks == 0 && count.no_state_does > 100, "{count:?}");
     assert_eq!(count.could_be_more_open, 0);
+}
+
+#[test]
+fn a_year_s_clear_sky_is_as_bright_as_the_scene_s() {
+    for (word, key) in [("clear-sky", "turbidity = 5.0"), ("clear-sky", "turbidity = 2.0"), ("rp-21", "")] {
+        let text = format!(
+            "[site]\nlatitude = 48.8\nlongitude = 9.2\nutc_offset = 1.0\nazimuth = 180.0\nelevation = 900.0\n\
+             ground_reflectance = 0.2\n[sky]\nmodel = \"cie\"\ncie_type = 12\nilluminance = \"{word}\"\n{key}\n\
+             time = \"2026-03-21T09:00\"\n"
+        );
+        let file: SceneFile = toml::from_str(&text).unwrap();
+        let seen = illuminances(&file.sky, &file.site).unwrap().unwrap();
+        let time = jiff::civil::date(2026, 3, 21).at(9, 0, 0, 0);
+        let year = Situation::of(&file).unwrap().sky.illuminances(time, seen.altitude.unwrap()).unwrap();
+        assert_eq!(year, (seen.direct_normal, seen.diffuse_horizontal), "{word} {key}");
+    }
 }

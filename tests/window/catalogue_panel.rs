@@ -244,3 +244,17 @@ fn the_panel_may_be_made_wide() {
     settle(&mut h);
     assert!(width(&h) > before + 250.0, "{} {before}", width(&h));
 }
+
+#[test]
+fn what_is_shown_after_a_product_is_deleted_is_shown_as_if_it_were_chosen() {
+    let mut h = window();
+    let entries = state(&h).found.entries.clone();
+    let place = entries.windows(2).position(|pair| pair[1].moves()).expect("a moving product behind another");
+    apply(&mut h, Command::Select(entries[place + 1].key.clone()));
+    let chosen = state(&h).document.selection.clone();
+    assert!(!chosen.state.is_empty());
+    apply(&mut h, Command::Select(entries[place].key.clone()));
+    apply(&mut h, Command::DeleteProduct(None));
+    assert_eq!(state(&h).document.selection, chosen);
+    assert!(title::selection(state(&h)).starts_with(&entries[place + 1].name));
+}

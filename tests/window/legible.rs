@@ -49,15 +49,15 @@ impl Problems {
         }
     }
 
-    /// Each tile alone.
+    /// Each tile alone. A window that is still opening has jobs that wait for the test.
     fn each_tile(&mut self, harness: &mut Harness<'_, App>, what: &str) {
         for entry in TILES {
-            apply(harness, Command::Maximise(Some(entry.tile)));
+            harness.state_mut().apply(Command::Maximise(Some(entry.tile)));
             for size in [SIZES[0], SIZES[2]] {
                 self.look(harness, &format!("{what}, {} alone", entry.tile.title), size);
             }
         }
-        apply(harness, Command::Maximise(None));
+        harness.state_mut().apply(Command::Maximise(None));
     }
 
     fn none_left(self) {

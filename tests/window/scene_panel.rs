@@ -276,3 +276,17 @@ fn undo_takes_a_typed_time_back() {
     settle(&mut harness);
     assert!(words(&harness).contains("12:00"), "{}", words(&harness));
 }
+
+#[test]
+fn the_keys_move_the_time_by_a_step_both_ways() {
+    let mut harness = window();
+    harness.get_by_role_and_label(Role::Slider, "Time of day").focus();
+    harness.run_steps(2);
+    for (key, clock) in
+        [(Key::ArrowRight, "12:05"), (Key::ArrowRight, "12:10"), (Key::ArrowLeft, "12:05"), (Key::ArrowLeft, "12:00")]
+    {
+        harness.key_press(key);
+        settle(&mut harness);
+        assert!(words(&harness).contains(clock), "{clock}: {}", words(&harness));
+    }
+}

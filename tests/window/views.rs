@@ -196,6 +196,7 @@ fn sky_input<'a>() -> sky::Input<'a> {
         diffuse_horizontal: Some(12_400.0),
         direct_horizontal: Some(38_200.0),
         facade_vertical: Some(51_700.0),
+        facade_stale: false,
         revision: 1,
         status: FINE,
     }

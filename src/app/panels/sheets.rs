@@ -67,7 +67,7 @@ fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let shown = &app.results.accuracy;
     let input = accuracy::Input {
         accuracy: shown.value.as_deref(),
-        revision: app.results.accuracy_revision,
+        revision: app.results.accuracy.revision,
         stale: shown.stale,
         error: shown.error.as_deref(),
         running: running.map(|state| state.fraction().unwrap_or(0.0)),

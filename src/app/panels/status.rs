@@ -61,7 +61,9 @@ fn figures(app: &App) -> Vec<Figure> {
 /// What the checks said of the dataset that is shown, as the doctor found on import: examining anew takes too long for
 /// every frame.
 fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
-    let Some(dataset) = app.state.dataset.value.as_ref() else {
+    // While data of another product or state are still to come, those that are shown are the last ones'.
+    let awaited = app.state.computing.is_some() || app.state.dataset.error.is_some();
+    let Some(dataset) = app.state.dataset.value.as_ref().filter(|_| !awaited) else {
         let words = match (&app.state.catalogue, app.busy()) {
             (CatalogueState::Opening, _) => "opening the catalogue…",
             (_, true) => "no dataset yet",

@@ -1,6 +1,6 @@
 //! The BTDF tile: one incidence of the selected dataset, the sun's or a chosen one.
 
-use super::drawn::{Drawn, Revision, TileInput};
+use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::facing::sun_incident;
 use crate::app::incidence::Incidence;
@@ -20,7 +20,6 @@ pub const TILE: Tile = Tile {
 #[derive(Default)]
 pub struct Drawing {
     view: btdf::State,
-    revision: Revision,
 }
 
 impl Drawn for Drawing {
@@ -39,7 +38,7 @@ impl Drawn for Drawing {
             incidence: Incidence::shown(state.incident, &state.document.scene),
             sun,
             range: None,
-            revision: self.revision.of(dataset.value.as_ref()),
+            revision: dataset.revision,
             status: seen.status_of(dataset, Lane::Scene),
         };
         for action in btdf::show(ui, &input, &mut self.view) {

@@ -1,6 +1,6 @@
 //! The control tile of the bench: the picture, and under it the rule with what belongs to it.
 
-use super::drawn::{Drawn, Revision, TileInput};
+use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::control as rules;
 use crate::app::facing::sun_incident;
@@ -174,7 +174,6 @@ type CurveKey = (Option<String>, ControlKeys, PathBuf);
 #[derive(Default)]
 pub struct Drawing {
     view: control::State,
-    revision: Revision,
     today: Cache<Option<(rules::YearKey, i16)>, Vec<control::TracePoint>>,
     curve: Cache<CurveKey, Vec<[f64; 2]>>,
 }
@@ -246,7 +245,7 @@ impl Drawn for Drawing {
                     f64::from(time.hour()) + f64::from(time.minute()) / 60.0,
                 )
             }),
-            revision: self.revision.of(year),
+            revision: year.map_or(0, |_| shown.revision),
             status: seen.status(
                 moving && (shown.stale || state.dataset.stale),
                 shown.error.as_deref().or(state.dataset.error.as_deref()).filter(|_| moving && year.is_none()),

@@ -6,7 +6,6 @@ use crate::app::paint::tile::Status;
 use crate::app::state::{CatalogueState, Results, Shown, State};
 use crate::app::title;
 use egui::Ui;
-use std::sync::Arc;
 
 /// What a tile reads.
 pub struct TileInput<'a> {
@@ -33,7 +32,7 @@ impl<'a> TileInput<'a> {
     pub fn status_of<T>(&self, shown: &'a Shown<T>, lane: Lane) -> Status<'a> {
         let busy = (self.busy)(lane);
         let error = shown.error.as_deref().filter(|_| shown.value.is_none() || !busy);
-        Status { idle: !busy, ..self.status(shown.stale, error) }
+        Status { idle: !busy && self.state.computing.is_none(), ..self.status(shown.stale, error) }
     }
 
     /// What is waited for before a tile has anything to draw, and whether that is an error; `None` once the product is
@@ -52,7 +51,7 @@ impl<'a> TileInput<'a> {
             (Some(error), false, false) if !busy => Some((error.clone(), true)),
             (_, false, false) => Some(("Reading the product…".to_owned(), false)),
             (_, true, _) if busy => Some(("Reading the catalogue…".to_owned(), false)),
-            (_, true, _) if (self.busy)(Lane::Builtin) => Some(("Computing the first product…".to_owned(), false)),
+            (_, true, _) if (self.busy)(Lane::Builtin) => Some(("Listing the built-in products…".to_owned(), false)),
             (_, true, _) => Some(("No product chosen: choose one in the catalogue.".to_owned(), false)),
         }
     }
@@ -69,23 +68,4 @@ pub trait Drawn {
     fn ready(&self, seen: &TileInput<'_>) -> bool;
     /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String>;
-}
-
-/// Counts changes of a result by the address of what is shown.
-#[derive(Default)]
-pub struct Revision {
-    seen: usize,
-    count: u64,
-}
-
-impl Revision {
-    /// The count with this value.
-    pub fn of<T>(&mut self, value: Option<&Arc<T>>) -> u64 {
-        let address = value.map_or(0, |value| Arc::as_ptr(value).addr());
-        if self.seen != address {
-            self.seen = address;
-            self.count += 1;
-        }
-        self.count
-    }
 }

@@ -1,6 +1,6 @@
 //! The LID tile: the first aperture as a luminaire.
 
-use super::drawn::{Drawn, Revision, TileInput};
+use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::state::Tile;
@@ -15,7 +15,6 @@ pub const TILE: Tile =
 #[derive(Default)]
 pub struct Drawing {
     view: lid::State,
-    revision: Revision,
 }
 
 impl Drawn for Drawing {
@@ -33,7 +32,7 @@ impl Drawn for Drawing {
             peaks: seen.results.lid_peaks(),
             flux: figures.map(|figures| figures.flux.value - figures.lid.beam_flux()),
             max: None,
-            revision: self.revision.of(shown.value.as_ref()),
+            revision: shown.revision,
             status: seen.status_of(shown, Lane::Lid),
         };
         lid::show(ui, &input, &mut self.view);

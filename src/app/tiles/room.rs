@@ -9,7 +9,6 @@ use crate::app::views::{Cache, room};
 use crate::compute::direction::Surface;
 use crate::study::scene_file::{SceneFile, SurfaceKey};
 use egui::Ui;
-use std::sync::Arc;
 
 /// The tile.
 pub const TILE: Tile =
@@ -19,7 +18,7 @@ pub const TILE: Tile =
 #[derive(Default)]
 pub struct Drawing {
     view: room::State,
-    cells: Cache<usize, Vec<room::CellValue>>,
+    cells: Cache<u64, Vec<room::CellValue>>,
 }
 
 fn openings(scene: &SceneFile) -> Vec<room::Opening> {
@@ -56,7 +55,6 @@ impl Drawn for Drawing {
 
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let shown = &seen.results.room;
-        let address = shown.value.as_ref().map_or(0, |value| Arc::as_ptr(value).addr());
         let figures = shown.value.as_deref().filter(|figures| figures.grid.is_some());
         let scene = &seen.state.document.scene;
         let [nx, ny] = figures.and_then(|figures| figures.grid).unwrap_or([0, 0]);
@@ -67,12 +65,12 @@ impl Drawn for Drawing {
             apertures: &openings,
             nx,
             ny,
-            cells: self.cells.get(address, || figures.map_or_else(Vec::new, cells)),
+            cells: self.cells.get(shown.revision, || figures.map_or_else(Vec::new, cells)),
             listed: shown.value.is_some() && figures.is_none(),
             plane_z: scene.sensors.plane.map_or(0.0, |plane| plane.z),
             name: &name,
             range: None,
-            revision: address as u64,
+            revision: shown.revision,
             status: seen.status_of(shown, Lane::Room),
         };
         for action in room::show(ui, &input, &mut self.view) {

@@ -1,13 +1,14 @@
 //! The sky tile: the dome as the façade sees it; the sun can be dragged.
 
-use super::drawn::{Drawn, Revision, TileInput};
+use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
+use crate::app::facing::surface;
 use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::sky;
 use crate::app::{moment, title};
 use crate::compute::angle::Bearing;
-use crate::compute::direction::Dir;
+use crate::compute::direction::{Dir, Surface};
 use egui::Ui;
 
 /// The tile.
@@ -18,7 +19,6 @@ pub const TILE: Tile =
 #[derive(Default)]
 pub struct Drawing {
     view: sky::State,
-    revision: Revision,
 }
 
 impl Drawn for Drawing {
@@ -45,8 +45,11 @@ impl Drawn for Drawing {
             skyline: daylight.map_or(0.0, |daylight| daylight.outside.skyline_altitude()),
             diffuse_horizontal: daylight.map(|daylight| daylight.outside.diffuse_horizontal()),
             direct_horizontal: daylight.map(|daylight| daylight.sun.map_or(0.0, |sun| sun.horizontal())),
-            facade_vertical: seen.results.lid.value.as_ref().and_then(|lid| lid.incident),
-            revision: self.revision.of(state.daylight.value.as_ref()),
+            facade_vertical: (surface(scene) == Surface::Facade)
+                .then(|| seen.results.lid.value.as_ref().and_then(|lid| lid.incident))
+                .flatten(),
+            facade_stale: seen.results.lid.stale,
+            revision: state.daylight.revision,
             status: seen.status_of(&state.daylight, Lane::Scene),
         };
         for action in sky::show(ui, &input, &mut self.view) {

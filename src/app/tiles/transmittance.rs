@@ -1,6 +1,6 @@
 //! The transmittance tile: τ over the incident hemisphere, the sun's paths, and where the transmitted light goes.
 
-use super::drawn::{Drawn, Revision, TileInput};
+use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::facing::{incident, sun_incident, surface};
 use crate::app::incidence::Incidence;
@@ -36,7 +36,6 @@ type SplitKey = (u64, Incident, bool);
 #[derive(Default)]
 pub struct Drawing {
     view: transmittance::State,
-    revision: Revision,
     paths: Cache<PathKey, Vec<SunPath>>,
     split: Cache<SplitKey, FluxSplit>,
 }
@@ -80,7 +79,7 @@ impl Drawn for Drawing {
         let state = seen.state;
         let scene = &state.document.scene;
         let dataset = &state.dataset;
-        let revision = self.revision.of(dataset.value.as_ref());
+        let revision = dataset.revision;
         let surface = surface(scene);
         // The light that the BTDF tile shows.
         let incidence = Incidence::shown(state.incident, scene);

@@ -46,6 +46,8 @@ pub struct Input<'a> {
     pub direct_horizontal: Option<f64>,
     /// Vertical illuminance on the façade from outside, all sources. \[lx\]
     pub facade_vertical: Option<f64>,
+    /// That is of before the last change.
+    pub facade_stale: bool,
     /// Changes with the sky.
     pub revision: u64,
     /// How far the content is to be trusted.
@@ -210,7 +212,8 @@ fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
         let name = if lines == 2 { short[k] } else { label };
         let label = ui.painter().text(at, Align2::LEFT_CENTER, name, font.clone(), palette.weak);
         let place = if lines == 2 { at + vec2(0.0, 16.0) } else { pos2(label.right() + 5.0, at.y) };
-        ui.painter().text(place, Align2::LEFT_CENTER, value, font.clone(), palette.ink);
+        let ink = if k == 2 && input.facade_stale { palette.weak } else { palette.ink };
+        ui.painter().text(place, Align2::LEFT_CENTER, value, font.clone(), ink);
     }
 }
 

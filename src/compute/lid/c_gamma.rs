@@ -96,7 +96,7 @@ impl Step {
                 .rings()
                 .iter()
                 .any(|ring| ring.theta_min > 0.0 && ring.theta_max - ring.theta_min < 5_f64.to_radians() - 1e-9),
-            EmergentLuminance::Uniform(_) | EmergentLuminance::Function(_) => false,
+            EmergentLuminance::Uniform(_) | EmergentLuminance::Bands(_) | EmergentLuminance::Function(_) => false,
         });
         if narrow || lid.beam_flux() > 0.0 { Self::FINE } else { Self::NORMAL }
     }
@@ -120,7 +120,7 @@ pub struct CGammaTable {
     pub step: Step,
     /// Plane by plane, γ rising. \[cd\]
     pub intensity: Vec<f64>,
-    /// Flux of the aperture: exact for uniform and cell data, integrated for functions. \[lm\]
+    /// Flux of the aperture: exact for uniform light, cells and bands, integrated for functions. \[lm\]
     pub flux: Estimate,
     /// Factor by which the averages were multiplied to make the zonal sum of the table equal to `flux`: what the
     /// quadrature missed of a known flux, and the zonal sum's own constant (1/cos(step/2) for smooth light).
@@ -163,7 +163,7 @@ impl Peaks {
 impl CGammaTable {
     /// Averages a distribution over the cells of the table.
     ///
-    /// Functions are integrated by adaptive Gauss points, cell data by sub-sampling; both split at the façade's plane
+    /// Functions are integrated by adaptive Gauss points, cells and bands by sub-sampling; both split at the façade's plane
     /// and at the horizon. Negative luminances count as they are.
     pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
         let grid = Grid { aim, step };
@@ -179,6 +179,9 @@ impl CGammaTable {
                     let exact = basis.projected_solid_angles().iter().zip(luminance).map(|(w, l)| w * l).sum();
                     let at = |d: Dir<Facade>| basis.index(d).map_or(0.0, |cell| luminance[cell]);
                     (grid.collect(&at, Rule::Piecewise), Some(exact))
+                }
+                EmergentLuminance::Bands(light) => {
+                    (grid.collect(&|d| light.at(d), Rule::Piecewise), Some(light.share()))
                 }
                 EmergentLuminance::Function(f) => (grid.collect(&|d| f(d), Rule::Smooth), None),
             };

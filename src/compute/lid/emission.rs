@@ -260,10 +260,13 @@ impl Emission {
                 luminance: cells.diffuse.iter().zip(&cells.sun).map(|(a, b)| a + b).collect(),
             });
         }
-        for bands in self.bands.iter().cloned() {
-            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
-                bands.light.at(twin) * bands.illuminance
-            })));
+        if let Some(first) = self.bands.first() {
+            let mut sum = ProfileLight { q: vec![0.0; first.light.q.len()], error: 0.0, ..first.light.clone() };
+            for bands in &self.bands {
+                sum.q.iter_mut().zip(&bands.light.q).for_each(|(l, q)| *l += q * bands.illuminance);
+                sum.error += bands.light.error * bands.illuminance;
+            }
+            parts.push(EmergentLuminance::Bands(sum));
         }
         if let Some(tau) = &self.regular {
             let (tau, outside) = (tau.clone(), facing.outside.clone());

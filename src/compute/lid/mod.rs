@@ -19,6 +19,7 @@ pub use sun_through::{SunThrough, sun_cells};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
+use crate::compute::system::measure::ProfileLight;
 use std::fmt;
 use std::sync::Arc;
 
@@ -37,6 +38,8 @@ pub enum EmergentLuminance {
         /// Luminance of each. \[cd/m²\]
         luminance: Vec<f64>,
     },
+    /// By the profile angle of the through-name; the values are luminances. \[cd/m²\]
+    Bands(ProfileLight),
     /// A continuous function: the outside seen through a system that keeps directions (eq 20).
     Function(LuminanceFunction),
 }
@@ -46,6 +49,7 @@ impl fmt::Debug for EmergentLuminance {
         match self {
             Self::Uniform(l) => write!(f, "Uniform({l} cd/m²)"),
             Self::Cells { basis, .. } => write!(f, "Cells({}, {} cells)", basis.name(), basis.len()),
+            Self::Bands(light) => write!(f, "Bands({})", light.q.len()),
             Self::Function(_) => write!(f, "Function"),
         }
     }
@@ -61,6 +65,7 @@ impl EmergentLuminance {
         match self {
             Self::Uniform(luminance) => *luminance,
             Self::Cells { basis, luminance } => basis.index(twin).map_or(0.0, |cell| luminance[cell]),
+            Self::Bands(light) => light.at(twin),
             Self::Function(luminance) => luminance(twin),
         }
     }

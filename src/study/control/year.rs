@@ -1,8 +1,8 @@
 //! A year of states: every step from 1 January, in the middle of each step, the sun before every aperture, what its
 //! control asks for, and the state that results.
 //!
-//! The sun shines whenever any of its disc is up, as bright as a clear sky's (IES RP-21), and the sky is taken as
-//! equally bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
+//! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as equally
+//! bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
 //! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone.
 
 use super::device::section_from_keys;
@@ -16,9 +16,11 @@ use crate::compute::direction::{Dir, Orientation, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::lid::Facing;
 use crate::compute::sky::availability::{Cover, typical_illuminances};
+use crate::compute::sky::clear_sky::clear_sky_illuminances;
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
 use crate::study::error::StudyError;
-use crate::study::scene_file::{SceneFile, SurfaceKey, SystemKeys};
+use crate::study::scene_file::{IlluminanceKey, SceneFile, SurfaceKey, SystemKeys};
+use crate::study::sky::{CLEANEST, HAZIEST, HIGHEST, LOWEST};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 use jiff::ToSpan;
 use jiff::civil::{Date, DateTime};
@@ -36,13 +38,38 @@ pub trait Weather: Sync {
 /// Least beam while any of the disc is up: what passes is asked, not how much. \[lx\]
 const LEAST_BEAM: f64 = 1.0;
 
-/// Clear at all hours.
-#[derive(Debug, Clone, Copy)]
-pub struct ClearSky;
+/// Clear at all hours, with the illuminances that the scene takes for clear skies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ClearSky {
+    /// Ineichen and Perez 2002.
+    Air {
+        /// Linke turbidity.
+        turbidity: f64,
+        /// Above the sea. \[m\]
+        elevation: f64,
+    },
+    /// IES RP-21, 1984.
+    Practice,
+}
+
+impl ClearSky {
+    /// Of a scene: RP-21 where `sky.illuminance` says so.
+    fn of(file: &SceneFile) -> Self {
+        match file.sky.illuminance {
+            IlluminanceKey::Rp21 => Self::Practice,
+            IlluminanceKey::ClearSky | IlluminanceKey::Stated => {
+                Self::Air { turbidity: file.sky.turbidity, elevation: file.site.elevation }
+            }
+        }
+    }
+}
 
 impl Weather for ClearSky {
     fn illuminances(&self, _: DateTime, altitude: f64) -> Option<(f64, f64)> {
-        let (direct, diffuse) = typical_illuminances(Cover::Clear, altitude);
+        let (direct, diffuse) = match *self {
+            Self::Air { turbidity, elevation } => clear_sky_illuminances(altitude, turbidity, elevation),
+            Self::Practice => typical_illuminances(Cover::Clear, altitude),
+        };
         Some(if altitude > -SUN_HALF_ANGLE { (direct.max(LEAST_BEAM), diffuse) } else { (0.0, 0.0) })
     }
 }
@@ -144,6 +171,8 @@ pub struct Situation {
     pub ground_reflectance: f64,
     /// Altitude of the skyline. \[rad\]
     pub skyline: f64,
+    /// How bright the year is, without a weather.
+    pub sky: ClearSky,
 }
 
 impl Situation {
@@ -174,6 +203,8 @@ impl Situation {
             ("site.azimuth", site.azimuth, [-360.0, 360.0]),
             ("site.ground_reflectance", site.ground_reflectance, [0.0, 1.0]),
             ("sky.obstruction.altitude", skyline, [0.0, 89.999]),
+            ("site.elevation", site.elevation, [LOWEST, HIGHEST]),
+            ("sky.turbidity", file.sky.turbidity, [CLEANEST, HAZIEST]),
         ] {
             if !(min..=max).contains(&value) {
                 return Err(StudyError::key(key, format!("{value} is out of range (allowed: {min} to {max})")));
@@ -185,6 +216,7 @@ impl Situation {
             facade: Bearing::from_degrees(site.azimuth),
             ground_reflectance: site.ground_reflectance,
             skyline: skyline.to_radians(),
+            sky: ClearSky::of(file),
         })
     }
 }

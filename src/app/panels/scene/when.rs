@@ -6,6 +6,7 @@ use crate::app::theme;
 use crate::app::typing::{read_clock, read_date};
 use crate::study::scene_file::SceneFile;
 use egui::{Slider, Stroke, Ui, WidgetInfo};
+use std::cmp::Ordering;
 
 /// Steps of the time's slider. \[min\]
 const STEP: i32 = 5;
@@ -43,7 +44,15 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     sun_marks(ui, scene, slider.rect);
     // A time that was typed to the minute stays until the slider is moved. The slider ends before midnight does.
     if minutes != before && before <= 1440 - STEP || slider.dragged() {
-        let stepped = (f64::from(minutes) / f64::from(STEP)).round() as i32 * STEP;
+        let pointed = slider.is_pointer_button_down_on() || slider.dragged() || slider.clicked();
+        let steps = f64::from(minutes) / f64::from(STEP);
+        // Keys and screen readers move it by a minute: on to the next step.
+        let steps = match minutes.cmp(&before) {
+            _ if pointed => steps.round(),
+            Ordering::Less => steps.floor(),
+            _ => steps.ceil(),
+        };
+        let stepped = steps as i32 * STEP;
         moment::step(scene, 0, stepped - before);
     }
     sun(ui, scene);

@@ -3,6 +3,7 @@
 use super::*;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::lid::SunBeam;
+use crate::compute::system::measure::ProfileLight;
 use std::sync::Arc;
 
 fn lid(parts: Vec<EmergentLuminance>) -> Lid {
@@ -68,6 +69,27 @@ fn function_flux_agrees_with_polar_quadrature() {
         assert!((table.flux.value / independent - 1.0).abs() < 1e-4, "{} {independent}", table.flux.value);
         assert!((table.zonal_flux() / independent - 1.0).abs() < 1e-4);
         assert!((table.flux.value - independent).abs() < table.flux.error.max(1e-4 * independent));
+    }
+}
+
+#[test]
+fn bands_are_the_function_that_they_stand_for_and_their_flux_is_exact() {
+    for upright in [false, true] {
+        let q = (0..181).map(|k| if k % 7 < 3 { 40.0 * f64::from(k) } else { 1000.0 }).collect();
+        let bands = ProfileLight { upright, q, error: 0.0 };
+        let exact = bands.share() * 1.2;
+        let same = bands.clone();
+        let function = lid(vec![EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| same.at(twin)))]);
+        let lid = lid(vec![EmergentLuminance::Bands(bands)]);
+        for aim in [Aim::Mounted, Aim::Down] {
+            let [table, other] = [&lid, &function].map(|lid| CGammaTable::new(lid, aim, Step::FINE));
+            assert!((table.flux.value / exact - 1.0).abs() < 1e-12 && (table.zonal_flux() / exact - 1.0).abs() < 1e-12);
+            assert!((other.flux.value / exact - 1.0).abs() < 1e-3, "{} {exact}", other.flux.value);
+            let largest = other.intensity.iter().copied().fold(0.0, f64::max);
+            for (a, b) in table.intensity.iter().zip(&other.intensity) {
+                assert!((a - b).abs() < 0.03 * largest, "{a} {b} of {largest}");
+            }
+        }
     }
 }
 
