@@ -17,6 +17,8 @@ use std::time::{Duration, SystemTime};
 
 /// The session of the window that was closed last.
 const LAST: &str = "last.json";
+/// How the name of a session begins that was closed after one that was lost, and waits until that one is closed.
+const CLOSED: &str = "session-closed-";
 /// Between two writings at least; longer than a fast disk needs and far below a second.
 const PAUSE: Duration = Duration::from_millis(200);
 
@@ -61,6 +63,14 @@ fn lock(path: &Path) -> std::io::Result<Option<File>> {
     }
 }
 
+fn random() -> u64 {
+    RandomState::new().build_hasher().finish()
+}
+
+fn is_closed(session: &Path) -> bool {
+    session.file_name().is_some_and(|name| name.to_string_lossy().starts_with(CLOSED))
+}
+
 /// When a file was written last; `None` where there is none.
 fn changed(file: &Path) -> Option<SystemTime> {
     std::fs::metadata(file).and_then(|meta| meta.modified()).ok()
@@ -100,7 +110,7 @@ impl Autosave {
                 match read(&file) {
                     Ok(kept) => {
                         found.kept = Some(kept);
-                        found.lost = true;
+                        found.lost = !is_closed(&file);
                         own = Some((file, lock_file, held));
                         break;
                     }
@@ -119,11 +129,8 @@ impl Autosave {
         };
         let last = folder.join(LAST);
         if found.lost && changed(&last) > changed(&file) {
-            // Another window was closed since: this one will leave its own session there, so the next start takes that up.
-            let (other, other_lock, held) = Self::new_place(folder)?;
-            std::fs::rename(&last, other)?;
-            drop(held);
-            remove(&other_lock);
+            // Another window was closed since. This one will leave its own session there; the next start takes up that one.
+            std::fs::rename(&last, folder.join(format!("{CLOSED}{:016x}.json", random())))?;
         }
         if found.kept.is_none() && last.exists() {
             match read(&last) {
@@ -152,7 +159,7 @@ impl Autosave {
 
     fn new_place(folder: &Path) -> std::io::Result<(PathBuf, PathBuf, File)> {
         loop {
-            let name = format!("session-{:016x}", RandomState::new().build_hasher().finish());
+            let name = format!("session-{:016x}", random());
             let (file, lock_file) = (folder.join(format!("{name}.json")), folder.join(format!("{name}.lock")));
             if let Some(held) = lock(&lock_file)? {
                 return Ok((file, lock_file, held));

@@ -284,9 +284,11 @@ fn slats_too_narrow_for_it_say_that_the_sun_passes() {
 fn a_year_s_clear_sky_is_as_bright_as_the_scene_s() {
     for (word, key) in [("clear-sky", "turbidity = 5.0"), ("clear-sky", "turbidity = 2.0"), ("rp-21", "")] {
         let text = format!(
-            "[site]\nlatitude = 48.8\nlongitude = 9.2\nutc_offset = 1.0\nazimuth = 180.0\nelevation = 900.0\n\
-             ground_reflectance = 0.2\n[sky]\nmodel = \"cie\"\ncie_type = 12\nilluminance = \"{word}\"\n{key}\n\
-             time = \"2026-03-21T09:00\"\n"
+            "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\n\
+             reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
+             [site]\nlatitude = 48.8\nlongitude = 9.2\nutc_offset = 1.0\nazimuth = 180.0\nelevation = 900.0\n\
+             ground_reflectance = 0.2\n[sky]\nmodel = \"cie\"\ntype = 12\nilluminance = \"{word}\"\n{key}\n\
+             time = \"2026-03-21T09:00\"\n[sensors]\nplane = {{ z = 0.85, nx = 1, ny = 1 }}\n"
         );
         let file: SceneFile = toml::from_str(&text).unwrap();
         let seen = illuminances(&file.sky, &file.site).unwrap().unwrap();

@@ -86,8 +86,9 @@ fn bands_are_the_function_that_they_stand_for_and_their_flux_is_exact() {
             assert!((table.flux.value / exact - 1.0).abs() < 1e-12 && (table.zonal_flux() / exact - 1.0).abs() < 1e-12);
             assert!((other.flux.value / exact - 1.0).abs() < 1e-3, "{} {exact}", other.flux.value);
             let largest = other.intensity.iter().copied().fold(0.0, f64::max);
+            // Bands as unlike as these are met by 6 points over half a step.
             for (a, b) in table.intensity.iter().zip(&other.intensity) {
-                assert!((a - b).abs() < 0.03 * largest, "{a} {b} of {largest}");
+                assert!((a - b).abs() < 0.06 * largest, "{a} {b} of {largest}");
             }
         }
     }
