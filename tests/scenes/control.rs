@@ -283,16 +283,13 @@ fn slats_too_narrow_for_it_say_that_the_sun_passes() {
 #[test]
 fn a_year_s_clear_sky_is_as_bright_as_the_scene_s() {
     for (word, key) in [("clear-sky", "turbidity = 5.0"), ("clear-sky", "turbidity = 2.0"), ("rp-21", "")] {
-        let text = format!(
-            "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\n\
-             reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
-             [site]\nlatitude = 48.8\nlongitude = 9.2\nutc_offset = 1.0\nazimuth = 180.0\nelevation = 900.0\n\
-             ground_reflectance = 0.2\n[sky]\nmodel = \"cie\"\ntype = 12\nilluminance = \"{word}\"\n{key}\n\
-             time = \"2026-03-21T09:00\"\n[sensors]\nplane = {{ z = 0.85, nx = 1, ny = 1 }}\n"
-        );
-        let file: SceneFile = toml::from_str(&text).unwrap();
+        let stated = "diffuse_horizontal = 15000.0\nsun = { direct_normal = 70000.0 }";
+        let scene = include_str!("../../examples/blind.toml");
+        assert!(scene.contains(stated));
+        let sky = format!("illuminance = \"{word}\"\n{key}");
+        let file = SceneFile::parse(&scene.replace(stated, &sky)).unwrap();
         let seen = illuminances(&file.sky, &file.site).unwrap().unwrap();
-        let time = jiff::civil::date(2026, 3, 21).at(9, 0, 0, 0);
+        let time = jiff::civil::date(2026, 3, 21).at(12, 0, 0, 0);
         let year = Situation::of(&file).unwrap().sky.illuminances(time, seen.altitude.unwrap()).unwrap();
         assert_eq!(year, (seen.direct_normal, seen.diffuse_horizontal), "{word} {key}");
     }
