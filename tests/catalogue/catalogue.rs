@@ -17,8 +17,7 @@ use std::path::Path;
 fn dump(path: &Path) -> String {
     let db = rusqlite::Connection::open(path).unwrap();
     let mut out = String::new();
-    for table in ["meta", "product", "dataset", "state", "finding", "control_point", "tag", "favourite"]
-    {
+    for table in ["meta", "product", "dataset", "state", "finding", "control_point", "tag", "favourite"] {
         let mut statement = db
             .prepare(&format!("SELECT * FROM {table} ORDER BY 1, 2"))
             .unwrap_or_else(|_| db.prepare(&format!("SELECT * FROM {table} ORDER BY 1")).unwrap());
