@@ -147,10 +147,11 @@ impl App {
                 self.repair_import(number, |repairs| repairs.truncate(repairs.len().saturating_sub(1)));
             }
             Command::AddImport => self.add_import(),
-            Command::DiscardImport => {
-                state.import = None;
-                state.sheet = None;
-            }
+            Command::DiscardImport => self.discard_import(None),
+            Command::DiscardDraft(number) => self.discard_import(Some(number)),
+            Command::OpenDraft(number) => self.open_draft(number),
+            Command::PutAside => self.put_aside(),
+            Command::Import(step) => self.import_step(step),
             Command::MeasureAccuracy => self.measure_accuracy(),
             Command::SystemExample(number) => self.open_example(number),
             Command::EditSystem(text) => state.goniophotometer.set_text(text),
@@ -166,7 +167,13 @@ impl App {
                     editing.fields = *fields;
                 }
             }
+            Command::EditState(place, words) => self.edit_state(place, words),
             Command::SaveWords => self.save_words(),
+            Command::ReplaceState(key) => self.ask_replacement(key),
+            Command::Reread => self.reread(),
+            Command::TakeChanges => self.take_changes(),
+            Command::SyncSubscribed => self.sync_subscribed(),
+            Command::OpenFolder => self.ask_folder(),
             Command::DeleteProduct(key) => self.delete_product(key),
             Command::RestoreProduct(key) => self.restore_product(key),
             Command::Dismiss(id) => self.toasts.dismiss(id),
@@ -297,11 +304,12 @@ impl App {
         };
         let before = std::mem::replace(&mut self.state.document, other);
         let after = self.state.document.additions.clone();
-        for &gone in before.additions.iter().filter(|number| !after.contains(number)) {
-            if let Some(key) = self.state.additions[gone].key.take() {
-                self.store(move |shelf| shelf.remove(&key));
-            }
+        let gone = before.additions.iter().filter(|number| !after.contains(number));
+        let gone: Vec<String> = gone.filter_map(|&number| self.state.additions[number].key.take()).collect();
+        if !gone.is_empty() {
+            self.store(move |shelf| shelf.remove_all(&gone));
         }
+        self.step_discarded(&before.discarded);
         let back = after.iter().filter(|number| !before.additions.contains(number));
         let back: Vec<_> = back.map(|&number| (number, self.state.additions[number].addition.clone())).collect();
         if !back.is_empty() {

@@ -4,7 +4,10 @@ use super::at_work::AtWork;
 use super::engine::{Engine, LidFigures, Question, RoomFigures};
 use super::error::AppError;
 use super::shelf::{Addition, Found, Query, Shelf};
-use crate::catalogue::{Catalogue, Deleted, Imported, Known, NewProduct, Product, StateKey, Words, default_path};
+use crate::catalogue::{
+    Catalogue, Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateKey, StateName, Stored, Words,
+    default_path,
+};
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::{Progress, Silent};
 use crate::formats::ies::IesEdition;
@@ -15,8 +18,10 @@ use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::scene_file::SystemKeys;
+use crate::study::subscriptions::{Report, sync};
 use crate::study::system::Need;
 use crate::study::{Library, Scene, Session, StudyError, System, SystemLibrary};
+use rayon::prelude::*;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -154,12 +159,18 @@ impl Shelf for CatalogueShelf {
         Ok(self.lock().import(&datasets, addition.product.clone())?.key)
     }
 
-    fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, AppError> {
-        Ok(self.lock().import_package(bytes)?)
+    fn add_all(&self, additions: &[Addition]) -> Result<Vec<Stored>, AppError> {
+        // What takes time is done before the catalogue is locked.
+        let products = additions.iter().map(|one| {
+            let datasets: Vec<Dataset> = one.datasets.par_iter().map(|dataset| stored_by_default(dataset)).collect();
+            (datasets, one.product.clone())
+        });
+        let products = products.collect();
+        Ok(self.lock().import_all(products)?)
     }
 
-    fn remove(&self, product: &str) -> Result<(), AppError> {
-        Ok(self.lock().remove_product(product)?)
+    fn remove_all(&self, products: &[String]) -> Result<(), AppError> {
+        Ok(self.lock().remove_products(products)?)
     }
 
     fn describe(&self, product: &str, words: &Words) -> Result<(), AppError> {
@@ -180,6 +191,45 @@ impl Shelf for CatalogueShelf {
 
     fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, AppError> {
         Ok(self.lock().products_from(source_hash)?)
+    }
+
+    fn products_holding(&self, content: &str) -> Result<Vec<Known>, AppError> {
+        Ok(self.lock().products_holding(content)?)
+    }
+
+    fn history(&self, product: &str) -> Result<Vec<Event>, AppError> {
+        Ok(self.lock().history(product)?)
+    }
+
+    fn source_paths(&self, product: &str) -> Result<Vec<String>, AppError> {
+        Ok(self.lock().source_paths(product)?)
+    }
+
+    fn snapshot(&self, product: &str) -> Result<Snapshot, AppError> {
+        Ok(self.lock().snapshot(product)?)
+    }
+
+    fn put_back(&self, snapshot: &Snapshot) -> Result<(), AppError> {
+        Ok(self.lock().put_back(snapshot)?)
+    }
+
+    fn name_states(&self, product: &str, names: &[StateName]) -> Result<(), AppError> {
+        Ok(self.lock().name_states(product, names)?)
+    }
+
+    fn replace_states(&self, product: &str, list: &[Replacement]) -> Result<(), AppError> {
+        let kept = |one: &Replacement| Replacement { dataset: stored_by_default(&one.dataset), ..one.clone() };
+        let list: Vec<Replacement> = list.iter().map(kept).collect();
+        Ok(self.lock().replace_states(product, &list)?)
+    }
+
+    fn subscribed_folder(&self, product: &str) -> Result<Option<String>, AppError> {
+        Ok(self.lock().subscribed_folder(product)?)
+    }
+
+    fn sync(&self, progress: &dyn Progress) -> Result<Report, AppError> {
+        // A folder on a slow share keeps nobody from reading the catalogue.
+        Ok(sync(&mut lock(self.filler.as_ref().unwrap_or(&self.catalogue)), progress)?)
     }
 
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), AppError> {

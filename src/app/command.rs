@@ -2,7 +2,8 @@
 //! and [`super::offer`] says which of it menu, palette and keys offer.
 
 use super::goniophotometer::Setup;
-use super::import::ImportFields;
+use super::import::{ImportFields, StateWords};
+use super::import_steps::Step;
 use super::jobs::Lane;
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
@@ -105,6 +106,14 @@ pub enum Command {
     AddImport,
     /// Forget what was read.
     DiscardImport,
+    /// Forget a draft of an import.
+    DiscardDraft(usize),
+    /// Go on with a draft of an import.
+    OpenDraft(usize),
+    /// Leave what was read as a draft.
+    PutAside,
+    /// Do something in the table of what was read.
+    Import(Step),
     /// Run the present scene with rising effort by every method.
     MeasureAccuracy,
     /// Fill the goniophotometer's sheet with an example.
@@ -127,8 +136,20 @@ pub enum Command {
     EditProduct(Option<String>),
     /// Words about a product, as typed.
     EditWords(Box<ImportFields>),
-    /// Store the words about the product.
+    /// What a state of the product (its number from 0) is called, as typed.
+    EditState(usize, StateWords),
+    /// Store what was typed about the product.
     SaveWords,
+    /// Ask for a file in place of that of a state of the product.
+    ReplaceState(String),
+    /// Read the files of the product again, and show what changed.
+    Reread,
+    /// Take what was read again.
+    TakeChanges,
+    /// Read the folders of packages that are subscribed to.
+    SyncSubscribed,
+    /// Ask for a folder to open.
+    OpenFolder,
     /// Take a product of this key out of sight; the selected one where it is `None`.
     DeleteProduct(Option<String>),
     /// Bring a product back into sight.

@@ -8,6 +8,10 @@ use std::path::{Path, PathBuf};
 pub trait FileDialogs: Send + Sync {
     /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
     fn open(&self) -> Result<Vec<PathBuf>, AppError>;
+    /// Folders to open; empty when the user changed their mind.
+    fn open_folder(&self) -> Result<Vec<PathBuf>, AppError> {
+        Err(AppError::NoDialog)
+    }
     /// Where to write; folder and name to start from. The dialog itself asks before a file is replaced.
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError>;
 }
@@ -20,6 +24,10 @@ impl FileDialogs for NativeDialogs {
         let dialog =
             rfd::FileDialog::new().set_title("Open datasets, a system or a scene").add_filter("All files", &["*"]);
         Ok(dialog.pick_files().unwrap_or_default())
+    }
+
+    fn open_folder(&self) -> Result<Vec<PathBuf>, AppError> {
+        Ok(rfd::FileDialog::new().set_title("Open a folder of datasets").pick_folders().unwrap_or_default())
     }
 
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError> {
@@ -40,7 +48,7 @@ impl FileDialogs for NativeDialogs {
                 .add_filter("Package of all states", &["cfsp"])
                 .add_filter("BSDF", &["xml"])
                 .add_filter("BTDF text", &["btdf.txt"]),
-            PathUse::SaveScene | PathUse::Open => dialog.add_filter("Scene", &["toml"]),
+            PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState => dialog.add_filter("Scene", &["toml"]),
         };
         Ok(dialog.save_file())
     }

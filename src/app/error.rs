@@ -74,6 +74,19 @@ pub enum AppError {
     /// A described system without states.
     #[error("the system has no states: give it at least one angle")]
     NoStates,
+    /// A file for one state that holds another number of them.
+    #[error("{0} states; expected a file of one")]
+    NotOneState(usize),
+    /// A product whose files cannot be read again one by one.
+    #[error(
+        "{files} files are known for {states} states: only where each state has a file of its own can they be read again; import them anew"
+    )]
+    NotAFileEach {
+        /// Files.
+        files: usize,
+        /// States.
+        states: usize,
+    },
     /// Control has no sky and sun to go by.
     #[error("no state is picked until sky and sun are right")]
     NoDaylight,

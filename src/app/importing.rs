@@ -1,18 +1,19 @@
-//! The import sheet's part of the window: reads what was opened, tries repairs, stores what is wanted.
+//! The import sheet's part of the window: reads what was opened, tries repairs, stores what is wanted, keeps drafts.
 
-use super::disk::ends_in;
-use super::import::{ImportFields, KeptImport, Proposed};
+use super::arranging::mend;
+use super::error::AppError;
+use super::import::{Import, ImportFields, KeptImport, Proposed};
 use super::jobs::Lane;
-use super::reading::{Asked, mend, read_files};
+use super::reading::{Asked, read_files};
 use super::shelf::Addition;
-use super::state::{Added, CatalogueState};
+use super::state::{Added, CatalogueState, Sheet};
 use super::window::App;
 use crate::catalogue::Grouping;
 use crate::compute::doctor::Repair;
 use std::path::PathBuf;
 
 impl App {
-    /// Reads files and folders.
+    /// Reads files, folders and archives.
     pub(super) fn read_paths(&mut self, paths: Vec<PathBuf>) {
         self.read_again(paths, Grouping::Proposed, None);
     }
@@ -31,9 +32,6 @@ impl App {
             return;
         }
         self.state.sheet = None;
-        // A package is whole: it needs no questions, and goes where it came from.
-        let (packages, paths): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| ends_in(path, "cfsp"));
-        packages.into_iter().for_each(|path| self.import_package(path));
         let Some(first) = paths.first() else { return };
         if kept.is_none() {
             self.remember_folder(&first.clone());
@@ -49,12 +47,76 @@ impl App {
         }
     }
 
-    /// Takes the files for other products; words and repairs stay with those that remain the same.
-    pub(super) fn group_import(&mut self, grouping: Grouping) {
-        let Some(import) = &self.state.import else { return };
-        if import.grouping != grouping {
-            let kept = KeptImport::of(import);
-            self.read_again(import.paths.clone(), grouping, Some(kept));
+    /// Shows what was read; what was there before of other files becomes a draft.
+    pub(super) fn take_import(&mut self, import: Import) {
+        self.state.under_way = None;
+        self.keep_draft_of(|old| old.paths != import.paths);
+        self.state.import = Some(import);
+        self.state.sheet = Some(Sheet::Import);
+    }
+
+    /// Puts the import that is open among the drafts, if it holds something.
+    fn keep_draft_of(&mut self, which: impl Fn(&Import) -> bool) {
+        let Some(old) = self.state.import.take() else { return };
+        if which(&old) && old.wanted().next().is_some() {
+            self.state.drafts.retain(|draft| draft.paths != old.paths);
+            self.state.drafts.push(KeptImport::of(&old));
+        }
+    }
+
+    /// Goes on with a draft; what is open becomes one.
+    pub(super) fn open_draft(&mut self, number: usize) {
+        if number >= self.state.drafts.len() {
+            return;
+        }
+        let draft = self.state.drafts.remove(number);
+        self.keep_draft_of(|_| true);
+        self.read_again(draft.paths.clone(), draft.grouping, Some(draft));
+    }
+
+    /// Leaves what is open for later.
+    pub(super) fn put_aside(&mut self) {
+        self.keep_draft_of(|_| true);
+        self.state.sheet = None;
+        if let Some(draft) = self.state.drafts.last() {
+            self.toasts.info(format!("Kept as a draft: {}. The import sheet (I) lists it", draft.name));
+        }
+    }
+
+    /// Forgets what is open, or a draft: a step that undo takes back.
+    pub(super) fn discard_import(&mut self, draft: Option<usize>) {
+        let gone = match draft {
+            Some(number) if number < self.state.drafts.len() => Some(self.state.drafts.remove(number)),
+            Some(_) => None,
+            None => {
+                self.state.sheet = None;
+                // What could be read nowhere is not worth a step.
+                self.state.import.take().filter(|import| !import.products.is_empty()).map(|one| KeptImport::of(&one))
+            }
+        };
+        let Some(gone) = gone else { return };
+        self.toasts.info(format!("Discarded: {}. Ctrl+Z brings it back", gone.name));
+        self.undoer.add_undo(&self.state.document);
+        self.state.document.discarded.push(self.state.discarded.len());
+        self.state.discarded.push(gone);
+        self.undoer.add_undo(&self.state.document);
+    }
+
+    /// After a step back or forth: drafts that are back, and those that are gone again.
+    pub(super) fn step_discarded(&mut self, before: &[usize]) {
+        let after = self.state.document.discarded.clone();
+        for &back in before.iter().filter(|number| !after.contains(number)) {
+            let Some(draft) = self.state.discarded.get(back).cloned() else { continue };
+            self.state.drafts.push(draft);
+            self.open_draft(self.state.drafts.len() - 1);
+        }
+        for &gone in after.iter().filter(|number| !before.contains(number)) {
+            let Some(draft) = self.state.discarded.get(gone).cloned() else { continue };
+            self.state.drafts.retain(|other| other.paths != draft.paths);
+            if self.state.import.as_ref().is_some_and(|import| import.paths == draft.paths) {
+                self.state.import = None;
+                self.state.sheet = None;
+            }
         }
     }
 
@@ -83,26 +145,35 @@ impl App {
 
     /// Takes the repaired data in; words that were typed meanwhile stay.
     pub(super) fn take_mended(&mut self, number: usize, mended: Proposed) {
-        let same = |product: &&mut Proposed| product.provenance == mended.provenance;
+        let same = |product: &&mut Proposed| product.files == mended.files;
         if let Some(product) = self.proposed(number).filter(same) {
             (product.datasets, product.diagnoses, product.repairs) =
                 (mended.datasets, mended.diagnoses, mended.repairs);
         }
     }
 
-    /// Stores all products that are wanted, as one step.
+    /// Stores all products that are wanted and about which nothing is open, as one step. The others stay in the sheet.
     pub(super) fn add_import(&mut self) {
-        let Some(import) = &self.state.import else { return };
-        if import.wanted().next().is_none() || import.wanted().any(|product| !product.named()) {
+        let Some(mut import) = self.state.import.take_if(|import| import.products.iter().any(Proposed::ready)) else {
             return;
-        }
-        let additions = import.wanted();
-        let additions =
-            additions.map(|one| Addition { datasets: one.datasets.clone(), product: one.product() }).collect();
+        };
         // Until it is stored the session holds it: nothing is lost if the program ends in between.
-        self.state.under_way = Some(KeptImport::of(import));
-        self.state.import = None;
+        self.state.under_way = Some(KeptImport::of(&import));
+        self.state.storing = Some(import.clone());
+        let (ready, rest): (Vec<_>, Vec<_>) = import.products.into_iter().partition(Proposed::ready);
+        let additions = ready.iter().map(Proposed::addition).collect();
         self.add_to_catalogue(additions);
+        if rest.iter().any(Proposed::wanted) {
+            let gone: Vec<&String> = ready.iter().flat_map(|one| &one.files).collect();
+            import.sources.retain(|file| !gone.contains(&&super::import::file_id(file)));
+            import.by_hand = Some(rest.iter().filter(|one| !one.packed).map(|one| one.files.clone()).collect());
+            import.products = rest;
+            import.selected.clear();
+            import.folded.clear();
+            import.shown = None;
+            self.state.import = Some(import);
+            self.state.sheet = Some(Sheet::Import);
+        }
     }
 
     /// Stores products as a step of its own, and closes the sheet that they came from.
@@ -117,5 +188,15 @@ impl App {
             numbered.push((number, addition));
         }
         self.store_additions(numbered);
+    }
+
+    /// None of the additions could be stored: what they came from is open again.
+    pub(super) fn take_not_added(&mut self, numbers: &[usize], error: &AppError) {
+        self.state.document.additions.retain(|other| !numbers.contains(other));
+        if let Some(import) = self.state.storing.take() {
+            self.state.import = Some(import);
+            self.state.sheet = Some(Sheet::Import);
+        }
+        self.toasts.error(format!("Nothing was added: {error}"));
     }
 }

@@ -25,6 +25,8 @@ pub enum Lane {
     Import,
     /// Writing into the catalogue.
     Store,
+    /// Reading folders of packages that are subscribed to.
+    Subscribed,
     /// From the scene as typed to sky, sun and systems.
     Scene,
     /// The luminous-intensity distribution.
@@ -52,6 +54,7 @@ impl Lane {
             Self::Catalogue => "catalogue",
             Self::Import => "reading files",
             Self::Store => "storing",
+            Self::Subscribed => "subscribed folders",
             Self::Scene => "sky and system",
             Self::Lid => "LID",
             Self::Room => "room",
@@ -70,6 +73,8 @@ impl Lane {
             Self::Builtin => Priority::Background,
             // These ask for paths.
             Self::Import | Self::Export => Priority::Asking,
+            // A share may take its time.
+            Self::Subscribed => Priority::Asking,
             _ => Priority::InSight,
         }
     }

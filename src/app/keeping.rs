@@ -1,13 +1,15 @@
 //! Products after they are stored: other words about them, out of sight and back. Undo goes over both.
 
 use super::apply::first_choice;
-use super::changes::{Change, Editing};
+use super::changes::{Change, Editing, Looked};
+use super::editing::look;
 use super::error::AppError;
+use super::jobs::Lane;
 use super::state::Sheet;
 use super::window::App;
 use super::work::Outcome;
-use crate::catalogue::{Deleted, Product};
-use std::sync::Arc;
+use crate::catalogue::Deleted;
+use crate::study::subscriptions::Report;
 
 impl App {
     /// The named product, or the selected one.
@@ -18,28 +20,25 @@ impl App {
     /// Looks a product up for its sheet.
     pub(super) fn edit_product(&mut self, key: Option<String>) {
         if let Some(key) = self.meant(key) {
-            self.queue(move |shelf| Outcome::Editing(shelf.product(&key)));
+            self.queue(move |shelf| Outcome::Editing(look(shelf, &key)));
         }
     }
 
-    pub(super) fn take_editing(&mut self, product: Result<Arc<Product>, AppError>) {
-        match product {
-            Ok(product) => {
-                self.state.editing = Some(Editing::of(&product));
+    pub(super) fn take_editing(&mut self, looked: Result<Looked, AppError>) {
+        match looked {
+            Ok(looked) => {
+                self.state.editing = Some(Editing::of(looked));
                 self.state.sheet = Some(Sheet::Product);
             }
             Err(error) => self.tell(&error),
         }
     }
 
-    /// Stores the words of the sheet.
+    /// Stores what was typed in the sheet.
     pub(super) fn save_words(&mut self) {
-        let Some(editing) = self.state.editing.take() else { return };
+        let Some(editing) = self.state.editing.take_if(|editing| editing.problem().is_none()) else { return };
         self.state.sheet = None;
-        let after = editing.words();
-        if after != editing.before {
-            self.change(Change::Described { key: editing.key, before: editing.before, after });
-        }
+        editing.changes().into_iter().for_each(|change| self.change(change));
     }
 
     /// Takes a product out of sight; the next one of the list is shown in its place.
@@ -69,7 +68,7 @@ impl App {
     }
 
     /// A change to the catalogue as a step of its own.
-    fn change(&mut self, change: Change) {
+    pub(super) fn change(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
         self.undoer.add_undo(&self.state.document);
@@ -91,7 +90,7 @@ impl App {
             }
             self.tell(&error);
         }
-        // What is shown, and the header of the LID, carry the words of before.
+        // What is shown, and the header of the LID, may be of before.
         self.asked = None;
         self.search();
         self.look_up_deleted();
@@ -109,6 +108,29 @@ impl App {
                 self.make_change(number, false);
             }
             None => self.queue(move |shelf| Outcome::Changed(usize::MAX, false, shelf.restore(&key))),
+        }
+    }
+
+    /// Reads the folders of packages that are subscribed to.
+    pub(super) fn sync_subscribed(&mut self) {
+        if let Some(shelf) = self.state.shelf() {
+            self.start(Lane::Subscribed, move |job| Outcome::Synced(shelf.sync(job)));
+        }
+    }
+
+    pub(super) fn take_synced(&mut self, result: Result<Report, AppError>) {
+        match result {
+            Ok(report) => {
+                for problem in report.problems {
+                    self.toasts.warning(problem);
+                }
+                if report.taken + report.gone > 0 {
+                    let (taken, gone) = (report.taken, report.gone);
+                    self.toasts.info(format!("Subscribed folders: {taken} products came or changed, {gone} went"));
+                    self.search();
+                }
+            }
+            Err(error) => self.tell(&error),
         }
     }
 

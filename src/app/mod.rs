@@ -4,6 +4,7 @@
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
 pub mod apply;
+pub mod arranging;
 pub mod at_work;
 pub mod autosave;
 pub mod backend;
@@ -13,6 +14,7 @@ pub mod command;
 pub mod control;
 pub mod dialogs;
 pub mod disk;
+pub mod editing;
 pub mod engine;
 pub mod error;
 pub mod examples;
@@ -21,6 +23,8 @@ pub mod facing;
 pub mod frame;
 pub mod goniophotometer;
 pub mod import;
+pub mod import_steps;
+pub mod import_table;
 pub mod importing;
 pub mod incidence;
 pub mod jobs;

@@ -86,6 +86,23 @@ fn table() -> Vec<Offer> {
         offer(sheet(state::Sheet::Path(PathUse::Open)), "Type a path", "Give a path instead of choosing a file")
             .menu(FILE, 1)
             .unlisted(),
+        offer(OpenFolder, "Open folder…", "Read all datasets of a folder, with those in it")
+            .keys(CTRL.plus(SHIFT), Key::O)
+            .menu(FILE, 0),
+        offer(
+            SyncSubscribed,
+            "Read subscribed folders",
+            "Folders of packages that the catalogue is subscribed to, where they have changed",
+        )
+        .menu(FILE, 3),
+        offer(
+            sheet(state::Sheet::Import),
+            "Import",
+            "What was read and is not stored yet, and drafts of earlier imports",
+        )
+        .keys(PLAIN, Key::I)
+        .menu(FILE, 2),
+        offer(PutAside, "Keep the import as a draft", "Leave what was read for later; the import sheet lists it"),
         offer(SaveScene, "Save scene…", "Write everything this study needs as a text file")
             .keys(CTRL, Key::S)
             .menu(FILE, 10),
@@ -94,7 +111,7 @@ fn table() -> Vec<Offer> {
             .menu(FILE, 11),
         offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
         offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
-        offer(EditProduct(None), "Rename product…", "Name, maker, kind and tags of the selected product")
+        offer(EditProduct(None), "Edit product…", "Words, states, files and history of the selected product")
             .keys(PLAIN, Key::F2)
             .menu(EDIT, 10),
         offer(DeleteProduct(None), "Delete product", "Take the selected product out of sight; undo brings it back")

@@ -2,7 +2,6 @@
 
 use super::apply::first_choice;
 use super::command::Command;
-use super::disk::read_bytes;
 use super::engine::Question;
 use super::error::AppError;
 use super::jobs::Lane;
@@ -11,11 +10,10 @@ use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::window::{App, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
-use crate::catalogue::{Imported, Product};
+use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// After so many failures built-in products are no longer computed before they are asked for.
@@ -72,11 +70,13 @@ impl App {
         self.start_pending_change();
     }
 
-    /// Stores additions of this session.
+    /// Stores additions of this session: all, or none.
     pub(super) fn store_additions(&mut self, additions: Vec<(usize, Addition)>) {
         self.queue(move |shelf| {
-            let store = |addition: &Addition| shelf.add(addition).and_then(|key| shelf.product(&key));
-            Outcome::Added(additions.iter().map(|(number, addition)| (*number, store(addition))).collect())
+            let (numbers, additions): (Vec<_>, Vec<_>) = additions.into_iter().unzip();
+            let look = |one: Stored| Ok((one.new, shelf.product(&one.imported.key)?));
+            let stored = shelf.add_all(&additions).and_then(|list| list.into_iter().map(look).collect());
+            Outcome::Added(numbers, stored)
         });
     }
 
@@ -88,15 +88,6 @@ impl App {
     /// Asks or changes the catalogue after everything that was asked before.
     pub(super) fn queue(&mut self, change: impl FnOnce(&dyn Shelf) -> Outcome + Send + 'static) {
         self.pending_changes.push_back(Box::new(change));
-        self.start_pending_change();
-    }
-
-    /// Stores the products of a package.
-    pub(super) fn import_package(&mut self, path: PathBuf) {
-        self.pending_changes.push_back(Box::new(move |shelf| {
-            let told = |error: AppError| error.about(path.display());
-            Outcome::Imported(read_bytes(&path).and_then(|bytes| shelf.import_package(&bytes).map_err(told)))
-        }));
         self.start_pending_change();
     }
 
@@ -144,6 +135,7 @@ impl App {
                 self.state.catalogue = CatalogueState::Ready(shelf);
                 self.search();
                 self.look_up_deleted();
+                self.sync_subscribed();
                 self.fill_due = true;
                 self.asked = None;
                 self.start_waiting_files();
@@ -183,11 +175,7 @@ impl App {
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
-            Outcome::Read(import) => {
-                self.state.under_way = None;
-                self.state.import = Some(*import);
-                self.state.sheet = Some(Sheet::Import);
-            }
+            Outcome::Read(import) => self.take_import(*import),
             Outcome::Mended(Ok((number, mended))) => self.take_mended(number, *mended),
             Outcome::Mended(Err(error)) => {
                 self.toasts.error(error.to_string());
@@ -208,13 +196,19 @@ impl App {
             Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
                 self.tell(&error);
             }
-            Outcome::Added(results) => self.take_added(results),
+            Outcome::Added(numbers, Ok(products)) => self.take_added(&numbers, products),
+            Outcome::Added(numbers, Err(error)) => {
+                self.state.under_way = None;
+                self.take_not_added(&numbers, &error);
+            }
             Outcome::Choice(Ok(product)) => self.choose_product(&product),
             Outcome::Choice(Err(error)) => self.tell(&error),
             Outcome::Changed(number, forth, result) => self.take_changed(number, forth, result),
-            Outcome::Editing(product) => self.take_editing(product),
+            Outcome::Editing(looked) => self.take_editing(looked),
+            Outcome::ToReplace(change) => self.take_replacement(change),
+            Outcome::Reread(result) => self.take_reread(result),
+            Outcome::Synced(result) => self.take_synced(result),
             Outcome::Deleted(list) => self.take_deleted(list),
-            Outcome::Imported(result) => self.take_imported(result),
             Outcome::Stored(result) => {
                 if let Err(error) = result {
                     self.toasts.error(error.to_string());
@@ -254,62 +248,41 @@ impl App {
         self.state.daylight.take(daylight);
     }
 
-    fn take_added(&mut self, results: Vec<(usize, Result<Arc<Product>, AppError>)>) {
-        self.state.under_way = None;
-        let mut added = Vec::new();
-        for (number, result) in results {
-            match result {
+    fn take_added(&mut self, numbers: &[usize], products: Vec<(bool, Arc<Product>)>) {
+        (self.state.under_way, self.state.storing) = (None, None);
+        let (mut added, mut there, mut undone) = (Vec::new(), 0, Vec::new());
+        for (&number, (new, product)) in numbers.iter().zip(products) {
+            if !new {
+                // It is not this import's to take out again.
+                there += 1;
+            } else if self.state.document.additions.contains(&number) {
+                self.state.additions[number].key = Some(product.key.clone());
+            } else {
                 // Undone while it was being stored.
-                Ok(product) if !self.state.document.additions.contains(&number) => {
-                    self.store(move |shelf| shelf.remove(&product.key));
-                }
-                Ok(product) => {
-                    self.state.additions[number].key = Some(product.key.clone());
-                    added.push(product);
-                }
-                Err(error) => {
-                    self.state.document.additions.retain(|&other| other != number);
-                    let name = &self.state.additions[number].addition.product.name;
-                    self.toasts.error(format!("Not added: {name}: {error}"));
-                }
+                undone.push(product.key.clone());
+                continue;
             }
+            added.push(product);
+        }
+        if !undone.is_empty() {
+            self.store(move |shelf| shelf.remove_all(&undone));
         }
         // What was asked before they were there has failed.
         self.asked = None;
         if let Some(first) = added.first() {
-            let what = if added.len() == 1 {
-                "Added to the catalogue".to_owned()
-            } else {
-                format!("Added to the catalogue: {} products", added.len())
+            let what = match (added.len() - there, there) {
+                (0, _) => "Nothing new: all of it was there already".to_owned(),
+                (1, 0) => "Added to the catalogue; Ctrl+Z takes it out again".to_owned(),
+                (new, 0) => format!("Added to the catalogue: {new} products; Ctrl+Z takes them out again"),
+                (new, known) => format!("Added to the catalogue: {new} products; there already: {known}"),
             };
-            let again = if added.len() == 1 { "it" } else { "them" };
-            self.toasts.success(format!("{what}; Ctrl+Z takes {again} out again"));
+            self.toasts.success(what);
             // The step that added it also shows it.
             let (rule, place) = first.representative();
             let state = first.states.get(place).filter(|_| first.states.len() > 1);
             let state = state.map(|state| state.key.as_str());
             first_choice(&mut self.state.document, first.key.clone(), rule, state);
             self.undoer.add_undo(&self.state.document);
-        }
-        self.search();
-    }
-
-    fn take_imported(&mut self, result: Result<Vec<Imported>, AppError>) {
-        match result {
-            Ok(list) => {
-                let there = |one: &&Imported| one.same_content_as == [one.key.as_str()];
-                let known = list.iter().filter(there).count();
-                let products = |n: usize| if n == 1 { "1 product".to_owned() } else { format!("{n} products") };
-                self.toasts.success(match (list.len() - known, known) {
-                    (new, 0) => format!("Imported: {}", products(new)),
-                    (0, _) => "Nothing new: all of it was there already".to_owned(),
-                    (new, known) => format!("Imported: {}; there already: {known}", products(new)),
-                });
-                if let Some(first) = list.first() {
-                    self.apply(Command::Select(first.key.clone()));
-                }
-            }
-            Err(error) => self.tell(&error),
         }
         self.search();
     }

@@ -28,6 +28,7 @@ pub struct Snapshot {
     scene_path: Option<PathBuf>,
     maximised: Option<&'static str>,
     import: Option<KeptImport>,
+    drafts: Vec<KeptImport>,
     system: KeptSystem,
     sheet: Option<&'static str>,
     settings: Settings,
@@ -53,7 +54,9 @@ impl Snapshot {
             selection: document.selection.clone(),
             scene_path: state.scene_path.clone(),
             maximised: state.maximised.map(|tile| tile.title),
-            import: state.import.as_ref().map(KeptImport::of).or_else(|| state.under_way.clone()),
+            // What is being stored is open no more, and not yet safe.
+            import: state.under_way.clone().or_else(|| state.import.as_ref().map(KeptImport::of)),
+            drafts: state.drafts.clone(),
             system: KeptSystem { text: state.goniophotometer.text.clone(), base: state.goniophotometer.base.clone() },
             sheet: sheet_word(state.sheet),
             settings: state.settings.clone(),
@@ -67,11 +70,12 @@ impl Snapshot {
             && self.selection == document.selection
             && self.scene_path == state.scene_path
             && self.maximised == state.maximised.map(|tile| tile.title)
-            && match (&self.import, &state.import) {
-                (Some(kept), Some(import)) => kept.is_of(import),
-                (kept, None) => *kept == state.under_way,
-                (None, Some(_)) => false,
+            && match (&self.import, &state.under_way, &state.import) {
+                (kept, Some(_), _) | (kept, None, None) => *kept == state.under_way,
+                (Some(kept), None, Some(import)) => kept.is_of(import),
+                (None, None, Some(_)) => false,
             }
+            && self.drafts == state.drafts
             && self.system.text == state.goniophotometer.text
             && self.system.base == state.goniophotometer.base
             && self.sheet == sheet_word(state.sheet)
@@ -89,6 +93,7 @@ impl Snapshot {
             scene_path: self.scene_path.clone(),
             maximised: self.maximised.map(str::to_owned),
             import: self.import.clone(),
+            drafts: self.drafts.clone(),
             system: self.system.clone(),
             sheet: self.sheet.map(str::to_owned),
             settings: self.settings.clone(),
@@ -116,6 +121,8 @@ pub struct Kept {
     pub maximised: Option<String>,
     /// An import that is not stored yet.
     pub import: Option<KeptImport>,
+    /// Imports left for later.
+    pub drafts: Vec<KeptImport>,
     /// The system file that is being typed.
     pub system: KeptSystem,
     /// The sheet that was open.
@@ -143,6 +150,7 @@ impl Kept {
     /// The scene's own sentence where it cannot be read; everything else is put in all the same.
     pub fn put_into(&self, state: &mut State) -> Result<(), String> {
         state.settings = self.settings.clone();
+        state.drafts.clone_from(&self.drafts);
         state.maximised =
             TILES.iter().map(|entry| entry.tile).find(|tile| self.maximised.as_deref() == Some(tile.title));
         if !self.system.text.is_empty() {

@@ -1,11 +1,12 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
 use super::error::AppError;
-use crate::catalogue::{Deleted, Imported, Known, NewProduct, Product, Words};
+use crate::catalogue::{Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateName, Stored, Words};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::study::StudyError;
 use crate::study::control::ControlQuestion;
+use crate::study::subscriptions::Report;
 use std::sync::Arc;
 
 /// A row of the list.
@@ -35,10 +36,10 @@ pub trait Shelf: Send + Sync {
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
     /// Stores a product; its key.
     fn add(&self, addition: &Addition) -> Result<String, AppError>;
-    /// Stores all products of a package.
-    fn import_package(&self, bytes: &[u8]) -> Result<Vec<Imported>, AppError>;
-    /// Takes a product out for good.
-    fn remove(&self, product: &str) -> Result<(), AppError>;
+    /// Stores all of these products, or none.
+    fn add_all(&self, additions: &[Addition]) -> Result<Vec<Stored>, AppError>;
+    /// Takes all of these products out for good, or none.
+    fn remove_all(&self, products: &[String]) -> Result<(), AppError>;
     /// Other words about a product.
     fn describe(&self, product: &str, words: &Words) -> Result<(), AppError>;
     /// Takes a product out of sight.
@@ -49,6 +50,26 @@ pub trait Shelf: Send + Sync {
     fn deleted(&self) -> Result<Vec<Deleted>, AppError>;
     /// Products in sight that were read from files of this hash.
     fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, AppError>;
+    /// Products in sight with a state of this content.
+    fn products_holding(&self, content: &str) -> Result<Vec<Known>, AppError>;
+    /// What happened to a product, the last first.
+    fn history(&self, product: &str) -> Result<Vec<Event>, AppError>;
+    /// Paths of the files that a product was read from.
+    fn source_paths(&self, product: &str) -> Result<Vec<String>, AppError>;
+    /// A product of the user's as it is now, data and all.
+    fn snapshot(&self, product: &str) -> Result<Snapshot, AppError>;
+    /// Makes a product what it was.
+    fn put_back(&self, snapshot: &Snapshot) -> Result<(), AppError>;
+    /// Other names and angles of a product's states, in their order.
+    fn name_states(&self, product: &str, names: &[StateName]) -> Result<(), AppError>;
+    /// Other data for some states of a product.
+    fn replace_states(&self, product: &str, list: &[Replacement]) -> Result<(), AppError>;
+    /// The folder of packages that a product comes from; `None` for others.
+    fn subscribed_folder(&self, product: &str) -> Result<Option<String>, AppError>;
+    /// Reads the folders of packages that are subscribed to, where they have changed.
+    fn sync(&self, _progress: &dyn Progress) -> Result<Report, AppError> {
+        Ok(Report::default())
+    }
     /// Can the dataset of a state be given at once?
     fn is_ready(&self, _product: &str, _state: Option<&str>) -> Result<bool, AppError> {
         Ok(true)

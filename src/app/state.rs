@@ -42,6 +42,8 @@ pub struct Document {
     pub additions: Vec<usize>,
     /// Numbers of the changes to its products that hold now; see [`State::changes`].
     pub changes: Vec<usize>,
+    /// Numbers of the imports that are discarded now; see [`State::discarded`].
+    pub discarded: Vec<usize>,
 }
 
 /// An addition of this session: kept so that undo can take it out and redo put it back.
@@ -189,6 +191,8 @@ pub enum PathUse {
     ExportTile(Tile),
     /// Write what the goniophotometer computed.
     ExportMeasured,
+    /// Read a file in place of that of a product's state.
+    ReplaceState,
 }
 
 impl PathUse {
@@ -200,6 +204,7 @@ impl PathUse {
             Self::ExportLid => "Export the LID",
             Self::ExportTile(_) => "Export a tile",
             Self::ExportMeasured => "Export the computed data",
+            Self::ReplaceState => "Replace a state",
         }
     }
 }
@@ -230,14 +235,22 @@ pub struct State {
     pub import: Option<Import>,
     /// An import that is on its way: from its files, or into the catalogue.
     pub under_way: Option<KeptImport>,
+    /// The import whose products are being stored, in case they cannot be.
+    pub storing: Option<Import>,
+    /// Imports left for later.
+    pub drafts: Vec<KeptImport>,
+    /// Imports and drafts that were discarded in this session.
+    pub discarded: Vec<KeptImport>,
     /// The goniophotometer's sheet.
     pub goniophotometer: Bench,
     /// Additions of this session.
     pub additions: Vec<Added>,
     /// Changes of this session to products of the catalogue.
     pub changes: Vec<Change>,
-    /// The product whose words are being edited.
+    /// The product whose sheet is open.
     pub editing: Option<Editing>,
+    /// Key of a product and of its state that is to get other data.
+    pub replacing: Option<(String, String)>,
     /// Products out of sight, as last looked up.
     pub deleted: Vec<Deleted>,
     /// Command palette: its words while open.
@@ -279,6 +292,7 @@ impl State {
                 scene,
                 additions: Vec::new(),
                 changes: Vec::new(),
+                discarded: Vec::new(),
             },
             settings,
             catalogue: CatalogueState::Opening,
@@ -291,10 +305,14 @@ impl State {
             replace: None,
             import: None,
             under_way: None,
+            storing: None,
+            drafts: Vec::new(),
+            discarded: Vec::new(),
             goniophotometer: Bench::default(),
             additions: Vec::new(),
             changes: Vec::new(),
             editing: None,
+            replacing: None,
             deleted: Vec::new(),
             palette: None,
             focus_search: false,

@@ -1,5 +1,6 @@
 //! What runs in jobs, and what jobs bring back.
 
+use super::changes::{Change, Looked, Reread};
 use super::control::Year;
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures};
@@ -11,26 +12,25 @@ use super::jobs::JobState;
 use super::scene::{Selection, rule};
 use super::shelf::{Found, Shelf};
 use super::state::{Daylight, PathUse};
-use crate::catalogue::{Deleted, Imported, Product, SourceFile};
+use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::compute::lid::c_gamma::Peaks;
-use crate::formats::FormatError;
 use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
 use crate::study::control::ControlQuestion;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
+use crate::study::subscriptions::Report;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Reads the datasets of a file: name and bytes.
-pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
+pub use crate::study::intake::ReadDataset;
 
 /// How long data of built-in products are computed before it is asked anew which come first.
 const FILLING: Duration = Duration::from_millis(500);
@@ -73,18 +73,22 @@ pub enum Outcome {
     ReadScene(PathBuf, Result<Box<SceneFile>, AppError>),
     /// A control curve was read.
     ReadCurve(Result<Vec<[f64; 2]>, AppError>),
-    /// Additions are in the catalogue, or why not.
-    Added(Vec<(usize, Result<Arc<Product>, AppError>)>),
+    /// Additions of these numbers are in the catalogue, each with whether it is new there; or why none is.
+    Added(Vec<usize>, Result<Vec<(bool, Arc<Product>)>, AppError>),
     /// A product to be chosen was looked up.
     Choice(Result<Arc<Product>, AppError>),
     /// A change of this session was made in the catalogue, or taken back.
     Changed(usize, bool, Result<(), AppError>),
-    /// A product whose words are to be edited.
-    Editing(Result<Arc<Product>, AppError>),
+    /// A product whose sheet is to be opened.
+    Editing(Result<Looked, AppError>),
+    /// A file was read that takes the place of a state's.
+    ToReplace(Result<Change, AppError>),
+    /// The files of a product were read again.
+    Reread(Result<Reread, AppError>),
+    /// The folders of packages that are subscribed to were read.
+    Synced(Result<Report, AppError>),
     /// Products out of sight.
     Deleted(Result<Vec<Deleted>, AppError>),
-    /// A package is in the catalogue.
-    Imported(Result<Vec<Imported>, AppError>),
     /// Something else in the catalogue was changed.
     Stored(Result<(), AppError>),
     /// The data of the chosen state are in the catalogue.

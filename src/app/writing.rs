@@ -19,6 +19,14 @@ impl App {
         self.start(Lane::Import, move |_| Outcome::Chosen(dialogs.open()));
     }
 
+    /// Asks for a folder: the path field at once, the desktop's dialog beside it.
+    pub(super) fn ask_folder(&mut self) {
+        self.state.path.clear();
+        self.state.sheet = Some(Sheet::Path(PathUse::Open));
+        let dialogs = self.services.dialogs.clone();
+        self.start(Lane::Import, move |_| Outcome::Chosen(dialogs.open_folder()));
+    }
+
     pub(super) fn ask_target(&mut self, what: PathUse) {
         let start = start_path(&self.state, what);
         self.state.path = start.display().to_string();
@@ -30,7 +38,7 @@ impl App {
 
     /// Writes where nothing is yet; else the sheet asks.
     pub(super) fn write_new(&mut self, what: PathUse, path: PathBuf) {
-        if what == PathUse::Open {
+        if matches!(what, PathUse::Open | PathUse::ReplaceState) {
             return self.write(what, path);
         }
         // Whoever saves the scene to where it came from means that file.
@@ -75,6 +83,7 @@ impl App {
         self.state.replace = None;
         match what {
             PathUse::Open => self.read_paths(vec![path]),
+            PathUse::ReplaceState => self.replace_state(path),
             PathUse::SaveScene => {
                 let text = toml::to_string_pretty(&self.state.document.scene);
                 self.start_writing(move || save_scene(&path, text));

@@ -199,7 +199,7 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     }
     let missing = missing(&tx)?;
     for (name, product) in products.iter().filter(|(name, _)| missing.contains(name)) {
-        put(&tx, Record { product: product.clone(), datasets: Vec::new() }, rank(name))?;
+        put(&tx, Record::without_data(product.clone()), rank(name))?;
     }
     store::sweep(&tx)?;
     tx.commit()?;

@@ -78,6 +78,19 @@ pub enum CatalogueError {
         "product \"{0}\" is built in and keeps its name, kind and tags; export and import it to have one of your own"
     )]
     BuiltInWords(String),
+    /// Products of subscribed folders are not changed here.
+    #[error(
+        "product \"{product}\" comes from {folder}, which is subscribed to and only read; export and import it to have one of your own"
+    )]
+    Subscribed {
+        /// Key of the product.
+        product: String,
+        /// The folder of packages.
+        folder: String,
+    },
+    /// No such subscription.
+    #[error("{0} is not subscribed to; `cfs catalogue subscriptions` lists the folders that are")]
+    NotSubscribed(String),
     /// A product without a name.
     #[error("product \"{0}\" needs a name")]
     NoName(String),

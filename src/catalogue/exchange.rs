@@ -1,6 +1,7 @@
 //! Products into the catalogue, and packages of them in and out.
 
 use super::described::described_state;
+use super::history::{note, set_paths};
 use super::record::{Record, prepare};
 use super::sight::bring_back;
 use super::store::{USER_RANK, free_key, insert, read_record};
@@ -26,7 +27,7 @@ impl Catalogue {
         let snapshot = self.db.unchecked_transaction()?;
         let mut package = Package::default();
         for key in keys {
-            let Record { product, datasets } = read_record(&snapshot, key)?;
+            let Record { product, datasets, .. } = read_record(&snapshot, key)?;
             package.products.push(packed(product)?);
             package.datasets.extend(datasets);
         }
@@ -36,48 +37,76 @@ impl Catalogue {
     /// Adds all products of a package, or none. What their datasets contain is checked anew. A product that is there
     /// already, with the same key and the same datasets, stays as it is.
     pub fn import_package(&mut self, bytes: &[u8]) -> Result<Vec<Imported>, CatalogueError> {
-        let package = package::read(bytes)?;
+        Ok(self.import_all(unpack(bytes)?)?.into_iter().map(|one| one.imported).collect())
+    }
+
+    /// Adds all of these products, or none: datasets, and what is told about them. One that asks for the key of a product
+    /// which holds the same datasets is there already, and stays as it is.
+    pub fn import_all(&mut self, products: Vec<(Vec<Dataset>, NewProduct)>) -> Result<Vec<Stored>, CatalogueError> {
         let mut records = Vec::new();
-        for product in package.products {
-            let mut datasets = Vec::new();
-            for state in &product.states {
-                let hash = state.dataset.clone();
-                let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
-                let mut dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
-                if dataset.state != state.key {
-                    return Err(CatalogueError::Import(format!(
-                        "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",
-                        state.key, product.key, dataset.state
-                    )));
-                }
-                dataset.described = described_state(&product.system, &state.key);
-                datasets.push(dataset);
-            }
-            records.push(prepare(&datasets, unpacked(product))?);
+        for (datasets, meta) in products {
+            let asked = meta.key.is_some();
+            records.push((asked, prepare(&datasets, meta)?));
         }
         let tx = self.change()?;
-        let mut imported = Vec::new();
-        for record in records {
+        let mut list = Vec::new();
+        for (asked, record) in records {
             let key = record.product.key.clone();
-            if is_there(&tx, &record.product)? {
+            list.push(if asked && is_there(&tx, &record.product)? {
                 // What is imported is wanted in sight.
                 bring_back(&tx, &key)?;
-                imported.push(Imported { same_content_as: vec![key.clone()], key });
-            } else if adopt(&tx, &record)? {
+                Stored { imported: Imported { same_content_as: vec![key.clone()], key }, new: false }
+            } else if asked && adopt(&tx, &record)? {
                 bring_back(&tx, &key)?;
                 // A built-in product that another file computed already.
-                imported.push(Imported { key, same_content_as: Vec::new() });
+                Stored { imported: Imported { key, same_content_as: Vec::new() }, new: false }
             } else {
-                imported.push(add(&tx, record)?);
-            }
+                Stored { imported: add(&tx, record)?, new: true }
+            });
         }
         tx.commit()?;
-        Ok(imported)
+        Ok(list)
     }
 }
 
+/// What became of a product that was to be stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Stored {
+    /// Its key, and who holds the same data.
+    pub imported: Imported,
+    /// False: it was there already, and is not this import's to take out again.
+    pub new: bool,
+}
+
+/// The products of a package, checked as [`package::read`] does: their datasets, and what is told about them.
+///
+/// # Errors
+/// No package, or one with something in it that is not as it should be.
+pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, CatalogueError> {
+    let package = package::read(bytes)?;
+    let mut list = Vec::new();
+    for product in package.products {
+        let mut datasets = Vec::new();
+        for state in &product.states {
+            let hash = state.dataset.clone();
+            let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
+            let mut dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
+            if dataset.state != state.key {
+                return Err(CatalogueError::Import(format!(
+                    "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",
+                    state.key, product.key, dataset.state
+                )));
+            }
+            dataset.described = described_state(&product.system, &state.key);
+            datasets.push(dataset);
+        }
+        list.push((datasets, unpacked(product)));
+    }
+    Ok(list)
+}
+
 /// Stores a prepared product of the user's under a free key and tells which others share its content.
-fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError> {
+pub(super) fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError> {
     let mut same_content_as = Vec::new();
     for (hash, _) in &record.datasets {
         let mut statement = tx.prepare_cached(
@@ -93,11 +122,15 @@ fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError>
     }
     record.product.key = free_key(tx, &record.product.key)?;
     insert(tx, &record, USER_RANK)?;
+    let key = &record.product.key;
+    set_paths(tx, key, &record.paths)?;
+    let from = &record.product.provenance.source_file;
+    note(tx, key, &if from.is_empty() { "added".to_owned() } else { format!("added from {from}") })?;
     Ok(Imported { key: record.product.key, same_content_as })
 }
 
 /// Does the file hold this product: its key, its states and their datasets?
-fn is_there(db: &Connection, product: &Product) -> Result<bool, CatalogueError> {
+pub(super) fn is_there(db: &Connection, product: &Product) -> Result<bool, CatalogueError> {
     let mut ask = db.prepare_cached(
         "SELECT s.key, s.dataset FROM state s JOIN product p ON s.product = p.id WHERE p.key = ? ORDER BY s.position",
     )?;
@@ -167,5 +200,6 @@ fn unpacked(product: PackageProduct) -> NewProduct {
             .map(|p| super::CurvePoint { profile_angle: p.profile_angle, value: p.value })
             .collect(),
         system: product.system,
+        ..NewProduct::default()
     }
 }

@@ -1,6 +1,7 @@
 //! From dataset files to products: which files belong together, what they say about themselves.
 
-use super::grouping::{Family, Grouping, group};
+use super::doubt::Doubt;
+use super::grouping::{Grouping, propose};
 use super::source_file::SourceFile;
 use super::{NewProduct, Origin, Provenance};
 use crate::compute::btdf::Dataset;
@@ -15,39 +16,56 @@ pub struct Gathered {
     pub datasets: Vec<Dataset>,
     /// The file that each dataset came from; empty where it was joined from several.
     pub sources: Vec<String>,
+    /// The files of each dataset, by their places among those of the product.
+    pub parts: Vec<Vec<usize>>,
     /// The first file's name without its extension, for products without a name.
     pub file_stem: String,
+    /// What is to be asked before it is stored.
+    pub doubt: Option<Doubt>,
 }
 
 /// Files as products: those that are states of one product together, as [`Grouping`] says. States are named by their
 /// angles where names tell them, else, where there are several, after their files.
 pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
-    group(files, grouping).into_iter().map(product).collect()
+    let files: Vec<&SourceFile> = files.iter().collect();
+    let product = |one: super::Proposal| {
+        let own: Vec<&SourceFile> = one.files.iter().map(|&place| files[place]).collect();
+        Gathered { doubt: one.doubt, ..gathered(&own, one.angles.as_deref()) }
+    };
+    propose(&files, grouping).into_iter().map(product).collect()
 }
 
-/// An angle as the key of a state: without needless digits.
-fn key_of(angle: f64) -> String {
+/// An angle as the key of a state: without needless digits. \[°\]
+pub fn key_of_angle(angle: f64) -> String {
     // −0 is 0.
     format!("{}", angle + 0.0)
 }
 
-fn product(family: Family) -> Gathered {
-    let Family { files, angles } = family;
+/// All these files as one product; `angles`: of every file, where they are known. \[°\]
+pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
     let stems: Vec<String> = files.iter().map(|file| Format::stem(&file.name).to_owned()).collect();
-    let meta = NewProduct { name: name(&files, &stems), ..meta(&files) };
-    let sources = |datasets: &[Dataset]| match datasets.len() == files.len() {
-        true => files.iter().map(|file| file.name.clone()).collect(),
-        false => vec![String::new(); datasets.len()],
+    let meta = NewProduct { name: name(files, &stems), ..meta(files) };
+    let named = |parts: &[Vec<usize>]| -> Vec<String> {
+        let name =
+            |part: &Vec<usize>| if let [one] = part.as_slice() { files[*one].name.clone() } else { String::new() };
+        parts.iter().map(name).collect()
     };
     let file_stem = stems.first().cloned().unwrap_or_default();
     if let Some(angles) = angles {
         let mut datasets: Vec<Dataset> = files.iter().flat_map(|file| file.datasets.clone()).collect();
         for (dataset, angle) in datasets.iter_mut().zip(angles) {
-            dataset.state = key_of(angle);
+            dataset.state = key_of_angle(*angle);
         }
-        return Gathered { sources: sources(&datasets), meta, datasets, file_stem };
+        let parts: Vec<Vec<usize>> = (0..datasets.len()).map(|place| vec![place]).collect();
+        return Gathered { sources: named(&parts), parts, meta, datasets, file_stem, doubt: None };
     }
     let mut datasets = merge_sides(files.iter().flat_map(|file| file.datasets.clone()).collect());
+    let parts: Vec<Vec<usize>> = datasets
+        .iter()
+        .map(|whole| {
+            (0..files.len()).filter(|&place| files[place].datasets.iter().any(|one| holds(whole, one))).collect()
+        })
+        .collect();
     if datasets.len() > 1 {
         // A file of several states names them itself; one of a single nameless state gives it the file's name.
         for (file, stem) in files.iter().zip(&stems) {
@@ -59,7 +77,7 @@ fn product(family: Family) -> Gathered {
             }
         }
     }
-    Gathered { sources: sources(&datasets), meta, datasets, file_stem }
+    Gathered { sources: named(&parts), parts, meta, datasets, file_stem, doubt: None }
 }
 
 /// What a dataset says of itself, unless it is what a template of the format says.
@@ -69,7 +87,7 @@ fn told(text: &str, template: &str) -> String {
 }
 
 /// The product's name: what all its files say; else, where they are named by their states, what their names begin with.
-fn name(files: &[SourceFile], stems: &[String]) -> String {
+fn name(files: &[&SourceFile], stems: &[String]) -> String {
     let names: Vec<String> =
         files.iter().flat_map(|file| &file.datasets).map(|dataset| told(&dataset.name, "Name")).collect();
     let first = names.first().cloned().unwrap_or_default();
@@ -93,12 +111,12 @@ fn name(files: &[SourceFile], stems: &[String]) -> String {
 
 /// Is `part` this dataset, or one of the functions that it was joined from?
 fn holds(dataset: &Dataset, part: &Dataset) -> bool {
-    dataset.state.is_empty()
+    dataset.state == part.state
         && dataset.name == part.name
         && part.visible.components().into_iter().all(|c| dataset.visible.get(c) == part.visible.get(c))
 }
 
-fn meta(files: &[SourceFile]) -> NewProduct {
+fn meta(files: &[&SourceFile]) -> NewProduct {
     let first = |field: fn(&CatalogueFields) -> &str| {
         files.iter().map(|file| field(&file.fields)).find(|text| !text.trim().is_empty()).unwrap_or_default().to_owned()
     };

@@ -1,8 +1,10 @@
 //! Which files are states of one product: those whose names, or what they say about themselves, differ by an angle alone.
 //!
 //! In doubt every file is a product of its own: two products that are taken for one are wrong everywhere afterwards, one
-//! that is taken for two is seen at once.
+//! that is taken for two is seen at once. Where numbers might be angles the user is asked, see [`Doubt`].
 
+use super::doubt::{Doubt, confirmed, speaks_of_slats};
+use super::numbered::{Pattern, distinct, plausible, wordless};
 use super::source_file::SourceFile;
 use crate::formats::{Format, is_one_function};
 use std::collections::BTreeMap;
@@ -20,125 +22,43 @@ pub enum Grouping {
     One,
 }
 
-/// Files of one product.
-#[derive(Debug)]
-pub(super) struct Family {
+/// Files of one product, by their places in the list that was asked about.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Proposal {
     /// In the order of the states.
-    pub files: Vec<SourceFile>,
-    /// The angle of every file, as the names tell. \[°\]
+    pub files: Vec<usize>,
+    /// The angle of every file, as the names tell; `None` where files name their states themselves. \[°\]
     pub angles: Option<Vec<f64>>,
+    /// What is to be asked.
+    pub doubt: Option<Doubt>,
 }
 
 /// Places of a family's files, and their angles where names tell them.
 type Member = (Vec<usize>, Option<Vec<f64>>);
 
-/// Words before a number that say that it is the angle of the state.
-const BEFORE: [&str; 8] = ["slat", "tilt", "angle", "rot", "rotation", "winkel", "lamella", "lamelle"];
-/// Words after a number that say so.
-const AFTER: [&str; 3] = ["deg", "°", "grad"];
-/// Words after a number that say that it is something else.
-const UNITS: [&str; 8] = ["pct", "perc", "proz", "%", "mm", "cm", "nm", "lx"];
-
-/// A name with its numbers taken out.
-#[derive(Debug, Clone, PartialEq)]
-struct Pattern {
-    /// Lower case, `#` for every number.
-    skeleton: String,
-    numbers: Vec<f64>,
-    /// Which number is said to be the angle.
-    marked: Option<usize>,
-    /// Which have another unit.
-    other: Vec<usize>,
-}
-
-impl Pattern {
-    fn of(name: &str) -> Self {
-        let letters: Vec<char> = name.to_lowercase().chars().collect();
-        let mut pattern = Self { skeleton: String::new(), numbers: Vec::new(), marked: None, other: Vec::new() };
-        let mut at = 0;
-        while at < letters.len() {
-            if !letters[at].is_ascii_digit() {
-                pattern.skeleton.push(letters[at]);
-                at += 1;
-                continue;
-            }
-            let start = at;
-            let digit = |at: usize| letters.get(at).is_some_and(char::is_ascii_digit);
-            while digit(at) {
-                at += 1;
-            }
-            if letters.get(at) == Some(&'.') && digit(at + 1) {
-                at += 1;
-                while digit(at) {
-                    at += 1;
-                }
-            }
-            let text: String = letters[start..at].iter().collect();
-            let Ok(size) = text.parse::<f64>() else { continue };
-            let after: String = letters[at..].iter().collect();
-            pattern.take(size, after.trim_start_matches(['_', ' ', '-']));
-        }
-        pattern
-    }
-
-    /// Takes a number in: its sign from what stands before it, its meaning from the words on both sides.
-    fn take(&mut self, size: f64, after: &str) {
-        let mut before = self.skeleton.chars().rev();
-        let minus =
-            before.next() == Some('-') && before.next().is_none_or(|c| matches!(c, '_' | ' ' | '(' | '=' | ','));
-        if minus {
-            self.skeleton.pop();
-        }
-        let number = self.numbers.len();
-        let word = self.skeleton.trim_end_matches(['_', ' ', '-', '=', '(']);
-        if BEFORE.iter().any(|known| word.ends_with(known)) || AFTER.iter().any(|known| after.starts_with(known)) {
-            self.marked = Some(number);
-        }
-        if UNITS.iter().any(|known| after.starts_with(known)) {
-            self.other.push(number);
-        }
-        self.numbers.push(if minus { -size } else { size });
-        self.skeleton.push('#');
-    }
-
-    /// The numbers but one, for comparing.
-    fn others(&self, one: usize) -> Vec<u64> {
-        self.numbers.iter().enumerate().filter(|(i, _)| *i != one).map(|(_, value)| value.to_bits()).collect()
-    }
-}
-
-/// What is left of a name without numbers, for telling whether two files speak of one product.
-fn wordless(name: &str) -> String {
-    let skeleton = Pattern::of(name).skeleton;
-    skeleton.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
-}
-
-/// Could numbers that nothing calls angles be angles? Slats stand at multiples of 2.5°, and some of them are tilted.
-fn plausible(values: &[f64]) -> bool {
-    let even = |value: &f64| value.abs() <= 90.0 && (value / 2.5).fract() == 0.0;
-    values.iter().all(even) && values.iter().any(|value| value.abs() >= 5.0)
-}
-
-fn distinct(values: &[f64]) -> bool {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.windows(2).all(|pair| pair[0] < pair[1])
-}
-
 /// A file's place, what it has in common with its family, and its name's pattern.
 type Named<K> = (usize, K, Pattern);
 
-/// Which places hold files of one family, with their angles; by the patterns of one name of each.
-///
-/// Files of one skeleton whose other numbers agree and whose angles are distinct. `marked_alone`: only numbers that are
-/// called angles count.
-fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f64)>> {
+/// Files that differ by a number, as one name of each tells.
+struct Series {
+    /// Places with the number of each.
+    members: Vec<(usize, f64)>,
+    /// What the names have in common.
+    skeleton: String,
+    /// A word calls the number an angle.
+    marked: bool,
+    /// All numbers are different, and could be angles or are called so.
+    family: bool,
+}
+
+/// Files of one skeleton whose other numbers agree. `marked_alone`: only numbers that are called angles count.
+fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
     let mut by_skeleton: BTreeMap<(&K, &str), Vec<&Named<K>>> = BTreeMap::new();
     for entry in names {
         by_skeleton.entry((&entry.1, &entry.2.skeleton)).or_default().push(entry);
     }
     let mut found = Vec::new();
-    for group in by_skeleton.into_values().filter(|group| group.len() > 1) {
+    for ((_, skeleton), group) in by_skeleton.into_iter().filter(|(_, group)| group.len() > 1) {
         let first = &group[0].2;
         let varies = |number: usize| group.iter().any(|(_, _, p)| p.numbers[number] != first.numbers[number]);
         // Without a word that tells, the last number that varies is the angle: what comes before it names the product.
@@ -149,12 +69,31 @@ fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f
         for (place, _, pattern) in group {
             apart.entry(pattern.others(angle)).or_default().push((*place, pattern.numbers[angle]));
         }
-        found.extend(apart.into_values().filter(|family| {
-            let values: Vec<f64> = family.iter().map(|(_, value)| *value).collect();
-            family.len() > 1 && distinct(&values) && (marked.is_some() || plausible(&values))
-        }));
+        for members in apart.into_values().filter(|members| members.len() > 1) {
+            let values: Vec<f64> = members.iter().map(|(_, value)| *value).collect();
+            let family = distinct(&values) && (marked.is_some() || plausible(&values));
+            found.push(Series { members, skeleton: skeleton.to_owned(), marked: marked.is_some(), family });
+        }
     }
     found
+}
+
+/// Which places hold files of one family, with their angles; by the patterns of one name of each.
+fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f64)>> {
+    let all = series(names, marked_alone).into_iter();
+    all.filter(|one| one.family).map(|one| one.members).collect()
+}
+
+/// Could files of a series that are no family be states all the same? Numbers that no angle has, and two or three samples
+/// with theirs, raise no question.
+fn worth_asking(one: &Series) -> bool {
+    let mut values: Vec<f64> = one.members.iter().map(|(_, value)| *value).collect();
+    values.sort_by(f64::total_cmp);
+    let (least, most) = (values[0], values[values.len() - 1]);
+    let angles = least >= -90.0 && most <= 90.0 && most - least >= 5.0;
+    // The same number twice: one file of the family is there in two forms.
+    let twice = !distinct(&values) && (one.marked || plausible(&values));
+    angles && (twice || one.marked || values.len() > 2 || speaks_of_slats(&one.skeleton))
 }
 
 /// The name that a file of a format of one function a file gives its product.
@@ -183,16 +122,15 @@ fn in_order(mut family: Vec<(usize, f64)>) -> Member {
 }
 
 /// Do all files hold the same functions?
-fn one_side(files: &[SourceFile], places: &[usize]) -> bool {
+fn one_side(files: &[&SourceFile], places: &[usize]) -> bool {
     let functions =
         |place: usize| -> Vec<_> { files[place].datasets.iter().map(|dataset| dataset.visible.components()).collect() };
     places.iter().all(|&place| files[place].datasets.len() == 1 && functions(place) == functions(places[0]))
 }
 
-/// Families among files: places with angles, or with no angle where the files name their states themselves.
-fn proposed(files: &[SourceFile]) -> Vec<Member> {
+/// Families of files that name product and state themselves; their places are marked as taken.
+fn self_named(files: &[&SourceFile], taken: &mut [bool]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
-    let mut taken = vec![false; files.len()];
     let mut named: BTreeMap<Vec<String>, Vec<usize>> = BTreeMap::new();
     for (place, file) in files.iter().enumerate() {
         if let Some(name) = one_function_name(file) {
@@ -208,7 +146,7 @@ fn proposed(files: &[SourceFile]) -> Vec<Member> {
     }
     for places in named.into_values() {
         let states: Vec<&str> = places.iter().map(|&place| files[place].datasets[0].state.as_str()).collect();
-        let one_function = one_function_name(&files[places[0]]).is_some();
+        let one_function = one_function_name(files[places[0]]).is_some();
         let nameless = places.len() > 1 && states.iter().all(|state| state.is_empty());
         if one_function && nameless && one_side(files, &places) {
             // States that only the names of their files tell apart.
@@ -226,28 +164,77 @@ fn proposed(files: &[SourceFile]) -> Vec<Member> {
             list.push((places, None));
         }
     }
+    list
+}
+
+/// Families among files: places with angles, or with no angle where the files name their states themselves.
+fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
+    let mut taken = vec![false; files.len()];
+    let mut list: Vec<Proposal> = self_named(files, &mut taken).into_iter().map(Proposal::from).collect();
+    let mut asked: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for by_file_name in [true, false] {
         let names: Vec<Named<[String; 5]>> = (0..files.len())
             .filter(|&place| !taken[place])
             .filter_map(|place| {
-                let file = &files[place];
+                let file = files[place];
                 let text = if by_file_name { Format::stem(&file.name) } else { file.datasets.first()?.name.as_str() };
                 let nameless = file.datasets.first()?.state.is_empty();
                 nameless.then(|| common(file).map(|key| (place, key, Pattern::of(text)))).flatten()
             })
             .collect();
-        for family in families(&names, !by_file_name) {
-            family.iter().for_each(|(place, _)| taken[*place] = true);
-            list.push(in_order(family));
+        for one in series(&names, !by_file_name) {
+            let places: Vec<usize> = one.members.iter().map(|(place, _)| *place).collect();
+            if one.family {
+                places.iter().for_each(|&place| taken[place] = true);
+                let sure = confirmed(files, &one.members, &one.skeleton, one.marked);
+                let doubt = (!sure).then_some(Doubt::NumbersAlone);
+                list.push(Proposal { doubt, ..in_order(one.members).into() });
+            } else if worth_asking(&one) {
+                asked.extend(places.iter().map(|&place| (place, places.clone())));
+            }
         }
     }
-    list.extend((0..files.len()).filter(|&place| !taken[place]).map(|place| (vec![place], None)));
+    strays(files, &list, &taken, &mut asked);
+    let shown = |place: &usize| files[*place].name.clone();
+    list.extend((0..files.len()).filter(|&place| !taken[place]).map(|place| {
+        let others = asked.get(&place).into_iter().flatten().filter(|&&other| other != place && !taken[other]);
+        let mut others: Vec<String> = others.map(shown).collect();
+        let family = asked.get(&place).into_iter().flatten().filter(|&&other| taken[other]);
+        others.extend(family.map(shown));
+        let doubt = (!others.is_empty()).then_some(Doubt::PerhapsStates(others));
+        Proposal { files: vec![place], angles: None, doubt }
+    }));
     list
 }
 
+/// Files called as those of a family beside them that hold something else: another basis, another maker.
+fn strays(files: &[&SourceFile], list: &[Proposal], taken: &[bool], asked: &mut BTreeMap<usize, Vec<usize>>) {
+    let skeleton = |place: usize| Pattern::of(Format::stem(&files[place].name)).skeleton;
+    for family in list.iter().filter(|family| family.angles.is_some()) {
+        let first = family.files[0];
+        let own = skeleton(first);
+        let like = |place: &usize| {
+            !taken[*place]
+                && files[*place].folder == files[first].folder
+                && files[*place].datasets.len() == 1
+                && own.contains('#')
+                && skeleton(*place) == own
+        };
+        for place in (0..files.len()).filter(like) {
+            asked.entry(place).or_insert_with(|| family.files.clone());
+        }
+    }
+}
+
+impl From<Member> for Proposal {
+    fn from((files, angles): Member) -> Self {
+        Self { files, angles, doubt: None }
+    }
+}
+
 /// All as one: with angles where the names of all have them.
-fn joined(files: &[SourceFile]) -> Member {
-    let nameless = |file: &SourceFile| matches!(file.datasets.as_slice(), [one] if one.state.is_empty());
+fn joined(files: &[&SourceFile]) -> Member {
+    let nameless = |file: &&SourceFile| matches!(file.datasets.as_slice(), [one] if one.state.is_empty());
     let names: Vec<Named<()>> =
         files.iter().enumerate().map(|(place, file)| (place, (), Pattern::of(Format::stem(&file.name)))).collect();
     let whole = families(&names, false).into_iter().find(|family| family.len() == files.len());
@@ -258,10 +245,10 @@ fn joined(files: &[SourceFile]) -> Member {
 }
 
 /// Each file for itself, but for the functions of one state.
-fn apart(files: &[SourceFile]) -> Vec<Member> {
+fn apart(files: &[&SourceFile]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
     let key = |place: usize| {
-        let file = &files[place];
+        let file = files[place];
         one_function_name(file).map(|name| (name, file.datasets[0].state.as_str()))
     };
     for place in 0..files.len() {
@@ -273,25 +260,18 @@ fn apart(files: &[SourceFile]) -> Vec<Member> {
     list
 }
 
-/// Files as families, in the order in which their first files were given.
-pub(super) fn group(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Family> {
+/// Which of the files make a product together, in the order in which their first files were given.
+pub fn propose(files: &[&SourceFile], grouping: Grouping) -> Vec<Proposal> {
     if files.is_empty() {
         return Vec::new();
     }
     let mut list = match grouping {
-        Grouping::Proposed => proposed(&files),
-        Grouping::Each => apart(&files),
-        Grouping::One => vec![joined(&files)],
+        Grouping::Proposed => proposed(files),
+        Grouping::Each => apart(files).into_iter().map(Proposal::from).collect(),
+        Grouping::One => vec![joined(files).into()],
     };
-    list.sort_by_key(|(places, _)| places.iter().min().copied());
-    let mut files: Vec<Option<SourceFile>> = files.into_iter().map(Some).collect();
-    list.into_iter()
-        .map(|(places, angles)| Family {
-            // Every place is in one family alone.
-            files: places.into_iter().filter_map(|place| files[place].take()).collect(),
-            angles,
-        })
-        .collect()
+    list.sort_by_key(|one| one.files.iter().min().copied());
+    list
 }
 
 #[cfg(test)]
@@ -311,12 +291,12 @@ mod tests {
 
     /// Names of the files of every family with more than one, with their angles.
     fn found(files: &[SourceFile]) -> Vec<Vec<(String, f64)>> {
-        let families = group(files.to_vec(), Grouping::Proposed);
+        let families = propose(&files.iter().collect::<Vec<_>>(), Grouping::Proposed);
         families
             .into_iter()
             .filter_map(|family| {
                 let angles = family.angles?;
-                Some(family.files.into_iter().map(|file| file.name).zip(angles).collect())
+                Some(family.files.into_iter().map(|place| files[place].name.clone()).zip(angles).collect())
             })
             .collect()
     }
@@ -369,9 +349,71 @@ mod tests {
     #[test]
     fn the_user_may_take_them_otherwise() {
         let files = [file("b00.xml", "", "K"), file("b30.xml", "", "K"), file("roof.xml", "", "K")];
-        let count = |grouping| group(files.to_vec(), grouping).len();
+        let given: Vec<&SourceFile> = files.iter().collect();
+        let count = |grouping| propose(&given, grouping).len();
         assert_eq!([Grouping::Proposed, Grouping::Each, Grouping::One].map(count), [2, 3, 1]);
-        let one = group(files[..2].to_vec(), Grouping::One).remove(0);
+        let one = propose(&given[..2], Grouping::One).remove(0);
         assert_eq!(one.angles, Some(vec![0.0, 30.0]));
+    }
+
+    /// Places of every product with what is asked about it, of files with these names, names of products and transmittances.
+    fn asked(files: &[(&str, &str, f64)]) -> Vec<(Vec<usize>, Option<Doubt>)> {
+        let made: Vec<SourceFile> = files
+            .iter()
+            .map(|(name, product, tau)| {
+                let mut made = file(name, product, "Klems");
+                made.datasets[0].visible.transmission_front = Some(crate::compute::btdf::Btdf::ideal_diffuse(*tau));
+                made
+            })
+            .collect();
+        let proposals = propose(&made.iter().collect::<Vec<_>>(), Grouping::Proposed);
+        proposals.into_iter().map(|one| (one.files, one.doubt)).collect()
+    }
+
+    #[test]
+    fn numbers_that_nothing_else_confirms_are_a_question() {
+        // Five, ten and twenty percent of holes let more and more light through; slats less and less.
+        let cloth = asked(&[("tex05.xml", "", 0.05), ("tex10.xml", "", 0.1), ("tex20.xml", "", 0.2)]);
+        assert_eq!(cloth, [(vec![0, 1, 2], Some(Doubt::NumbersAlone))]);
+        let slats = asked(&[("tex05.xml", "", 0.5), ("tex10.xml", "", 0.45), ("tex20.xml", "", 0.3)]);
+        assert_eq!(slats, [(vec![0, 1, 2], None)]);
+        // Two are too few to see that, unless names speak of slats, or those of the products have the angles too.
+        assert!(asked(&[("x5.xml", "", 0.5), ("x10.xml", "", 0.4)])[0].1.is_some());
+        assert!(asked(&[("x5.xml", "Louvre", 0.5), ("x10.xml", "Louvre", 0.4)])[0].1.is_none());
+        assert!(asked(&[("x5.xml", "p5", 0.5), ("x10.xml", "p10", 0.4)])[0].1.is_none());
+        // A roller blind is a blind, and its openness a number.
+        assert!(asked(&[("roller blind 5.xml", "", 0.05), ("roller blind 10.xml", "", 0.1)])[0].1.is_some());
+        for names in [["t_-35.xml", "t_35.xml"], ["t tilt 5.xml", "t tilt 10.xml"]] {
+            assert!(asked(&[(names[0], "", 0.1), (names[1], "", 0.2)])[0].1.is_none(), "{names:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_kept_apart_though_it_may_belong_together_is_a_question() {
+        // Steps of seven degrees.
+        let odd = asked(&[("a0.xml", "", 0.5), ("a7.xml", "", 0.4), ("a14.xml", "", 0.3)]);
+        assert_eq!(odd.len(), 3);
+        assert_eq!(odd[0].1, Some(Doubt::PerhapsStates(vec!["a7.xml".to_owned(), "a14.xml".to_owned()])));
+        assert!(odd[0].1.as_ref().unwrap().question().contains("a7.xml, a14.xml"));
+        // One angle twice, in two ways of writing.
+        assert!(
+            asked(&[("b0.xml", "", 0.5), ("b00.xml", "", 0.4), ("b30.xml", "", 0.3)]).iter().all(|one| one.1.is_some())
+        );
+        // Of a family of three one has another basis.
+        let mut files = [file("v0.xml", "V", "Klems"), file("v30.xml", "V", "Klems"), file("v60.xml", "V", "Tree")];
+        let ask = |files: &[SourceFile]| propose(&files.iter().collect::<Vec<_>>(), Grouping::Proposed);
+        let found = ask(&files);
+        assert_eq!((found[0].files.as_slice(), found[1].files.as_slice()), (&[0, 1][..], &[2][..]));
+        assert_eq!(found[1].doubt, Some(Doubt::PerhapsStates(vec!["v0.xml".to_owned(), "v30.xml".to_owned()])));
+        files[2].folder = "elsewhere".to_owned();
+        assert_eq!(ask(&files)[1].doubt, None);
+        // Samples, contents of cloth and numbers of articles are no question.
+        for names in [
+            ["s1.xml", "s2.xml", "s3.xml"],
+            ["cl_0.6.xml", "cl_0.7.xml", "cl_0.9.xml"],
+            ["5pct.xml", "10pct.xml", "30pct.xml"],
+        ] {
+            assert!(asked(&names.map(|name| (name, "", 0.5))).iter().all(|one| one.1.is_none()), "{names:?}");
+        }
     }
 }

@@ -1,8 +1,10 @@
 //! What becomes of products after they are stored: other words about them, out of sight and back, found again by content.
 
+use super::history::note;
 use super::sight::{bring_back, is_deleted};
 use super::store::read_product;
-use super::{Catalogue, CatalogueError};
+use super::subscribed::refuse_subscribed;
+use super::{Catalogue, CatalogueError, Product};
 
 /// What the user says about a product.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -39,6 +41,20 @@ pub struct Known {
     pub name: String,
 }
 
+/// A change of words in words; empty where nothing changed.
+fn words_changed(before: &Product, after: &Words) -> String {
+    let [tags, new_tags] = [before.tags.join(", "), after.tags.join(", ")];
+    let fields = [
+        ("name", before.name.as_str(), after.name.as_str()),
+        ("maker", &before.manufacturer, &after.manufacturer),
+        ("kind", &before.kind, &after.kind),
+        ("tags", &tags, &new_tags),
+    ];
+    let changed = fields.iter().filter(|(_, old, new)| old != new);
+    let words: Vec<String> = changed.map(|(field, old, new)| format!("{field} “{old}” became “{new}”")).collect();
+    words.join("; ")
+}
+
 impl Catalogue {
     /// Other words about a product; its key stays, so that scenes go on finding it.
     ///
@@ -50,6 +66,7 @@ impl Catalogue {
         if product.builtin {
             return Err(CatalogueError::BuiltInWords(key.to_owned()));
         }
+        refuse_subscribed(&tx, key)?;
         let [name, manufacturer, kind] = [&words.name, &words.manufacturer, &words.kind].map(|text| text.trim());
         if name.is_empty() {
             return Err(CatalogueError::NoName(key.to_owned()));
@@ -66,6 +83,17 @@ impl Catalogue {
         for tag in &tags {
             tx.execute("INSERT INTO tag VALUES (?, ?)", (id, tag))?;
         }
+        let text = |text: &str| text.to_owned();
+        let after = Words {
+            name: text(name),
+            manufacturer: text(manufacturer),
+            kind: text(kind),
+            tags: tags.into_iter().map(text).collect(),
+        };
+        let changed = words_changed(&product, &after);
+        if !changed.is_empty() {
+            note(&tx, key, &changed)?;
+        }
         tx.commit()?;
         Ok(())
     }
@@ -81,6 +109,7 @@ impl Catalogue {
             return Err(CatalogueError::Deleted(key.to_owned()));
         }
         tx.execute("INSERT INTO deleted VALUES (?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'))", [key])?;
+        note(&tx, key, "deleted (out of sight)")?;
         tx.commit()?;
         Ok(())
     }
@@ -96,6 +125,7 @@ impl Catalogue {
             return Err(CatalogueError::NotDeleted(key.to_owned()));
         }
         bring_back(&tx, key)?;
+        note(&tx, key, "restored")?;
         tx.commit()?;
         Ok(())
     }
@@ -126,5 +156,19 @@ impl Catalogue {
         )?;
         let row = |row: &rusqlite::Row<'_>| Ok(Known { key: row.get(0)?, name: row.get(1)? });
         Ok(statement.query_map([source_hash], row)?.collect::<Result<_, _>>()?)
+    }
+
+    /// Products in sight, with a state of this content: see [`super::content_of`]. Those that were stored by programs that did not
+    /// ask for contents are not found.
+    ///
+    /// # Errors
+    /// Of SQLite.
+    pub fn products_holding(&self, content: &str) -> Result<Vec<Known>, CatalogueError> {
+        let mut statement = self.db.prepare_cached(
+            "SELECT DISTINCT p.key, p.name FROM product p JOIN state s ON s.product = p.id
+             WHERE s.content = ? AND s.content <> '' AND p.key NOT IN (SELECT product_key FROM deleted) ORDER BY p.id",
+        )?;
+        let row = |row: &rusqlite::Row<'_>| Ok(Known { key: row.get(0)?, name: row.get(1)? });
+        Ok(statement.query_map([content], row)?.collect::<Result<_, _>>()?)
     }
 }

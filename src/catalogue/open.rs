@@ -14,6 +14,7 @@ const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0003_deleted.sql"),
     include_str!("../../migrations/0004_figures.sql"),
     include_str!("../../migrations/0005_no_text_index.sql"),
+    include_str!("../../migrations/0006_history.sql"),
 ];
 
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.

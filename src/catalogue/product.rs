@@ -177,6 +177,10 @@ pub struct NewProduct {
     pub control_curve: Vec<CurvePoint>,
     /// Text of the description that it was computed from; empty for others.
     pub system: String,
+    /// Contents of the states as they were read, in their order, see [`super::content_of`]; empty: those of what is stored.
+    pub contents: Vec<String>,
+    /// Paths of the files that it was read from, for reading them again.
+    pub paths: Vec<String>,
 }
 
 /// What an import did.

@@ -1,5 +1,6 @@
 //! A product as it is to be stored: from datasets and what is told about them to rows, checked, with its figures.
 
+use super::content::content_of;
 use super::described::{common_description, view};
 use super::product::slug;
 use super::{CatalogueError, NewProduct, Product, ProductFinding, State, StateName, check, profile_transmittances};
@@ -9,10 +10,22 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// A product with the bytes of its datasets, as the tables hold it.
+#[derive(Debug, Clone)]
 pub(super) struct Record {
     pub(super) product: Product,
     /// Hash and bytes of every dataset the product refers to.
     pub(super) datasets: Vec<(String, Vec<u8>)>,
+    /// Content of every state, see [`content_of`]; empty where it is not known.
+    pub(super) contents: Vec<String>,
+    /// Paths of the files that it was read from.
+    pub(super) paths: Vec<String>,
+}
+
+impl Record {
+    /// A product whose data are still to be computed.
+    pub(super) const fn without_data(product: Product) -> Self {
+        Self { product, datasets: Vec::new(), contents: Vec::new(), paths: Vec::new() }
+    }
 }
 
 /// Everything of a product that is to be stored, checked; nothing is written yet.
@@ -70,7 +83,7 @@ fn prepared(
         });
         blobs.push((hash, blob));
     }
-    let meta = NewProduct {
+    let mut meta = NewProduct {
         name,
         manufacturer: or(meta.manufacturer, &first.manufacturer),
         description: or(meta.description, &first.description),
@@ -78,7 +91,12 @@ fn prepared(
         system: if meta.system.is_empty() { common_description(datasets).unwrap_or_default() } else { meta.system },
         ..meta
     };
-    Ok(Record { product: product(meta, states, findings)?, datasets: blobs })
+    let (contents, paths) = (std::mem::take(&mut meta.contents), std::mem::take(&mut meta.paths));
+    let contents = match contents.len() {
+        told if told == datasets.len() => contents,
+        _ => datasets.par_iter().map(content_of).collect(),
+    };
+    Ok(Record { product: product(meta, states, findings)?, datasets: blobs, contents, paths })
 }
 
 /// Where light goes, as far as a description tells it better than data on cells.

@@ -54,6 +54,8 @@ pub struct ProductRow {
     pub favourite: bool,
     /// Comes with the program.
     pub builtin: bool,
+    /// The folder of packages that it comes from, which is subscribed to; empty for others.
+    pub subscribed: String,
 }
 
 impl ProductRow {
@@ -148,7 +150,8 @@ pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
                 EXISTS (SELECT 1 FROM favourite WHERE product_key = p.key),
                 CASE WHEN EXISTS (SELECT 1 FROM control_point WHERE product = p.id)
                        OR NOT EXISTS (SELECT 1 FROM state WHERE product = p.id AND position = 1)
-                     THEN '' ELSE p.system END
+                     THEN '' ELSE p.system END,
+                coalesce((SELECT folder FROM subscribed WHERE product_key = p.key), '')
          FROM product p WHERE 1{IN_SIGHT} ORDER BY p.builtin DESC, p.rank, p.name COLLATE NOCASE, p.key"
     ))?;
     let mut rows = statement.query([])?;
@@ -181,6 +184,7 @@ pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
             states: own.into_iter().map(|state| state.key).collect(),
             favourite: row.get(8)?,
             builtin: row.get(6)?,
+            subscribed: row.get(10)?,
         };
         list.push(Sought {
             row: Arc::new(product),

@@ -1,5 +1,6 @@
 //! A dataset file with what it tells.
 
+use super::content::content_of;
 use crate::compute::btdf::Dataset;
 use crate::formats::{CatalogueFields, FormatError, catalogue_fields, read_dataset};
 
@@ -12,6 +13,8 @@ pub struct SourceFile {
     pub folder: String,
     /// BLAKE3 hash of its bytes, 64 hexadecimal digits.
     pub hash: String,
+    /// What its datasets hold, whatever they are called: equal for files of the same data.
+    pub content: String,
     /// What it holds.
     pub datasets: Vec<Dataset>,
     /// What it tells about the product.
@@ -24,11 +27,14 @@ impl SourceFile {
     /// # Errors
     /// Of the reader.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, FormatError> {
+        let datasets = read_dataset(name, bytes)?;
+        let contents: Vec<String> = datasets.iter().map(content_of).collect();
         Ok(Self {
             name: name.to_owned(),
             folder: String::new(),
             hash: blake3::hash(bytes).to_hex().to_string(),
-            datasets: read_dataset(name, bytes)?,
+            content: contents.join(" "),
+            datasets,
             fields: catalogue_fields(name, bytes)?,
         })
     }

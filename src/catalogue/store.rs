@@ -3,7 +3,6 @@
 use super::described::described_state;
 use super::record::Record;
 use super::rows::list_of;
-use super::sight::bring_back;
 use super::{Catalogue, CatalogueError, CurvePoint, Origin, Product, ProductFinding, Provenance, State, check};
 use crate::compute::btdf::{Dataset, DescribedState, LightFigures, Severity};
 use crate::formats::dataset_blob::{content_hash, decode};
@@ -62,8 +61,8 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
         let curve = serde_json::json!(s.tau_profile).to_string();
         tx.prepare_cached(
             "INSERT INTO state (product, position, key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile,
-                                to_ceiling, sun_blocked, view)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
+                                to_ceiling, sun_blocked, view, content)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
         )?
         .execute(params![
             id,
@@ -77,7 +76,8 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
             curve,
             s.light.and_then(|light| light.to_ceiling),
             s.light.map(|light| light.sun_blocked),
-            s.light.map(|light| light.view)
+            s.light.map(|light| light.view),
+            record.contents.get(position).map_or("", String::as_str)
         ])?;
         insert_findings(tx, [id, position as i64], p.findings.iter().filter(|finding| finding.state == s.key))?;
     }
@@ -243,7 +243,11 @@ pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, Catalogu
             datasets.push((wanted.clone(), blob));
         }
     }
-    Ok(Record { product, datasets })
+    let mut ask = db.prepare_cached(
+        "SELECT s.content FROM state s JOIN product p ON p.id = s.product WHERE p.key = ? ORDER BY s.position",
+    )?;
+    let contents = ask.query_map([key], |row| row.get(0))?.collect::<Result<_, _>>()?;
+    Ok(Record { product, datasets, contents, paths: Vec::new() })
 }
 
 impl Catalogue {
@@ -301,15 +305,7 @@ impl Catalogue {
 
     /// Takes a product of the user's out for good; [`Catalogue::delete_product`] takes it out of sight.
     pub fn remove_product(&mut self, key: &str) -> Result<(), CatalogueError> {
-        let tx = self.change()?;
-        if read_product(&tx, key)?.builtin {
-            return Err(CatalogueError::BuiltIn(key.to_owned()));
-        }
-        tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
-        bring_back(&tx, key)?;
-        delete(&tx, key)?;
-        tx.commit()?;
-        Ok(())
+        self.remove_products(&[key.to_owned()])
     }
 
     /// Marks or unmarks a favourite.

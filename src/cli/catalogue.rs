@@ -1,19 +1,17 @@
 //! `cfs catalogue`: list, show, import, export and validate products.
 
-use crate::catalogue::{Catalogue, Gathered, Grouping, Imported, Product, SourceFile, gather};
+use crate::catalogue::{Catalogue, Product};
 use crate::cli::builtin::{BuildArgs, build, provide};
-use crate::cli::keeping::{self, DeleteArgs, RenameArgs, RestoreArgs};
+use crate::cli::importing::import;
+pub use crate::cli::importing::{Compactness, Group, ImportArgs};
+use crate::cli::keeping::{self, DeleteArgs, HistoryArgs, RenameArgs, RestoreArgs};
 pub use crate::cli::listing::ListArgs;
 use crate::cli::listing::{figure, list};
 use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
+use crate::cli::subscriptions::{self, SubscribeArgs, SubscriptionsArgs, UnsubscribeArgs};
 use crate::cli::validate::{ValidateArgs, finding_json, validate};
-use crate::compute::btdf::Dataset;
-use crate::compute::wavelet::Criterion;
-use crate::formats::package::looks_like_package;
-use crate::study::compact::{Storage, stored_as, stored_by_default};
 use crate::study::files;
-use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -33,7 +31,7 @@ pub enum Action {
     List(ListArgs),
     /// Everything about one product.
     Show(ShowArgs),
-    /// Add dataset files or packages. Files whose names or contents differ by an angle alone are the states of one product;
+    /// Add dataset files, packages, folders and zip archives of them, all in one step. Files whose names or contents differ by an angle alone are the states of one product;
     /// .btdf.txt files are a product a name, the functions of one state joined; others are a product each.
     Import(ImportArgs),
     /// Other words about a product of your own: name, maker, kind, tags. Its key stays.
@@ -42,6 +40,14 @@ pub enum Action {
     Delete(DeleteArgs),
     /// Bring deleted products back; without a key, list them.
     Restore(RestoreArgs),
+    /// What happened to a product, the last first.
+    History(HistoryArgs),
+    /// List the products of a folder of packages among the others: read only, checked by hash, read anew when they change.
+    Subscribe(SubscribeArgs),
+    /// End the subscription to a folder: its products go out of the catalogue.
+    Unsubscribe(UnsubscribeArgs),
+    /// The folders that are subscribed to, read anew.
+    Subscriptions(SubscriptionsArgs),
     /// Write products into a package.
     Export(ExportArgs),
     /// Compute the data of all built-in products that are not computed yet; stopped, it goes on where it was
@@ -62,65 +68,6 @@ pub struct ShowArgs {
     /// A JSON object instead of text.
     #[arg(long)]
     pub json: bool,
-}
-
-/// Arguments of `cfs catalogue import`.
-#[derive(Debug, clap::Args)]
-pub struct ImportArgs {
-    /// Dataset files, or packages (.cfsp).
-    #[arg(required = true)]
-    pub files: Vec<PathBuf>,
-    /// Name of the product; the file's own by default. Makes one product of all files.
-    #[arg(long, default_value = "")]
-    pub name: String,
-    /// Maker; the file's own by default.
-    #[arg(long, default_value = "")]
-    pub manufacturer: String,
-    /// Kind, e.g. venetian.
-    #[arg(long, default_value = "")]
-    pub kind: String,
-    /// Word to find it by; may be given several times.
-    #[arg(long = "tag")]
-    pub tags: Vec<String>,
-    /// Which files are states of one product
-    #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
-    pub group: Group,
-    /// How values are kept; by default without loss below 1 MB, else as `archive`.
-    #[arg(long, value_enum)]
-    pub compact: Option<Compactness>,
-}
-
-/// Which files are states of one product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
-pub enum Group {
-    /// Those that differ by an angle alone, by their names or by what they say of themselves
-    #[default]
-    Angles,
-    /// None: each file is a product
-    Each,
-    /// All of them
-    One,
-}
-
-impl Group {
-    const fn grouping(self) -> Grouping {
-        match self {
-            Self::Angles => Grouping::Proposed,
-            Self::Each => Grouping::Each,
-            Self::One => Grouping::One,
-        }
-    }
-}
-
-/// How the values of indicatrices are kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Compactness {
-    /// At most 0.5 % of the flux of any indicatrix misplaced
-    Archive,
-    /// At most 1.5 % of the flux of any indicatrix misplaced
-    Normal,
-    /// Every value, rounded to 7 digits
-    Lossless,
 }
 
 /// Arguments of `cfs catalogue export`.
@@ -149,6 +96,10 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Rename(args) => keeping::rename(&mut open()?, args),
         Action::Delete(args) => keeping::delete(&mut open()?, args),
         Action::Restore(args) => keeping::restore(&mut open()?, args),
+        Action::History(args) => keeping::history(&open()?, args),
+        Action::Subscribe(args) => subscriptions::subscribe(&mut open()?, args),
+        Action::Unsubscribe(args) => subscriptions::unsubscribe(&mut open()?, args),
+        Action::Subscriptions(args) => subscriptions::list(&mut open()?, args),
         Action::Export(args) => {
             let mut catalogue = open()?;
             provide(&mut catalogue, &args.keys)?;
@@ -233,104 +184,6 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
     }
     for finding in &product.findings {
         writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
-    }
-    print(&text)
-}
-
-/// What was asked for beside what the files say; a product without a name takes the first file's, which is told.
-fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
-    let meta = &mut product.meta;
-    let over = |told: &mut String, asked: &String| {
-        if !asked.is_empty() {
-            told.clone_from(asked);
-        }
-    };
-    over(&mut meta.name, &args.name);
-    over(&mut meta.manufacturer, &args.manufacturer);
-    over(&mut meta.kind, &args.kind);
-    meta.tags.extend(args.tags.iter().cloned());
-    if meta.name.is_empty() {
-        meta.name.clone_from(&product.file_stem);
-        eprintln!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
-    }
-    product
-}
-
-/// A dataset in the form that the catalogue is to keep.
-fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
-    let storage = match args.compact {
-        None => return Ok(stored_by_default(dataset)),
-        Some(Compactness::Lossless) => Storage::Lossless,
-        Some(Compactness::Archive) => Storage::Compact(Criterion::ARCHIVE),
-        Some(Compactness::Normal) => Storage::Compact(Criterion::NORMAL),
-    };
-    stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
-}
-
-/// All or none: a product that is refused takes those before it out again.
-fn import_all(catalogue: &mut Catalogue, products: Vec<Gathered>) -> anyhow::Result<Vec<Imported>> {
-    let mut imported: Vec<Imported> = Vec::new();
-    for product in products {
-        match catalogue.import(&product.datasets, product.meta) {
-            Ok(one) => imported.push(one),
-            Err(error) => {
-                for one in &imported {
-                    catalogue.remove_product(&one.key)?;
-                }
-                return Err(error.into());
-            }
-        }
-    }
-    Ok(imported)
-}
-
-fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
-    let mut sources = Vec::new();
-    let mut packages = Vec::new();
-    // Everything is read before anything is stored.
-    for path in &args.files {
-        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cfsp")) {
-            let bytes = files::read(path)?;
-            if !looks_like_package(&bytes) {
-                bail!("{}: not a package; expected a zip file written by export", path.display());
-            }
-            packages.push((path, bytes));
-        } else {
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-            let bytes = files::read(path)?;
-            let mut source = SourceFile::read(&name, &bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?;
-            source.folder = path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
-            sources.push(source);
-        }
-    }
-    if packages.len() > 1 || (!packages.is_empty() && !sources.is_empty()) {
-        bail!("one package at a time, without dataset files beside it, so that an import is one step");
-    }
-    if args.compact.is_some() && !packages.is_empty() {
-        bail!("--compact is for dataset files; a package keeps the form that its data have");
-    }
-    let imported = if let Some((path, bytes)) = packages.first() {
-        catalogue.import_package(bytes).map_err(|error| anyhow!("{}: {error}", path.display()))?
-    } else {
-        let products = gather(sources, if args.name.is_empty() { args.group.grouping() } else { Grouping::One });
-        let stored = products.into_iter().map(|product| {
-            let mut product = described(args, product);
-            product.datasets = product.datasets.iter().map(|d| kept(args, d)).collect::<anyhow::Result<_>>()?;
-            Ok(product)
-        });
-        import_all(catalogue, stored.collect::<anyhow::Result<_>>()?)?
-    };
-    let mut text = String::new();
-    for product in imported {
-        writeln!(text, "{}", product.key)?;
-        if product.same_content_as == [product.key.as_str()] {
-            eprintln!("note: {} is there already, the same; left as it is", product.key);
-        } else if !product.same_content_as.is_empty() {
-            eprintln!("note: the same data are already in {}", product.same_content_as.join(", "));
-        }
-        for finding in catalogue.product(&product.key)?.findings {
-            eprintln!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
-        }
     }
     print(&text)
 }

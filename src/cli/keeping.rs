@@ -44,6 +44,30 @@ pub struct RestoreArgs {
     pub json: bool,
 }
 
+/// Arguments of `cfs catalogue history`.
+#[derive(Debug, clap::Args)]
+pub struct HistoryArgs {
+    /// Key of the product.
+    pub key: String,
+    /// A JSON array instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What happened to a product, the last first.
+pub(super) fn history(catalogue: &Catalogue, args: &HistoryArgs) -> anyhow::Result<()> {
+    let list = catalogue.history(&args.key)?;
+    if args.json {
+        let rows: Vec<_> = list.iter().map(|event| json!({"at": event.at, "what": event.what})).collect();
+        return print(&(serde_json::to_string_pretty(&rows)? + "\n"));
+    }
+    let mut text = String::new();
+    for event in list {
+        writeln!(text, "{}  {}", event.at, event.what)?;
+    }
+    print(&text)
+}
+
 /// Gives a product other words; those that are not named stay.
 pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Result<()> {
     let product = catalogue.product(&args.key)?;

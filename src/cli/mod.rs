@@ -9,6 +9,7 @@ pub mod control;
 pub mod convert;
 mod dataset_file;
 pub mod goniophotometer;
+pub mod importing;
 pub mod info;
 pub mod keeping;
 pub mod lid;
@@ -20,6 +21,7 @@ mod progress;
 pub mod repair;
 pub mod room;
 pub mod sky;
+pub mod subscriptions;
 pub mod validate;
 
 pub use args::{Arguments, Command};

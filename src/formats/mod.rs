@@ -3,6 +3,7 @@
 //! A new dataset format is a file here, an arm of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
 //! [`write_dataset`].
 
+pub mod archive;
 mod beams;
 pub mod bsdf_xml;
 pub mod btdf_text;

@@ -13,6 +13,7 @@ pub mod control;
 mod error;
 pub mod files;
 pub mod goniophotometer;
+pub mod intake;
 pub mod leaving_out;
 pub mod library;
 pub mod luminaire_file;
@@ -25,6 +26,7 @@ mod scheme_words;
 mod self_contained;
 pub mod session;
 pub mod sky;
+pub mod subscriptions;
 pub mod sun_position;
 pub mod system;
 

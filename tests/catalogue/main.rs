@@ -8,6 +8,7 @@ mod common;
 mod datasets;
 mod described;
 mod families;
+mod history;
 mod keeping;
 mod packages;
 mod search;

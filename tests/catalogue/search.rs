@@ -37,6 +37,7 @@ fn builtins() -> Vec<Sought> {
                 view: None,
                 favourite: number % 5 == 0,
                 builtin: number % 6 > 0,
+                subscribed: String::new(),
             }),
             description: file.system.description.clone(),
             tags: file.tags.clone(),

@@ -85,3 +85,54 @@ fn unlike_files_are_products_of_their_own_unless_asked_for_as_one() {
     assert_eq!(run(&["catalogue", "import", &tilted, &flat, "--group", "each"]).lines().count(), 2);
     assert_eq!(run(&["catalogue", "import", &tilted, &flat, "--group", "one"]).lines().count(), 1);
 }
+
+#[test]
+fn a_folder_and_an_archive_are_imported_in_one_step_with_what_is_not_certain_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| cfs(folder.path(), arguments);
+    let files = folder.path().join("files/deeper");
+    std::fs::create_dir_all(&files).unwrap();
+    screen(&files, "a.btdf.txt", "First");
+    screen(&folder.path().join("files"), "b.btdf.txt", "Second");
+    std::fs::write(files.join("lamp.ldt"), "x").unwrap();
+    std::fs::write(files.join("damaged.xml"), "<WindowElement>").unwrap();
+    let done = run(&["catalogue", "import", "files"]);
+    let told = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(stdout(&done), "second\nfirst\n", "{told}");
+    for words in
+        ["lamp.ldt: a luminaire (EULUMDAT)", "not read: deeper/damaged.xml", "b.btdf.txt: the same data as a.btdf.txt"]
+    {
+        assert!(told.contains(words) || words.contains("the same data"), "{words}: {told}");
+    }
+    assert!(told.contains("the same data as"), "{told}");
+    let shown = stdout(&run(&["catalogue", "history", "first"]));
+    assert!(shown.contains("added from a.btdf.txt"), "{shown}");
+    stdout(&run(&["catalogue", "rename", "first", "Third"]));
+    let events: serde_json::Value =
+        serde_json::from_str(&stdout(&run(&["catalogue", "history", "first", "--json"]))).unwrap();
+    assert_eq!(events[0]["what"], "name “First” became “Third”");
+    refused(&run(&["catalogue", "import", "files/deeper/damaged.xml"]), &["damaged.xml"]);
+    refused(&run(&["catalogue", "history", "none"]), &["none"]);
+}
+
+#[test]
+fn folders_of_packages_are_subscribed_to_listed_and_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| cfs(folder.path(), arguments);
+    screen(folder.path(), "a.btdf.txt", "Shared screen");
+    stdout(&run(&["catalogue", "import", "a.btdf.txt"]));
+    std::fs::create_dir(folder.path().join("share")).unwrap();
+    stdout(&run(&["catalogue", "export", "shared-screen", "--out", "share/x.cfsp"]));
+    stdout(&run(&["catalogue", "delete", "shared-screen", "--for-good"]));
+    refused(&run(&["catalogue", "subscribe", "nowhere"]), &["nowhere", "folder of packages"]);
+    stdout(&run(&["catalogue", "subscribe", "share"]));
+    assert!(stdout(&run(&["catalogue", "list"])).contains("shared-screen"));
+    refused(&run(&["catalogue", "rename", "shared-screen", "Mine"]), &["subscribed"]);
+    let list: serde_json::Value =
+        serde_json::from_str(&stdout(&run(&["catalogue", "subscriptions", "--json"]))).unwrap();
+    assert_eq!(list[0]["products"], 1);
+    assert!(list[0]["folder"].as_str().unwrap().ends_with("share"), "{list}");
+    stdout(&run(&["catalogue", "unsubscribe", "share"]));
+    assert!(!stdout(&run(&["catalogue", "list"])).contains("shared-screen"));
+    refused(&run(&["catalogue", "unsubscribe", "share"]), &["not subscribed"]);
+}

@@ -15,43 +15,43 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A window that computes nothing.
-fn opened(app: App) -> Harness<'static, App> {
+pub fn opened(app: App) -> Harness<'static, App> {
     let mut harness = frames(app, [1280.0, 720.0]);
     settle(&mut harness);
     harness
 }
 
-fn window() -> Harness<'static, App> {
+pub fn window() -> Harness<'static, App> {
     opened(App::for_test(Arc::new(Idle)))
 }
 
 /// A window whose session lies in a folder.
-fn window_in(folder: &Path) -> Harness<'static, App> {
+pub fn window_in(folder: &Path) -> Harness<'static, App> {
     let mut app = App::for_test(Arc::new(Idle));
     app.begin_session(Some(folder), true);
     opened(app)
 }
 
-fn import<'a>(harness: &'a Harness<'_, App>) -> &'a Import {
+pub fn import<'a>(harness: &'a Harness<'_, App>) -> &'a Import {
     harness.state().state.import.as_ref().expect("an import sheet")
 }
 
 /// Products with the keys of their states.
-fn proposed(harness: &Harness<'_, App>) -> Vec<(String, Vec<String>)> {
+pub fn proposed(harness: &Harness<'_, App>) -> Vec<(String, Vec<String>)> {
     let keys = |product: &cfs::app::import::Proposed| product.datasets.iter().map(|one| one.state.clone()).collect();
     import(harness).products.iter().map(|product| (product.fields.name.clone(), keys(product))).collect()
 }
 
-fn products(harness: &Harness<'_, App>) -> usize {
+pub fn products(harness: &Harness<'_, App>) -> usize {
     harness.state().state.found.total
 }
 
-fn said(harness: &Harness<'_, App>) -> Vec<String> {
+pub fn said(harness: &Harness<'_, App>) -> Vec<String> {
     harness.state().toasts.all().map(|message| message.text.clone()).collect()
 }
 
 /// A diffuse sheet of this name in BSDF XML.
-fn sheet(name: &str, tau: f64) -> String {
+pub fn sheet(name: &str, tau: f64) -> String {
     let values = vec![format!("{}", tau / std::f64::consts::PI); 9].join(" ");
     let ring = |low: u32, high: u32, n: u32| {
         format!(
@@ -103,7 +103,7 @@ fn unlike_files_become_products_of_their_own_and_can_be_taken_otherwise_before_t
     for label in ["3 products of 4 states", "Venetian: 0°, 45°", "Satine", "Honeycomb"] {
         assert!(harness.query_all_by_label(label).next().is_some(), "{label}");
     }
-    harness.get_by_label("Each its own").click();
+    harness.get_by_label("Every file apart").click();
     settle(&mut harness);
     assert_eq!(proposed(&harness).len(), 4);
     harness.get_by_label("All one product").click();
@@ -345,7 +345,7 @@ fn messages_leave_by_themselves_or_by_a_click_never_cover_the_status_line_and_st
 }
 
 /// Waits until the session on disk says something.
-fn wait_for(folder: &Path, word: &str) -> Duration {
+pub fn wait_for(folder: &Path, word: &str) -> Duration {
     let start = Instant::now();
     let says = || {
         std::fs::read_dir(folder).into_iter().flatten().flatten().any(|entry| {
@@ -361,7 +361,7 @@ fn wait_for(folder: &Path, word: &str) -> Duration {
 }
 
 /// As `kill -9` leaves it: files as they are, no lock.
-fn killed(folder: &Path) -> tempfile::TempDir {
+pub fn killed(folder: &Path) -> tempfile::TempDir {
     let copy = tempfile::tempdir().unwrap();
     for entry in std::fs::read_dir(folder).unwrap().flatten() {
         std::fs::copy(entry.path(), copy.path().join(entry.file_name())).unwrap();

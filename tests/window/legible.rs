@@ -66,6 +66,13 @@ impl Problems {
     }
 }
 
+/// Can the window as it is be read at all sizes?
+pub fn can_be_read(harness: &mut Harness<'_, App>, what: &str) {
+    let mut problems = Problems::default();
+    problems.bench(harness, what);
+    problems.none_left();
+}
+
 #[test]
 fn a_window_that_opens_says_so_everywhere_and_can_be_read() {
     let (release, wait) = channel::<()>();

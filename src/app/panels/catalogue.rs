@@ -150,6 +150,9 @@ fn figures(entry: &Entry, sort: Sort) -> String {
     if entry.moves() {
         text += &format!(" · {} states", entry.states.len());
     }
+    if !entry.subscribed.is_empty() {
+        text += &format!(" · from {}", entry.subscribed.rsplit(['/', '\\']).next().unwrap_or_default());
+    }
     let kind = if entry.kind.is_empty() || sort == Sort::Maker { &entry.manufacturer } else { &entry.kind };
     if !kind.is_empty() {
         text += &format!(" · {}", kind.replace('-', " "));
@@ -160,6 +163,9 @@ fn figures(entry: &Entry, sort: Sort) -> String {
 /// A row's tip: the whole name, and what its figures are.
 fn tip(entry: &Entry) -> String {
     let mut text = entry.name.clone();
+    if !entry.subscribed.is_empty() {
+        text += &format!("\nfrom {}, only read", entry.subscribed);
+    }
     for line in [&entry.manufacturer, &entry.kind.replace('-', " ")] {
         if !line.is_empty() {
             text += &format!("\n{line}");

@@ -53,8 +53,10 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut app.states_view, &mut commands));
     }
     // The goniophotometer needs the bench's room; the scene's sun goes on shining on its drawing.
-    let wide = app.state.sheet == Some(Sheet::Goniophotometer);
-    let room_for_scene = app.state.sheet.is_none() || (wide && ui.available_width() > 900.0);
+    // So does the table of what was read.
+    let wide = app.state.sheet.filter(|sheet| matches!(sheet, Sheet::Goniophotometer | Sheet::Import));
+    let room_for_scene =
+        app.state.sheet.is_none() || (app.state.sheet == Some(Sheet::Goniophotometer) && ui.available_width() > 900.0);
     // A sheet takes the scene's place: beside both the tiles would be too narrow to read.
     if app.state.settings.scene_open && room_for_scene {
         egui::Panel::right("scene")
@@ -63,7 +65,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .size_range(widths(ui, 250.0))
             .show(ui, |ui| scene::show(ui, &app.state, &mut commands));
     }
-    if let Some(sheet) = app.state.sheet.filter(|_| !wide) {
+    if let Some(sheet) = app.state.sheet.filter(|_| wide.is_none()) {
         egui::Panel::right("sheet")
             .frame(side)
             .default_size(330.0)
@@ -72,8 +74,8 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     }
     let ground = egui::Frame::new().fill(theme::palette(ui).ground).inner_margin(theme::TILE_GAP);
     let centre = egui::CentralPanel::default();
-    if wide {
-        centre.frame(side).show(ui, |ui| sheets::show(ui, app, Sheet::Goniophotometer, &mut commands));
+    if let Some(sheet) = wide {
+        centre.frame(side).show(ui, |ui| sheets::show(ui, app, sheet, &mut commands));
     } else {
         centre.frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
     }

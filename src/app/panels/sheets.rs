@@ -34,10 +34,11 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         });
     });
     if sheet == Sheet::Import {
-        import::actions(ui, &app.state, commands);
+        // Its table scrolls by itself.
+        return import::show(ui, &app.state, commands);
     }
     ScrollArea::vertical().id_salt(title).auto_shrink([false, false]).show(ui, |ui| match sheet {
-        Sheet::Import => import::show(ui, &app.state, commands),
+        Sheet::Import => {}
         Sheet::Findings => match app.state.dataset.value.as_ref() {
             Some(dataset) => {
                 ui.strong(crate::app::title::selection(&app.state));
@@ -93,8 +94,12 @@ fn keys(ui: &mut Ui) {
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
         PathUse::Open => (
-            "Dataset (.xml, .btdf.txt), folder of datasets, package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop files on the window.",
+            "Dataset (.xml, .btdf.txt), folder or archive of datasets (.zip), package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop files on the window.",
             "Open",
+        ),
+        PathUse::ReplaceState => (
+            "Dataset of one state (.xml, .btdf.txt, .cfsd): its data take the place of those that are stored.",
+            "Replace",
         ),
         PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
         PathUse::ExportLid => (

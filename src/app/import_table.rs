@@ -1,0 +1,128 @@
+//! The import sheet's table: what its steps do.
+
+use super::arranging::rearranged;
+use super::import::{Import, Row};
+use super::import_steps::{Choose, Step};
+use super::jobs::Lane;
+use super::window::App;
+use crate::catalogue::Grouping;
+use std::collections::BTreeSet;
+
+impl Import {
+    fn choose(&mut self, rows: BTreeSet<Row>, how: Choose) {
+        let Some((&first, &last)) = rows.first().zip(rows.last()) else { return };
+        match how {
+            Choose::Only => self.selected = rows,
+            Choose::Also if rows.is_subset(&self.selected) => self.selected.retain(|row| !rows.contains(row)),
+            Choose::Also => self.selected.extend(rows),
+            Choose::UpTo => {
+                let from = self.shown.unwrap_or(first);
+                let (low, high) = (from.min(first), from.max(last));
+                self.selected = self.rows().filter(|row| (low..=high).contains(row)).collect();
+                // Where the range began stays, so that it can be changed.
+                return;
+            }
+        }
+        self.shown = Some(first);
+    }
+
+    fn states_of(&self, product: usize) -> BTreeSet<Row> {
+        self.rows().filter(|row| row.0 == product).collect()
+    }
+
+    /// The present arrangement as one by hand, without these files.
+    fn without(&self, files: &[String]) -> Vec<Vec<String>> {
+        let rest = |one: &super::import::Proposed| -> Vec<String> {
+            one.files.iter().filter(|file| !files.contains(file)).cloned().collect()
+        };
+        self.products.iter().filter(|one| !one.packed).map(rest).filter(|files| !files.is_empty()).collect()
+    }
+}
+
+impl App {
+    /// Does one thing with the table.
+    pub(super) fn import_step(&mut self, step: Step) {
+        let Some(import) = &mut self.state.import else { return };
+        match step {
+            Step::Choose(row, how) => import.choose(BTreeSet::from([row]), how),
+            Step::ChooseProduct(product, how) => import.choose(import.states_of(product), how),
+            Step::ChooseAll => {
+                let all: BTreeSet<Row> = import.rows().collect();
+                import.selected = if import.selected == all { BTreeSet::new() } else { all };
+            }
+            Step::Fold(product) => {
+                if !import.folded.remove(&product) {
+                    import.folded.insert(product);
+                }
+            }
+            Step::Together | Step::Apart => {
+                let files = import.files_of_selected();
+                let mut groups = import.without(&files);
+                import.answered.extend(files.iter().cloned());
+                match step {
+                    Step::Together => groups.push(files),
+                    _ => groups.extend(files.into_iter().map(|file| vec![file])),
+                }
+                self.arrange_by_hand(groups);
+            }
+            Step::StatesOf(product) => {
+                let Some(target) = import.products.get(product).filter(|one| !one.packed) else { return };
+                let mut files = target.files.clone();
+                let more = import.files_of_selected();
+                files.extend(more.into_iter().filter(|file| !target.files.contains(file)));
+                let mut groups = import.without(&files);
+                import.answered.extend(files.iter().cloned());
+                groups.push(files);
+                self.arrange_by_hand(groups);
+            }
+            Step::Name((product, state), words) => {
+                if let Some(place) = import.products.get_mut(product).and_then(|one| one.states.get_mut(state)) {
+                    *place = words;
+                }
+            }
+            Step::Word(word, text) => {
+                for product in import.selected_products() {
+                    if let Some(one) = import.products.get_mut(product) {
+                        word.of(&mut one.fields).clone_from(&text);
+                    }
+                }
+            }
+            Step::Settle(product) => {
+                if let Some(one) = import.products.get_mut(product) {
+                    one.doubt = None;
+                    import.answered.extend(one.files.iter().cloned());
+                }
+            }
+            Step::SettleAll => {
+                for one in &mut import.products {
+                    if one.doubt.take().is_some() {
+                        import.answered.extend(one.files.iter().cloned());
+                    }
+                }
+            }
+        }
+    }
+
+    /// Makes products of these groups of files, in the background.
+    fn arrange_by_hand(&mut self, groups: Vec<Vec<String>>) {
+        if let Some(import) = &mut self.state.import {
+            import.by_hand = Some(groups);
+            self.arrange();
+        }
+    }
+
+    /// Takes the files for other products.
+    pub(super) fn group_import(&mut self, grouping: Grouping) {
+        let Some(import) = &mut self.state.import else { return };
+        if import.grouping != grouping || import.by_hand.is_some() {
+            (import.grouping, import.by_hand) = (grouping, None);
+            self.arrange();
+        }
+    }
+
+    fn arrange(&mut self) {
+        let Some(import) = self.state.import.clone() else { return };
+        let shelf = self.state.shelf();
+        self.start(Lane::Import, move |job| rearranged(import, shelf.as_deref(), job));
+    }
+}

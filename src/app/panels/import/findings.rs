@@ -1,0 +1,103 @@
+//! What the checks say about datasets, with repairs to try, and the picture by which one sees whether they lie as they should.
+
+use crate::app::theme;
+use crate::compute::btdf::{Btdf, Dataset, Severity};
+use crate::compute::direction::{Dir, Incident};
+use crate::compute::doctor::{Diagnosis, Repair, Ways, examine};
+use egui::{Color32, Sense, Stroke, Ui, Vec2};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::sync::Arc;
+
+/// A number of things in words.
+pub(super) fn plural(count: usize, word: &str) -> String {
+    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
+}
+
+/// How many findings there are of each severity, the worst first: `1 error, 2 warnings`; empty without any.
+pub(super) fn counts(list: &[Diagnosis]) -> String {
+    let of = |severity: Severity| list.iter().filter(|one| one.finding.severity == severity).count();
+    let words = [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Info, "note")];
+    let words = words.into_iter().map(|(severity, word)| (of(severity), word)).filter(|(count, _)| *count > 0);
+    let words: Vec<String> = words.map(|(count, word)| plural(count, word)).collect();
+    words.join(", ")
+}
+
+/// The worst of them.
+pub(super) fn worst(list: &[Diagnosis]) -> Option<Severity> {
+    list.iter().map(|one| one.finding.severity).max()
+}
+
+/// What the doctor says about the selected dataset; asked once a dataset, not once a frame.
+pub(in crate::app::panels) fn of_selection(ui: &mut Ui, dataset: &Arc<Dataset>) {
+    type Examined = Arc<(usize, Vec<Diagnosis>)>;
+    let (id, place) = (egui::Id::unique("examined"), Arc::as_ptr(dataset) as usize);
+    let kept: Option<Examined> = ui.data(|data| data.get_temp(id));
+    let examined = match kept.filter(|kept| kept.0 == place) {
+        Some(kept) => kept,
+        None => {
+            let made: Examined = Arc::new((place, examine(dataset)));
+            ui.data_mut(|data| data.insert_temp(id, made.clone()));
+            made
+        }
+    };
+    diagnoses(ui, &examined.1, &[], |_| {});
+}
+
+/// Findings with their meaning, and a button for every repair that is offered and not yet made.
+pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnMut(Repair)) {
+    let palette = theme::palette(ui);
+    if list.is_empty() {
+        ui.label("The checks have nothing to say.");
+    }
+    for severity in [Severity::Error, Severity::Warning, Severity::Info] {
+        for Diagnosis { finding, meaning, repair, sure } in list.iter().filter(|one| one.finding.severity == severity) {
+            let colour = match severity {
+                Severity::Error => palette.error,
+                Severity::Warning => palette.warning,
+                Severity::Info => palette.weak,
+            };
+            ui.add_space(4.0);
+            ui.colored_label(colour, severity.word());
+            ui.add(egui::Label::new(&finding.message).wrap());
+            if severity != Severity::Info && !meaning.is_empty() {
+                ui.add(egui::Label::new(egui::RichText::new(*meaning).color(palette.weak)).wrap());
+            }
+            if let Some(repair) = repair.filter(|repair| !made.contains(repair)) {
+                // The same repair may be offered by several findings.
+                let button = ui.push_id((finding.code, repair), |ui| ui.button(repair.label())).inner;
+                let tip = if *sure {
+                    "Beyond doubt. Nothing is stored yet, and it can be undone"
+                } else {
+                    "A question: only if it is so for the product. Try it: nothing is stored, and it can be undone"
+                };
+                if button.on_hover_text(tip).clicked() {
+                    ask(repair);
+                }
+            }
+        }
+    }
+}
+
+/// The section through a window with the sun 45° above outside, on the left, and arrows into the room as long as their
+/// shares of the light.
+pub(super) fn picture(ui: &mut Ui, btdf: &Btdf, sentence: &str) {
+    let Some(ways) = Ways::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2))) else { return };
+    let (response, painter) = ui.allocate_painter(Vec2::new(120.0, 72.0), Sense::hover());
+    let palette = theme::palette(ui);
+    let line: Color32 = ui.visuals().text_color();
+    let middle = response.rect.center();
+    painter.line_segment([middle - Vec2::Y * 34.0, middle + Vec2::Y * 34.0], Stroke::new(3.0, palette.weak));
+    painter.arrow(middle + Vec2::new(-30.0, -30.0), Vec2::new(27.0, 27.0), Stroke::new(2.0, line));
+    for (share, y) in [(ways.up, -1.0), (1.0 - ways.up, 1.0)] {
+        let length = 32.0 * share as f32;
+        if length > 1.0 {
+            painter.arrow(
+                middle + Vec2::new(3.0, 0.0),
+                Vec2::new(length, y * length),
+                Stroke::new(2.0, palette.warning),
+            );
+        }
+    }
+    response.on_hover_text("Section: outside on the left; if it is not so, up and down or the sides are exchanged");
+    ui.add(egui::Label::new(sentence).wrap());
+}

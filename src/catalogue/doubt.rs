@@ -1,0 +1,113 @@
+//! What cannot be told from files alone, so that the user is asked: whether they are states of one product.
+
+use super::numbered::Pattern;
+use super::source_file::SourceFile;
+
+/// A question about a product that files make.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Doubt {
+    /// Taken for states of one product because of numbers in the names of files, and for nothing else.
+    NumbersAlone,
+    /// Kept apart, though names differ from those of these other files by a number alone.
+    PerhapsStates(Vec<String>),
+}
+
+impl Doubt {
+    /// The question in one sentence.
+    pub fn question(&self) -> String {
+        match self {
+            Self::NumbersAlone => {
+                "Are these states of one product? Only the numbers in the names of the files say so".to_owned()
+            }
+            Self::PerhapsStates(others) => {
+                let shown: Vec<&str> = others.iter().take(3).map(String::as_str).collect();
+                let more = if others.len() > 3 { format!(" and {} more", others.len() - 3) } else { String::new() };
+                format!(
+                    "Is it a state of one product with {}{more}? The names differ by a number alone",
+                    shown.join(", ")
+                )
+            }
+        }
+    }
+}
+
+/// Beginnings of words that only systems with moving parts have in their names.
+const MOVING: [&str; 9] = ["blind", "venet", "slat", "lamel", "jalous", "raff", "louv", "persian", "shutter"];
+
+/// Do the words of a text speak of slats?
+pub(super) fn speaks_of_slats(text: &str) -> bool {
+    let text = text.to_lowercase();
+    text.split(|c: char| !c.is_alphabetic())
+        .any(|word| word == "ven" || MOVING.iter().any(|known| word.starts_with(known)))
+}
+
+/// How much light a file's system lets through.
+fn light(file: &SourceFile) -> Option<f64> {
+    let [dataset] = file.datasets.as_slice() else { return None };
+    let visible = &dataset.visible;
+    visible.transmission_front.as_ref().or(visible.transmission_back.as_ref()).map(|btdf| btdf.tau_hemispherical())
+}
+
+/// What light does as slats turn away from the horizontal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Trend {
+    /// From step to step less of it comes through, as between slats.
+    Falls,
+    /// From step to step more, as through cloth of more and more openness.
+    Rises,
+    Neither,
+}
+
+fn trend(files: &[&SourceFile], family: &[(usize, f64)]) -> Trend {
+    let mut steps: Vec<(f64, f64)> = Vec::new();
+    for (place, angle) in family {
+        let Some(light) = light(files[*place]) else { return Trend::Neither };
+        steps.push((angle.abs(), light));
+    }
+    steps.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Anything less than a hundredth may be noise.
+    let (first, last) = (steps.first().map_or(0.0, |step| step.1), steps.last().map_or(0.0, |step| step.1));
+    let all = |holds: fn(f64, f64) -> bool| steps.windows(2).all(|pair| holds(pair[0].1, pair[1].1));
+    if last < 0.9 * first && all(|a, b| b <= a + 0.01) {
+        Trend::Falls
+    } else if last > 1.1 * first && all(|a, b| b >= a - 0.01) {
+        Trend::Rises
+    } else {
+        Trend::Neither
+    }
+}
+
+/// Do the names that the files give their products hold the same angles, and differ by them?
+fn told_inside(files: &[&SourceFile], family: &[(usize, f64)]) -> bool {
+    let names: Vec<&str> =
+        family.iter().map(|(place, _)| files[*place].datasets.first().map_or("", |one| one.name.as_str())).collect();
+    let holds = |name: &str, angle: f64| {
+        let pattern = Pattern::of(name);
+        let own = pattern.numbers.iter().enumerate().filter(|(number, _)| !pattern.other.contains(number));
+        own.map(|(_, value)| *value).any(|value| value.abs() == angle.abs())
+    };
+    let all = names.iter().zip(family).all(|(name, (_, angle))| *angle == 0.0 || holds(name, *angle));
+    all && names.iter().any(|name| *name != names[0])
+}
+
+/// Does anything beside numbers in their names say that files are states of one product? `skeleton`: what the names have
+/// in common; `marked`: a word in them calls the number an angle.
+pub(super) fn confirmed(files: &[&SourceFile], family: &[(usize, f64)], skeleton: &str, marked: bool) -> bool {
+    let moving = |place: usize| {
+        let file = files[place];
+        let named = file.datasets.iter().any(|dataset| speaks_of_slats(&dataset.name));
+        named || speaks_of_slats(&file.fields.kind) || file.fields.tags.iter().any(|tag| speaks_of_slats(tag))
+    };
+    // Only what turns has negative numbers.
+    let signed = family.iter().any(|(_, angle)| *angle < 0.0);
+    let spoken = speaks_of_slats(skeleton) || family.iter().all(|(place, _)| moving(*place));
+    let inside = || spoken || told_inside(files, family);
+    marked
+        || signed
+        || match trend(files, family) {
+            Trend::Falls => family.len() > 2 || inside(),
+            // Roller blinds are blinds too, and their openness is a number.
+            Trend::Rises => false,
+            Trend::Neither => inside(),
+        }
+}

@@ -1,0 +1,195 @@
+//! States of products that are stored: other names and angles, other data; and products as they were before.
+
+use super::history::{forget, note, paths_of, set_paths};
+use super::record::{Record, prepare};
+use super::store::{delete, insert, read_product, read_record};
+use super::{Catalogue, CatalogueError, NewProduct, Product, StateName};
+use crate::compute::btdf::Dataset;
+use rusqlite::Transaction;
+
+/// A product with its data as it was at one moment; [`Catalogue::put_back`] makes it so again.
+#[derive(Debug, Clone)]
+pub struct Snapshot(Record);
+
+impl Snapshot {
+    /// The product.
+    pub const fn product(&self) -> &Product {
+        &self.0.product
+    }
+
+    /// Contents of its states as they were read, see [`super::content_of`]; empty where they are not known.
+    pub fn contents(&self) -> &[String] {
+        &self.0.contents
+    }
+}
+
+/// Other data for a state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replacement {
+    /// Key of the state.
+    pub state: String,
+    /// Its data, as they are to be kept.
+    pub dataset: Dataset,
+    /// What was read, see [`super::content_of`].
+    pub content: String,
+    /// Name of the file.
+    pub file: String,
+}
+
+/// The user's own product of a key.
+fn own(tx: &Transaction<'_>, key: &str) -> Result<Record, CatalogueError> {
+    super::subscribed::refuse_subscribed(tx, key)?;
+    if read_product(tx, key)?.builtin {
+        return Err(CatalogueError::BuiltInWords(key.to_owned()));
+    }
+    let mut record = read_record(tx, key)?;
+    record.paths = paths_of(tx, key)?;
+    Ok(record)
+}
+
+/// Writes a product in place of the one that has its key.
+fn put(tx: &Transaction<'_>, record: &Record) -> Result<(), CatalogueError> {
+    let key = &record.product.key;
+    let rank: i64 = tx.query_row("SELECT rank FROM product WHERE key = ?", [key], |row| row.get(0))?;
+    // Without the sweep: data that stay would go and have to come again.
+    tx.execute("DELETE FROM product WHERE key = ?", [key])?;
+    insert(tx, record, rank)?;
+    set_paths(tx, key, &record.paths)?;
+    super::store::sweep(tx)
+}
+
+fn tau(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"))
+}
+
+impl Catalogue {
+    /// A product of the user's as it is now.
+    ///
+    /// # Errors
+    /// No such product, or one that is not the user's own.
+    pub fn snapshot(&mut self, key: &str) -> Result<Snapshot, CatalogueError> {
+        let tx = self.change()?;
+        Ok(Snapshot(own(&tx, key)?))
+    }
+
+    /// Makes a product what it was, data and all.
+    ///
+    /// # Errors
+    /// The product is gone.
+    pub fn put_back(&mut self, snapshot: &Snapshot) -> Result<(), CatalogueError> {
+        let key = &snapshot.0.product.key;
+        let tx = self.change()?;
+        own(&tx, key)?;
+        put(&tx, &snapshot.0)?;
+        note(&tx, key, "The last change was taken back")?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Other names and angles of a product's states, in their order. Keys stay, so that scenes go on finding them.
+    ///
+    /// # Errors
+    /// Not the user's own product; another number of states.
+    pub fn name_states(&mut self, key: &str, names: &[StateName]) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        let mut record = own(&tx, key)?;
+        let states = &mut record.product.states;
+        if names.len() != states.len() {
+            return Err(CatalogueError::Import(format!(
+                "{} names for {} states of \"{key}\"",
+                names.len(),
+                states.len()
+            )));
+        }
+        let mut told = Vec::new();
+        for (state, name) in states.iter_mut().zip(names) {
+            let label = if name.label.trim().is_empty() { state.key.as_str() } else { name.label.trim() };
+            let angle = |value: Option<f64>| value.map_or_else(|| "no angle".to_owned(), |value| format!("{value}°"));
+            if state.label != label {
+                told.push(format!("state {}: “{}” became “{label}”", state.key, state.label));
+            }
+            if state.value != name.value {
+                told.push(format!("state {}: {} became {}", state.key, angle(state.value), angle(name.value)));
+            }
+            (state.label, state.value) = (label.to_owned(), name.value);
+        }
+        if !told.is_empty() {
+            put(&tx, &record)?;
+            note(&tx, key, &told.join("; "))?;
+        }
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Other data for some states of a product, all in one step. Names and angles stay.
+    ///
+    /// # Errors
+    /// Not the user's own product, no such state, or data that cannot be stored; then nothing changes.
+    pub fn replace_states(&mut self, key: &str, list: &[Replacement]) -> Result<(), CatalogueError> {
+        let mut fresh = Vec::new();
+        for one in list {
+            let dataset = Dataset { state: one.state.clone(), ..one.dataset.clone() };
+            let meta =
+                NewProduct { name: key.to_owned(), contents: vec![one.content.clone()], ..NewProduct::default() };
+            fresh.push(prepare(&[dataset], meta)?);
+        }
+        let tx = self.change()?;
+        let mut record = own(&tx, key)?;
+        let mut told = Vec::new();
+        for (one, new) in list.iter().zip(fresh) {
+            let product = &mut record.product;
+            let Some(place) = product.states.iter().position(|state| state.key == one.state) else {
+                return Err(CatalogueError::NoState {
+                    product: key.to_owned(),
+                    what: format!("no state \"{}\"", one.state),
+                    states: product.states.iter().map(|s| format!("\"{}\"", s.key)).collect::<Vec<_>>().join(", "),
+                });
+            };
+            let old = &product.states[place];
+            let Some(new_state) = new.product.states.into_iter().next() else { continue };
+            let named = if one.state.is_empty() { String::new() } else { format!(" of state {}", one.state) };
+            told.push(format!(
+                "data{named} replaced by {}: τ {} became {}",
+                one.file,
+                tau(old.tau_hemispherical),
+                tau(new_state.tau_hemispherical)
+            ));
+            let state = super::State { label: old.label.clone(), value: old.value, ..new_state };
+            product.states[place] = state;
+            product.findings.retain(|finding| finding.state != one.state);
+            product.findings.extend(new.product.findings);
+            // What was computed from a description is so no longer.
+            product.system.clear();
+            // Not those files' any more: found by its content alone from now on.
+            product.provenance.source_hash.clear();
+            if let Some(content) = record.contents.get_mut(place) {
+                content.clone_from(&one.content);
+            }
+            record.datasets.extend(new.datasets);
+        }
+        put(&tx, &record)?;
+        note(&tx, key, &told.join("; "))?;
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// Takes products of the user's out for good, all in one step.
+    ///
+    /// # Errors
+    /// One that is not there, or not the user's own; then all stay.
+    pub fn remove_products(&mut self, keys: &[String]) -> Result<(), CatalogueError> {
+        let tx = self.change()?;
+        for key in keys {
+            if read_product(&tx, key)?.builtin {
+                return Err(CatalogueError::BuiltIn(key.clone()));
+            }
+            super::subscribed::refuse_subscribed(&tx, key)?;
+            tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
+            super::sight::bring_back(&tx, key)?;
+            forget(&tx, key)?;
+            delete(&tx, key)?;
+        }
+        tx.commit()?;
+        Ok(())
+    }
+}

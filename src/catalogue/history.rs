@@ -1,0 +1,64 @@
+//! What happened to products, and which files they came from.
+
+use super::{Catalogue, CatalogueError};
+use rusqlite::{Connection, Transaction};
+
+/// Something that happened to a product.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Event {
+    /// When: UTC, `YYYY-MM-DDThh:mm:ssZ`.
+    pub at: String,
+    /// What, in a sentence.
+    pub what: String,
+}
+
+/// Writes down what happens to a product, with the change itself.
+pub(super) fn note(tx: &Transaction<'_>, key: &str, what: &str) -> Result<(), CatalogueError> {
+    tx.prepare_cached(
+        "INSERT INTO history (product_key, at, what) VALUES (?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?)",
+    )?
+    .execute([key, what])?;
+    Ok(())
+}
+
+/// Forgets a product that is gone for good: another one may get its key.
+pub(super) fn forget(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
+    tx.execute("DELETE FROM history WHERE product_key = ?", [key])?;
+    tx.execute("DELETE FROM source WHERE product_key = ?", [key])?;
+    Ok(())
+}
+
+/// Writes down from which files a product was read.
+pub(super) fn set_paths(tx: &Transaction<'_>, key: &str, paths: &[String]) -> Result<(), CatalogueError> {
+    tx.execute("DELETE FROM source WHERE product_key = ?", [key])?;
+    for (position, path) in paths.iter().enumerate() {
+        tx.prepare_cached("INSERT INTO source VALUES (?, ?, ?)")?.execute((key, position as i64, path))?;
+    }
+    Ok(())
+}
+
+pub(super) fn paths_of(db: &Connection, key: &str) -> Result<Vec<String>, CatalogueError> {
+    let mut ask = db.prepare_cached("SELECT path FROM source WHERE product_key = ? ORDER BY position")?;
+    Ok(ask.query_map([key], |row| row.get(0))?.collect::<Result<_, _>>()?)
+}
+
+impl Catalogue {
+    /// What happened to a product, the last first.
+    ///
+    /// # Errors
+    /// No such product.
+    pub fn history(&self, key: &str) -> Result<Vec<Event>, CatalogueError> {
+        self.product(key)?;
+        let mut ask = self.db.prepare_cached("SELECT at, what FROM history WHERE product_key = ? ORDER BY id DESC")?;
+        let row = |row: &rusqlite::Row<'_>| Ok(Event { at: row.get(0)?, what: row.get(1)? });
+        Ok(ask.query_map([key], row)?.collect::<Result<_, _>>()?)
+    }
+
+    /// Paths of the files that a product was read from; empty where they are not known.
+    ///
+    /// # Errors
+    /// Of SQLite.
+    pub fn source_paths(&self, key: &str) -> Result<Vec<String>, CatalogueError> {
+        paths_of(&self.db, key)
+    }
+}

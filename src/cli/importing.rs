@@ -1,0 +1,174 @@
+//! `cfs catalogue import`: files, folders, archives and packages into the catalogue.
+
+use super::output::print;
+use crate::catalogue::{Catalogue, Gathered, Grouping, SourceFile, Stored, content_of, gather};
+use crate::compute::btdf::Dataset;
+use crate::compute::estimate::Silent;
+use crate::compute::wavelet::Criterion;
+use crate::study::compact::{Storage, stored_as, stored_by_default};
+use crate::study::intake::{Taken, take_in};
+use anyhow::{anyhow, bail};
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `cfs catalogue import`.
+#[derive(Debug, clap::Args)]
+pub struct ImportArgs {
+    /// Dataset files, packages (.cfsp), folders and zip archives of them.
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Name of the product; the file's own by default. Makes one product of all files.
+    #[arg(long, default_value = "")]
+    pub name: String,
+    /// Maker; the file's own by default.
+    #[arg(long, default_value = "")]
+    pub manufacturer: String,
+    /// Kind, e.g. venetian.
+    #[arg(long, default_value = "")]
+    pub kind: String,
+    /// Word to find it by; may be given several times.
+    #[arg(long = "tag")]
+    pub tags: Vec<String>,
+    /// Which files are states of one product
+    #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
+    pub group: Group,
+    /// How values are kept; by default without loss below 1 MB, else as `archive`.
+    #[arg(long, value_enum)]
+    pub compact: Option<Compactness>,
+}
+
+/// Which files are states of one product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Group {
+    /// Those that differ by an angle alone, by their names or by what they say of themselves
+    #[default]
+    Angles,
+    /// None: each file is a product
+    Each,
+    /// All of them
+    One,
+}
+
+impl Group {
+    const fn grouping(self) -> Grouping {
+        match self {
+            Self::Angles => Grouping::Proposed,
+            Self::Each => Grouping::Each,
+            Self::One => Grouping::One,
+        }
+    }
+}
+
+/// How the values of indicatrices are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Compactness {
+    /// At most 0.5 % of the flux of any indicatrix misplaced
+    Archive,
+    /// At most 1.5 % of the flux of any indicatrix misplaced
+    Normal,
+    /// Every value, rounded to 7 digits
+    Lossless,
+}
+
+/// What was asked for beside what the files say; a product without a name takes the first file's, which is told.
+fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
+    let meta = &mut product.meta;
+    let over = |told: &mut String, asked: &String| {
+        if !asked.is_empty() {
+            told.clone_from(asked);
+        }
+    };
+    over(&mut meta.name, &args.name);
+    over(&mut meta.manufacturer, &args.manufacturer);
+    over(&mut meta.kind, &args.kind);
+    meta.tags.extend(args.tags.iter().cloned());
+    if meta.name.is_empty() {
+        meta.name.clone_from(&product.file_stem);
+        eprintln!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
+    }
+    product
+}
+
+/// A dataset in the form that the catalogue is to keep.
+fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
+    let storage = match args.compact {
+        None => return Ok(stored_by_default(dataset)),
+        Some(Compactness::Lossless) => Storage::Lossless,
+        Some(Compactness::Archive) => Storage::Compact(Criterion::ARCHIVE),
+        Some(Compactness::Normal) => Storage::Compact(Criterion::NORMAL),
+    };
+    stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
+}
+
+/// Says what was not taken, and what is not certain.
+fn tell(taken: &Taken) -> anyhow::Result<()> {
+    if let Some((single, path)) = taken.singles.first() {
+        bail!(
+            "{}: {}; expected dataset files, packages, folders or zip archives of them",
+            path.display(),
+            single.words()
+        );
+    }
+    for reason in &taken.left_out {
+        eprintln!("note: left out: {reason}");
+    }
+    for failure in &taken.failures {
+        eprintln!("warning: not read: {failure}");
+    }
+    let mut seen: HashMap<&str, &str> = HashMap::new();
+    for file in &taken.sources {
+        if let Some(other) = seen.insert(&file.content, &file.name).filter(|_| !file.content.is_empty()) {
+            eprintln!("note: {}: the same data as {other}", file.name);
+        }
+    }
+    Ok(())
+}
+
+/// Adds what files, folders and archives hold, in one step.
+pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
+    // Everything is read before anything is stored.
+    let taken = take_in(&args.files, SourceFile::read, &Silent);
+    let several = |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("zip"));
+    // One bad file among many does not stop the others; one that was asked for by name does.
+    if let Some(failure) = taken.failures.first().filter(|_| !args.files.iter().any(several)) {
+        bail!("{failure}");
+    }
+    tell(&taken)?;
+    if args.compact.is_some() && !taken.packed.is_empty() {
+        bail!("--compact is for dataset files; a package keeps the form that its data have");
+    }
+    let mut list = Vec::new();
+    let paths: HashMap<String, String> = taken
+        .sources
+        .iter()
+        .map(|file| (file.name.clone(), Path::new(&file.folder).join(&file.name).display().to_string()))
+        .collect();
+    for product in gather(taken.sources, if args.name.is_empty() { args.group.grouping() } else { Grouping::One }) {
+        let mut product = described(args, product);
+        if let Some(doubt) = &product.doubt {
+            eprintln!("question: {}: {} (--group each, or one, answers)", product.meta.name, doubt.question());
+        }
+        product.meta.contents = product.datasets.iter().map(content_of).collect();
+        product.meta.paths = product.sources.iter().filter_map(|name| paths.get(name).cloned()).collect();
+        let datasets = product.datasets.iter().map(|d| kept(args, d)).collect::<anyhow::Result<_>>()?;
+        list.push((datasets, product.meta));
+    }
+    list.extend(taken.packed.into_iter().map(|one| (one.datasets, one.meta)));
+    if list.is_empty() {
+        bail!("nothing to import; expected dataset files (.xml, .btdf.txt, .cfsd) or packages (.cfsp)");
+    }
+    let mut text = String::new();
+    for Stored { imported: product, .. } in catalogue.import_all(list)? {
+        writeln!(text, "{}", product.key)?;
+        if product.same_content_as == [product.key.as_str()] {
+            eprintln!("note: {} is there already, the same; left as it is", product.key);
+        } else if !product.same_content_as.is_empty() {
+            eprintln!("note: the same data are already in {}", product.same_content_as.join(", "));
+        }
+        for finding in catalogue.product(&product.key)?.findings {
+            eprintln!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
+        }
+    }
+    print(&text)
+}

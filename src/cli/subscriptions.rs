@@ -1,0 +1,74 @@
+//! `cfs catalogue subscribe`, `unsubscribe` and `subscriptions`: folders of packages as further catalogues.
+
+use super::output::print;
+use crate::catalogue::Catalogue;
+use crate::compute::estimate::Silent;
+use crate::study::subscriptions::{folder_of, sync};
+use serde_json::json;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Arguments of `cfs catalogue subscribe`.
+#[derive(Debug, clap::Args)]
+pub struct SubscribeArgs {
+    /// A folder of packages (.cfsp), e.g. on a file share.
+    pub folder: PathBuf,
+}
+
+/// Arguments of `cfs catalogue unsubscribe`.
+#[derive(Debug, clap::Args)]
+pub struct UnsubscribeArgs {
+    /// The folder, as `cfs catalogue subscriptions` lists it.
+    pub folder: PathBuf,
+}
+
+/// Arguments of `cfs catalogue subscriptions`.
+#[derive(Debug, clap::Args)]
+pub struct SubscriptionsArgs {
+    /// A JSON object instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Reads all folders anew, and says what changed and what is wrong.
+fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
+    let report = sync(catalogue, &Silent)?;
+    for problem in &report.problems {
+        eprintln!("warning: {problem}");
+    }
+    if report.taken + report.gone > 0 {
+        eprintln!("note: {} products came or changed, {} went", report.taken, report.gone);
+    }
+    Ok(())
+}
+
+/// Subscribes to a folder, and takes its products in.
+pub(super) fn subscribe(catalogue: &mut Catalogue, args: &SubscribeArgs) -> anyhow::Result<()> {
+    let folder = folder_of(&args.folder).map_err(anyhow::Error::msg)?;
+    catalogue.subscribe(&folder)?;
+    renewed(catalogue)?;
+    print(&format!("{folder}\n"))
+}
+
+/// Ends a subscription, also to a folder that is away.
+pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> anyhow::Result<()> {
+    let folder = folder_of(&args.folder).unwrap_or_else(|_| args.folder.display().to_string());
+    let gone = catalogue.unsubscribe(&folder)?;
+    eprintln!("note: {gone} products went");
+    Ok(())
+}
+
+/// Lists the folders, after reading them anew.
+pub(super) fn list(catalogue: &mut Catalogue, args: &SubscriptionsArgs) -> anyhow::Result<()> {
+    renewed(catalogue)?;
+    let list = catalogue.subscriptions()?;
+    if args.json {
+        let rows: Vec<_> = list.iter().map(|one| json!({"folder": one.folder, "products": one.products})).collect();
+        return print(&(serde_json::to_string_pretty(&rows)? + "\n"));
+    }
+    let mut text = String::from("products  folder\n");
+    for one in list {
+        writeln!(text, "{:>8}  {}", one.products, one.folder)?;
+    }
+    print(&text)
+}

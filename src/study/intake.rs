@@ -1,0 +1,363 @@
+//! Taking in files: folders, zip archives, packages and single files, each for what it is.
+
+use super::files;
+use crate::catalogue::{NewProduct, SourceFile, unpack};
+use crate::compute::btdf::Dataset;
+use crate::compute::estimate::Progress;
+use crate::formats::luminaire::Luminaire;
+use crate::formats::system_toml::is_system_file;
+use crate::formats::{Format, FormatError, archive, eulumdat, ies};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+/// Most files that are read of a folder.
+const MOST_FILES: usize = 2000;
+/// Folders within folders that are looked into.
+const DEPTH: usize = 6;
+/// Most bytes that all archives together may unpack to.
+const MOST_UNPACKED: u64 = 1 << 30;
+
+/// Reads the datasets of a file: name and bytes.
+pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
+
+/// A file that is no dataset and is opened by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Single {
+    /// A description of a system.
+    System,
+    /// A scene.
+    Scene,
+    /// A control curve.
+    Curve,
+}
+
+impl Single {
+    /// What it is, in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::System => "a system",
+            Self::Scene => "a scene",
+            Self::Curve => "a control curve",
+        }
+    }
+}
+
+/// A product of a package.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Packed {
+    /// Name of the package, as messages name it.
+    pub package: String,
+    /// One a state.
+    pub datasets: Vec<Dataset>,
+    /// What the package tells about it.
+    pub meta: NewProduct,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Taken {
+    /// Dataset files, in order.
+    pub sources: Vec<SourceFile>,
+    /// Products of packages.
+    pub packed: Vec<Packed>,
+    /// Files that the user named and that are opened by themselves: the first of each kind.
+    pub singles: Vec<(Single, PathBuf)>,
+    /// Files that could not be read: file, place, what, what would be right.
+    pub failures: Vec<String>,
+    /// Files that are no datasets: file and reason.
+    pub left_out: Vec<String>,
+    /// It was stopped: not all files were read.
+    pub stopped: bool,
+}
+
+/// What a file is by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Dataset,
+    Package,
+    Archive,
+    Single(Single),
+    Luminaire,
+    Other,
+}
+
+impl Kind {
+    fn of(name: &str) -> Self {
+        let lower = name.to_ascii_lowercase();
+        let ends = |ending: &str| lower.ends_with(ending);
+        // A system's name ends like a scene's, so it is asked about first.
+        if is_system_file(name) {
+            Self::Single(Single::System)
+        } else if ends(".toml") {
+            Self::Single(Single::Scene)
+        } else if ends(".csv") {
+            Self::Single(Single::Curve)
+        } else if ends(".cfsp") {
+            Self::Package
+        } else if ends(".zip") {
+            Self::Archive
+        } else if [".ldt", ".ies", ".gldf", ".uld", ".rolf"].iter().any(|ending| ends(ending)) {
+            Self::Luminaire
+        } else if Format::from_name(name).is_some() || ends(".cfsd") {
+            Self::Dataset
+        } else {
+            Self::Other
+        }
+    }
+}
+
+/// A file and how it came to be looked at.
+struct Given {
+    /// On disk; of a file in an archive the archive's.
+    path: PathBuf,
+    /// The archive's bytes and the name in it.
+    within: Option<(Arc<Vec<u8>>, String)>,
+    /// What it is called in messages.
+    name: String,
+    /// Named by the user, not found in a folder or archive?
+    named: bool,
+}
+
+impl Given {
+    /// Its name without folders.
+    fn file_name(&self) -> &str {
+        self.name.rsplit(['/', '\\']).next().unwrap_or(&self.name)
+    }
+
+    /// Where it lies: files of one folder may be states of one product.
+    fn folder(&self) -> String {
+        let Some((_, entry)) = &self.within else {
+            return self.path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
+        };
+        let inner = entry.rsplit_once('/').map_or("", |(folder, _)| folder);
+        self.path.join(inner).display().to_string().trim_end_matches('/').to_owned()
+    }
+
+    fn bytes(&self, left: &AtomicU64) -> Result<Vec<u8>, String> {
+        let Some((archive, entry)) = &self.within else {
+            return files::read(&self.path).map_err(|error| error.to_string());
+        };
+        let told = |error: archive::ArchiveError| format!("{}: {error}", self.name);
+        let bytes = archive::read(archive, entry, left.load(Ordering::Relaxed)).map_err(told)?;
+        let taken = |left: u64| left.checked_sub(bytes.len() as u64);
+        match left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, taken) {
+            Ok(_) => Ok(bytes),
+            Err(_) => Err(format!("{}: the archives unpack to more than {} MB", self.name, MOST_UNPACKED >> 20)),
+        }
+    }
+}
+
+/// What reading one file gave.
+enum Read {
+    Source(Box<SourceFile>),
+    Packed(Vec<Packed>),
+    Failure(String),
+    LeftOut(String),
+    Stopped,
+}
+
+/// Files of the paths, folders and archives looked into; what is left out unread is told.
+struct Listing {
+    files: Vec<Given>,
+    left_out: Vec<String>,
+    failures: Vec<String>,
+    full: bool,
+}
+
+impl Listing {
+    fn of(paths: &[PathBuf], progress: &dyn Progress) -> Self {
+        let mut list = Self { files: Vec::new(), left_out: Vec::new(), failures: Vec::new(), full: false };
+        for path in paths {
+            if path.is_dir() {
+                let before = list.files.len() + list.left_out.len() + list.failures.len();
+                list.walk(path, path, DEPTH, progress);
+                if list.files.len() + list.left_out.len() + list.failures.len() == before {
+                    list.left_out.push(format!("{}: a folder without files", path.display()));
+                }
+            } else {
+                let name =
+                    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
+                list.add(Given { path: path.clone(), within: None, name, named: true });
+            }
+        }
+        if list.full {
+            list.left_out.push(format!("more than {MOST_FILES} files; the rest was not read"));
+        }
+        list
+    }
+
+    fn walk(&mut self, root: &Path, folder: &Path, depth: usize, progress: &dyn Progress) {
+        let relative = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string();
+        let entries = match std::fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) => return self.left_out.push(format!("{}: cannot be read ({error})", folder.display())),
+        };
+        let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        paths.sort();
+        for path in paths {
+            let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if hidden || self.full || progress.cancelled() {
+                continue;
+            }
+            // A link may lead back to where it lies.
+            let linked = std::fs::symlink_metadata(&path).is_ok_and(|meta| meta.is_symlink());
+            if !path.is_dir() {
+                self.add(Given { name: relative(&path), path, within: None, named: false });
+            } else if linked {
+                self.left_out.push(format!("{}: a link to a folder", relative(&path)));
+            } else if depth == 0 {
+                self.left_out.push(format!("{}: a folder more than {DEPTH} levels down", relative(&path)));
+            } else {
+                self.walk(root, &path, depth - 1, progress);
+            }
+        }
+    }
+
+    fn add(&mut self, file: Given) {
+        if self.files.len() >= MOST_FILES {
+            self.full = true;
+        } else if Kind::of(&file.name) == Kind::Archive {
+            self.unpack(&file);
+        } else {
+            self.files.push(file);
+        }
+    }
+
+    /// The files of an archive, or the archive itself where it is a package by another name.
+    fn unpack(&mut self, file: &Given) {
+        let bytes = match files::read(&file.path) {
+            Ok(bytes) => Arc::new(bytes),
+            Err(error) => return self.failures.push(error.to_string()),
+        };
+        let names = match archive::names(&bytes) {
+            Ok(names) => names,
+            Err(error) => return self.failures.push(format!("{}: {error}", file.name)),
+        };
+        if archive::holds_package(&names) {
+            let (path, name) = (file.path.clone(), format!("{}.cfsp", file.name));
+            return self.files.push(Given { path, within: None, name, named: file.named });
+        }
+        if names.is_empty() {
+            self.left_out.push(format!("{}: an archive without files", file.name));
+        }
+        for entry in names {
+            let name = format!("{}/{entry}", file.name);
+            if Kind::of(&name) == Kind::Archive {
+                self.left_out.push(format!("{name}: an archive in an archive; unpack it first"));
+            } else if self.files.len() >= MOST_FILES {
+                self.full = true;
+            } else {
+                let within = Some((bytes.clone(), entry));
+                self.files.push(Given { path: file.path.clone(), within, name, named: false });
+            }
+        }
+    }
+}
+
+/// What a luminaire file is, in words.
+fn luminaire(name: &str, bytes: &[u8]) -> String {
+    let lower = name.to_ascii_lowercase();
+    let (format, read): (_, Option<Result<Luminaire, FormatError>>) = if lower.ends_with(".ldt") {
+        ("EULUMDAT", Some(eulumdat::read(bytes)))
+    } else if lower.ends_with(".ies") {
+        ("IES LM-63", Some(ies::read(bytes)))
+    } else {
+        (lower.rsplit('.').next().unwrap_or_default(), None)
+    };
+    let who = match &read {
+        Some(Ok(luminaire)) => {
+            let text = &luminaire.text;
+            let words: Vec<&str> =
+                [text.name.trim(), text.manufacturer.trim()].into_iter().filter(|word| !word.is_empty()).collect();
+            if words.is_empty() { String::new() } else { format!(": {}", words.join(", ")) }
+        }
+        _ => String::new(),
+    };
+    format!("a luminaire ({format}){who}; not a façade system")
+}
+
+/// Is it XML whose root says that it is a luminaire?
+fn is_luminaire_xml(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(2048)];
+    head.windows(8).any(|window| window == b"<IESTM33")
+}
+
+fn read_one(file: &Given, left: &AtomicU64, read: ReadDataset) -> Read {
+    let name = &file.name;
+    let kind = Kind::of(name);
+    match kind {
+        Kind::Single(single) => return Read::LeftOut(format!("{name}: {}; open it by itself", single.words())),
+        Kind::Other if !file.named => {
+            return Read::LeftOut(format!("{name}: not a dataset (.xml, .btdf.txt, .cfsd)"));
+        }
+        _ => {}
+    }
+    let bytes = match file.bytes(left) {
+        Ok(bytes) => bytes,
+        Err(error) => return Read::Failure(error),
+    };
+    if kind == Kind::Luminaire {
+        return Read::LeftOut(format!("{name}: {}", luminaire(name, &bytes)));
+    }
+    if is_luminaire_xml(&bytes) {
+        return Read::LeftOut(format!("{name}: a luminaire (TM-33); not a façade system"));
+    }
+    if kind == Kind::Package {
+        let package = file.name.trim_end_matches(".zip.cfsp").to_owned();
+        return match unpack(&bytes) {
+            Ok(list) => {
+                let packed = |(datasets, meta)| Packed { package: package.clone(), datasets, meta };
+                Read::Packed(list.into_iter().map(packed).collect())
+            }
+            Err(error) => Read::Failure(format!("{name}: {error}")),
+        };
+    }
+    match read(file.file_name(), &bytes) {
+        Ok(source) => Read::Source(Box::new(SourceFile { folder: file.folder(), ..source })),
+        Err(error) => Read::Failure(format!("{name}: {error}")),
+    }
+}
+
+/// Takes in all that the paths lead to. Files that the user named may also be scenes, systems and control curves; files
+/// that were found in folders and archives count as datasets and packages alone, and others are told.
+pub fn take_in(paths: &[PathBuf], read: ReadDataset, progress: &dyn Progress) -> Taken {
+    let Listing { files, left_out, failures, .. } = Listing::of(paths, progress);
+    let mut taken = Taken { left_out, failures, ..Taken::default() };
+    let mut rest = Vec::new();
+    for file in files {
+        match Kind::of(&file.name) {
+            Kind::Single(single) if file.named => {
+                if taken.singles.iter().any(|(other, _)| *other == single) {
+                    taken.left_out.push(format!("{}: {}; one at a time is opened", file.name, single.words()));
+                } else {
+                    taken.singles.push((single, file.path));
+                }
+            }
+            _ => rest.push(file),
+        }
+    }
+    let (done, left) = (AtomicUsize::new(0), AtomicU64::new(MOST_UNPACKED));
+    let count = rest.len();
+    progress.advance("files", 0, count);
+    let each = |file: &Given| {
+        if progress.cancelled() {
+            return Read::Stopped;
+        }
+        let one = read_one(file, &left, read);
+        progress.advance("files", done.fetch_add(1, Ordering::Relaxed) + 1, count);
+        one
+    };
+    for one in rest.par_iter().map(each).collect::<Vec<Read>>() {
+        match one {
+            Read::Source(source) => taken.sources.push(*source),
+            Read::Packed(list) => taken.packed.extend(list),
+            // One bad file among many does not stop the others.
+            Read::Failure(text) => taken.failures.push(text),
+            Read::LeftOut(text) => taken.left_out.push(text),
+            Read::Stopped => taken.stopped = true,
+        }
+    }
+    taken
+}
