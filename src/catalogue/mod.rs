@@ -22,6 +22,7 @@ mod gather;
 mod grouping;
 mod index;
 mod keeping;
+mod like;
 mod open;
 mod product;
 mod query;
@@ -40,18 +41,20 @@ mod words;
 pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, TABLE, builtin_method, fingerprint, key_of_builtin};
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use connection::Catalogue;
-pub use described::{METHODS, control_curve, described_dataset, method, product_of};
+pub use described::{METHODS, control_curve, described_dataset, method, product_of, stated_error};
 pub use error::CatalogueError;
 pub use gather::{Gathered, gather};
 pub use grouping::Grouping;
 pub use index::{Facet, Facets, Found, Index};
 pub use keeping::{Deleted, Known, Words};
+pub use like::{Apart, Likeness};
 pub use open::default_path;
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,
     profile_transmittances,
 };
 pub use query::{Figure, Filter, Query, Sort, Within};
+pub use record::light;
 pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
 pub use rows::{ProductRow, Sought};
 pub use source_file::SourceFile;

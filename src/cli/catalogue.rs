@@ -3,6 +3,7 @@
 use crate::catalogue::{Catalogue, Gathered, Grouping, Imported, Product, SourceFile, gather};
 use crate::cli::builtin::{BuildArgs, build, provide};
 use crate::cli::keeping::{self, DeleteArgs, RenameArgs, RestoreArgs};
+use crate::cli::like::{LikeArgs, like};
 pub use crate::cli::listing::ListArgs;
 use crate::cli::listing::{figure, list};
 use crate::cli::output::print;
@@ -31,6 +32,8 @@ pub struct CatalogueArgs {
 pub enum Action {
     /// List products.
     List(ListArgs),
+    /// Products that do the same to light as this one, nearest first.
+    Like(LikeArgs),
     /// Everything about one product.
     Show(ShowArgs),
     /// Add dataset files or packages. Files whose names or contents differ by an angle alone are the states of one product;
@@ -144,6 +147,7 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
     match &args.action {
         Action::Build(args) => build(&mut open()?, args),
         Action::List(args) => list(&open()?, args),
+        Action::Like(args) => like(&open()?, args),
         Action::Show(args) => show(&open()?, args),
         Action::Import(args) => import(&mut open()?, args),
         Action::Rename(args) => keeping::rename(&mut open()?, args),

@@ -5,6 +5,7 @@ mod args;
 mod builtin;
 pub mod catalogue;
 pub mod compact;
+pub mod compare;
 pub mod control;
 pub mod convert;
 mod dataset_file;
@@ -12,6 +13,7 @@ pub mod goniophotometer;
 pub mod info;
 pub mod keeping;
 pub mod lid;
+pub mod like;
 pub mod listing;
 mod luminaire_info;
 mod output;
@@ -36,6 +38,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     match command {
         Command::Room(args) => room::run(args, &library),
         Command::Accuracy(args) => accuracy::run(args, &library),
+        Command::Compare(args) => compare::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Goniophotometer(args) => goniophotometer::run(args, &library),
