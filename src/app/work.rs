@@ -102,6 +102,7 @@ pub enum Outcome {
 }
 
 /// A part of what is known of a candidate.
+#[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
 pub enum Compared {
     /// Product, state and dataset, and sky and sun.
     Shelf(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),

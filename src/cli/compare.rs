@@ -2,7 +2,6 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
-use crate::drawing::ticks::number;
 use crate::study::comparison::{
     DataFacts, FIGURES, Facts, Row, Value, Verdict, candidate, compare, csv, facts, label, verdict_words,
 };
@@ -141,14 +140,6 @@ fn product(what: &str, library: &Library) -> anyhow::Result<(String, SystemKeys)
     ))
 }
 
-fn words(value: &Option<Value>) -> String {
-    match value {
-        None => "-".to_owned(),
-        Some(Value { value, error: Some(error) }) => format!("{} ± {}", number(*value, 4), number(*error, 2)),
-        Some(Value { value, error: None }) => number(*value, 4),
-    }
-}
-
 fn table(rows: &[Row], names: &[String]) -> String {
     let mut text = String::new();
     for (place, name) in names.iter().enumerate() {
@@ -167,7 +158,7 @@ fn table(rows: &[Row], names: &[String]) -> String {
             Verdict::Better(_) => format!("{} ({})", verdict_words(&row.verdict, &numbers), row.figure.sense.words()),
             other => verdict_words(other, &numbers),
         };
-        let values = row.values.iter().map(words);
+        let values = row.values.iter().map(|value| value.map_or_else(|| "-".to_owned(), Value::words));
         lines.push(std::iter::once(format!("{}{unit}", row.figure.name)).chain(values).chain([better]).collect());
     }
     let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);

@@ -171,7 +171,7 @@ fn a_comparison_under_way_is_told_and_stops_when_asked() {
     harness.state_mut().apply(Command::Compare(Act::Tile("Room")));
     step_until(&mut harness, "it is under way", |app| app.works_in(Lane::Compare));
     harness.step();
-    assert!(harness.query_by_label_contains("comparison").is_some(), "the status line says so");
+    assert!(harness.query_all_by_label_contains("comparison").count() > 0, "the status line says so");
     harness.state_mut().apply(Command::Cancel(Lane::Compare));
     harness.run_steps(3);
     assert!(!harness.state().busy() && harness.state().compare.stopped);
@@ -259,7 +259,7 @@ fn products_like_the_shown_one_are_listed_with_their_distance() {
     assert!(found.entries.iter().all(|entry| entry.key != "clear-double"));
     assert!(like.apart.windows(2).all(|pair| pair[0].distance <= pair[1].distance));
     // Glass is like glass.
-    assert_eq!(found.entries[0].kind, "pane", "{:?}", found.entries[0].name);
+    assert!(["pane", "stack"].contains(&found.entries[0].kind.as_str()), "{:?}", found.entries[0].name);
     harness.get_by_label_contains("No longer like").click();
     settle(&mut harness);
     assert!(harness.state().state.found.like.is_none());

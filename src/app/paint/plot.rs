@@ -251,8 +251,10 @@ fn entry(ui: &mut Ui, name: &str, (colour, dash): (Color32, Option<f32>), palett
     let y = rect.center().y;
     let (ends, stroke) = ([pos2(rect.left(), y), pos2(rect.left() + swatch - 4.0, y)], Stroke::new(3.0, colour));
     match dash {
-        Some(length) => drop(ui.painter().extend(Shape::dashed_line(&ends, stroke, 0.8 * length, 0.5 * length))),
-        None => drop(ui.painter().line_segment(ends, stroke)),
+        Some(length) => ui.painter().extend(Shape::dashed_line(&ends, stroke, 0.8 * length, 0.5 * length)),
+        None => {
+            ui.painter().line_segment(ends, stroke);
+        }
     }
     let ink = if response.hovered() || response.has_focus() { palette.first } else { palette.ink };
     ui.painter().galley_with_override_text_color(pos2(rect.left() + swatch, y - 0.5 * galley.size().y), galley, ink);

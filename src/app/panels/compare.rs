@@ -4,16 +4,17 @@ mod beside;
 mod curves;
 mod difference;
 mod figures;
+mod places;
 
 use crate::app::command::Command;
 use crate::app::compare::{Act, Look};
-use crate::app::compare_columns::Column;
-use crate::app::state::{State, Tile};
+use crate::app::state::State;
 use crate::app::theme;
 use crate::app::tiles::TILES;
 use crate::app::window::App;
 use crate::study::comparison::label;
-use egui::{Align, Key, Layout, Rect, RichText, TextEdit, Ui, UiBuilder, vec2};
+use egui::{Align, Key, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
+use places::short;
 
 /// Mean width of a letter in a chip. \[points\]
 const LETTER: f32 = 7.2;
@@ -21,14 +22,6 @@ const LETTER: f32 = 7.2;
 const LINE: f32 = 28.0;
 /// Size of what tells which one is shown. \[points\]
 const LARGE: f32 = 18.0;
-
-/// A name in at most so many letters.
-fn short(name: &str, most: usize) -> String {
-    if name.chars().count() <= most {
-        return name.to_owned();
-    }
-    name.chars().take(most.saturating_sub(1)).collect::<String>().trim_end().to_owned() + "…"
-}
 
 /// The tray, in one line.
 pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
@@ -181,54 +174,4 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             act(Act::Resume);
         }
     });
-}
-
-/// The tile that is compared.
-fn tile(state: &State) -> Option<Tile> {
-    TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == state.compare.tile())
-}
-
-/// Where tiles of so many candidates stand: side by side while each is wide enough, else in two rows.
-fn places(whole: Rect, count: usize) -> Vec<Rect> {
-    const GAP: f32 = 6.0;
-    let rows = if count > 3 && whole.width() / (count as f32) < 300.0 { 2 } else { 1 };
-    let columns = count.div_ceil(rows).max(1);
-    let size = vec2(
-        (whole.width() - GAP * (columns - 1) as f32) / columns as f32,
-        (whole.height() - GAP * (rows - 1) as f32) / rows as f32,
-    );
-    let place = |k: usize| vec2((k % columns) as f32 * (size.x + GAP), (k / columns) as f32 * (size.y + GAP));
-    (0..count).map(|k| Rect::from_min_size(whole.min + place(k), size)).collect()
-}
-
-/// What stands in place of a candidate's picture.
-fn missing(column: &Column) -> String {
-    column.error().map_or_else(|| "Computing…".to_owned(), str::to_owned)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use egui::pos2;
-
-    #[test]
-    fn tiles_of_candidates_fill_the_place_without_overlap() {
-        for width in [520.0, 900.0, 1700.0] {
-            let whole = Rect::from_min_size(pos2(10.0, 20.0), vec2(width, 500.0));
-            for count in 1..=6 {
-                let list = places(whole, count);
-                assert_eq!(list.len(), count);
-                for (k, one) in list.iter().enumerate() {
-                    assert!(whole.expand(0.01).contains_rect(*one), "{count} {one:?}");
-                    assert!(list[..k].iter().all(|other| !other.shrink(0.1).intersects(*one)));
-                }
-            }
-        }
-        assert_eq!(places(Rect::from_min_size(pos2(0.0, 0.0), vec2(900.0, 500.0)), 6)[3].left(), 0.0);
-    }
-
-    #[test]
-    fn names_are_shortened_with_a_sign() {
-        assert_eq!((short("Venetian", 8), short("Venetian blind", 8)), ("Venetian".to_owned(), "Venetia…".to_owned()));
-    }
 }

@@ -8,6 +8,7 @@ use crate::catalogue::{light, stated_error};
 use crate::compute::btdf::{Dataset, LightFigures};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::c_gamma::Peaks;
+use crate::drawing::ticks::number;
 
 /// A figure's value and how far it may be off, both in the figure's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,20 @@ pub struct Value {
 impl From<Estimate> for Value {
     fn from(Estimate { value, error }: Estimate) -> Self {
         Self { value, error: Some(error) }
+    }
+}
+
+impl Value {
+    /// With its error, both as far as two digits of the error reach.
+    pub fn words(self) -> String {
+        let Self { value, error } = self;
+        match error.filter(|error| *error > 0.0 && error.is_finite()) {
+            Some(error) => {
+                let decimals = (1 - error.log10().floor() as i32).clamp(0, 6) as usize;
+                format!("{value:.decimals$} ± {error:.decimals$}")
+            }
+            None => number(value, 4),
+        }
     }
 }
 
@@ -287,6 +302,13 @@ mod tests {
         is("share_300", 0.75, 0.25);
         is("uniformity", 290.0 / 349.25, (1.0 + 290.0 / 349.25 * 2.75) / 349.25);
         assert_eq!(of("flux", &facts), None);
+    }
+
+    #[test]
+    fn values_are_told_as_far_as_their_errors_reach() {
+        let of = |value, error| Value { value, error }.words();
+        assert_eq!((of(0.41234, Some(0.003)), of(12_345.6, Some(123.0))), ("0.4123 ± 0.0030".into(), "12346 ± 123".into()));
+        assert_eq!((of(0.5, None), of(0.5, Some(0.0))), ("0.5000".to_owned(), "0.5000".to_owned()));
     }
 
     #[test]

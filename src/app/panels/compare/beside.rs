@@ -1,6 +1,6 @@
 //! The same tile for each candidate, all on one scale.
 
-use super::{missing, places, tile};
+use super::places::{missing, places, tile};
 use crate::app::command::Command;
 use crate::app::compare::Part;
 use crate::app::compare_columns::{Column, Columns};

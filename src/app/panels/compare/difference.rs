@@ -1,6 +1,6 @@
 //! Each candidate less the base, with sign, all on one scale.
 
-use super::{missing, places};
+use super::places::{missing, places};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::paint::hemisphere::Side;
 use crate::app::paint::tile::Status;

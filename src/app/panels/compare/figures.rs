@@ -4,18 +4,8 @@ use crate::app::command::Command;
 use crate::app::compare::Act;
 use crate::app::theme;
 use crate::app::window::App;
-use crate::drawing::ticks::number;
 use crate::study::comparison::{Row, Value, Verdict, verdict_words};
 use egui::{Grid, RichText, ScrollArea, Ui};
-
-/// A value with its error.
-fn words(value: Value) -> String {
-    let digits = |value: f64| number(value, 4);
-    match value.error {
-        Some(error) if error > 0.0 => format!("{} ± {}", digits(value.value), number(error, 2)),
-        _ => digits(value.value),
-    }
-}
 
 /// What the last column says.
 fn verdict(row: &Row, names: &[String]) -> String {
@@ -55,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
                 ui.label(format!("{}{unit}", row.figure.name)).on_hover_text(row.figure.tip);
                 for (place, value) in row.values.iter().enumerate() {
                     let better = matches!(&row.verdict, Verdict::Better(list) if list.contains(&place));
-                    let text = value.map_or_else(|| "–".to_owned(), words);
+                    let text = value.map_or_else(|| "–".to_owned(), Value::words);
                     if better {
                         let text = RichText::new(format!("▲ {text}")).strong().color(palette.good);
                         let label = ui.label(text);
@@ -75,16 +65,4 @@ pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             commands.push(Command::Compare(Act::Copy));
         }
     });
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_say_their_error_where_there_is_one() {
-        let of = |value, error| words(Value { value, error });
-        assert_eq!(of(0.4123, Some(0.003)), "0.4123 ± 0.003");
-        assert_eq!((of(0.5, None), of(0.5, Some(0.0))), ("0.5".to_owned(), "0.5".to_owned()));
-    }
 }
