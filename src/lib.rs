@@ -62,6 +62,7 @@
 //! | add a family of systems | a room in [`compute::system`] that answers [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
 //! | add a built-in product | a description under `assets/systems`, whose README says how the table of figures follows: all are [`catalogue::SYSTEMS`] |
 //! | add a check or a repair of data | [`compute::doctor`] |
+//! | add a figure by which things are compared | [`study::comparison`]: its entry in `FIGURES`, what it reads in `Facts` |
 //! | add a control rule | [`compute::control`], its key in [`study::scene_file`] |
 //! | change an angle convention | [`compute::direction`], nowhere else |
 //! | add a scene key | [`study::scene_file`], then [`study::scene`]; describe it in `examples/office.toml` |

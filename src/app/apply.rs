@@ -10,7 +10,7 @@ use super::{control, title};
 use crate::catalogue::{FirstRule, Product};
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
-use crate::study::scene_file::{ControlKeys, ControlMode};
+use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 
 /// Puts a product into a document as it is first shown: by its own rule, else in the state that is named.
 pub(super) fn first_choice(document: &mut Document, product: String, rule: FirstRule, state: Option<&str>) {
@@ -68,7 +68,8 @@ impl App {
             }
             Command::ResetScene => {
                 // The first scene names no product: the one that is chosen stays.
-                state.document.scene = first_scene();
+                let compare = std::mem::take(&mut state.document.scene.compare);
+                state.document.scene = SceneFile { compare, ..first_scene() };
                 fill(&mut state.document.scene, &state.document.selection);
             }
             Command::Sheet(sheet) => {
@@ -79,6 +80,9 @@ impl App {
                 let stopped = self.jobs.cancel(lane);
                 if lane == Lane::Import {
                     state.under_way = None;
+                }
+                if lane == Lane::Compare {
+                    self.compare.stop();
                 }
                 if lane == Lane::Product {
                     // They wait for the same data, and would compute them themselves.
@@ -178,6 +182,8 @@ impl App {
             Command::RestoreProduct(key) => self.restore_product(key),
             Command::Dismiss(id) => self.toasts.dismiss(id),
             Command::ForgetMessages => self.toasts.clear(),
+            Command::Compare(act) => self.act(act),
+            Command::Like(key) => self.find_like(key),
         }
     }
 

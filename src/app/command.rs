@@ -1,6 +1,7 @@
 //! Everything that the window can do: one enum. Drawing returns it, [`super::apply`] is the only place that acts on it,
 //! and [`super::offer`] says which of it menu, palette and keys offer.
 
+use super::compare::Act;
 use super::goniophotometer::Setup;
 use super::import::{ImportFields, StateWords};
 use super::import_steps::Step;
@@ -158,4 +159,8 @@ pub enum Command {
     Dismiss(Option<u64>),
     /// Forget all messages.
     ForgetMessages,
+    /// Something about what is compared.
+    Compare(Act),
+    /// List products like this one by what they do to light; like the selected one where it is `None`.
+    Like(Option<String>),
 }

@@ -41,6 +41,8 @@ pub enum Lane {
     Product,
     /// Computing data of built-in products that nobody has asked for yet.
     Builtin,
+    /// What is compared.
+    Compare,
     /// Data computed from a description.
     Goniophotometer,
     /// Writing files.
@@ -62,6 +64,7 @@ impl Lane {
             Self::Accuracy => "error against time",
             Self::Product => "product data",
             Self::Builtin => "built-in products",
+            Self::Compare => "comparison",
             Self::Goniophotometer => "goniophotometer",
             Self::Export => "writing file",
         }

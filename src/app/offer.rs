@@ -2,6 +2,7 @@
 //! and places. A new one is an entry here and its effect in [`super::apply`].
 
 use super::command::{Command, SYSTEM_EDITOR};
+use super::compare::{Act, Look};
 use super::control;
 use super::examples::EXAMPLES;
 use super::state::{self, PathUse};
@@ -14,9 +15,10 @@ use std::sync::LazyLock;
 const FILE: &str = "File";
 const EDIT: &str = "Edit";
 const VIEW: &str = "View";
+const COMPARE: &str = "Compare";
 const HELP: &str = "Help";
 /// The menus, in the order of the bar.
-pub const MENUS: [&str; 4] = [FILE, EDIT, VIEW, HELP];
+pub const MENUS: [&str; 5] = [FILE, EDIT, VIEW, COMPARE, HELP];
 
 /// Where the menus have a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,6 +165,37 @@ fn table() -> Vec<Offer> {
     list.extend(ThemeChoice::ALL.map(|choice| {
         offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(VIEW, 30)
     }));
+    let act = |act: Act| Compare(act);
+    list.extend([
+        offer(act(Act::Add), "Add to compare", "What is shown into the tray: product and state, or rule")
+            .keys(PLAIN, Key::C)
+            .menu(COMPARE, 0),
+        offer(
+            act(Act::AddMoment),
+            "Add to compare with this moment",
+            "The same under the sky and sun of now, for good",
+        )
+        .keys(SHIFT, Key::C)
+        .menu(COMPARE, 1),
+        offer(act(Act::AddScene), "Add the whole scene to compare", "Room, apertures, sensors, place and sky with it")
+            .menu(COMPARE, 2),
+        offer(act(Act::Show), "Compare the tray", "All of the tray in the tiles' place, or back to the tiles")
+            .keys(SHIFT, Key::X)
+            .menu(COMPARE, 10),
+        offer(act(Act::Swap), "Swap with the other one", "All tiles show the other one of the tray, and go back")
+            .keys(PLAIN, Key::X)
+            .menu(COMPARE, 11),
+    ]);
+    list.extend(Look::ALL.map(|look| {
+        offer(act(Act::Look(look)), format!("Compare: {}", look.words().to_lowercase()), look.tip()).menu(COMPARE, 20)
+    }));
+    list.extend([
+        offer(act(Act::Copy), "Copy the compared figures", "The table with errors as CSV into the clipboard")
+            .menu(COMPARE, 30),
+        offer(act(Act::Clear), "Empty the tray", "Nothing is compared any more; undo brings it back").menu(COMPARE, 31),
+        offer(Like(None), "Products like this one", "By what they do to light, not by name: nearest first")
+            .menu(COMPARE, 40),
+    ]);
     list.extend([
         offer(ResetScene, "Reset the scene", "Stuttgart, south, 21 March 12:00, clear sky").menu(EDIT, 2),
         offer(

@@ -119,6 +119,7 @@ impl App {
                         Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
                         Lane::Year => self.results.year.error = Some(text),
                         Lane::Catalogue => self.state.search_error = Some(text),
+                        Lane::Compare => self.compare.fail(text),
                         _ => {}
                     }
                 }
@@ -170,6 +171,7 @@ impl App {
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
             Outcome::Room(result) => self.results.room.take(result),
+            Outcome::Compared(id, what) => self.compare.take(id, *what),
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
@@ -381,7 +383,9 @@ impl App {
     pub fn refresh(&mut self) {
         let Some(shelf) = self.state.shelf() else { return };
         let document = &self.state.document;
-        if document.selection.product.is_empty() || self.asked.as_ref() == Some(document) {
+        if document.selection.product.is_empty()
+            || self.asked.as_ref().is_some_and(|asked| asked.asks_the_same(document))
+        {
             return;
         }
         self.asked = Some(document.clone());

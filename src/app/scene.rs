@@ -64,6 +64,7 @@ pub fn first_scene() -> SceneFile {
         },
         control: None,
         compute: ComputeKeys::default(),
+        compare: Vec::new(),
     }
 }
 

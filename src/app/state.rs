@@ -1,6 +1,7 @@
 //! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
 
 use super::changes::{Change, Editing};
+use super::compare::View;
 use super::control::{Year, YearKey};
 use super::engine::{LidFigures, RoomFigures};
 use super::facing::surface_of;
@@ -15,6 +16,7 @@ use crate::compute::direction::Incident;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::accuracy::Accuracy;
+use crate::study::comparison::same_question;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
@@ -44,6 +46,14 @@ pub struct Document {
     pub changes: Vec<usize>,
     /// Numbers of the imports that are discarded now; see [`State::discarded`].
     pub discarded: Vec<usize>,
+}
+
+impl Document {
+    /// Does another document ask for the same figures? What is compared does not count.
+    pub fn asks_the_same(&self, other: &Self) -> bool {
+        (&self.selection, &self.additions, &self.changes) == (&other.selection, &other.additions, &other.changes)
+            && same_question(&self.scene, &other.scene)
+    }
 }
 
 /// An addition of this session: kept so that undo can take it out and redo put it back.
@@ -275,6 +285,8 @@ pub struct State {
     pub scene_path: Option<PathBuf>,
     /// The aperture whose control is edited on its own; `None`: all follow the scene's.
     pub control_of: Option<usize>,
+    /// How the comparison is looked at.
+    pub compare: View,
     /// Row that the keyboard is on.
     pub row: usize,
     /// The product that the list was last scrolled to.
@@ -325,6 +337,7 @@ impl State {
             scene_error: None,
             scene_path: None,
             control_of: None,
+            compare: View::default(),
             row: 0,
             scrolled_to: String::new(),
         }

@@ -2,6 +2,7 @@
 
 use super::autosave::Autosave;
 use super::backend;
+use super::compare_columns::Columns;
 use super::control::YearKey;
 use super::dialogs::{FileDialogs, NoDialogs};
 use super::engine::{Engine, LidFigures};
@@ -59,6 +60,8 @@ pub struct App {
     pub(super) asked_year: Option<YearKey>,
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
     pub(super) export: Exports,
+    /// What was computed of the candidates in the tray.
+    pub compare: Columns,
     /// What it says.
     pub toasts: Messages,
     /// Files to be read once the catalogue is open.
@@ -101,6 +104,7 @@ impl App {
             asked_year: None,
             asked_peaks: None,
             export: Exports::default(),
+            compare: Columns::default(),
             toasts: Messages::default(),
             waiting_files: Vec::new(),
             writing: false,
@@ -137,6 +141,11 @@ impl App {
     /// Says an error.
     pub(super) fn tell(&mut self, error: &AppError) {
         self.toasts.error(error.to_string());
+    }
+
+    /// Is something under way in a lane?
+    pub fn works_in(&self, lane: Lane) -> bool {
+        self.jobs.busy(lane)
     }
 
     /// Is something still being read or computed?

@@ -1,6 +1,7 @@
 //! What runs in jobs, and what jobs bring back.
 
 use super::changes::{Change, Looked, Reread};
+use super::compare::Part;
 use super::control::Year;
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures};
@@ -21,6 +22,7 @@ use crate::compute::lid::Facing;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
+use crate::study::comparison::DataFacts;
 use crate::study::control::ControlQuestion;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -52,6 +54,8 @@ pub enum Outcome {
     Peaks(Arc<LidFigures>, Peaks),
     /// The room.
     Room(Result<RoomFigures, AppError>),
+    /// A part of what is known of a candidate, by its number.
+    Compared(u64, Box<Compared>),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
     /// Files that the user chose.
@@ -99,6 +103,25 @@ pub enum Outcome {
     There(PathUse, PathBuf, bool),
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
+}
+
+/// A part of what is known of a candidate.
+#[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
+pub enum Compared {
+    /// Product, state and dataset, and sky and sun.
+    Shelf(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
+    /// The LID.
+    Lid(Result<LidFigures, AppError>),
+    /// Its largest intensities.
+    Peaks(Arc<LidFigures>, Peaks),
+    /// The room.
+    Room(Result<RoomFigures, AppError>),
+    /// What control does over the year.
+    Year(Result<Year, StudyError>),
+    /// Figures of the dataset; `None` without a transmission.
+    Data(Option<DataFacts>),
+    /// A fault of the program.
+    Failed(Part, String),
 }
 
 /// What the catalogue holds of the selection.

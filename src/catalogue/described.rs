@@ -2,7 +2,7 @@
 
 use super::systems::{blind_of, builtin_system};
 use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
-use crate::compute::btdf::{Band, Dataset, DescribedState, Finding};
+use crate::compute::btdf::{Band, Dataset, DescribedState, Finding, Scattered};
 use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
 use crate::compute::control::cut_off::SlatRow;
 use crate::compute::direction::Dir;
@@ -112,7 +112,7 @@ pub fn described_dataset(file: &SystemFile, state: String, visible: Band, qualit
     };
     let balance = 100.0 * quality.balance;
     let text = format!(
-        "Computed ({}): τ + ρ + α = 1 within {balance:.3} %, {reciprocity}, estimated error of τ and ρ at most {:.4}.",
+        "Computed ({}): τ + ρ + α = 1 within {balance:.3} %, {reciprocity}, {ERROR_WORDS}{:.4}.",
         system.family().method(),
         quality.error
     );
@@ -131,6 +131,22 @@ pub fn described_dataset(file: &SystemFile, state: String, visible: Band, qualit
         findings,
         ..Dataset::default()
     }
+}
+
+/// How [`described_dataset`] begins the words about the error that was reached.
+const ERROR_WORDS: &str = "estimated error of τ and ρ at most ";
+
+/// How far transmittances of a dataset may be off, absolute: nothing for a definition, what was reached for computed data;
+/// `None` where the data do not say, as measured ones.
+pub fn stated_error(dataset: &Dataset) -> Option<f64> {
+    let transmission = dataset.transmission()?;
+    if matches!(transmission.scattered, None | Some(Scattered::Lambert(_))) && dataset.described.is_none() {
+        return Some(0.0);
+    }
+    let told = dataset.findings.iter().find(|finding| finding.code == "computed")?;
+    let (_, number) = told.message.split_once(ERROR_WORDS)?;
+    // Half a digit more: it was rounded.
+    number.trim_end_matches('.').parse::<f64>().ok().map(|error| error + 0.5e-4)
 }
 
 fn state_name(dataset: &Dataset) -> StateName {

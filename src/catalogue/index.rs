@@ -7,6 +7,7 @@
 //! tags before description) and by how well it fits.
 
 use super::ProductRow;
+use super::like::{Apart, Likeness};
 use super::query::{Figure, Filter, Query, Sort};
 use super::rows::Sought;
 use super::words::{self, distance, folded, forgiven, letters, parts, runs, without_written_marks};
@@ -63,6 +64,8 @@ pub struct Found {
     pub read_as: Vec<(String, String)>,
     /// Characters of the longest name among the entries.
     pub longest_name: usize,
+    /// How far the entries are from the product that they are to be like, where one was named and is there.
+    pub like: Option<Likeness>,
 }
 
 /// Where a word stands, by weight.
@@ -201,6 +204,7 @@ impl Index {
         let misses: Vec<u16> = (0..self.items.len()).map(|number| self.misses(query, &fit, number)).collect();
         let mut order: Vec<usize> = (0..self.items.len()).filter(|number| misses[*number] == 0).collect();
         self.sort(&mut order, query, &fit);
+        let like = query.like.as_deref().and_then(|key| self.like(key, &mut order, query));
         let entries: Vec<Arc<ProductRow>> = order.into_iter().map(|number| self.items[number].row.clone()).collect();
         let without = if entries.is_empty() { self.without(query, &fit, &misses) } else { Vec::new() };
         Found {
@@ -208,6 +212,7 @@ impl Index {
             total: self.items.len(),
             facets: self.facets(query, &misses),
             entries,
+            like,
             without,
             read_as: fit.read_as,
         }
@@ -345,6 +350,26 @@ impl Index {
             Sort::Kind => order.sort_by_key(|number| item(number).row.kind.is_empty()),
             Sort::Match | Sort::Name | Sort::States => {}
         }
+    }
+
+    /// How far products are from one of them, which itself is left out, as those are of which nothing is known; nearest
+    /// first unless the query says otherwise.
+    fn like(&self, key: &str, order: &mut Vec<usize>, query: &Query) -> Option<Likeness> {
+        let other = &self.items.iter().find(|item| item.row.key == key)?.row;
+        let of = |number: usize| {
+            let row = &self.items[number].row;
+            if row.key == key { None } else { Some((number, Apart::of(row, other)?)) }
+        };
+        let mut list: Vec<(usize, Apart)> = order.iter().filter_map(|number| of(*number)).collect();
+        if query.sort == Sort::Match {
+            list.sort_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
+            if query.descending {
+                list.reverse();
+            }
+        }
+        let apart;
+        (*order, apart) = list.into_iter().unzip();
+        Some(Likeness { key: key.to_owned(), name: other.name.clone(), apart })
     }
 
     fn facets(&self, query: &Query, misses: &[u16]) -> Facets {

@@ -27,6 +27,7 @@ mod history;
 mod index;
 mod keeping;
 mod numbered;
+mod like;
 mod open;
 mod product;
 mod query;
@@ -47,9 +48,9 @@ pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, TABLE, builtin_method, fingerp
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use connection::Catalogue;
 pub use content::content_of;
-pub use described::{METHODS, control_curve, described_dataset, method, product_of};
 pub use doubt::Doubt;
 pub use editing::{Replacement, Snapshot};
+pub use described::{METHODS, control_curve, described_dataset, method, product_of, stated_error};
 pub use error::CatalogueError;
 pub use exchange::{Stored, unpack};
 pub use gather::{Gathered, gather, gathered, key_of_angle};
@@ -57,12 +58,14 @@ pub use grouping::{Grouping, Proposal, propose};
 pub use history::Event;
 pub use index::{Facet, Facets, Found, Index};
 pub use keeping::{Deleted, Known, Words};
+pub use like::{Apart, Likeness};
 pub use open::default_path;
 pub use product::{
     CurvePoint, Imported, NewProduct, Origin, PROFILE_ANGLES, Product, ProductFinding, Provenance, State, StateName,
     profile_transmittances,
 };
 pub use query::{Figure, Filter, Query, Sort, Within};
+pub use record::light;
 pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
 pub use rows::{ProductRow, Sought};
 pub use source_file::SourceFile;

@@ -156,6 +156,9 @@ pub struct Query {
     pub sort: Sort,
     /// In falling order; of [`Sort::Match`] the worst first.
     pub descending: bool,
+    /// Key of a product that the others are to be like: they are found by what they do to light, nearest first where
+    /// [`Sort::Match`] orders them.
+    pub like: Option<String>,
 }
 
 /// One filter of a query.
@@ -239,7 +242,13 @@ impl Query {
     /// The same with its words alone, in its order.
     #[must_use]
     pub fn words_alone(&self) -> Self {
-        Self { text: self.text.clone(), sort: self.sort, descending: self.descending, ..Self::default() }
+        Self {
+            text: self.text.clone(),
+            sort: self.sort,
+            descending: self.descending,
+            like: self.like.clone(),
+            ..Self::default()
+        }
     }
 
     /// Filters that are set, without the words.

@@ -100,7 +100,7 @@ fn prepared(
 }
 
 /// Where light goes, as far as a description tells it better than data on cells.
-pub(super) fn light(transmission: &Btdf, described: Option<&DescribedState>) -> LightFigures {
+pub fn light(transmission: &Btdf, described: Option<&DescribedState>) -> LightFigures {
     let own = LightFigures::of(transmission);
     LightFigures { view: described.and_then(view).unwrap_or(own.view), ..own }
 }

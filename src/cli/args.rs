@@ -1,9 +1,9 @@
 //! What can be typed.
 
 use super::{
-    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, control::ControlArgs, convert::ConvertArgs,
-    goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, repair::RepairArgs, room::RoomArgs,
-    sky::SkyArgs,
+    accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, compare::CompareArgs, control::ControlArgs,
+    convert::ConvertArgs, goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, repair::RepairArgs,
+    room::RoomArgs, sky::SkyArgs,
 };
 use clap::CommandFactory as _;
 use std::path::{Path, PathBuf};
@@ -22,6 +22,7 @@ Examples:
   cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
   cfs room office.toml --out office.csv illuminance at every sensor
   cfs accuracy office.toml              error against run time of every method for this scene
+  cfs compare office.toml               figures of what the scene compares, with errors
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
   cfs control blind.toml --out year.csv a year of states of controlled systems
   cfs sky office.toml                   luminances of the 145 sky patches
@@ -122,6 +123,8 @@ pub enum Command {
     Room(RoomArgs),
     /// Error against run time of a scene, by method and effort
     Accuracy(AccuracyArgs),
+    /// Figures of scenes and products side by side, with errors
+    Compare(CompareArgs),
     /// Luminous-intensity distribution of an aperture as a luminaire file
     Lid(LidArgs),
     /// Luminances of the 145 Tregenza patches of the sky dome

@@ -5,6 +5,7 @@ use crate::cli::builtin::{BuildArgs, build, provide};
 use crate::cli::importing::import;
 pub use crate::cli::importing::{Compactness, Group, ImportArgs};
 use crate::cli::keeping::{self, DeleteArgs, HistoryArgs, RenameArgs, RestoreArgs};
+use crate::cli::like::{LikeArgs, like};
 pub use crate::cli::listing::ListArgs;
 use crate::cli::listing::{figure, list};
 use crate::cli::output::print;
@@ -29,6 +30,8 @@ pub struct CatalogueArgs {
 pub enum Action {
     /// List products.
     List(ListArgs),
+    /// Products that do the same to light as this one, nearest first.
+    Like(LikeArgs),
     /// Everything about one product.
     Show(ShowArgs),
     /// Add dataset files, packages, folders and zip archives of them, all in one step. Files whose names or contents differ by an angle alone are the states of one product;
@@ -91,6 +94,7 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
     match &args.action {
         Action::Build(args) => build(&mut open()?, args),
         Action::List(args) => list(&open()?, args),
+        Action::Like(args) => like(&open()?, args),
         Action::Show(args) => show(&open()?, args),
         Action::Import(args) => import(&mut open()?, args),
         Action::Rename(args) => keeping::rename(&mut open()?, args),

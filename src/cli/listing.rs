@@ -99,6 +99,7 @@ impl ListArgs {
             ranges: self.within.clone(),
             sort: self.sort,
             descending: self.descending,
+            like: None,
         }
     }
 }

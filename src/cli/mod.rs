@@ -5,6 +5,7 @@ mod args;
 mod builtin;
 pub mod catalogue;
 pub mod compact;
+pub mod compare;
 pub mod control;
 pub mod convert;
 mod dataset_file;
@@ -13,6 +14,7 @@ pub mod importing;
 pub mod info;
 pub mod keeping;
 pub mod lid;
+pub mod like;
 pub mod listing;
 mod luminaire_info;
 mod output;
@@ -38,6 +40,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     match command {
         Command::Room(args) => room::run(args, &library),
         Command::Accuracy(args) => accuracy::run(args, &library),
+        Command::Compare(args) => compare::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Goniophotometer(args) => goniophotometer::run(args, &library),

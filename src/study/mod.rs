@@ -9,6 +9,7 @@ pub mod by_description;
 mod cache;
 pub mod coefficients;
 pub mod compact;
+pub mod comparison;
 pub mod control;
 mod error;
 pub mod files;

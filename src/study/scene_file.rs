@@ -33,6 +33,39 @@ pub struct SceneFile {
     /// How to compute.
     #[serde(default)]
     pub compute: ComputeKeys,
+    /// What is set beside each other: the tray of the window, the columns of `cfs compare`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub compare: Vec<CompareKeys>,
+}
+
+/// `[[compare]]`: one of the things that are compared. What it does not say is as in the rest of the scene.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CompareKeys {
+    /// What it is called; empty: by its system.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// What fills the apertures that are filled from the catalogue, or the first aperture where none is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub system: Option<SystemKeys>,
+    /// What chooses the state of `system` or `aperture`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlKeys>,
+    /// Another sky or moment.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sky: Option<SkyKeys>,
+    /// Another place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub site: Option<SiteKeys>,
+    /// Another room.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub room: Option<RoomKeys>,
+    /// Other apertures; empty: those of the scene.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub aperture: Vec<ApertureKeys>,
+    /// Other sensors.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sensors: Option<SensorKeys>,
 }
 
 /// `[room]`

@@ -1,8 +1,8 @@
 //! Finding products: what is typed, what is chosen, and what the counts beside the choices say.
 
 use cfs::catalogue::{
-    Catalogue, Figure, Filter, FirstRule, Index, NewProduct, Numbers, Origin, ProductRow, Query, SYSTEMS, Sort, Sought,
-    StateName, TYPICAL_SUN, builtin_system, representative,
+    Catalogue, Figure, Filter, FirstRule, Index, NewProduct, Numbers, Origin, PROFILE_ANGLES, ProductRow, Query,
+    SYSTEMS, Sort, Sought, StateName, TYPICAL_SUN, builtin_system, representative,
 };
 use cfs::compute::btdf::{Btdf, Dataset};
 use cfs::compute::control::controller::{Controller, Inputs, SunAt};
@@ -341,6 +341,41 @@ fn figures_are_counted_as_soon_as_the_table_has_their_columns() {
         let best: Vec<f64> = catalogue.search(&best).unwrap().iter().filter_map(|row| row.figure(figure)).collect();
         assert!(best.windows(2).all(|pair| pair[0] >= pair[1]), "{figure:?}");
     }
+}
+
+#[test]
+fn ten_thousand_products_are_set_beside_one_at_a_glance() {
+    let all = builtins();
+    let mut list = Vec::new();
+    for number in 0..10_000_usize {
+        let mut one = all[number % all.len()].clone();
+        let row = Arc::make_mut(&mut one.row);
+        // Five hundred different ones, of the same names.
+        let figure = (number % 500) as f64 / 500.0;
+        row.key = format!("product-{number}");
+        (row.tau_hemispherical, row.to_ceiling, row.view) = (Some(figure), Some(0.5), Some(1.0 - figure));
+        (row.sun_blocked, row.tau_profile) = (Some(1.0 - figure), vec![figure; PROFILE_ANGLES.len()]);
+        list.push(one);
+    }
+    let index = Index::new(list);
+    let query = Query { like: Some("product-250".to_owned()), ..Query::default() };
+    let mut least = Duration::MAX;
+    for _ in 0..5 {
+        let start = Instant::now();
+        let found = index.find(&query);
+        least = least.min(start.elapsed());
+        let like = found.like.unwrap();
+        assert_eq!((found.entries.len(), like.apart.len()), (9_999, 9_999));
+        assert!(like.apart[..19].iter().all(|apart| apart.distance == 0.0) && like.apart[19].distance > 0.0);
+        assert_eq!(found.entries[0].tau_hemispherical, Some(0.5));
+    }
+    eprintln!("10,000 products by likeness: {least:?}");
+    assert!(least < Duration::from_secs(3), "{least:?}");
+    // Filters go on narrowing, and another order can be asked for.
+    let narrowed = index.find(&Query { moving: Some(false), sort: Sort::Name, ..query });
+    assert!(narrowed.entries.len() < 9_999 && narrowed.entries.windows(2).all(|pair| pair[0].name <= pair[1].name));
+    assert_eq!(narrowed.like.unwrap().apart.len(), narrowed.entries.len());
+    assert!(index.find(&Query { like: Some("nothing".to_owned()), ..Query::default() }).like.is_none());
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod catalogue_cli;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod compare_cli;
 mod control_cli;
 mod doctor_cli;
 mod examples;

@@ -8,6 +8,7 @@ use crate::driven::{LONG, apply, harness, select, services, settle, window};
 use cfs::app::App;
 use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
+use cfs::app::compare::{Act, Look};
 use cfs::app::error::AppError;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::theme::ThemeChoice;
@@ -147,6 +148,30 @@ fn a_night_a_sun_behind_the_facade_and_other_products_can_be_read() {
     problems.each_tile(&mut harness, "a product that does not move");
     select(&mut harness, |entry| entry.name == LONG);
     problems.bench(&mut harness, "long names");
+    problems.none_left();
+}
+
+#[test]
+fn a_comparison_can_be_read_in_all_its_looks() {
+    let mut harness = window();
+    let mut problems = Problems::default();
+    apply(&mut harness, Command::Compare(Act::Add));
+    select(&mut harness, |entry| entry.name == LONG);
+    for act in [Act::Add, Act::AddMoment] {
+        apply(&mut harness, Command::Compare(act));
+    }
+    problems.bench(&mut harness, "a tray");
+    for look in Look::ALL {
+        apply(&mut harness, Command::Compare(Act::Look(look)));
+        for tile in TILES {
+            apply(&mut harness, Command::Compare(Act::Tile(tile.tile.title)));
+            for size in [SIZES[0], SIZES[2]] {
+                problems.look(&mut harness, &format!("{}: {}", look.words(), tile.tile.title), size);
+            }
+        }
+    }
+    apply(&mut harness, Command::Compare(Act::Swap));
+    problems.look(&mut harness, "swapped", SIZES[0]);
     problems.none_left();
 }
 

@@ -6,6 +6,7 @@ mod app_engine;
 mod catalogue_panel;
 #[path = "../common/mod.rs"]
 mod common;
+mod compare_view;
 mod control_view;
 mod driven;
 mod files_view;

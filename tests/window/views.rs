@@ -197,6 +197,7 @@ fn sky_input<'a>() -> sky::Input<'a> {
         direct_horizontal: Some(38_200.0),
         facade_vertical: Some(51_700.0),
         facade_stale: false,
+        range: None,
         revision: 1,
         status: FINE,
     }
@@ -429,6 +430,7 @@ fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
                 moment: Some(from(42.0, 75.0)),
                 incidence: Incidence { direction: from(42.0, 75.0), source: Source::Sun },
                 split: Some(split),
+                range: None,
                 revision: 1,
                 status: FINE,
             };

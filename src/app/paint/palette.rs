@@ -10,6 +10,8 @@ use std::sync::LazyLock;
 pub enum ColourMap {
     /// Viridis: luminance, illuminance, luminance coefficient.
     Sequential,
+    /// Blue over white to red: differences, zero in the middle.
+    Diverging,
     /// Greys, dark to light: transmittance where viridis means something else beside it.
     Grey,
 }
@@ -23,6 +25,9 @@ fn table(gradient: &dyn Gradient) -> [Color32; 256] {
 
 static VIRIDIS: LazyLock<[Color32; 256]> = LazyLock::new(|| table(&colorgrad::preset::viridis()));
 
+/// Red at first: drawn from its end.
+static BLUE_TO_RED: LazyLock<[Color32; 256]> = LazyLock::new(|| table(&colorgrad::preset::rd_bu()));
+
 impl ColourMap {
     /// Colour of a fraction; values outside 0 … 1 get the end colours, NaN the lower one.
     pub fn at(self, fraction: f32) -> Color32 {
@@ -30,6 +35,7 @@ impl ColourMap {
         let index = (fraction.clamp(0.0, 1.0) * 255.0).round() as usize;
         match self {
             Self::Sequential => VIRIDIS[index],
+            Self::Diverging => BLUE_TO_RED[255 - index],
             Self::Grey => Color32::from_gray((45.0 + 195.0 * index as f32 / 255.0) as u8),
         }
     }

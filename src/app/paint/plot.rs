@@ -7,8 +7,8 @@
 use super::palette::Palette;
 use crate::drawing::plot::{Axis, Form, Plot, Series};
 use egui::{
-    Align, Align2, Color32, FontId, Id, Layout, Pos2, Rangef, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui,
-    UiBuilder, Vec2, pos2, vec2,
+    Align, Align2, Color32, FontId, Id, Layout, Pos2, Rangef, Rect, Response, RichText, Sense, Shape, Stroke,
+    StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2,
 };
 use egui_plot::{
     AxisHints, CoordinatesFormatter, Corner, FilledArea, GridInput, GridMark, HoverPosition, Line, LineStyle,
@@ -46,12 +46,30 @@ pub struct Look<'a> {
     pub focusable: bool,
     /// What is under the pointer is dragged and clicked by the caller: the view stays.
     pub held: bool,
+    /// Series are told apart by dashes as well as by colour.
+    pub dashed: bool,
 }
 
 impl<'a> Look<'a> {
     /// A plot in a tile.
     pub fn tile(id: Id, colours: &'a [Color32], guide: Color32) -> Self {
-        Self { id, colours, guide, left: LEFT, legend_of: None, on_page: false, focusable: false, held: false }
+        Self {
+            id,
+            colours,
+            guide,
+            left: LEFT,
+            legend_of: None,
+            on_page: false,
+            focusable: false,
+            held: false,
+            dashed: false,
+        }
+    }
+
+    /// Lengths of dashes, for egui_plot and for the legend; `None`: a line.
+    fn dash(&self, series: usize) -> Option<f32> {
+        const DASHES: [Option<f32>; 3] = [None, Some(10.0), Some(4.0)];
+        DASHES[series % 3].filter(|_| self.dashed)
     }
 
     fn colour(&self, series: usize) -> Color32 {
@@ -176,7 +194,7 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
         // The first is the most important: on top.
         for (k, series) in plot.series.iter().enumerate().rev() {
             if !gone.contains(&series.name) {
-                add(plot_ui, plot, series, look.colour(k), lit == Some(k));
+                add(plot_ui, plot, series, (look.colour(k), look.dash(k)), lit == Some(k));
             }
         }
     });
@@ -210,7 +228,8 @@ fn head(
     let mut lit = None;
     for (k, series) in plot.series.iter().enumerate().filter(|_| own) {
         let shown = !hidden.contains(&series.name);
-        let response = entry(&mut head, &series.name, if shown { look.colour(k) } else { palette.grid }, palette);
+        let colour = if shown { look.colour(k) } else { palette.grid };
+        let response = entry(&mut head, &series.name, (colour, look.dash(k)), palette);
         response.widget_info(|| {
             egui::WidgetInfo::selected(egui::accesskit::Role::CheckBox, true, shown, series.name.as_str())
         });
@@ -225,14 +244,20 @@ fn head(
 }
 
 /// A name of the legend with its colour.
-fn entry(ui: &mut Ui, name: &str, colour: Color32, palette: &Palette) -> Response {
-    const SWATCH: f32 = 16.0;
+fn entry(ui: &mut Ui, name: &str, (colour, dash): (Color32, Option<f32>), palette: &Palette) -> Response {
+    let swatch = if dash.is_some() { 28.0 } else { 16.0 };
     let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(TICKS), palette.ink);
-    let (rect, response) = ui.allocate_exact_size(vec2(SWATCH + galley.size().x, LINE), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(swatch + galley.size().x, LINE), Sense::click());
     let y = rect.center().y;
-    ui.painter().hline(rect.left()..=rect.left() + SWATCH - 4.0, y, Stroke::new(3.0, colour));
+    let (ends, stroke) = ([pos2(rect.left(), y), pos2(rect.left() + swatch - 4.0, y)], Stroke::new(3.0, colour));
+    match dash {
+        Some(length) => ui.painter().extend(Shape::dashed_line(&ends, stroke, 0.8 * length, 0.5 * length)),
+        None => {
+            ui.painter().line_segment(ends, stroke);
+        }
+    }
     let ink = if response.hovered() || response.has_focus() { palette.first } else { palette.ink };
-    ui.painter().galley_with_override_text_color(pos2(rect.left() + SWATCH, y - 0.5 * galley.size().y), galley, ink);
+    ui.painter().galley_with_override_text_color(pos2(rect.left() + swatch, y - 0.5 * galley.size().y), galley, ink);
     response
 }
 
@@ -259,7 +284,7 @@ fn marks(axis: &Axis, input: &GridInput, apart: f64) -> Vec<GridMark> {
 }
 
 /// Hands a series to egui_plot, its gaps as gaps: what is not finite must not reach it.
-fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, colour: Color32, lit: bool) {
+fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, (colour, dash): (Color32, Option<f32>), lit: bool) {
     for band in plot.bands(series) {
         let column = |k: usize| -> Vec<f64> { band.iter().map(|point| point[k]).collect() };
         let area = FilledArea::new(&series.name, &column(0), &column(1), &column(2));
@@ -273,7 +298,8 @@ fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, colour: Color32, 
             Form::Dots => plot_ui.points(points(1.5)),
         }
         if series.form != Form::Dots {
-            plot_ui.line(Line::new(&series.name, run).color(colour).width(2.0).highlight(lit));
+            let style = dash.map_or(LineStyle::Solid, |length| LineStyle::Dashed { length });
+            plot_ui.line(Line::new(&series.name, run).color(colour).width(2.0).style(style).highlight(lit));
         }
     }
 }

@@ -44,12 +44,15 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     if response.double_clicked() {
         commands.push(Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) }));
     }
+    let (state, results) = app.compare.shown(&app.state, &app.results);
     let seen = TileInput {
-        state: &app.state,
-        results: &app.results,
+        state,
+        results,
         busy: &|lane| app.jobs.busy(lane),
-        held: ui.input(|input| input.pointer.any_down()),
+        // The other one is drawn on the scales of the first: equal colours stay equal values.
+        held: app.state.compare.swapped.is_some() || ui.input(|input| input.pointer.any_down()),
         numbers: app.export.wants_numbers(tile),
+        scale: None,
     };
     let builder = UiBuilder::new().max_rect(rect.shrink(2.0)).id_salt(tile.title);
     let numbers = ui.scope_builder(builder, |ui| app.bench.show(ui, tile, &seen, commands)).inner;

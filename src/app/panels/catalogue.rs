@@ -6,15 +6,16 @@ mod names;
 mod menu;
 
 use crate::app::command::Command;
+use crate::app::compare::Act;
 use crate::app::control;
-use crate::app::shelf::{Entry, Query};
+use crate::app::shelf::{Entry, Found, Query};
 use crate::app::state::{CatalogueState, State};
 use crate::app::views::states;
 use crate::app::{theme, title};
-use crate::catalogue::{Sort, moving_part};
+use crate::catalogue::{Apart, Sort, moving_part};
 use crate::study::control::year::CONTROLLED;
+use crate::study::scene_file::SystemKeys;
 use egui::{Align2, FontId, Key, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
-use std::sync::Arc;
 
 /// What a second line of a name adds to a row. \[points\]
 const SECOND_LINE: f32 = 18.0;
@@ -52,6 +53,7 @@ pub fn show(ui: &mut Ui, state: &mut State, strip: &mut states::State, commands:
         ui.colored_label(theme::palette(ui).error, error);
     }
     filters::read_as(ui, &state.found);
+    filters::like(ui, state, commands);
     let below = below(ui, state);
     if state.found.entries.is_empty() {
         filters::nothing(ui, state, commands);
@@ -105,7 +107,8 @@ fn rows(ui: &mut Ui, state: &mut State, below: f32, commands: &mut Vec<Command>)
     let output = area.show_rows(ui, row_height, entries.len(), |ui, range| {
         for place in range {
             let chosen = entries[place].key == state.document.selection.product;
-            row(ui, entries, place, row_height, (chosen, state.query.sort), commands);
+            let compared = in_tray(state, &entries[place].key);
+            row(ui, &found, place, row_height, (chosen, compared, state.query.sort), commands);
         }
     });
     let key = offset_key(ui);
@@ -185,12 +188,13 @@ fn tip(entry: &Entry) -> String {
 
 fn row(
     ui: &mut Ui,
-    entries: &[Arc<Entry>],
+    found: &Found,
     place: usize,
     height: f32,
-    (chosen, sort): (bool, Sort),
+    (chosen, compared, sort): (bool, Option<usize>, Sort),
     commands: &mut Vec<Command>,
 ) {
+    let entries = &found.entries;
     let entry = &*entries[place];
     let palette = theme::palette(ui);
     let size = vec2(ui.available_width(), height);
@@ -222,18 +226,22 @@ fn row(
     let beside = [place.checked_sub(1).and_then(name), name(place + 1)];
     let look = (FontId::proportional(13.5), palette.text);
     let name = names::layout(&painter, &entry.name, beside, look, width);
-    let words = theme::one_line(&painter, &figures(entry, sort), FontId::proportional(13.0), palette.weak, width);
+    // How far it is from what it should be like says more than its own figures.
+    let like = found.like.as_ref().and_then(|like| like.apart.get(place));
+    let words = like.map_or_else(|| figures(entry, sort), Apart::words);
+    let words = theme::one_line(&painter, &words, FontId::proportional(13.0), palette.weak, width);
     // Both in the middle of the row, however many lines the name has.
     let top = rect.center().y - 0.5 * (name.size().y + 2.0 + words.size().y);
     let under = top + name.size().y + 2.0;
     painter.galley(pos2(left, top), name, palette.text);
     painter.galley(pos2(left, under), words, palette.weak);
     star(ui, rect, entry, commands);
+    compare_sign(ui, rect, entry, compared, commands);
 }
 
 fn star(ui: &mut Ui, row: Rect, entry: &Entry, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
-    let rect = Rect::from_center_size(pos2(row.right() - 14.0, row.center().y), Vec2::splat(24.0));
+    let rect = Rect::from_center_size(pos2(row.right() - 14.0, row.center().y - 12.0), Vec2::splat(23.0));
     let response = ui.interact(rect, ui.scope_id().with(("star", &entry.key)), Sense::click());
     let label = format!("{} {}", if entry.favourite { "Take the star of" } else { "Star" }, entry.name);
     response.widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::Button, true, entry.favourite, &label));
@@ -241,6 +249,34 @@ fn star(ui: &mut Ui, row: Rect, entry: &Entry, commands: &mut Vec<Command>) {
     ui.painter().text(rect.center(), Align2::CENTER_CENTER, glyph, FontId::proportional(15.0), colour);
     if response.clicked() {
         commands.push(Command::Favourite(entry.key.clone(), !entry.favourite));
+    }
+}
+
+/// Place in the tray of the first candidate that is a product.
+fn in_tray(state: &State, key: &str) -> Option<usize> {
+    let is = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { key: own, .. } if own == key);
+    state.document.scene.compare.iter().position(|one| one.system.as_ref().is_some_and(is))
+}
+
+/// Puts a product into the tray, or takes it out.
+fn compare_sign(ui: &mut Ui, row: Rect, entry: &Entry, compared: Option<usize>, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    let rect = Rect::from_center_size(pos2(row.right() - 14.0, row.center().y + 12.0), Vec2::splat(23.0));
+    let response = ui.interact(rect, ui.scope_id().with(("compare", &entry.key)), Sense::click());
+    let (what, tip, colour) = match compared {
+        Some(_) => ("Take out of the comparison", "In the tray; a click takes it out", palette.accent),
+        None => ("Compare", "Add to the tray of what is compared", palette.weak),
+    };
+    let label = format!("{what}: {}", entry.name);
+    let chosen = compared.is_some();
+    response.widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::Button, true, chosen, &label));
+    let glyph = if chosen { "⊖" } else { "⊕" };
+    ui.painter().text(rect.center(), Align2::CENTER_CENTER, glyph, FontId::proportional(15.0), colour);
+    if response.on_hover_text(tip).clicked() {
+        commands.push(Command::Compare(match compared {
+            Some(place) => Act::Remove(place),
+            None => Act::AddProduct(entry.key.clone()),
+        }));
     }
 }
 

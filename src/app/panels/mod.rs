@@ -2,6 +2,7 @@
 
 pub mod bench;
 mod catalogue;
+mod compare;
 mod fields;
 mod goniophotometer;
 mod import;
@@ -34,6 +35,9 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let mut commands = Vec::new();
     let bar = theme::bar_frame(ui);
     egui::Panel::top("menu").frame(bar).show(ui, |ui| menu::show(ui, &app.state, &mut commands));
+    if !app.state.document.scene.compare.is_empty() {
+        egui::Panel::top("tray").frame(bar).show(ui, |ui| compare::tray(ui, &app.state, &mut commands));
+    }
     let status = egui::Panel::bottom("status").frame(bar).show(ui, |ui| status::show(ui, app, &mut commands));
     // Messages stand above the status line, never over it.
     let corner = status.response.rect.right_top() - egui::vec2(8.0, 8.0);
@@ -76,8 +80,14 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let centre = egui::CentralPanel::default();
     if let Some(sheet) = wide {
         centre.frame(side).show(ui, |ui| sheets::show(ui, app, sheet, &mut commands));
+    } else if app.state.compare.open {
+        centre.frame(ground).show(ui, |ui| compare::show(ui, app, &mut commands));
     } else {
+        let from = commands.len();
         centre.frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
+        if let Some(place) = app.state.compare.swapped {
+            app.retarget(place, from, &mut commands);
+        }
     }
     palette::show(ui, &app.state, &mut commands);
     messages::show(ui, &mut app.toasts, corner, &mut commands);

@@ -37,7 +37,7 @@ impl Drawn for Drawing {
             name: &name,
             incidence: Incidence::shown(state.incident, &state.document.scene),
             sun,
-            range: None,
+            range: seen.scale,
             revision: dataset.revision,
             status: seen.status_of(dataset, Lane::Scene),
         };

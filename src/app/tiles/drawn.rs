@@ -19,6 +19,8 @@ pub struct TileInput<'a> {
     pub held: bool,
     /// Are the tile's numbers asked for?
     pub numbers: bool,
+    /// Lowest and highest value of the tile's scale where it is shared with others, in the tile's unit.
+    pub scale: Option<[f64; 2]>,
 }
 
 impl<'a> TileInput<'a> {

@@ -31,7 +31,7 @@ impl Drawn for Drawing {
             name: &name,
             peaks: seen.results.lid_peaks(),
             flux: figures.map(|figures| figures.flux.value - figures.lid.beam_flux()),
-            max: None,
+            max: seen.scale.map(|[_, max]| max),
             revision: shown.revision,
             status: seen.status_of(shown, Lane::Lid),
         };

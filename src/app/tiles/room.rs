@@ -69,7 +69,7 @@ impl Drawn for Drawing {
             listed: shown.value.is_some() && figures.is_none(),
             plane_z: scene.sensors.plane.map_or(0.0, |plane| plane.z),
             name: &name,
-            range: None,
+            range: seen.scale,
             revision: shown.revision,
             status: seen.status_of(shown, Lane::Room),
         };

@@ -49,6 +49,7 @@ impl Drawn for Drawing {
                 .then(|| seen.results.lid.value.as_ref().and_then(|lid| lid.incident))
                 .flatten(),
             facade_stale: seen.results.lid.stale,
+            range: seen.scale,
             revision: state.daylight.revision,
             status: seen.status_of(&state.daylight, Lane::Scene),
         };

@@ -97,6 +97,7 @@ impl Drawn for Drawing {
             moment: sun_incident(scene),
             incidence,
             split,
+            range: seen.scale,
             revision: revision.wrapping_add(key.1[3]),
             status: seen.status_of(dataset, Lane::Scene),
         };

@@ -22,7 +22,7 @@ pub struct Input<'a> {
     pub peaks: Option<&'a Peaks>,
     /// Luminous flux into the room, the unscattered sun left out. \[lm\]
     pub flux: Option<f64>,
-    /// Outermost ring forced from outside (comparison), in the unit shown.
+    /// Outermost ring forced from outside (comparison). \[cd\]
     pub max: Option<f64>,
     /// Changes with `lid`.
     pub revision: u64,
@@ -193,8 +193,9 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let factor = scaling.factor;
     let planes = vertical_planes(lid.surface, input.peaks);
     let curves = state.curves.get((input.revision, planes.clone()), || sample(lid, &planes)).clone();
-    let automatic = input.max.unwrap_or(curves.max * factor);
-    let max = state.ring.filter(|_| input.status.hold_scale).unwrap_or(automatic);
+    let automatic = input.max.unwrap_or(curves.max) * factor;
+    let held = input.status.hold_scale && input.max.is_none();
+    let max = state.ring.filter(|_| held).unwrap_or(automatic);
     state.ring = Some(max);
     // As many lines for a scene with sun as for one without, so that the diagram keeps its place.
     let lines = if rect.width() < NARROW { 4.0 } else { 3.0 };

@@ -5,6 +5,7 @@
 pub mod accuracy;
 pub mod btdf;
 pub mod control;
+pub mod difference;
 pub mod lid;
 pub mod room;
 pub mod section;
@@ -39,6 +40,11 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K: PartialEq, V> Cache<K, V> {
+    /// What is kept, of whatever key.
+    pub fn last(&self) -> Option<&V> {
+        self.0.as_ref().map(|(_, value)| value)
+    }
+
     /// The kept value, or a new one when the key is another.
     pub fn get(&mut self, key: K, make: impl FnOnce() -> V) -> &V {
         if self.0.as_ref().is_none_or(|(old, _)| *old != key) {

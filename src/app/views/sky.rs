@@ -48,6 +48,8 @@ pub struct Input<'a> {
     pub facade_vertical: Option<f64>,
     /// That is of before the last change.
     pub facade_stale: bool,
+    /// Scale forced from outside (comparison). \[cd/m²\]
+    pub range: Option<[f64; 2]>,
     /// Changes with the sky.
     pub revision: u64,
     /// How far the content is to be trusted.
@@ -171,17 +173,17 @@ fn picture(
     };
     let [min, max] = *state.extent.get(input.revision, || extent(luminance));
     let moving = input.status.hold_scale || state.dragging;
-    let scale = state
-        .scale
-        .clone()
-        .filter(|_| moving)
-        .unwrap_or_else(|| ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential));
+    let held = state.scale.clone().filter(|_| moving);
+    let own = || ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential);
+    let forced = input.range.map(|[lo, hi]| ColourScale { lo, hi, log: true, map: ColourMap::Sequential });
+    let scale = forced.or(held).unwrap_or_else(own);
     state.scale = Some(scale.clone());
     let text = dome(ui, map, luminance, input, state, &scale, out);
     section.and_then(|place| section_ui(ui, place, luminance, input, state, &scale)).unwrap_or(text)
 }
 
-fn extent(luminance: Luminance<'_>) -> [f64; 2] {
+/// Lowest and highest luminance, the dark left out. \[cd/m²\]
+pub fn extent(luminance: Luminance<'_>) -> [f64; 2] {
     let mut range = [f64::INFINITY, 0.0_f64];
     for ring in 0..18 {
         for sector in 0..36 {

@@ -93,6 +93,8 @@ pub struct Input<'a> {
     pub incidence: Incidence,
     /// Where its light goes; `None` without data.
     pub split: Option<FluxSplit>,
+    /// Scale forced from outside (comparison).
+    pub range: Option<[f64; 2]>,
     /// Changes with `btdf`.
     pub revision: u64,
     /// How far the content is to be trusted.
@@ -176,7 +178,9 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
     // Up to the data's own maximum: dense products would be one dark blot on a scale up to 1. Opaque ones still
     // need an extent.
-    let scale = ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
+    let own = || ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
+    let forced = |[lo, hi]: [f64; 2]| ColourScale { lo, hi, log: false, map: ColourMap::Sequential };
+    let scale = input.range.map_or_else(own, forced);
     let mesh =
         state.mesh.get((input.revision, disk, scale.clone()), || Arc::new(map_mesh(&disk, btdf, &basis, &scale)));
     ui.painter().add(Shape::Mesh(mesh.clone()));

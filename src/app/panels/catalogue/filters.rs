@@ -177,6 +177,21 @@ pub(super) fn read_as(ui: &mut Ui, found: &Found) {
     }
 }
 
+/// What the list is like, until a click.
+pub(super) fn like(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let Some(key) = &state.query.like else { return };
+    let found = state.found.like.as_ref().filter(|like| like.key == *key);
+    let name = found.map_or(key, |like| &like.name);
+    let chip = egui::Button::new(format!("Like {name} ×")).fill(theme::palette(ui).chosen).truncate();
+    let tip = format!(
+        "Products by what they do to light, nearest to {name} first: differences of τ, its profile, light to the ceiling, \
+         sun blocked and view, all as shares of the light that arrives. A click goes back to the list"
+    );
+    if ui.add(chip).on_hover_text(tip).accessible_name(format!("No longer like {name}")).clicked() {
+        commands.push(Command::Find(Query { like: None, ..state.query.clone() }));
+    }
+}
+
 /// Nothing was found: what to give up, one click each.
 pub(super) fn nothing(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let (found, query) = (&*state.found, &state.query);

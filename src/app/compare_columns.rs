@@ -1,0 +1,326 @@
+//! What was computed of the candidates: each is a small window of its own, with state and results, so that every tile can
+//! draw it. Kept while the candidate's scene stays; nothing is asked for that is not shown.
+
+use super::compare::Part;
+use super::control::YearKey;
+use super::error::AppError;
+use super::facing::surface;
+use super::incidence::Incidence;
+use super::scene::selection_of;
+use super::state::{CatalogueState, Daylight, Document, Results, Settings, Shown, State};
+use super::tiles::Bench;
+use super::views::Cache;
+use super::views::difference::{self, Picture};
+use super::work::{Compared, Shelved};
+use crate::compute::direction::Incident;
+use crate::drawing::plot::Plot;
+use crate::study::comparison::{DataFacts, Facts, LidFacts, candidate, label, same_question};
+use crate::study::scene_file::{CompareKeys, SceneFile};
+use std::path::PathBuf;
+
+/// A candidate with what is known of it.
+pub struct Column {
+    /// Which one, whatever its place.
+    pub id: u64,
+    /// As the tray has it.
+    pub keys: CompareKeys,
+    /// What it is called.
+    pub name: String,
+    /// As a window of its own would know it.
+    pub state: State,
+    /// What was computed.
+    pub results: Results,
+    /// Its tiles.
+    pub bench: Bench,
+    /// The picture of its difference from the base.
+    pub difference: difference::State,
+    /// Figures of its dataset; the flag says that they were asked for.
+    data: (bool, Option<DataFacts>),
+}
+
+/// Takes a result over that is not older than this one.
+fn adopt<T>(own: &mut Shown<T>, from: &Shown<T>) {
+    if own.stale && !from.stale {
+        *own = Shown { value: from.value.clone(), stale: false, error: None, revision: from.revision };
+    }
+}
+
+/// Is it to be asked for? What failed is not, until something changes.
+fn due<T>(shown: &Shown<T>) -> bool {
+    shown.stale && shown.error.is_none()
+}
+
+fn outdate<T>(shown: &mut Shown<T>) {
+    (shown.stale, shown.error) = (true, None);
+}
+
+impl Column {
+    fn new(id: u64, keys: CompareKeys, scene: SceneFile) -> Self {
+        let mut state = State::new(Settings::default());
+        state.document.scene = scene;
+        state.document.selection = selection_of(&state.document.scene).unwrap_or_default();
+        let name = label(&keys);
+        Self {
+            id,
+            keys,
+            name,
+            state,
+            results: Results::default(),
+            bench: Bench::default(),
+            difference: difference::State::default(),
+            data: (false, None),
+        }
+    }
+
+    /// The scene of the candidate.
+    pub fn scene(&self) -> &SceneFile {
+        &self.state.document.scene
+    }
+
+    /// Is it what a document shows?
+    pub fn shows(&self, document: &Document) -> bool {
+        same_question(self.scene(), &document.scene) && self.state.document.selection == document.selection
+    }
+
+    fn set_scene(&mut self, scene: SceneFile) {
+        self.state.document.selection = selection_of(&scene).unwrap_or_default();
+        self.state.document.scene = scene;
+        outdate(&mut self.state.dataset);
+        outdate(&mut self.state.daylight);
+        outdate(&mut self.results.lid);
+        outdate(&mut self.results.room);
+        outdate(&mut self.results.year);
+        self.data.0 = false;
+    }
+
+    /// What the year of its product hangs on.
+    pub fn year_key(&self) -> Option<YearKey> {
+        let product = self.state.product.as_ref().filter(|product| product.states.len() > 1)?;
+        let surface = surface(self.scene());
+        YearKey::new(self.scene(), &product.key, self.state.control_keys(), surface, self.state.base())
+    }
+
+    /// Is a part to be asked for?
+    pub fn lacks(&self, part: Part) -> bool {
+        match part {
+            Part::Shelf => due(&self.state.dataset) || due(&self.state.daylight),
+            Part::Lid => due(&self.results.lid),
+            Part::Room => due(&self.results.room),
+            Part::Peaks => !self.results.lid.stale && self.results.lid_peaks().is_none(),
+            Part::Year => !self.state.dataset.stale && due(&self.results.year) && self.year_key().is_some(),
+            Part::Data => !self.data.0 && !self.state.dataset.stale,
+        }
+    }
+
+    /// Revisions of dataset, daylight, LID and room: other ones are other results.
+    pub fn revisions(&self) -> [u64; 4] {
+        let (state, results) = (&self.state, &self.results);
+        [state.dataset.revision, state.daylight.revision, results.lid.revision, results.room.revision]
+    }
+
+    /// The incidence that its tiles draw for.
+    pub fn incident(&self) -> Incident {
+        Incidence::shown(self.state.incident, self.scene()).direction
+    }
+
+    /// Why something of it is missing.
+    pub fn error(&self) -> Option<&str> {
+        let errors = [&self.state.dataset.error, &self.results.lid.error, &self.results.room.error];
+        errors.into_iter().flatten().next().map(String::as_str)
+    }
+
+    /// What its figures are made of, as far as it is known and not outdated.
+    pub fn facts(&self) -> Facts {
+        let lid = self.results.lid.value.as_ref().filter(|_| !self.results.lid.stale);
+        let room = self.results.room.value.as_ref().filter(|_| !self.results.room.stale);
+        Facts {
+            data: self.data.1.filter(|_| self.data.0),
+            lid: lid.map(|lid| LidFacts { flux: lid.flux, peaks: self.results.lid_peaks().copied() }),
+            room: room.map(|room| room.totals().collect()),
+        }
+    }
+
+    fn take_shelf(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, String>) {
+        match shelved {
+            Ok(Shelved { product, state, dataset }) => {
+                self.state.product = Some(product);
+                self.state.shown_state = state;
+                match dataset {
+                    Some(dataset) => self.state.dataset.put(dataset),
+                    None => self.state.dataset = Shown::default(),
+                }
+            }
+            Err(error) => self.state.dataset.error = Some(error.to_string()),
+        }
+        self.state.daylight.take(daylight);
+    }
+
+    /// Takes in what a job brought.
+    pub fn take(&mut self, what: Compared) {
+        match what {
+            Compared::Shelf(shelved, daylight) => self.take_shelf(shelved, daylight.map_err(|error| error.to_string())),
+            Compared::Lid(result) => self.results.lid.take(result),
+            Compared::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
+            Compared::Room(result) => self.results.room.take(result),
+            Compared::Year(result) => self.results.year.take(result),
+            Compared::Data(facts) => self.data = (true, facts),
+            Compared::Failed(part, error) => self.fail(part, error),
+        }
+    }
+
+    fn fail(&mut self, part: Part, error: String) {
+        match part {
+            Part::Shelf => self.state.dataset.error = Some(error),
+            Part::Lid | Part::Peaks => {
+                self.results.lid.stale = true;
+                self.results.lid.error = Some(error);
+            }
+            Part::Room => self.results.room.error = Some(error),
+            Part::Year => self.results.year.error = Some(error),
+            Part::Data => self.data = (true, None),
+        }
+    }
+}
+
+/// What a common scale hangs on: the tile, which results, and the incidences.
+pub type ScaleKey = (&'static str, Vec<[u64; 4]>, Vec<Option<[u64; 3]>>);
+/// What a picture of all hangs on: the tile, the base, and the names besides.
+pub type PictureKey = (ScaleKey, usize, Vec<String>);
+
+/// All candidates of the tray.
+#[derive(Default)]
+pub struct Columns {
+    /// In the order of the tray.
+    pub list: Vec<Column>,
+    /// What is being computed, and of which.
+    pub running: Option<(u64, Part)>,
+    /// Stopped by hand, until something changes.
+    pub stopped: bool,
+    /// The scale of all, for what it was found.
+    pub scale: Cache<ScaleKey, Option<[f64; 2]>>,
+    /// Differences from the base, for what they were found.
+    pub differences: Cache<PictureKey, Vec<Option<Picture>>>,
+    /// Plots, for what they were made.
+    pub plots: Cache<PictureKey, Vec<Plot>>,
+    next: u64,
+    seen: Option<(SceneFile, PathBuf)>,
+}
+
+impl Columns {
+    /// Brings the candidates in line with the scene; true where what is being computed is no longer wanted.
+    pub fn follow(&mut self, state: &State, results: &Results) -> bool {
+        let scene = &state.document.scene;
+        let path = state.scene_path.clone().unwrap_or_default();
+        if !self.seen.as_ref().is_some_and(|(seen, from)| seen == scene && *from == path) {
+            self.seen = Some((scene.clone(), path));
+            self.stopped = false;
+            self.renew(scene);
+        }
+        for column in &mut self.list {
+            let own = &mut column.state;
+            (own.incident, own.computing) = (state.incident, None);
+            own.scene_path.clone_from(&state.scene_path);
+            if let CatalogueState::Ready(shelf) = &state.catalogue {
+                own.catalogue = CatalogueState::Ready(shelf.clone());
+            }
+            if column.shows(&state.document) {
+                column.adopt(state, results);
+            }
+        }
+        let wanted = |(id, part): (u64, Part)| self.list.iter().any(|column| column.id == id && column.lacks(part));
+        let gone = self.running.is_some_and(|running| !wanted(running));
+        if gone {
+            self.running = None;
+        }
+        gone
+    }
+
+    fn renew(&mut self, scene: &SceneFile) {
+        let mut old = std::mem::take(&mut self.list);
+        for keys in &scene.compare {
+            let own = candidate(scene, keys);
+            let bare = |keys: &CompareKeys| CompareKeys { name: String::new(), ..keys.clone() };
+            let place = old.iter().position(|column| bare(&column.keys) == bare(keys));
+            let column = match place.map(|place| old.remove(place)) {
+                Some(mut column) => {
+                    if !same_question(column.scene(), &own) {
+                        column.set_scene(own);
+                    }
+                    Column { name: label(keys), keys: keys.clone(), ..column }
+                }
+                None => {
+                    self.next += 1;
+                    Column::new(self.next, keys.clone(), own)
+                }
+            };
+            self.list.push(column);
+        }
+    }
+
+    /// What a picture of all candidates hangs on.
+    pub fn key(&self, tile: &'static str) -> ScaleKey {
+        let bits =
+            |column: &Column| (tile == "BTDF").then(|| column.incident().0.vector().to_array().map(f64::to_bits));
+        (tile, self.list.iter().map(Column::revisions).collect(), self.list.iter().map(bits).collect())
+    }
+
+    /// The first part of those in sight that is missing, candidate by candidate.
+    pub fn next(&self, columns: impl Iterator<Item = usize>, parts: &[Part]) -> Option<(&Column, Part)> {
+        let columns: Vec<&Column> = columns.filter_map(|place| self.list.get(place)).collect();
+        // Part by part: all have their first picture before one has its last figure.
+        parts.iter().find_map(|part| columns.iter().find(|column| column.lacks(*part)).map(|column| (*column, *part)))
+    }
+
+    /// The names, each with its place so that no two are the same.
+    pub fn names(&self) -> Vec<String> {
+        self.list.iter().enumerate().map(|(at, column)| format!("{} {}", at + 1, column.name)).collect()
+    }
+
+    /// The scale of the tiles side by side, as they were drawn last.
+    pub fn common_scale(&self) -> Option<[f64; 2]> {
+        self.scale.last().copied().flatten()
+    }
+
+    /// Takes in what a job brought of a candidate.
+    pub fn take(&mut self, id: u64, what: Compared) {
+        self.running = None;
+        if let Some(column) = self.list.iter_mut().find(|column| column.id == id) {
+            column.take(what);
+        }
+    }
+
+    /// The job under way ended in a fault of the program.
+    pub fn fail(&mut self, error: String) {
+        if let Some((id, part)) = self.running.take() {
+            self.take(id, Compared::Failed(part, error));
+        }
+    }
+
+    /// Nothing more is asked for until something changes.
+    pub fn stop(&mut self) {
+        (self.stopped, self.running) = (true, None);
+    }
+
+    /// What the tiles show: the candidate in the scene's place, or the scene's own.
+    pub fn shown<'a>(&'a self, state: &'a State, results: &'a Results) -> (&'a State, &'a Results) {
+        let swapped = state.compare.swapped.and_then(|place| self.list.get(place));
+        swapped.map_or((state, results), |column| (&column.state, &column.results))
+    }
+}
+
+impl Column {
+    /// What the window itself has computed of the same scene need not be computed again.
+    fn adopt(&mut self, state: &State, results: &Results) {
+        if self.state.dataset.stale && !state.dataset.stale {
+            self.state.product.clone_from(&state.product);
+            self.state.shown_state.clone_from(&state.shown_state);
+        }
+        adopt(&mut self.state.dataset, &state.dataset);
+        adopt(&mut self.state.daylight, &state.daylight);
+        adopt(&mut self.results.lid, &results.lid);
+        adopt(&mut self.results.room, &results.room);
+        if self.results.lid_peaks().is_none() {
+            self.results.peaks.clone_from(&results.peaks);
+        }
+    }
+}

@@ -1,0 +1,341 @@
+//! Comparing: what is put into the tray, what is computed of it, and what the tiles of a candidate may change.
+
+use super::apply::first_choice;
+use super::command::Command;
+use super::compare::{Act, Look, Part};
+use super::compare_columns::Column;
+use super::engine::Question;
+use super::jobs::Lane;
+use super::scene::{rule, selection_of};
+use super::state::{Daylight, Document, State};
+use super::tiles::TILES;
+use super::window::App;
+use super::work::{Compared, Outcome, Shelved, take_from_shelf};
+use super::{control, title};
+use crate::compute::estimate::Progress;
+use crate::compute::lid::c_gamma::Peaks;
+use crate::study::comparison::{DataFacts, FIGURES, Facts, MOST, Row, candidate, compare, csv};
+use crate::study::control::year::CONTROLLED;
+use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
+use crate::study::sky::outside_from_keys;
+
+/// The candidate that a document shows, under a name.
+fn keys_of(document: &Document, name: String) -> CompareKeys {
+    let selection = &document.selection;
+    let controlled = selection.state == CONTROLLED;
+    let system = if selection.product.is_empty() {
+        document.scene.aperture.first().map(|aperture| aperture.system.clone())
+    } else {
+        let state = Some(selection.state.clone()).filter(|state| !state.is_empty());
+        Some(SystemKeys::Catalogue { key: selection.product.clone(), state })
+    };
+    let control = rule(&document.scene, 0).filter(|_| controlled).cloned();
+    CompareKeys { name, system, control, ..CompareKeys::default() }
+}
+
+/// What is shown, in words: the rule instead of the state that it picks now.
+fn shown_words(state: &State) -> String {
+    if state.document.selection.state == CONTROLLED {
+        let short = control::words(state.control_mode()).short.to_lowercase();
+        return format!("{}, {short}", title::product(state));
+    }
+    title::selection(state)
+}
+
+/// The parts that a tile draws.
+pub fn parts(look: Look, tile: &str) -> &'static [Part] {
+    match (look, tile) {
+        (Look::Figures, _) => &[Part::Shelf, Part::Data, Part::Room, Part::Lid, Part::Peaks],
+        (_, "BTDF" | "Transmittance") => &[Part::Shelf],
+        (Look::Beside, "Sky") => &[Part::Shelf, Part::Lid],
+        (Look::Beside, "LID") => &[Part::Shelf, Part::Lid, Part::Peaks],
+        (_, "Sky") => &[Part::Shelf],
+        (_, "LID") => &[Part::Shelf, Part::Lid],
+        (_, "Room") => &[Part::Shelf, Part::Room],
+        (Look::Beside, "Control") => &[Part::Shelf, Part::Year],
+        (_, "Control") => &[Part::Shelf],
+        _ => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
+    }
+}
+
+/// All that the tiles draw.
+const ALL: &[Part] = &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks, Part::Year];
+
+impl App {
+    /// Does what was asked about the tray.
+    pub(super) fn act(&mut self, act: Act) {
+        self.compare.stopped = false;
+        let tray = self.state.document.scene.compare.len();
+        match act {
+            Act::Add => self.add_candidate(keys_of(&self.state.document, shown_words(&self.state))),
+            Act::AddMoment => {
+                let name = format!("{} · {}", shown_words(&self.state), title::time(&self.state.document.scene));
+                let sky = Some(self.state.document.scene.sky.clone());
+                self.add_candidate(CompareKeys { sky, ..keys_of(&self.state.document, name) });
+            }
+            Act::AddScene => {
+                let scene = self.state.document.scene.clone();
+                let name = format!("{} · {}", shown_words(&self.state), title::place(&scene));
+                self.add_candidate(CompareKeys {
+                    name,
+                    system: None,
+                    control: scene.control,
+                    sky: Some(scene.sky),
+                    site: Some(scene.site),
+                    room: Some(scene.room),
+                    aperture: scene.aperture,
+                    sensors: Some(scene.sensors),
+                });
+            }
+            Act::AddProduct(key) => self.add_product(key),
+            Act::Take(place) if place < tray => self.take_candidate(place),
+            Act::Remove(place) if place < tray => self.edit_tray(|tray| drop(tray.remove(place))),
+            Act::Move(place, step) if place < tray => {
+                let to = place.saturating_add_signed(step).min(tray - 1);
+                self.edit_tray(|tray| {
+                    let one = tray.remove(place);
+                    tray.insert(to, one);
+                });
+            }
+            Act::EditName(naming) => self.state.compare.naming = naming,
+            Act::Rename(place, name) if place < tray => {
+                self.state.compare.naming = None;
+                self.edit_tray(|tray| tray[place].name = name.trim().to_owned());
+            }
+            Act::Clear => self.edit_tray(Vec::clear),
+            Act::Show if tray == 0 && !self.state.compare.open => self.say_empty(),
+            Act::Show => {
+                self.state.compare.open ^= true;
+                self.state.compare.swapped = None;
+            }
+            Act::Look(look) => self.look_at(|view| view.look = look),
+            Act::Tile(tile) => self.look_at(|view| view.tile = tile),
+            Act::Base(place) => self.look_at(|view| view.base = place),
+            Act::Swap => self.swap(),
+            Act::SwapWith(place) => {
+                self.state.compare.open = false;
+                self.state.compare.swapped = (place < tray).then_some(place);
+                self.state.compare.other = self.state.compare.swapped;
+            }
+            Act::Copy => {
+                let names = self.compare.names();
+                self.ctx.copy_text(csv(&self.rows(), &names));
+                self.toasts.info("Figures copied as CSV");
+            }
+            Act::Resume | Act::Take(_) | Act::Remove(_) | Act::Move(..) | Act::Rename(..) => {}
+        }
+    }
+
+    /// A candidate becomes the scene: one step.
+    fn take_candidate(&mut self, place: usize) {
+        self.undoer.add_undo(&self.state.document);
+        let document = &mut self.state.document;
+        let own = candidate(&document.scene, &document.scene.compare[place]);
+        let compare = std::mem::take(&mut document.scene.compare);
+        document.scene = SceneFile { compare, ..own };
+        if let Some(selection) = selection_of(&document.scene) {
+            document.selection = selection;
+        }
+        self.undoer.add_undo(&self.state.document);
+        (self.state.compare.open, self.state.compare.swapped) = (false, None);
+    }
+
+    fn say_empty(&mut self) {
+        self.toasts.info("Nothing to compare yet: C adds what is shown, or use the ⊕ of a row in the catalogue");
+    }
+
+    fn look_at(&mut self, change: impl FnOnce(&mut super::compare::View)) {
+        if self.state.document.scene.compare.is_empty() {
+            return self.say_empty();
+        }
+        change(&mut self.state.compare);
+        self.state.compare.open = true;
+        self.state.compare.swapped = None;
+    }
+
+    /// Changes the tray: one step.
+    fn edit_tray(&mut self, change: impl FnOnce(&mut Vec<CompareKeys>)) {
+        self.undoer.add_undo(&self.state.document);
+        change(&mut self.state.document.scene.compare);
+        self.undoer.add_undo(&self.state.document);
+        let left = self.state.document.scene.compare.len();
+        let view = &mut self.state.compare;
+        (view.open, view.naming, view.swapped, view.other) = (view.open && left > 0, None, None, None);
+        view.base = view.base.min(left.saturating_sub(1));
+    }
+
+    fn add_candidate(&mut self, keys: CompareKeys) {
+        let tray = &self.state.document.scene.compare;
+        let known = |other: &CompareKeys| CompareKeys { name: keys.name.clone(), ..other.clone() } == keys;
+        if tray.len() >= MOST {
+            self.toasts.info(format!("The tray holds {MOST}: take one out first"));
+        } else if keys.system.is_none() && keys.aperture.is_empty() {
+            self.toasts.info("Nothing is shown yet that could be compared");
+        } else if tray.iter().any(known) {
+            self.toasts.info("In the tray already. Shift+C adds it with this moment, to be compared with another one");
+        } else {
+            self.edit_tray(|tray| tray.push(keys));
+        }
+    }
+
+    fn add_product(&mut self, key: String) {
+        let Some(entry) = self.state.found.entries.iter().find(|entry| entry.key == key).cloned() else {
+            self.toasts.info("The product is not in the list: search for it, then add it");
+            return;
+        };
+        let mut document = self.state.document.clone();
+        first_choice(&mut document, key, entry.rule, Some(entry.state()).filter(|_| entry.moves()));
+        let how = match (control::first_keys(entry.rule), entry.moves()) {
+            (Some(keys), _) => format!(", {}", control::words(keys.mode).short.to_lowercase()),
+            (None, true) => format!(", {}", entry.state()),
+            (None, false) => String::new(),
+        };
+        self.add_candidate(keys_of(&document, format!("{}{how}", entry.name)));
+    }
+
+    /// The tiles show another one of the tray, or the scene's own again.
+    fn swap(&mut self) {
+        let view = &mut self.state.compare;
+        if view.swapped.take().is_some() {
+            return;
+        }
+        let own = &self.state.document;
+        let list = &self.compare.list;
+        let chosen = view.other.filter(|place| list.get(*place).is_some_and(|column| !column.shows(own)));
+        match chosen.or_else(|| list.iter().position(|column| !column.shows(own))) {
+            Some(other) => (view.swapped, view.open) = (Some(other), false),
+            None => {
+                self.toasts
+                    .info("Nothing to swap with: add what is shown (C), choose another product or state, then X");
+            }
+        }
+    }
+
+    /// Asks for the next part of what is shown of the candidates.
+    pub(super) fn ask_compared(&mut self) {
+        // The tray may have changed by undo, or by a scene that was opened.
+        let tray = self.state.document.scene.compare.len();
+        let view = &mut self.state.compare;
+        view.swapped = view.swapped.filter(|place| *place < tray);
+        view.open &= tray > 0;
+        if self.compare.follow(&self.state, &self.results) {
+            self.jobs.cancel(Lane::Compare);
+        }
+        let view = &self.state.compare;
+        let own = [Lane::Scene, Lane::Product, Lane::Lid, Lane::Room].into_iter().any(|lane| self.jobs.busy(lane));
+        if self.compare.stopped || self.jobs.busy(Lane::Compare) || own && !view.open {
+            return;
+        }
+        let (columns, parts) = match (view.open, view.swapped) {
+            (true, _) => (0..tray, parts(view.look, view.tile())),
+            (false, Some(place)) => (place..place + 1, ALL),
+            (false, None) => return,
+        };
+        let Some(shelf) = self.state.shelf() else { return };
+        // What the window computes for itself anyway is taken over from there.
+        let document = &self.state.document;
+        let elsewhere = |place: &usize| own && self.compare.list.get(*place).is_some_and(|one| one.shows(document));
+        let Some((column, part)) = self.compare.next(columns.filter(|place| !elsewhere(place)), parts) else { return };
+        let question = Question { scene: column.scene().clone(), base: self.state.base(), shelf };
+        let (id, engine) = (column.id, self.services.engine.clone());
+        let lid = column.results.lid.value.clone();
+        let dataset = column.state.dataset.value.clone();
+        let year = column.year_key().zip(column.state.product.clone());
+        self.compare.running = Some((id, part));
+        self.start(Lane::Compare, move |job| {
+            let missing = || Compared::Failed(part, "what it is made of is not there".to_owned());
+            let done = match part {
+                Part::Shelf => shelf_part(&question, job),
+                Part::Lid => Compared::Lid(engine.lid(&question, job)),
+                Part::Room => Compared::Room(engine.room(&question, job)),
+                Part::Peaks => lid.map_or_else(missing, |lid| {
+                    let peaks = Peaks::of(&lid.lid);
+                    Compared::Peaks(lid, peaks)
+                }),
+                Part::Year => {
+                    year.map_or_else(missing, |(key, product)| Compared::Year(control::year(&product, key, job)))
+                }
+                Part::Data => Compared::Data(dataset.and_then(|dataset| DataFacts::of(&dataset))),
+            };
+            Outcome::Compared(id, Box::new(done))
+        });
+    }
+
+    /// The table of figures of the tray.
+    pub fn rows(&self) -> Vec<Row> {
+        let facts: Vec<Facts> = self.compare.list.iter().map(Column::facts).collect();
+        compare(FIGURES, &facts.iter().collect::<Vec<_>>())
+    }
+
+    /// What the tiles of a candidate ask for, as far as it is something of the scene that the candidate shares; `from`: the
+    /// first of these commands in the list.
+    pub(super) fn retarget(&self, place: usize, from: usize, commands: &mut Vec<Command>) {
+        let Some(column) = self.compare.list.get(place) else { return };
+        let document = &self.state.document;
+        let own = commands.split_off(from);
+        commands.extend(own.into_iter().filter_map(|command| match command {
+            Command::Scene(changed) => {
+                let scene = shared(&document.scene, &column.keys, *changed);
+                (scene != document.scene).then(|| Command::Scene(Box::new(scene)))
+            }
+            Command::Incidence(_) | Command::ExportTile(_) | Command::CopyTile(_) | Command::Maximise(_) => {
+                Some(command)
+            }
+            _ => None,
+        }));
+    }
+
+    /// Lists products like another one.
+    pub(super) fn find_like(&mut self, key: Option<String>) {
+        let key = key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
+        let Some(key) = key else {
+            self.toasts.info("No product is chosen");
+            return;
+        };
+        self.state.settings.catalogue_open = true;
+        self.state.query.like = Some(key);
+        self.search();
+    }
+}
+
+impl super::compare::View {
+    /// The tile that is compared.
+    pub fn tile(&self) -> &'static str {
+        let known = TILES.iter().map(|entry| entry.tile.title);
+        known.clone().find(|title| *title == self.tile).or(known.clone().find(|title| *title == "Room")).unwrap_or("")
+    }
+}
+
+/// The scene with what was changed in a candidate's, but for what the candidate has of its own.
+fn shared(scene: &SceneFile, keys: &CompareKeys, changed: SceneFile) -> SceneFile {
+    let mut scene = scene.clone();
+    if keys.sky.is_none() {
+        scene.sky = changed.sky;
+    }
+    if keys.sensors.is_none() {
+        scene.sensors = changed.sensors;
+    }
+    if keys.room.is_none() {
+        scene.room = changed.room;
+    }
+    if keys.site.is_none() {
+        scene.site = changed.site;
+    }
+    scene
+}
+
+/// Product, state and dataset of a candidate, computed where the catalogue does not hold them yet; sky and sun.
+fn shelf_part(question: &Question, progress: &dyn Progress) -> Compared {
+    let Question { scene, base, shelf } = question;
+    let daylight = outside_from_keys(&scene.sky, &scene.site, base).map(|(outside, sun)| Daylight { outside, sun });
+    let selection = selection_of(scene).unwrap_or_default();
+    let found = take_from_shelf(&**shelf, &selection, scene, daylight.as_ref().ok(), (0, base)).and_then(|found| {
+        if found.dataset.is_some() {
+            return Ok(found);
+        }
+        shelf.provide(&selection.product, Some(&found.state), progress)?;
+        let dataset = Some(shelf.load(&selection.product, Some(&found.state))?);
+        Ok(Shelved { dataset, ..found })
+    });
+    Compared::Shelf(found, daylight)
+}

@@ -1,0 +1,177 @@
+//! The tray, always in sight while something is in it, and the comparison in the bench's place.
+
+mod beside;
+mod curves;
+mod difference;
+mod figures;
+mod places;
+
+use crate::app::command::Command;
+use crate::app::compare::{Act, Look};
+use crate::app::state::State;
+use crate::app::theme;
+use crate::app::tiles::TILES;
+use crate::app::window::App;
+use crate::study::comparison::label;
+use egui::{Align, Key, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
+use places::short;
+
+/// Mean width of a letter in a chip. \[points\]
+const LETTER: f32 = 7.2;
+/// Height of the tray's line. \[points\]
+const LINE: f32 = 28.0;
+/// Size of what tells which one is shown. \[points\]
+const LARGE: f32 = 18.0;
+
+/// The tray, in one line.
+pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let tray = &state.document.scene.compare;
+    let view = &state.compare;
+    let mut act = |act: Act| commands.push(Command::Compare(act));
+    ui.horizontal(|ui| {
+        ui.set_height(LINE);
+        ui.spacing_mut().item_spacing.x = 6.0;
+        let own = ui.available_width() * 0.26;
+        ui.allocate_ui_with_layout(vec2(own, LINE), Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(own);
+            let (text, colour) = match view.swapped.and_then(|place| Some((place, tray.get(place)?))) {
+                Some((place, keys)) => (format!("{} {}", place + 1, label(keys)), theme::palette(ui).accent),
+                None if view.open => (format!("Comparing {}", tray.len()), theme::palette(ui).text),
+                None => ("As in the scene".to_owned(), theme::palette(ui).text),
+            };
+            let tip = format!("Shown: {text}. X shows the next of the tray in all tiles, and goes back");
+            let shown = RichText::new(short(&text, (own / 10.5) as usize)).size(LARGE).strong().color(colour);
+            ui.label(shown).on_hover_text(tip);
+        });
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let button = ui.selectable_label(view.open, "Compare");
+            if button.on_hover_text("All of the tray in the tiles' place, or back to the tiles (Shift+X)").clicked() {
+                act(Act::Show);
+            }
+            let swap = ui.selectable_label(view.swapped.is_some(), "Swap");
+            if swap.on_hover_text("The other one in all tiles, and back (X)").clicked() {
+                act(Act::Swap);
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let width = (ui.available_width() - 6.0 * tray.len() as f32) / tray.len().max(1) as f32;
+                for place in 0..tray.len() {
+                    chip(ui, state, place, width.min(230.0), &mut act);
+                }
+            });
+        });
+    });
+}
+
+/// One of the tray: a menu of what can be done with it, or its name while that is typed.
+fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnMut(Act)) {
+    let tray = &state.document.scene.compare;
+    let name = label(&tray[place]);
+    if let Some((named, typed)) = state.compare.naming.as_ref().filter(|(named, _)| *named == place) {
+        let mut text = typed.clone();
+        let field = ui.add(TextEdit::singleline(&mut text).desired_width(width - 10.0));
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name in the tray"));
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            act(Act::EditName(None));
+        } else if field.lost_focus() {
+            act(Act::Rename(*named, text));
+        } else {
+            field.request_focus();
+            if text != *typed {
+                act(Act::EditName(Some((place, text))));
+            }
+        }
+        return;
+    }
+    let full = format!("{} {name}", place + 1);
+    let text = short(&full, ((width - 14.0) / LETTER) as usize);
+    let shown = state.compare.swapped == Some(place);
+    let text = if shown { RichText::new(text).color(theme::palette(ui).accent) } else { RichText::new(text) };
+    let menu = ui.menu_button(text, |ui| {
+        let last = tray.len() - 1;
+        let entries: [(&str, &str, bool, Act); 7] = [
+            ("Show in the tiles", "X goes back to the scene's own", true, Act::SwapWith(place)),
+            (
+                "Make it the scene",
+                "Product, state and what else it has of its own; undo goes back",
+                true,
+                Act::Take(place),
+            ),
+            ("Differences from it", "The others less this one", tray.len() > 1, Act::Base(place)),
+            ("Rename…", "Another name in the tray", true, Act::EditName(Some((place, name.clone())))),
+            ("Move left", "One place earlier", place > 0, Act::Move(place, -1)),
+            ("Move right", "One place later", place < last, Act::Move(place, 1)),
+            ("Remove", "Take it out of the tray", true, Act::Remove(place)),
+        ];
+        for (text, tip, enabled, what) in entries {
+            if ui.add_enabled(enabled, egui::Button::new(text)).on_hover_text(tip).clicked() {
+                if matches!(what, Act::Base(_)) {
+                    act(Act::Look(Look::Difference));
+                }
+                act(what);
+                ui.close();
+            }
+        }
+    });
+    menu.response.on_hover_text(&full).accessible_name(format!("Candidate {full}"));
+}
+
+/// The comparison.
+pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+    let palette = theme::palette(ui);
+    let whole = ui.available_rect_before_wrap();
+    ui.painter().rect(whole, 6, palette.surface, egui::Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
+    let (bar, body) = whole.shrink2(vec2(8.0, 4.0)).split_top_bottom_at_y(whole.top() + 38.0);
+    let layout = Layout::left_to_right(Align::Center);
+    ui.scope_builder(UiBuilder::new().max_rect(bar).layout(layout), |ui| choices(ui, app, commands));
+    ui.scope_builder(UiBuilder::new().max_rect(body).id_salt("comparison"), |ui| match app.state.compare.look {
+        Look::Beside => beside::show(ui, app, commands),
+        Look::Difference => difference::show(ui, app),
+        Look::Curves => curves::show(ui, app),
+        Look::Figures => figures::show(ui, app, commands),
+    });
+}
+
+/// How, and which tile.
+fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
+    let view = &app.state.compare;
+    let mut act = |act: Act| commands.push(Command::Compare(act));
+    for look in Look::ALL {
+        if ui.selectable_label(view.look == look, look.words()).on_hover_text(look.tip()).clicked() {
+            act(Act::Look(look));
+        }
+    }
+    if view.look != Look::Figures {
+        ui.separator();
+        let combo = egui::ComboBox::from_id_salt("compared tile").width(110.0).selected_text(view.tile());
+        let combo = combo.show_ui(ui, |ui| {
+            for tile in TILES.iter().map(|entry| entry.tile.title) {
+                if ui.selectable_label(view.tile() == tile, tile).clicked() {
+                    act(Act::Tile(tile));
+                }
+            }
+        });
+        combo.response.on_hover_text("Which tile is compared").accessible_name("Compared tile");
+    }
+    if view.look == Look::Difference {
+        ui.label("less");
+        let names = app.compare.names();
+        let base = names.get(view.base).map_or("", String::as_str);
+        let combo = egui::ComboBox::from_id_salt("base").width(130.0).selected_text(short(base, 18));
+        let combo = combo.show_ui(ui, |ui| {
+            for (place, name) in names.iter().enumerate() {
+                if ui.selectable_label(view.base == place, name).clicked() {
+                    act(Act::Base(place));
+                }
+            }
+        });
+        combo.response.on_hover_text("From which one the differences are taken").accessible_name("Base of differences");
+    }
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if ui.button("Close").on_hover_text("Back to the tiles").clicked() {
+            act(Act::Show);
+        }
+        if app.compare.stopped && ui.button("Go on").on_hover_text("Compute what is missing").clicked() {
+            act(Act::Resume);
+        }
+    });
+}

@@ -1,0 +1,91 @@
+//! Curves of all candidates in one plot, told apart by colour and dashes.
+
+use crate::app::compare_columns::{Column, Columns};
+use crate::app::control::rule_curve;
+use crate::app::paint::palette::Palette;
+use crate::app::paint::plot::{self, Look};
+use crate::app::paint::tile;
+use crate::app::window::App;
+use crate::compute::estimate::Estimate;
+use crate::drawing::plot::Plot;
+use crate::study::comparison::curves::{Grid, of_controls, of_lids, of_rooms, of_transmittances};
+use egui::Ui;
+
+/// Draws the plots.
+pub(super) fn show(ui: &mut Ui, app: &mut App) {
+    let tile = app.state.compare.tile();
+    let names = app.compare.names();
+    // Rules are in the names of the scene's keys: with them the curves of control change.
+    let rules = app.compare.list.iter().map(|column| format!("{:?}", column.state.control_keys()));
+    let key = (app.compare.key(tile), 0, names.iter().cloned().chain(rules).collect());
+    let Columns { list, plots, .. } = &mut app.compare;
+    let plots = plots.get(key, || make(tile, list, &names));
+    if plots.is_empty() {
+        let words = list.iter().find_map(Column::error).map_or_else(
+            || match tile {
+                "LID" | "Room" | "BTDF" | "Transmittance" => "Computing…".to_owned(),
+                "Control" => "None of these follows a rule that has a curve.".to_owned(),
+                _ => "Curves are drawn of LID, room, transmittance and control.".to_owned(),
+            },
+            str::to_owned,
+        );
+        ui.centered_and_justified(|ui| ui.label(words));
+        return;
+    }
+    let palette = Palette::of(ui.visuals());
+    let colours: Vec<_> = palette.series.into_iter().chain([palette.ink]).collect();
+    let whole = ui.available_rect_before_wrap();
+    let wide = whole.width() > whole.height();
+    let halves = if wide { whole.split_left_right_at_fraction(0.5) } else { whole.split_top_bottom_at_fraction(0.5) };
+    let rects = if plots.len() > 1 { vec![halves.0, halves.1] } else { vec![whole] };
+    let mut legend_of = None;
+    for (k, (one, rect)) in plots.iter().zip(rects).enumerate() {
+        let id = ui.scope_id().with(("compared curves", tile, k));
+        let look = Look { dashed: true, legend_of, left: 56.0, ..Look::tile(id, &colours, palette.second) };
+        let shown = plot::show(ui, rect.shrink(4.0), one, &look, |_| {});
+        tile::name(ui, &shown.response, &format!("Curves of {tile}"), &names.join("; "));
+        legend_of = legend_of.or(Some(id));
+    }
+}
+
+/// Candidates by number and name, each with something of it, as far as it is known.
+fn known<'a, T>(list: &'a [Column], names: &[String], of: impl Fn(&'a Column) -> Option<T>) -> Vec<(String, T)> {
+    list.iter().zip(names).filter_map(|(column, name)| Some((name.clone(), of(column)?))).collect()
+}
+
+fn make(tile: &str, list: &[Column], names: &[String]) -> Vec<Plot> {
+    let transmission = |column: &'_ Column| column.state.dataset.value.clone();
+    match tile {
+        "LID" => {
+            let lids = known(list, names, |column| column.results.lid.value.as_deref().map(|figures| &figures.lid));
+            if lids.is_empty() { Vec::new() } else { of_lids(&lids).into() }
+        }
+        "Room" => {
+            let rooms = known(list, names, |column| {
+                let room = column.results.room.value.as_deref()?;
+                Some((column.scene().room.depth, room.grid?, room.totals().collect::<Vec<Estimate>>()))
+            });
+            let grids: Vec<(String, Grid<'_>)> = rooms
+                .iter()
+                .map(|(name, (depth, count, values))| (name.clone(), Grid { depth: *depth, count: *count, values }))
+                .collect();
+            if grids.is_empty() { Vec::new() } else { vec![of_rooms(&grids)] }
+        }
+        "BTDF" | "Transmittance" => {
+            let data = known(list, names, transmission);
+            let data: Vec<_> =
+                data.iter().filter_map(|(name, dataset)| Some((name.clone(), dataset.transmission()?))).collect();
+            if data.is_empty() { Vec::new() } else { vec![of_transmittances(&data)] }
+        }
+        "Control" => {
+            let curves = known(list, names, |column| {
+                let product = column.state.product.as_deref().filter(|product| product.states.len() > 1)?;
+                rule_curve(product, &column.state.control_keys(), &column.state.base())
+                    .ok()
+                    .filter(|curve| !curve.is_empty())
+            });
+            if curves.is_empty() { Vec::new() } else { vec![of_controls(&curves)] }
+        }
+        _ => Vec::new(),
+    }
+}

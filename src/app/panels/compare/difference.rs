@@ -1,0 +1,91 @@
+//! Each candidate less the base, with sign, all on one scale.
+
+use super::places::{missing, places};
+use crate::app::compare_columns::{Column, Columns};
+use crate::app::paint::hemisphere::Side;
+use crate::app::paint::tile::Status;
+use crate::app::theme;
+use crate::app::views::difference::{self, Picture};
+use crate::app::window::App;
+use crate::compute::estimate::Estimate;
+use crate::study::comparison::difference::{of_q, of_rooms, of_tau};
+use egui::{Stroke, StrokeKind, Ui, UiBuilder};
+
+/// Draws the tiles.
+pub(super) fn show(ui: &mut Ui, app: &mut App) {
+    let tile = app.state.compare.tile();
+    let names = app.compare.names();
+    let base = app.state.compare.base.min(names.len().saturating_sub(1));
+    if !["BTDF", "Transmittance", "Room"].contains(&tile) {
+        let text = "Differences are drawn of BTDF, transmittance and room. Curves and figures compare the others.";
+        ui.centered_and_justified(|ui| ui.label(text));
+        return;
+    }
+    if names.len() < 2 {
+        ui.centered_and_justified(|ui| ui.label("A difference takes two: add another product, state or moment (C)."));
+        return;
+    }
+    let key = (app.compare.key(tile), base, Vec::new());
+    let stopped = app.compare.stopped;
+    let Columns { list, differences, .. } = &mut app.compare;
+    let pictures = differences.get(key, || list.iter().map(|one| picture(tile, one, &list[base])).collect());
+    let reach = pictures.iter().flatten().map(Picture::reach).fold(0.0, f64::max);
+    let scale = difference::scale(reach);
+    let less = format!("less {}", names[base]);
+    let others: Vec<usize> = (0..names.len()).filter(|place| *place != base).collect();
+    let rects = places(ui.available_rect_before_wrap(), others.len());
+    // Another base is another picture.
+    let base_results = list[base].revisions().into_iter().fold(base as u64, |all, one| all.rotate_left(13) ^ one);
+    let base_is_there = is_there(tile, &list[base]);
+    for (place, rect) in others.into_iter().zip(rects) {
+        let column = &mut list[place];
+        let palette = theme::palette(ui);
+        ui.painter().rect(rect, 6, palette.surface, Stroke::new(1.0, palette.line), StrokeKind::Inside);
+        let words = match base_is_there && is_there(tile, column) {
+            true if tile == "Room" => "The sensors are not the same: nothing can be taken from the other.".to_owned(),
+            true => "No transmission in the data.".to_owned(),
+            false => missing(column),
+        };
+        let stale = column.state.dataset.stale || (tile == "Room" && column.results.room.stale);
+        let results = column.revisions().into_iter().fold(0_u64, |all, one| all.rotate_left(16) ^ one);
+        let incidence = column.incident().0.vector().to_array().into_iter();
+        let input = difference::Input {
+            picture: pictures[place].as_ref(),
+            missing: &words,
+            title: &names[place],
+            less: &less,
+            scale: &scale,
+            revision: incidence
+                .fold(results.rotate_left(7) ^ base_results, |all, one| all.rotate_left(21) ^ one.to_bits()),
+            status: Status { stale, idle: stopped, ..Status::default() },
+        };
+        let builder = UiBuilder::new().max_rect(rect.shrink(2.0)).id_salt(("difference", column.id));
+        ui.scope_builder(builder, |ui| difference::show(ui, &input, &mut column.difference));
+    }
+}
+
+fn is_there(tile: &str, column: &Column) -> bool {
+    if tile == "Room" { column.results.room.value.is_some() } else { column.state.dataset.value.is_some() }
+}
+
+/// The difference of a candidate from the base; `None` while one of them is not known, or where they have nothing in common.
+fn picture(tile: &str, column: &Column, base: &Column) -> Option<Picture> {
+    if tile == "Room" {
+        let of = |column: &Column| {
+            let room = column.results.room.value.clone()?;
+            let totals: Vec<Estimate> = room.totals().collect();
+            Some((room, totals))
+        };
+        let ((room, totals), (other, others)) = (of(column)?, of(base)?);
+        let values = of_rooms([&room.positions, &other.positions], [&totals, &others])?;
+        let size = column.scene().room;
+        return Some(Picture::Plan { room: [size.width, size.depth], count: room.grid?, values });
+    }
+    let btdf = |column: &Column| column.state.dataset.value.clone();
+    let (one, other) = (btdf(column)?, btdf(base)?);
+    let (one, other) = (one.transmission()?, other.transmission()?);
+    Some(match tile {
+        "BTDF" => Picture::Disk { side: Side::Emergent, cells: of_q(one, other, column.incident()) },
+        _ => Picture::Disk { side: Side::Incident, cells: of_tau(one, other) },
+    })
+}

@@ -1,0 +1,64 @@
+//! What the looks share: which tile, where the candidates' tiles stand, and what is said in place of one.
+
+use crate::app::compare_columns::Column;
+use crate::app::state::{State, Tile};
+use crate::app::tiles::TILES;
+use egui::{Rect, vec2};
+
+/// A name in at most so many letters.
+pub(super) fn short(name: &str, most: usize) -> String {
+    if name.chars().count() <= most {
+        return name.to_owned();
+    }
+    name.chars().take(most.saturating_sub(1)).collect::<String>().trim_end().to_owned() + "…"
+}
+
+/// The tile that is compared.
+pub(super) fn tile(state: &State) -> Option<Tile> {
+    TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == state.compare.tile())
+}
+
+/// Where tiles of so many candidates stand: side by side while each is wide enough, else in two rows.
+pub(super) fn places(whole: Rect, count: usize) -> Vec<Rect> {
+    const GAP: f32 = 6.0;
+    let rows = if count > 3 && whole.width() / (count as f32) < 300.0 { 2 } else { 1 };
+    let columns = count.div_ceil(rows).max(1);
+    let size = vec2(
+        (whole.width() - GAP * (columns - 1) as f32) / columns as f32,
+        (whole.height() - GAP * (rows - 1) as f32) / rows as f32,
+    );
+    let place = |k: usize| vec2((k % columns) as f32 * (size.x + GAP), (k / columns) as f32 * (size.y + GAP));
+    (0..count).map(|k| Rect::from_min_size(whole.min + place(k), size)).collect()
+}
+
+/// What stands in place of a candidate's picture.
+pub(super) fn missing(column: &Column) -> String {
+    column.error().map_or_else(|| "Computing…".to_owned(), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::pos2;
+
+    #[test]
+    fn tiles_of_candidates_fill_the_place_without_overlap() {
+        for width in [520.0, 900.0, 1700.0] {
+            let whole = Rect::from_min_size(pos2(10.0, 20.0), vec2(width, 500.0));
+            for count in 1..=6 {
+                let list = places(whole, count);
+                assert_eq!(list.len(), count);
+                for (k, one) in list.iter().enumerate() {
+                    assert!(whole.expand(0.01).contains_rect(*one), "{count} {one:?}");
+                    assert!(list[..k].iter().all(|other| !other.shrink(0.1).intersects(*one)));
+                }
+            }
+        }
+        assert_eq!(places(Rect::from_min_size(pos2(0.0, 0.0), vec2(900.0, 500.0)), 6)[3].left(), 0.0);
+    }
+
+    #[test]
+    fn names_are_shortened_with_a_sign() {
+        assert_eq!((short("Venetian", 8), short("Venetian blind", 8)), ("Venetian".to_owned(), "Venetia…".to_owned()));
+    }
+}

@@ -1,0 +1,230 @@
+//! A difference with sign: over the sensors of a room, or over a hemisphere; zero in the middle of the colours.
+
+use super::Cache;
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::hemisphere::{Disk, Projection, Side};
+use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::tile::{self, Foot, Status, Words};
+use crate::compute::estimate::Estimate;
+use crate::drawing::ticks::{fine_ceil, number};
+use crate::study::comparison::difference::OnCells;
+use egui::{Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use std::sync::Arc;
+
+/// What differs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Picture {
+    /// Illuminances at the sensors, x running fastest. \[lx\]
+    Plan {
+        /// Width and depth of the room. \[m\]
+        room: [f64; 2],
+        /// Sensors along x and y.
+        count: [usize; 2],
+        /// Candidate less base, errors added.
+        values: Vec<Estimate>,
+    },
+    /// Luminance coefficients by where light goes \[1/sr\], or transmittances by where it comes from.
+    Disk {
+        /// Which.
+        side: Side,
+        /// Candidate less base.
+        cells: OnCells,
+    },
+}
+
+impl Picture {
+    /// The largest difference, either way.
+    pub fn reach(&self) -> f64 {
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
+        };
+        match self {
+            Self::Plan { values, .. } => largest(&mut values.iter().map(|one| one.value)),
+            Self::Disk { cells, .. } => largest(&mut cells.values.iter().copied()),
+        }
+    }
+
+    /// Name and unit of what differs.
+    const fn quantity(&self) -> [&'static str; 2] {
+        match self {
+            Self::Plan { .. } => ["ΔE", "lx"],
+            Self::Disk { side: Side::Emergent, .. } => ["Δq", "1/sr"],
+            Self::Disk { side: Side::Incident, .. } => ["Δτ", ""],
+        }
+    }
+}
+
+/// One scale for all differences of a quantity, as far down as up.
+pub fn scale(reach: f64) -> ColourScale {
+    let hi = fine_ceil(reach.max(1e-6));
+    ColourScale { lo: -hi, hi, log: false, map: ColourMap::Diverging }
+}
+
+/// What the tile draws.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// `None` while it is not known.
+    pub picture: Option<&'a Picture>,
+    /// Said instead of a picture.
+    pub missing: &'a str,
+    /// Title: the candidate.
+    pub title: &'a str,
+    /// What it is less.
+    pub less: &'a str,
+    /// The scale of all.
+    pub scale: &'a ColourScale,
+    /// Changes with the picture.
+    pub revision: u64,
+    /// How far the content is to be trusted.
+    pub status: Status<'a>,
+}
+
+/// The tile's pictures.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
+}
+
+const HELP: &str = "The candidate less the base: red is more, blue is less, white the same. All tiles have the same scale. \
+Δq is that of scattered light at the centres of equal cells; what goes straight on has no q.";
+const PROJECTION: Projection = Projection::ProjectedSolidAngle;
+
+/// Draws the tile into all the space of `ui`.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) {
+    let words = Words {
+        title: input.title,
+        subtitle: input.less,
+        help: HELP,
+        empty: input.picture.is_none().then_some(input.missing),
+        controls_width: 0.0,
+    };
+    tile::show(
+        ui,
+        &words,
+        &input.status,
+        |_| {},
+        |ui, rect| match input.picture {
+            Some(picture) => draw(ui, rect, picture, input, state),
+            None => Foot::default(),
+        },
+    );
+}
+
+fn signed(value: f64, unit: &str) -> String {
+    let sign = if value < 0.0 { "−" } else { "+" };
+    format!("{sign}{} {unit}", number(value.abs(), 3)).trim_end().to_owned()
+}
+
+fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &mut State) -> Foot {
+    let palette = Palette::of(ui.visuals());
+    let scale = input.scale;
+    let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
+    let body = Rect::from_min_max(rect.min, pos2(rect.right(), legend.top() - 4.0));
+    let [name, unit] = picture.quantity();
+    let (response, pointed) = match picture {
+        Picture::Plan { room, count: [nx, ny], values } => {
+            let [width, depth] = room.map(|size| size.max(1e-3) as f32);
+            let points = (body.width() / depth).min(body.height() / width);
+            let area = Rect::from_center_size(body.center(), vec2(depth, width) * points);
+            let step = vec2(area.width() / *ny as f32, area.height() / *nx as f32);
+            let mesh = state.mesh.get((input.revision, area, scale.clone()), || {
+                let mut mesh = Mesh::default();
+                for (k, one) in values.iter().enumerate() {
+                    // As in the room's plan: the façade at the left, the depth to the right, x downwards.
+                    let place = area.min + vec2((k / nx) as f32 * step.x, (k % nx) as f32 * step.y);
+                    mesh.add_colored_rect(Rect::from_min_size(place, step), scale.colour(one.value));
+                }
+                Arc::new(mesh)
+            });
+            ui.painter().add(Shape::Mesh(mesh.clone()));
+            ui.painter().rect_stroke(area, 0, Stroke::new(1.5, palette.outline), StrokeKind::Outside);
+            let response = ui.interact(area, ui.scope_id().with("difference"), Sense::hover());
+            let at = response.hover_pos().map(|at| {
+                let cell = |at: f32, step: f32, count: usize| ((at / step).max(0.0) as usize).min(count - 1);
+                values[cell(at.x - area.left(), step.x, *ny) * nx + cell(at.y - area.top(), step.y, *nx)]
+            });
+            (response, at)
+        }
+        Picture::Disk { side, cells } => {
+            let disk = Disk::within(body);
+            let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
+            let mesh = state.mesh.get((input.revision, area, scale.clone()), || {
+                Arc::new(disk.cells(PROJECTION, *side, &cells.basis, |cell| scale.colour(cells.values[cell])))
+            });
+            ui.painter().add(Shape::Mesh(mesh.clone()));
+            let caption = if *side == Side::Incident { "outside" } else { "inside" };
+            disk.frame(ui.painter(), PROJECTION, caption, &palette);
+            let response = ui.interact(area, ui.scope_id().with("difference"), Sense::hover());
+            let direction = response.hover_pos().and_then(|at| side.through_name(PROJECTION, disk.disk(at)));
+            let at = direction.and_then(|direction| cells.basis.index(direction));
+            (response, at.map(|cell| Estimate::exact(cells.values[cell])))
+        }
+    };
+    scale.paint_legend(
+        ui.painter(),
+        legend,
+        format!("{name} {unit}").trim_end(),
+        pointed.map(|one| one.value),
+        &palette,
+    );
+    let summary = summary(picture);
+    tile::name(ui, &response, &format!("Difference of {}", input.title), summary.full());
+    match pointed {
+        Some(one) if one.error > 0.0 => {
+            let within = if one.value.abs() <= one.error { ", within the errors" } else { "" };
+            Foot::from([
+                format!("{name} {} ± {} {unit}{within}", signed(one.value, ""), number(one.error, 2)),
+                format!("{name} {}", signed(one.value, unit)),
+            ])
+        }
+        Some(one) => Foot::from(format!("{name} {}", signed(one.value, unit))),
+        None => summary,
+    }
+}
+
+/// The difference as a whole.
+fn summary(picture: &Picture) -> Foot {
+    let [name, unit] = picture.quantity();
+    match picture {
+        Picture::Plan { values, .. } => {
+            let mean = signed(values.iter().map(|one| one.value).sum::<f64>() / values.len().max(1) as f64, unit);
+            let apart = values.iter().filter(|one| one.value.abs() > one.error).count();
+            let all = values.len();
+            Foot::from([
+                format!("mean {name} {mean} · more than the errors at {apart} of {all} sensors"),
+                format!("mean {name} {mean} · {apart} of {all} differ"),
+                format!("mean {name} {mean}"),
+            ])
+        }
+        Picture::Disk { cells, .. } => {
+            let ends = cells.values.iter().fold([0.0_f64; 2], |[low, high], one| [low.min(*one), high.max(*one)]);
+            let [low, high] = ends.map(|end| signed(end, unit));
+            Foot::from([format!("{name} from {low} to {high}"), format!("{low} to {high}")])
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_difference_is_the_lightest_colour_and_both_ways_are_told_apart() {
+        let scale = scale(37.0);
+        assert!(scale.hi >= 37.0 && scale.lo == -scale.hi);
+        let light = |value: f64| {
+            let c = scale.colour(value);
+            u32::from(c.r()) + u32::from(c.g()) + u32::from(c.b())
+        };
+        assert!(light(0.0) > 700 && light(-30.0) < light(0.0) && light(30.0) < light(0.0));
+        assert!(scale.colour(30.0).r() > scale.colour(30.0).b() && scale.colour(-30.0).b() > scale.colour(-30.0).r());
+    }
+
+    #[test]
+    fn the_summary_counts_what_is_more_than_the_errors() {
+        let values = vec![Estimate::new(10.0, 2.0), Estimate::new(-1.0, 2.0)];
+        let picture = Picture::Plan { room: [1.0, 2.0], count: [1, 2], values };
+        assert_eq!(picture.reach(), 10.0);
+        assert_eq!(summary(&picture).full(), "mean ΔE +4.50 lx · more than the errors at 1 of 2 sensors");
+    }
+}

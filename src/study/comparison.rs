@@ -1,0 +1,38 @@
+//! What is set beside each other: candidates of a scene, their figures with errors, and which is the better one.
+//!
+//! A candidate is the scene with another product, state, sky or room ([`candidate`]). [`Facts`] are what was computed of
+//! it, [`FIGURES`] what is told of the facts, [`compare`] sets figures of several side by side. Window and command line
+//! show the same [`Row`]s. What joins later (a year, a rank) is a part of [`Facts`] and figures that read it.
+
+mod candidate;
+pub mod curves;
+pub mod difference;
+mod figures;
+mod table;
+
+pub use candidate::{candidate, label, same_question};
+pub use figures::{DataFacts, FIGURES, Facts, Figure, LidFacts, Sense, Value};
+pub use table::{Row, Verdict, compare, csv, judge, verdict_words};
+
+use super::error::StudyError;
+use super::{Scene, Session};
+use crate::compute::estimate::Progress;
+use crate::compute::lid::c_gamma::Peaks;
+
+/// Most things that are compared at a time.
+pub const MOST: usize = 6;
+
+/// Everything that the figures are made of: data, light and room of a scene, by its first aperture.
+///
+/// # Errors
+/// As of [`Session::room`].
+pub fn facts(scene: &Scene, session: &Session, progress: &dyn Progress) -> Result<Facts, StudyError> {
+    let data = scene.apertures.first().and_then(|one| DataFacts::of(&one.system.dataset));
+    let lid = session.lid(scene, 0, progress)?;
+    let room = session.room(scene, progress)?;
+    Ok(Facts {
+        data,
+        lid: Some(LidFacts { flux: lid.flux, peaks: Some(Peaks::of(&lid.lid)) }),
+        room: Some(room.sensors.iter().map(|sensor| sensor.total()).collect()),
+    })
+}

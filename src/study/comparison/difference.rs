@@ -1,0 +1,68 @@
+//! Differences with sign: of illuminances sensor by sensor, of luminance coefficients and transmittances on common cells.
+
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::Btdf;
+use crate::compute::direction::{Emergent, Incident};
+use crate::compute::estimate::Estimate;
+
+/// Rings of the cells that differences are taken on; fine enough for Klems data and what was refined of it.
+const RINGS: usize = 24;
+
+/// Illuminances less those of the base, sensor by sensor, errors added; `None` where the sensors are not the same. \[lx\]
+pub fn of_rooms(
+    [positions, base_positions]: [&[[f64; 3]]; 2],
+    [room, base]: [&[Estimate]; 2],
+) -> Option<Vec<Estimate>> {
+    let near = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
+    let same = positions.len() == base_positions.len() && positions.iter().zip(base_positions).all(near);
+    same.then(|| {
+        let less = |(a, b): (&Estimate, &Estimate)| Estimate::new(a.value - b.value, a.error + b.error);
+        room.iter().zip(base).map(less).collect()
+    })
+}
+
+/// Differences on cells of the hemisphere of through-names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnCells {
+    /// The cells.
+    pub basis: RingBasis,
+    /// A value for each, at its centre.
+    pub values: Vec<f64>,
+}
+
+/// Luminance coefficients q of the scattered light of one incidence, less those of the base. \[1/sr\]
+pub fn of_q(btdf: &Btdf, base: &Btdf, incident: Incident) -> OnCells {
+    let basis = RingBasis::equal_area(RINGS);
+    let at = |emergent: Emergent| btdf.q(incident, emergent) - base.q(incident, emergent);
+    let values = basis.cells().map(|cell| at(Emergent::from_through_name(cell.centre()))).collect();
+    OnCells { basis, values }
+}
+
+/// Transmittances by incident direction, less those of the base.
+pub fn of_tau(btdf: &Btdf, base: &Btdf) -> OnCells {
+    let basis = RingBasis::equal_area(RINGS);
+    let at = |incident: Incident| btdf.tau(incident) - base.tau(incident);
+    let values = basis.cells().map(|cell| at(Incident(cell.centre()))).collect();
+    OnCells { basis, values }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Dir;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn differences_have_their_sign_and_their_errors_add() {
+        let (a, b) = (Btdf::ideal_diffuse(0.6), Btdf::ideal_diffuse(0.2));
+        let incident = Incident(Dir::from_theta_phi(0.5, 1.0));
+        let q = of_q(&a, &b, incident);
+        assert!(q.values.len() == q.basis.len() && q.values.iter().all(|value| (value - 0.4 / PI).abs() < 1e-12));
+        assert!(of_tau(&b, &a).values.iter().all(|value| (value + 0.4).abs() < 1e-12));
+        let place = [[1.0, 2.0, 0.8]];
+        let (room, base) = ([Estimate::new(100.0, 2.0)], [Estimate::new(130.0, 3.0)]);
+        let found = of_rooms([&place, &place], [&room, &base]).unwrap();
+        assert_eq!(found, [Estimate::new(-30.0, 5.0)]);
+        assert_eq!(of_rooms([&place, &[[1.0, 2.0, 0.9]]], [&room, &base]), None);
+    }
+}

@@ -1,0 +1,330 @@
+//! The figures by which candidates are compared: what each is made of, its unit, how far it may be off, and which way is
+//! better.
+//!
+//! Errors of illuminances and flux are those that the study states. Figures of the data have the error that the data
+//! state ([`stated_error`]); measured data state none, and none is made up for them.
+
+use crate::catalogue::{light, stated_error};
+use crate::compute::btdf::{Dataset, LightFigures};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::c_gamma::Peaks;
+use crate::drawing::ticks::number;
+
+/// A figure's value and how far it may be off, both in the figure's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Value {
+    /// The value.
+    pub value: f64,
+    /// Absolute error; `None` where nobody states one.
+    pub error: Option<f64>,
+}
+
+impl From<Estimate> for Value {
+    fn from(Estimate { value, error }: Estimate) -> Self {
+        Self { value, error: Some(error) }
+    }
+}
+
+impl Value {
+    /// With its error, both as far as two digits of the error reach.
+    pub fn words(self) -> String {
+        let Self { value, error } = self;
+        match error.filter(|error| *error > 0.0 && error.is_finite()) {
+            Some(error) => {
+                let decimals = (1 - error.log10().floor() as i32).clamp(0, 6) as usize;
+                format!("{value:.decimals$} ± {error:.decimals$}")
+            }
+            None => number(value, 4),
+        }
+    }
+}
+
+/// Which way is better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sense {
+    /// More is better.
+    More,
+    /// Less is better.
+    Less,
+    /// Neither: it depends on what is wanted.
+    Aim,
+}
+
+impl Sense {
+    /// In words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::More => "more is better",
+            Self::Less => "less is better",
+            Self::Aim => "a matter of aim",
+        }
+    }
+}
+
+/// What the data say by themselves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DataFacts {
+    /// Visible transmittance at normal incidence.
+    pub tau_normal: f64,
+    /// The same under uniform luminance.
+    pub tau_hemispherical: f64,
+    /// Where light goes.
+    pub light: LightFigures,
+    /// How far transmittances may be off, where the data state it.
+    pub error: Option<f64>,
+}
+
+impl DataFacts {
+    /// Of a dataset; `None` without a transmission.
+    pub fn of(dataset: &Dataset) -> Option<Self> {
+        let transmission = dataset.transmission()?;
+        Some(Self {
+            tau_normal: transmission.tau_normal(),
+            tau_hemispherical: transmission.tau_hemispherical(),
+            light: light(transmission, dataset.described.as_ref()),
+            error: stated_error(dataset),
+        })
+    }
+}
+
+/// What is known of an aperture's light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LidFacts {
+    /// All its flux. \[lm\]
+    pub flux: Estimate,
+    /// Its largest intensities.
+    pub peaks: Option<Peaks>,
+}
+
+/// What is known of a candidate, as far as it was computed.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Facts {
+    /// Of the first aperture's data.
+    pub data: Option<DataFacts>,
+    /// Of the first aperture's light.
+    pub lid: Option<LidFacts>,
+    /// Illuminance at the sensors. \[lx\]
+    pub room: Option<Vec<Estimate>>,
+}
+
+/// A figure.
+#[derive(Debug, Clone, Copy)]
+pub struct Figure {
+    /// The word in files.
+    pub key: &'static str,
+    /// In words, sentence case.
+    pub name: &'static str,
+    /// Unit; empty for shares of one.
+    pub unit: &'static str,
+    /// Which way is better.
+    pub sense: Sense,
+    /// What it is, and why this way is better.
+    pub tip: &'static str,
+    /// From what is known; `None` where that does not tell it.
+    pub of: fn(&Facts) -> Option<Value>,
+}
+
+/// Illuminance that EN 17037 asks for over half of a room at least. \[lx\]
+const TARGET: f64 = 300.0;
+
+fn data(facts: &Facts, of: impl FnOnce(&DataFacts) -> f64) -> Option<Value> {
+    facts.data.as_ref().map(|data| Value { value: of(data), error: data.error })
+}
+
+fn ceiling(facts: &Facts) -> Option<Value> {
+    let data = facts.data.as_ref()?;
+    // A share of what is transmitted: numerator and denominator may each be off by the error of a transmittance.
+    let error = data.error.map(|error| 2.0 * error / data.tau_hemispherical.max(error));
+    Some(Value { value: data.light.to_ceiling?, error: error.map(|error| if error.is_finite() { error } else { 0.0 }) })
+}
+
+fn room(facts: &Facts, of: impl FnOnce(&[Estimate]) -> Estimate) -> Option<Value> {
+    facts.room.as_deref().filter(|room| !room.is_empty()).map(|room| of(room).into())
+}
+
+fn mean(room: &[Estimate]) -> Estimate {
+    // Errors add: nothing is known of their independence.
+    room.iter().copied().sum::<Estimate>() * (1.0 / room.len() as f64)
+}
+
+/// The least (or, with `sign` −1, the greatest) of values, and the reach of what it can be.
+fn least(room: &[Estimate], sign: f64) -> Estimate {
+    let of = |shift: f64| room.iter().map(|one| sign * one.value + shift * one.error).fold(f64::INFINITY, f64::min);
+    let (value, low, high) = (of(0.0), of(-1.0), of(1.0));
+    Estimate::new(sign * value, (value - low).max(high - value))
+}
+
+fn uniformity(room: &[Estimate]) -> Estimate {
+    let (least, mean) = (least(room, 1.0), mean(room));
+    if mean.value <= 0.0 {
+        return Estimate::exact(0.0);
+    }
+    let value = least.value / mean.value;
+    Estimate::new(value, (least.error + value * mean.error) / mean.value)
+}
+
+fn lit(room: &[Estimate]) -> Estimate {
+    let share = |shift: f64| {
+        room.iter().filter(|one| one.value + shift * one.error >= TARGET).count() as f64 / room.len() as f64
+    };
+    let value = share(0.0);
+    Estimate::new(value, (value - share(-1.0)).max(share(1.0) - value))
+}
+
+/// All figures, in the order of tables.
+pub const FIGURES: &[Figure] = &[
+    Figure {
+        key: "tau_normal",
+        name: "τ normal",
+        unit: "",
+        sense: Sense::Aim,
+        tip: "Visible transmittance of light from outside at normal incidence; light or shade may be wanted",
+        of: |facts| data(facts, |data| data.tau_normal),
+    },
+    Figure {
+        key: "tau_hemispherical",
+        name: "τ hemispherical",
+        unit: "",
+        sense: Sense::Aim,
+        tip: "The same under uniform luminance; light or shade may be wanted",
+        of: |facts| data(facts, |data| data.tau_hemispherical),
+    },
+    Figure {
+        key: "to_ceiling",
+        name: "Light to the ceiling",
+        unit: "",
+        sense: Sense::More,
+        tip: "Share of the light transmitted from above the horizon that leaves upwards: what reaches deep without glare",
+        of: ceiling,
+    },
+    Figure {
+        key: "sun_blocked",
+        name: "Sun blocked",
+        unit: "",
+        sense: Sense::More,
+        tip: "1 − τ for a sun straight before the façade, 45° high: less heat and glare",
+        of: |facts| data(facts, |data| data.light.sun_blocked),
+    },
+    Figure {
+        key: "view",
+        name: "View",
+        unit: "",
+        sense: Sense::More,
+        tip: "Share of light at normal incidence that goes straight on",
+        of: |facts| data(facts, |data| data.light.view),
+    },
+    Figure {
+        key: "flux",
+        name: "Luminous flux",
+        unit: "lm",
+        sense: Sense::Aim,
+        tip: "All light that enters by the first aperture, the sun's beam included",
+        of: |facts| facts.lid.as_ref().map(|lid| lid.flux.into()),
+    },
+    Figure {
+        key: "peak_scattered",
+        name: "Scattered peak of the LID",
+        unit: "cd",
+        sense: Sense::Aim,
+        tip: "Largest scattered intensity as a luminaire file holds it: brightness to the ceiling is wanted, to the eyes it is not",
+        of: |facts| {
+            let peak = facts.lid.as_ref()?.peaks?.scattered?;
+            Some(Value { value: peak.intensity, error: None })
+        },
+    },
+    Figure {
+        key: "mean",
+        name: "Mean illuminance",
+        unit: "lx",
+        sense: Sense::Aim,
+        tip: "Mean over the sensors; light or shade may be wanted",
+        of: |facts| room(facts, mean),
+    },
+    Figure {
+        key: "least",
+        name: "Worst sensor",
+        unit: "lx",
+        sense: Sense::More,
+        tip: "Least illuminance of any sensor: where daylight is short",
+        of: |facts| room(facts, |room| least(room, 1.0)),
+    },
+    Figure {
+        key: "greatest",
+        name: "Best sensor",
+        unit: "lx",
+        sense: Sense::Aim,
+        tip: "Greatest illuminance of any sensor; much more than elsewhere may dazzle",
+        of: |facts| room(facts, |room| least(room, -1.0)),
+    },
+    Figure {
+        key: "uniformity",
+        name: "Uniformity",
+        unit: "",
+        sense: Sense::More,
+        tip: "Least over mean illuminance",
+        of: |facts| room(facts, uniformity),
+    },
+    Figure {
+        key: "share_300",
+        name: "Sensors with 300 lx",
+        unit: "",
+        sense: Sense::More,
+        tip: "Share of the sensors with at least 300 lx, the target of EN 17037",
+        of: |facts| room(facts, lit),
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::btdf::Btdf;
+
+    fn of(key: &str, facts: &Facts) -> Option<Value> {
+        (FIGURES.iter().find(|figure| figure.key == key).unwrap().of)(facts)
+    }
+
+    #[test]
+    fn figures_of_a_room_reach_as_far_as_their_sensors() {
+        let room =
+            [(500.0, 5.0), (302.0, 4.0), (290.0, 1.0), (305.0, 1.0)].map(|(value, error)| Estimate::new(value, error));
+        let facts = Facts { room: Some(room.to_vec()), ..Facts::default() };
+        let is = |key: &str, value: f64, error: f64| {
+            let found = of(key, &facts).unwrap();
+            assert!(
+                (found.value - value).abs() < 1e-9 && (found.error.unwrap() - error).abs() < 1e-9,
+                "{key}: {found:?}"
+            );
+        };
+        is("mean", 349.25, 2.75);
+        is("least", 290.0, 1.0);
+        is("greatest", 500.0, 5.0);
+        // One of four may be on either side of 300 lx.
+        is("share_300", 0.75, 0.25);
+        is("uniformity", 290.0 / 349.25, (1.0 + 290.0 / 349.25 * 2.75) / 349.25);
+        assert_eq!(of("flux", &facts), None);
+    }
+
+    #[test]
+    fn values_are_told_as_far_as_their_errors_reach() {
+        let of = |value, error| Value { value, error }.words();
+        assert_eq!((of(0.41234, Some(0.003)), of(12_345.6, Some(123.0))), ("0.4123 ± 0.0030".into(), "12346 ± 123".into()));
+        assert_eq!((of(0.5, None), of(0.5, Some(0.0))), ("0.5000".to_owned(), "0.5000".to_owned()));
+    }
+
+    #[test]
+    fn definitions_are_exact_and_measured_data_state_no_error() {
+        let mut dataset = Dataset::default();
+        assert_eq!(DataFacts::of(&dataset), None);
+        dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(0.6));
+        let facts = |dataset: &Dataset| Facts { data: DataFacts::of(dataset), ..Facts::default() };
+        let value = of("tau_normal", &facts(&dataset)).unwrap();
+        assert!((value.value - 0.6).abs() < 1e-12 && value.error == Some(0.0));
+        let ceiling = of("to_ceiling", &facts(&dataset)).unwrap();
+        assert!((ceiling.value - 0.5).abs() < 1e-9 && ceiling.error == Some(0.0), "{ceiling:?}");
+        let basis = crate::compute::basis::RingBasis::klems_full(crate::compute::basis::AzimuthMap::KLEMS_FRONT);
+        let cells = basis.len();
+        let matrix = crate::compute::btdf::CellMatrix::new(basis.clone(), basis, vec![0.1; cells * cells]).unwrap();
+        dataset.visible.transmission_front = Some(Btdf::from_cells(matrix));
+        assert_eq!(of("tau_normal", &facts(&dataset)).unwrap().error, None);
+    }
+}
