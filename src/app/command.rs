@@ -2,6 +2,7 @@
 //! and [`super::offer`] says which of it menu, palette and keys offer.
 
 use super::goniophotometer::Setup;
+use super::hand_on::Choices;
 use super::import::ImportFields;
 use super::jobs::Lane;
 use super::shelf::Query;
@@ -23,10 +24,14 @@ pub enum Command {
     Open,
     /// Ask where to save the scene.
     SaveScene,
-    /// Ask where to write the LID.
+    /// Hand the LID on.
     ExportLid,
-    /// Ask where to write a tile, as numbers or as a picture.
+    /// Hand a tile on, as a picture or as numbers.
     ExportTile(Tile),
+    /// What is handed on, and in which form.
+    HandOn(Box<Choices>),
+    /// Ask for folder and name of what is handed on.
+    BrowseHandOn,
     /// A tile's numbers into the clipboard.
     CopyTile(Tile),
     /// The incidence that tiles draw for; the sun's while `None`.

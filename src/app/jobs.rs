@@ -41,6 +41,8 @@ pub enum Lane {
     Builtin,
     /// Data computed from a description.
     Goniophotometer,
+    /// What would be handed on.
+    Preview,
     /// Writing files.
     Export,
 }
@@ -60,6 +62,7 @@ impl Lane {
             Self::Product => "product data",
             Self::Builtin => "built-in products",
             Self::Goniophotometer => "goniophotometer",
+            Self::Preview => "preview",
             Self::Export => "writing file",
         }
     }

@@ -4,6 +4,7 @@ pub mod bench;
 mod catalogue;
 mod fields;
 mod goniophotometer;
+mod hand_on;
 mod import;
 mod menu;
 mod messages;
