@@ -247,7 +247,7 @@ impl Engine for StudyEngine {
         wanted: Wanted,
         progress: &dyn Progress,
     ) -> Result<Subject, AppError> {
-        subject(question, incident, wanted, (&self.session, &self.files), progress)
+        subject(question, incident, wanted, (&self.session, &*self.files), progress)
     }
 
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {

@@ -32,9 +32,9 @@ impl FileDialogs for NativeDialogs {
             PathUse::ExportLid => dialog
                 .add_filter("Luminaire files", &["ldt", "ies"])
                 .add_filter("Table or diagram", &["csv", "svg", "png"]),
-            PathUse::ExportTile(tile) => dialog
-                .set_title(format!("Export {}", tile.title))
-                .add_filter("Numbers", &["csv"]),
+            PathUse::ExportTile(tile) => {
+                dialog.set_title(format!("Export {}", tile.title)).add_filter("Numbers", &["csv"])
+            }
             PathUse::ExportMeasured => dialog
                 .add_filter("Package of all states", &["cfsp"])
                 .add_filter("BSDF", &["xml"])

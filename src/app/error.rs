@@ -58,7 +58,9 @@ pub enum AppError {
     #[error("the product and its data are not there yet: choose a product and wait for its tiles, then write again")]
     NoProduct,
     /// A series without moments.
-    #[error("no file would be written: choose months and hours with the sun above the horizon, for a scene with place and date")]
+    #[error(
+        "no file would be written: choose months and hours with the sun above the horizon, for a scene with place and date"
+    )]
     NoMoments,
     /// A series of too many files: how many, and how many at most.
     #[error("{0} files would be written; expected at most {1}: choose fewer months, hours or states")]
@@ -76,7 +78,9 @@ pub enum AppError {
     #[error("byte {0} is not UTF-8; {1} is a text file")]
     NotText(usize, &'static str),
     /// An ending other than that of a tile's numbers.
-    #[error("the ending \"{0}\" is none that a tile's numbers are written as: use .csv; pictures are handed on by Ctrl+E")]
+    #[error(
+        "the ending \"{0}\" is none that a tile's numbers are written as: use .csv; pictures are handed on by Ctrl+E"
+    )]
     TileEnding(String),
     /// A path for computed data whose ending names no format.
     #[error("an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt")]

@@ -13,7 +13,7 @@ use crate::drawing::colours::Inks;
 use crate::formats::write_dataset;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
-use crate::report::{Look, pdf, picture};
+use crate::report::{Look, Size, pdf, picture};
 use crate::study::StudyError;
 use crate::study::moment;
 use crate::study::subject::Wanted;
@@ -55,8 +55,10 @@ impl Order {
 
     fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
         let choices = &self.choices;
+        // Before anything is computed: settings of another day may hold any number.
+        let Size { width, height, unit } = choices.size;
+        let look = Look { size: Size::new(width, height, unit)?, print: choices.print, caption: choices.caption };
         let subject = self.engine.subject(&self.question, self.incident, choices.tile.needs(), progress)?;
-        let look = Look { size: choices.size, print: choices.print, caption: choices.caption };
         Ok(picture(&subject, choices.tile, &look)?)
     }
 
@@ -65,9 +67,7 @@ impl Order {
         let choices = &self.choices;
         let subject = self.engine.subject(&self.question, self.incident, Wanted::ALL, progress)?;
         let pages = match choices.report {
-            ReportKind::Sheet => {
-                sheet_pages(&Sheet { subject: &subject, tender: &choices.tender, inks: self.inks() })?
-            }
+            ReportKind::Sheet => sheet_pages(&Sheet { subject: &subject, tender: &choices.tender, inks: self.inks() })?,
             ReportKind::Study => study_pages(&Study {
                 subject: &subject,
                 title: choices.title.trim(),

@@ -66,17 +66,27 @@ impl App {
         let before = self.state.settings.hand_on.ending();
         self.state.settings.hand_on = choices;
         let ending = self.state.settings.hand_on.ending();
-        let path = PathBuf::from(&self.state.path);
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if self.follow_name() {
+            return;
+        }
+        if let Some(stem) = self.state.path.strip_suffix(before) {
+            self.state.path = format!("{stem}{ending}");
+            self.state.replace = None;
+        }
+    }
+
+    /// Offers the name of what the window shows now, unless the user has given an own one; true where the name is the one
+    /// that is offered.
+    fn follow_name(&mut self) -> bool {
         let next = file_name(&self.state, PathUse::HandOn);
-        let own = name != self.state.hand_on.offered;
-        let name = match name.strip_suffix(before) {
-            Some(stem) if own => format!("{stem}{ending}"),
-            _ => next.clone(),
-        };
-        self.state.path = path.with_file_name(name).display().to_string();
+        let path = PathBuf::from(&self.state.path);
+        let offered = path.file_name().is_some_and(|name| name.to_string_lossy() == self.state.hand_on.offered);
+        if offered && self.state.hand_on.offered != next {
+            self.state.path = path.with_file_name(&next).display().to_string();
+            self.state.replace = None;
+        }
         self.state.hand_on.offered = next;
-        self.state.replace = None;
+        offered
     }
 
     /// Asks the desktop for folder and name.
@@ -109,7 +119,9 @@ impl App {
         match self.order() {
             Some(order) => {
                 self.writing = true;
-                self.start(Lane::Export, move |progress| Outcome::Written(PathUse::HandOn, order.write(&path, progress)));
+                self.start(Lane::Export, move |progress| {
+                    Outcome::Written(PathUse::HandOn, order.write(&path, progress))
+                });
             }
             None => self.tell(&AppError::NoProduct),
         }
@@ -125,6 +137,7 @@ impl App {
             }
             return;
         }
+        self.follow_name();
         let key = key_of(&self.state);
         let lanes = [Lane::Catalogue, Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Year];
         let moving = self.ctx.input(|input| input.pointer.any_down());

@@ -5,9 +5,9 @@ pub use crate::study::incidence::*;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::direction::{Dir, Incident};
     use crate::app::moment;
     use crate::app::scene::first_scene;
+    use crate::compute::direction::{Dir, Incident};
 
     #[test]
     fn a_choice_goes_before_the_sun_and_without_both_light_is_perpendicular() {

@@ -96,7 +96,8 @@ fn table() -> Vec<Offer> {
         )
         .keys(CTRL, Key::E)
         .menu(FILE, 11),
-        offer(ExportLid, "Export LID…", "Write the window as a luminaire (.ldt, .ies) for other programs").menu(FILE, 12),
+        offer(ExportLid, "Export LID…", "Write the window as a luminaire (.ldt, .ies) for other programs")
+            .menu(FILE, 12),
         offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
         offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
         offer(EditProduct(None), "Rename product…", "Name, maker, kind and tags of the selected product")

@@ -1,13 +1,11 @@
 //! Plots on paper: panels side by side under one legend, as shapes of a [`Drawing`].
 
 use super::colours::Inks;
+pub use super::colours::SERIES;
 use super::font::width;
 use super::legend::{self, Name};
 use super::plot::{Axis, Form, Plot, Series};
-use super::{Align, Drawing, Frame, Point, Rgb, Shape, TEXT};
-
-/// One for each series; they keep apart for all common kinds of colour vision (after Okabe and Ito).
-pub const SERIES: [Rgb; 5] = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0]];
+use super::{Align, Drawing, Frame, Point, Shape, TEXT};
 
 /// Room for the labels below a panel, with and without a name of the axis.
 const BELOW: [f64; 2] = [40.0, 22.0];
@@ -132,6 +130,7 @@ impl Panel<'_> {
     }
 
     fn guides(&self, drawing: &mut Drawing) {
+        let mut used: Vec<Frame> = Vec::new();
         for guide in &self.plot.guides {
             let ends: Vec<Point> = guide.ends.iter().filter_map(|end| self.of(*end)).collect();
             let inside = |axis: &Axis, k: usize| {
@@ -145,8 +144,16 @@ impl Panel<'_> {
             let at = ends[1];
             drawing.add(Shape::line(ends, self.inks.ink, 1.0));
             if !guide.name.is_empty() {
-                let at = [at[0] - 4.0, (at[1] - 8.0).max(self.area.top + 8.0)];
-                drawing.add(Shape::words(at, guide.name.clone(), self.inks.ink, TEXT, Align::End));
+                // Over its end, where another has its name further along.
+                let wide = width(&guide.name, TEXT) + 4.0;
+                let y = (at[1] - 8.0).max(self.area.top + 8.0);
+                let places = (0..3).map(|k| Frame::new(at[0] - 4.0 - wide * f64::from(k + 1), y - 8.0, wide, 16.0));
+                let free = |place: &Frame| used.iter().all(|other| !other.meets(place));
+                if let Some(place) = places.into_iter().find(free) {
+                    let end = [place.right(), y];
+                    drawing.add(Shape::words(end, guide.name.clone(), self.inks.ink, TEXT, Align::End));
+                    used.push(place);
+                }
             }
         }
     }

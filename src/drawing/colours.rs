@@ -1,6 +1,5 @@
 //! Colours of data and of what stands round them: the maps, scales from values to colours, and the inks of a picture.
 
-use super::chart::SERIES;
 use super::{Rgb, ticks};
 use colorgrad::Gradient;
 use std::sync::LazyLock;
@@ -93,6 +92,9 @@ pub fn mixed(a: Rgb, b: Rgb, share: f64) -> Rgb {
     let part = |x: u8, y: u8| (f64::from(x) * (1.0 - share) + f64::from(y) * share).round() as u8;
     [part(a[0], b[0]), part(a[1], b[1]), part(a[2], b[2])]
 }
+
+/// One for each series; they keep apart for all common kinds of colour vision (after Okabe and Ito).
+pub const SERIES: [Rgb; 5] = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0]];
 
 /// Inks of everything that is no data, on white paper.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -229,7 +229,10 @@ pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
             font.contours(glyph, 4, &mut contours);
             let start = x;
             x += size * font.advance(glyph);
-            contours.into_iter().map(|one| one.into_iter().map(|[u, v]| [start + scale * u, -scale * v]).collect()).collect()
+            contours
+                .into_iter()
+                .map(|one| one.into_iter().map(|[u, v]| [start + scale * u, -scale * v]).collect())
+                .collect()
         })
         .collect()
 }

@@ -269,10 +269,7 @@ mod tests {
     fn flat_cells_cover_the_disk() {
         let round = Round { centre: [60.0, 60.0], radius: 50.0 };
         let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
-        let sets = [
-            round.cells((Projection::SolidAngle, Side::Emergent), &basis, |_| [0; 3]),
-            round.field(|_| [0; 3]),
-        ];
+        let sets = [round.cells((Projection::SolidAngle, Side::Emergent), &basis, |_| [0; 3]), round.field(|_| [0; 3])];
         for shapes in sets {
             let (width, _, pixels) = super::super::Drawing { width: 120.0, height: 120.0, shapes }.to_pixels(1.0);
             for (k, pixel) in pixels.chunks(3).enumerate() {

@@ -1,7 +1,7 @@
 //! A drawing: shapes on paper, and the files that they become.
 
 use super::raster::Raster;
-use super::shape::{Frame, Point, Shape, moved};
+use super::shape::{Frame, Shape, moved};
 use super::svg;
 
 /// Shapes on white paper, later ones on top.

@@ -191,10 +191,7 @@ impl Frame {
 
     /// Does any part of another lie in it?
     pub fn meets(&self, other: &Self) -> bool {
-        self.left < other.right()
-            && other.left < self.right()
-            && self.top < other.bottom()
-            && other.top < self.bottom()
+        self.left < other.right() && other.left < self.right() && self.top < other.bottom() && other.top < self.bottom()
     }
 
     /// Does all of another lie in it?

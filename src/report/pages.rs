@@ -96,11 +96,13 @@ impl Pages {
 
     /// A heading; what follows begins on the same page.
     pub fn heading(&mut self, text: &str) {
-        self.top += 14.0;
-        self.need(90.0);
-        let frame = Frame::new(MARGINS[0], self.top, WIDTH, 0.0);
-        self.page.add(rule(frame, &self.inks));
-        self.top += 6.0;
+        self.need(104.0);
+        if self.top > MARGINS[1] {
+            self.top += 14.0;
+            let frame = Frame::new(MARGINS[0], self.top, WIDTH, 0.0);
+            self.page.add(rule(frame, &self.inks));
+            self.top += 6.0;
+        }
         self.text(text, HEADING, self.inks.ink);
         self.top += 4.0;
     }
@@ -162,7 +164,8 @@ impl Pages {
     pub fn table(&mut self, table: &Table) {
         let widths = table.widths(BODY, GAP, WIDTH);
         let head = table.head(BODY, &widths);
-        let lines = |cells: &[Vec<String>]| cells.iter().map(Vec::len).max().unwrap_or(1).max(1) as f64 * LEADING * BODY;
+        let lines =
+            |cells: &[Vec<String>]| cells.iter().map(Vec::len).max().unwrap_or(1).max(1) as f64 * LEADING * BODY;
         let below = |cells: &[Vec<String>]| lines(cells) + 5.0;
         let mut begun = false;
         for row in &table.rows {
@@ -285,7 +288,10 @@ mod tests {
             for shape in &page.shapes {
                 if let Shape::Text { at, text, size, align, .. } = shape {
                     let left = at[0] - align.share() * width(text, *size);
-                    assert!(left >= MARGINS[0] - 0.1 && left + width(text, *size) <= MARGINS[0] + WIDTH + 0.1, "{text}");
+                    assert!(
+                        left >= MARGINS[0] - 0.1 && left + width(text, *size) <= MARGINS[0] + WIDTH + 0.1,
+                        "{text}"
+                    );
                 }
             }
         }

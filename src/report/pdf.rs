@@ -54,6 +54,9 @@ fn stroke([r, g, b]: Rgb, width: f64, dash: Option<[f64; 2]>) -> Stroke {
 
 /// `None` for what has no extent or is no number.
 fn path(points: &[Place], closed: bool) -> Option<Path> {
+    if !points.iter().flatten().all(|coordinate| coordinate.is_finite()) {
+        return None;
+    }
     let mut builder = PathBuilder::new();
     for (k, [x, y]) in points.iter().enumerate() {
         let (x, y) = (*x as f32, *y as f32);

@@ -13,7 +13,7 @@ use crate::compute::system::SystemDescription;
 use crate::drawing::chart;
 use crate::drawing::colours::Inks;
 use crate::drawing::plot::{Axis, Plot, Series, Unit};
-use crate::drawing::ticks::{number, si};
+use crate::drawing::ticks::{number, si, tick};
 use crate::drawing::{Drawing, Frame};
 use crate::study::product_control::state_words;
 use crate::study::subject::Subject;
@@ -55,7 +55,9 @@ impl Told {
         let normal = Incident(Dir::from_unit(glam::DVec3::Z));
         Self {
             tau_normal: state.and_then(|one| one.tau_normal).or_else(|| btdf.map(|btdf| btdf.tau(normal))),
-            tau_hemispherical: state.and_then(|one| one.tau_hemispherical).or_else(|| btdf.map(Btdf::tau_hemispherical)),
+            tau_hemispherical: state
+                .and_then(|one| one.tau_hemispherical)
+                .or_else(|| btdf.map(Btdf::tau_hemispherical)),
             light: state.and_then(|one| one.light).or_else(|| btdf.map(LightFigures::of)),
         }
     }
@@ -72,7 +74,7 @@ fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
     let product = subject.product.as_ref();
     let figure = |value: Option<f64>| value.map_or_else(String::new, |value| number(value, 3));
     let share = |value: Option<f64>| value.map_or_else(String::new, percent);
-    let length = |value: Option<f64>| value.map_or_else(String::new, |metres| format!("{} mm", number(1000.0 * metres, 3)));
+    let length = |value: Option<f64>| value.map_or_else(String::new, |metres| format!("{} mm", tick(1000.0 * metres)));
     let of = |text: fn(&Product) -> &str| product.map_or_else(String::new, |product| text(product).to_owned());
     let origin = product.map_or("", |product| match product.provenance.origin {
         From::Unknown => "",
@@ -150,7 +152,7 @@ fn figures(subject: &Subject) -> Vec<(String, String)> {
     if let Some(back) = dataset.room_side_reflectance() {
         add("ρ, room side, diffuse", number(back, 3));
     }
-    let length = |metres: f64| format!("{} mm", number(1000.0 * metres, 3));
+    let length = |metres: f64| format!("{} mm", tick(1000.0 * metres));
     if let Some(thickness) = dataset.thickness {
         add("depth", length(thickness));
     }
@@ -171,15 +173,16 @@ fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Rep
     };
     pages.heading("Where light goes");
     let incident = |degrees: f64| Incident(Dir::from_theta_phi(degrees.to_radians(), 0.5 * std::f64::consts::PI));
-    let greatest = |degrees: &f64| btdf.indicatrix(incident(*degrees)).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max));
+    let greatest =
+        |degrees: &f64| btdf.indicatrix(incident(*degrees)).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max));
     // One scale, so that the three can be compared.
     let max = INCIDENCES.iter().map(greatest).fold(0.0, f64::max);
     let mut row = Vec::new();
     for degrees in INCIDENCES {
-        let mut drawing = Drawing::new(300.0, 330.0);
+        let mut drawing = Drawing::new(260.0, 290.0);
         let caption = if degrees > 0.0 { format!("from {degrees:.0}° above") } else { "from the normal".to_owned() };
         let frame = drawing.frame().inside([8.0; 4]);
-        indicatrix(&mut drawing, frame, btdf, incident(degrees), (&caption, Some(max)), inks);
+        indicatrix(&mut drawing, frame, btdf, incident(degrees), (&caption, Some((max, 4))), inks);
         let tau = number(btdf.tau(incident(degrees)), 3);
         row.push(Figure { drawing, caption: format!("{caption}: τ {tau}") });
     }
@@ -193,7 +196,13 @@ fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Rep
     let curve = profile_curve(subject, inks);
     let mut row = Vec::new();
     if let Some(drawing) = described.and_then(|system| section_of(&system, subject, inks)) {
-        row.push(Figure { drawing, caption: format!("Section{}", if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) }) });
+        row.push(Figure {
+            drawing,
+            caption: format!(
+                "Section{}",
+                if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) }
+            ),
+        });
     }
     row.extend(curve.map(|drawing| Figure {
         drawing,
@@ -205,7 +214,7 @@ fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Rep
 }
 
 fn section_of(system: &SystemDescription, subject: &Subject, inks: &Inks) -> Option<Drawing> {
-    let mut drawing = Drawing::new(360.0, 270.0);
+    let mut drawing = Drawing::new(400.0, 270.0);
     let frame = drawing.frame().inside([10.0; 4]);
     let state = &subject.scene.apertures[0].system.state;
     section(&mut drawing, frame, system, state, inks).then_some(drawing)
@@ -241,13 +250,13 @@ fn profile_curve(subject: &Subject, inks: &Inks) -> Option<Drawing> {
         series,
         guides: Vec::new(),
     };
-    let mut drawing = Drawing::new(420.0, 270.0);
+    let mut drawing = Drawing::new(400.0, 270.0);
     let high = if plot.series.len() > 1 || !plot.series[0].name.is_empty() {
-        chart::names(&mut drawing, Frame::new(50.0, 2.0, 360.0, 40.0), &plot.series, inks)
+        chart::names(&mut drawing, Frame::new(50.0, 2.0, 340.0, 40.0), &plot.series, inks)
     } else {
         0.0
     };
-    chart::panel(&mut drawing, Frame::new(4.0, high, 412.0, 266.0 - high), &plot, inks);
+    chart::panel(&mut drawing, Frame::new(4.0, high, 392.0, 266.0 - high), &plot, inks);
     Some(drawing)
 }
 
@@ -282,7 +291,7 @@ fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Repor
         if missing {
             continue;
         }
-        let mut drawing = Drawing::new(460.0, 460.0);
+        let mut drawing = Drawing::new(400.0, 430.0);
         let frame = drawing.frame().inside([4.0; 4]);
         let said = draw(&mut drawing, frame, subject, tile, inks)?;
         row.push(Figure { drawing, caption: format!("{}: {said}", tile.title()) });
@@ -294,7 +303,7 @@ fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Repor
 /// "3 × 1.8 m".
 fn window(subject: &Subject) -> String {
     let [width, height] = subject.file.aperture[0].size;
-    format!("{} × {} m", number(width, 3), number(height, 3))
+    format!("{} × {} m", tick(width), tick(height))
 }
 
 fn tender(pages: &mut Pages, template: &str, fields: &Fields) -> Result<(), ReportError> {

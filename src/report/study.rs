@@ -9,7 +9,7 @@ use super::{ReportError, picture};
 use crate::compute::estimate::Estimate;
 use crate::drawing::Drawing;
 use crate::drawing::colours::Inks;
-use crate::drawing::ticks::{number, si};
+use crate::drawing::ticks::{number, si, tick};
 use crate::study::scene_file::{SceneFile, SurfaceKey};
 use crate::study::scene_words::{coordinates, error_words};
 use crate::study::subject::Subject;
@@ -47,6 +47,8 @@ pub fn pages(study: &Study<'_>) -> Result<Vec<Drawing>, ReportError> {
         pages.heading("Figures");
         results(&mut pages, subject, room);
     }
+    // With the first of them.
+    pages.need(265.0);
     pages.heading("Pictures");
     tiles(&mut pages, subject, inks)?;
     if let Some(table) = study.comparison {
@@ -65,20 +67,20 @@ fn situation(subject: &Subject) -> Vec<(String, String)> {
     add("system", subject.name.clone());
     let site = &file.site;
     if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
-        add("place", format!("{}, {} m", coordinates(latitude, longitude), number(site.elevation, 3)));
+        add("place", format!("{}, {} m", coordinates(latitude, longitude), tick(site.elevation)));
     }
-    add("façade faces", format!("{}° from north", number(site.azimuth, 3)));
-    add("ground reflectance", number(site.ground_reflectance, 3));
+    add("façade faces", format!("{}° from north", tick(site.azimuth)));
+    add("ground reflectance", tick(site.ground_reflectance));
     let room = &file.room;
-    add("room", format!("{} × {} × {} m", number(room.width, 3), number(room.depth, 3), number(room.height, 3)));
+    add("room", format!("{} × {} × {} m", tick(room.width), tick(room.depth), tick(room.height)));
     let rho = &room.reflectance;
-    add("ρ floor, walls, ceiling", [rho.floor, rho.walls, rho.ceiling].map(|r| number(r, 3)).join(", "));
+    add("ρ floor, walls, ceiling", [rho.floor, rho.walls, rho.ceiling].map(tick).join(", "));
     add("E diffuse horizontal", si(subject.scene.outside.diffuse_horizontal(), "lx"));
     add("E direct horizontal", si(subject.scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx"));
     for (k, aperture) in file.aperture.iter().enumerate() {
         let ([x, y], [width, height]) = (aperture.origin, aperture.size);
         let surface = if aperture.surface == SurfaceKey::Facade { "façade" } else { "roof" };
-        let [x, y, width, height] = [x, y, width, height].map(|length| number(length, 3));
+        let [x, y, width, height] = [x, y, width, height].map(tick);
         add(&format!("window {}", k + 1), format!("{surface}, {width} × {height} m at {x}, {y} m"));
     }
     add("sensors", sensors(file));
@@ -87,7 +89,7 @@ fn situation(subject: &Subject) -> Vec<(String, String)> {
 
 fn sensors(file: &SceneFile) -> String {
     match &file.sensors.plane {
-        Some(plane) => format!("{} × {} at {} m", plane.nx, plane.ny, number(plane.z, 3)),
+        Some(plane) => format!("{} × {} at {} m", plane.nx, plane.ny, tick(plane.z)),
         None => format!("{} listed", file.sensors.points.len()),
     }
 }
@@ -101,7 +103,8 @@ fn results(pages: &mut Pages, subject: &Subject, room: &RoomResult) {
         Estimate::new(sum.value / count, sum.error / count)
     };
     let mean = mean_of(SensorResult::total);
-    let least = totals.iter().copied().fold(Estimate::exact(f64::INFINITY), |a, b| if b.value < a.value { b } else { a });
+    let least =
+        totals.iter().copied().fold(Estimate::exact(f64::INFINITY), |a, b| if b.value < a.value { b } else { a });
     let most = totals.iter().copied().fold(Estimate::exact(0.0), |a, b| if b.value > a.value { b } else { a });
     let mut table = Table::of(["quantity", "value", "error"]);
     let mut lux = |name: &str, value: Estimate| {
@@ -128,7 +131,9 @@ fn results(pages: &mut Pages, subject: &Subject, room: &RoomResult) {
     }
     pages.table(&table);
     let said = error_words(totals.iter().copied());
-    pages.note(&format!("Stated: {said}, at sensors that are not in the dark; errors of means are sums of the sensors' own."));
+    pages.note(&format!(
+        "Stated: {said}, at sensors that are not in the dark; errors of means are sums of the sensors' own."
+    ));
 }
 
 fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::Inks) -> Result<(), ReportError> {
@@ -145,14 +150,17 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
         Ok(Figure { drawing, caption: format!("{}: {said}", tile.title()) })
     };
     let rows: [&[(TileKind, [f64; 2])]; 4] = [
-        &[(TileKind::Room, [820.0, 460.0])],
-        &[(TileKind::Sky, [470.0, 620.0]), (TileKind::Lid, [470.0, 620.0])],
+        &[(TileKind::Room, [820.0, 330.0])],
+        &[(TileKind::Sky, [400.0, 530.0]), (TileKind::Lid, [400.0, 530.0])],
         &[(TileKind::Btdf, [820.0, 400.0])],
-        &[(TileKind::Transmittance, [470.0, 470.0]), (TileKind::Control, [470.0, 470.0])],
+        &[(TileKind::Transmittance, [400.0, 400.0]), (TileKind::Control, [400.0, 400.0])],
     ];
     for row in rows {
-        let row: Vec<Figure> =
-            row.iter().filter(|(tile, _)| shown(*tile)).map(|(tile, size)| figure(*tile, *size)).collect::<Result<_, _>>()?;
+        let row: Vec<Figure> = row
+            .iter()
+            .filter(|(tile, _)| shown(*tile))
+            .map(|(tile, size)| figure(*tile, *size))
+            .collect::<Result<_, _>>()?;
         pages.pictures(&row, 330.0);
         pages.gap(4.0);
     }
@@ -176,7 +184,9 @@ fn accuracy(pages: &mut Pages, subject: &Subject) {
     pages.paragraph(&said);
     let mut table = Table::of(["stage", "what was done"]);
     table.columns[1].align = crate::drawing::Align::Start;
-    for stage in &room.plan.stages {
+    // What was kept from before says nothing about this study.
+    let kept = |reason: &str| reason.starts_with("reused") || reason == "not there yet";
+    for stage in room.plan.stages.iter().filter(|stage| !kept(&stage.reason)) {
         let done = if stage.runs { "computed" } else { "left out" };
         table.row([stage.name.to_owned(), format!("{done}: {}", stage.reason)]);
     }
@@ -184,7 +194,7 @@ fn accuracy(pages: &mut Pages, subject: &Subject) {
         table.row([format!("sun's beam, window {}", k + 1), format!("{}: {reason}", source.word())]);
     }
     pages.table(&table);
-    for note in subject.scene.illuminances.and_then(|light| light.note()) {
+    if let Some(note) = subject.scene.illuminances.and_then(|light| light.note()) {
         pages.note(&note);
     }
 }

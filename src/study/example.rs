@@ -57,7 +57,9 @@ pub fn first_scene() -> SceneFile {
 /// The same with a product of the catalogue in its window.
 pub fn scene_of(product: &str, state: Option<&str>) -> SceneFile {
     let mut scene = first_scene();
-    scene.aperture[0].system =
-        SystemKeys::Catalogue { key: product.to_owned(), state: state.filter(|state| !state.is_empty()).map(str::to_owned) };
+    scene.aperture[0].system = SystemKeys::Catalogue {
+        key: product.to_owned(),
+        state: state.filter(|state| !state.is_empty()).map(str::to_owned),
+    };
     scene
 }

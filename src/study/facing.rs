@@ -1,9 +1,9 @@
 //! Directions as the scene's façade or roof sees them.
 
 use super::moment;
+use super::scene_file::{SceneFile, SurfaceKey};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, Facade, Incident, Orientation, Surface, World};
-use super::scene_file::{SceneFile, SurfaceKey};
 
 /// Where an aperture of the scene lies; the façade where there is none.
 pub fn surface_of(scene: &SceneFile, aperture: usize) -> Surface {

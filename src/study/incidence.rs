@@ -1,10 +1,10 @@
 //! The one direction of incidence that everything drawn of a product speaks of, and the words for it.
 
 use super::facing::sun_incident;
+use super::scene_file::SceneFile;
 use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::profile_angle::profile_angle;
 use crate::drawing::ticks::degrees;
-use super::scene_file::SceneFile;
 
 /// Why it is this direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! The scene's date and time as people handle them: sliders, steps, words.
 
-use crate::compute::angle::Bearing;
-use crate::compute::direction::{Dir, World};
 use super::scene_file::{SceneFile, TimeKey};
 use super::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
 use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
 

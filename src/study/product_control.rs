@@ -2,14 +2,14 @@
 //!
 //! Today and the year are told for a sun that shines: which hours it is before the façade, and which state it asks for.
 
-use super::moment;
-use crate::catalogue::{FirstRule, Product, State};
-use crate::compute::direction::Surface;
-use crate::compute::estimate::Progress;
 use super::StudyError;
 use super::control::year::{Moment, Moving, Setting, Situation, day, year as study_year};
 use super::control::{Device, curve, settings};
+use super::moment;
 use super::scene_file::{ControlKeys, ControlMode, SceneFile};
+use crate::catalogue::{FirstRule, Product, State};
+use crate::compute::direction::Surface;
+use crate::compute::estimate::Progress;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,9 @@
 use super::error::StudyError;
 use super::facing::{sun_incident, surface};
 use super::incidence::Incidence;
-use super::product_control::{TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year};
+use super::product_control::{
+    TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year,
+};
 use super::scene::Scene;
 use super::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
 use super::session::{LidResult, RoomResult, Session};

@@ -81,8 +81,11 @@ fn every_tile_is_a_picture_that_says_what_it_is() {
         assert!(!svg.contains("<image"), "{tile} is drawn, not photographed");
         let words = words(&svg);
         assert!(words.iter().any(|text| text == unit), "{tile} {unit}: {words:?}");
-        assert!(words.iter().any(|text| text.starts_with("Stuttgart, south, 21 Mar 12:00, clear")), "{tile}: {words:?}");
-        assert!(words.concat().contains(concat!("cfs ", env!("CARGO_PKG_VERSION"))), "{tile}: {words:?}");
+        assert!(
+            words.iter().any(|text| text.starts_with("Stuttgart, south, 21 Mar 12:00, clear")),
+            "{tile}: {words:?}"
+        );
+        assert!(words.iter().any(|text| text == concat!("cfs ", env!("CARGO_PKG_VERSION"))), "{tile}: {words:?}");
         let head = words.iter().find(|text| text.contains(" – ")).unwrap();
         assert!(head.contains("enetian") && head.ends_with('°'), "{head}");
         if tile == "room" {
@@ -116,8 +119,15 @@ fn every_tile_is_a_picture_that_says_what_it_is() {
 fn what_cannot_be_a_picture_or_a_report_is_refused_in_a_line() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    std::fs::write(folder.join("s.toml"), SCENE.replace("\"controlled\"", "\"45\"").replace("[control]\nmode = \"cut-off\"\n", "")).unwrap();
-    let still = SCENE.replace("{ catalogue = \"venetian-80-72\", state = \"controlled\" }", "{ ideal = \"diffuse\", transmittance = 0.5 }");
+    std::fs::write(
+        folder.join("s.toml"),
+        SCENE.replace("\"controlled\"", "\"45\"").replace("[control]\nmode = \"cut-off\"\n", ""),
+    )
+    .unwrap();
+    let still = SCENE.replace(
+        "{ catalogue = \"venetian-80-72\", state = \"controlled\" }",
+        "{ ideal = \"diffuse\", transmittance = 0.5 }",
+    );
     std::fs::write(folder.join("still.toml"), still.replace("[control]\nmode = \"cut-off\"\n", "")).unwrap();
     for (arguments, wrong) in [
         (&["picture", "still.toml", "--tile", "control", "--out", "a.svg"][..], "nothing moves"),
@@ -166,14 +176,20 @@ fn reports_hold_the_figures_as_text_in_an_embedded_font() {
         let Some(fonts) = poppler(folder, "pdffonts", &[name]) else { return };
         // A table's row: name, type, encoding, embedded, subset, unicode.
         let rows: Vec<&str> = fonts.lines().skip(2).collect();
-        assert!(!rows.is_empty() && rows.iter().all(|row| row.contains("DejaVuSans") && row.contains("yes yes yes")), "{fonts}");
+        assert!(
+            !rows.is_empty() && rows.iter().all(|row| row.contains("DejaVuSans") && row.contains("yes yes yes")),
+            "{fonts}"
+        );
     }
     let Some(study) = poppler(folder, "pdftotext", &["-layout", "study.pdf", "-"]) else { return };
-    for text in ["Büro Süd", question, &mean, "uniformity", "Stuttgart, south, 21 Mar 12:00", "page 1 of", "Accuracy"] {
+    for text in ["Büro Süd", question, &mean, "uniformity", "Stuttgart, south, 21 Mar 12:00", "page 1 of", "Accuracy"]
+    {
         assert!(study.contains(text), "{text}: {study}");
     }
     let Some(sheet) = poppler(folder, "pdftotext", &["-layout", "sheet.pdf", "-"]) else { return };
-    for text in ["Product sheet", "τ, normal incidence", "Tender text", "Visible transmittance at normal incidence", "Data"] {
+    for text in
+        ["Product sheet", "τ, normal incidence", "Tender text", "Visible transmittance at normal incidence", "Data"]
+    {
         assert!(sheet.contains(text), "{text}: {sheet}");
     }
     assert!(!sheet.contains('{'), "no field is left open");

@@ -10,6 +10,7 @@ mod control_view;
 mod driven;
 mod files_view;
 mod goniophotometer_view;
+mod hand_on_view;
 mod legible;
 mod scene_panel;
 mod truth;

@@ -79,7 +79,8 @@ fn options(ui: &mut Ui, choices: &mut Choices) {
         What::Dataset => {
             ui.horizontal_wrapped(|ui| {
                 ui.selectable_value(&mut choices.text, false, ".xml").on_hover_text("BSDF XML of LBNL WINDOW");
-                ui.selectable_value(&mut choices.text, true, ".btdf.txt").on_hover_text("Text, as goniophotometers write");
+                ui.selectable_value(&mut choices.text, true, ".btdf.txt")
+                    .on_hover_text("Text, as goniophotometers write");
             });
         }
         What::Package | What::Scene => {}
@@ -208,7 +209,8 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
     ui.horizontal(|ui| {
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        let write = ui.add_enabled(ready, Button::new("Write")).on_hover_text("Write it; a file that exists is asked about");
+        let write =
+            ui.add_enabled(ready, Button::new("Write")).on_hover_text("Write it; a file that exists is asked about");
         if ready && (write.clicked() || entered) {
             commands.push(Command::WriteNew(PathUse::HandOn, path));
         }

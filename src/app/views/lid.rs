@@ -10,7 +10,7 @@ use crate::compute::lid::c_gamma::{Aim, Peaks};
 use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample, vertical_planes};
 use crate::drawing::ticks::{number, si};
 use egui::{Color32, FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
@@ -333,7 +333,7 @@ mod tests {
     use super::*;
     use crate::compute::lid::EmergentLuminance;
     use crate::compute::lid::c_gamma::{Peak, Step};
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::FRAC_PI_2;
 
     fn lambert(surface: Surface) -> Lid {
         Lid { surface, size: [2.0, 1.5], parts: vec![EmergentLuminance::Uniform(1000.0)], beams: Vec::new() }

@@ -34,10 +34,9 @@ pub(super) fn control(drawing: &mut Drawing, frame: Frame, subject: &Subject, in
         hours(drawing, map, control, &year.hours, subject, inks);
         states(drawing, names, control, inks);
     }
-    let now = control.profile_angle.map_or_else(
-        || "the sun is not before the façade".to_owned(),
-        |angle| format!("profile angle {angle:.0}°"),
-    );
+    let now = control
+        .profile_angle
+        .map_or_else(|| "the sun is not before the façade".to_owned(), |angle| format!("profile angle {angle:.0}°"));
     let mut said = vec![words(control.mode).does.to_owned(), now, state(control, control.current)];
     if let Some(year) = year {
         said.push(format!("{} movements a year", year.movements));
@@ -56,8 +55,9 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
     let unit = if unit == "°" { Unit::Degrees } else { Unit::Named("") };
     let value = |index: u16| control.states.get(usize::from(index)).map_or(f64::NAN, |(_, value)| *value);
     let today = control.today.iter().map(|(_, point)| match point {
-        Some((angle, index)) => [*angle, value(*index)],
-        None => [f64::NAN; 2],
+        // Beyond the axis the line ends.
+        Some((angle, index)) if *angle <= 90.0 => [*angle, value(*index)],
+        _ => [f64::NAN; 2],
     });
     let now = control.profile_angle.filter(|angle| (0.0..=90.0).contains(angle));
     let mut series = vec![Series::line("rule", control.curve.iter().copied())];
@@ -68,13 +68,17 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
         x: Axis::linear([0.0, 90.0], "profile angle", Unit::Degrees),
         y: Axis::linear([lo, hi], name, unit),
         series,
-        guides: now.map(|angle| Guide { name: "now".to_owned(), ends: [[angle, lo], [angle, hi]] }).into_iter().collect(),
+        guides: now
+            .map(|angle| Guide { name: "now".to_owned(), ends: [[angle, lo], [angle, hi]] })
+            .into_iter()
+            .collect(),
     };
     let high = chart::names(drawing, frame.inside([40.0, 0.0, 8.0, 0.0]), &plot.series, inks);
     let panel = chart::panel(drawing, frame.inside([0.0, high, 8.0, 0.0]), &plot, inks);
     let mut used: Vec<Frame> = Vec::new();
     for (hour, point) in control.today.iter().filter(|(hour, _)| (hour - hour.round()).abs() < 1e-6) {
-        let Some(at) = point.and_then(|(angle, index)| panel.of([angle, value(index)])) else { continue };
+        let seen = point.filter(|(angle, _)| *angle <= 90.0);
+        let Some(at) = seen.and_then(|(angle, index)| panel.of([angle, value(index)])) else { continue };
         drawing.add(Shape::dot(at, 3.0, inks.sun));
         drawing.add(Shape::ring(at, 3.0, inks.ink, 1.0));
         let text = Frame::new(at[0] - 14.0, at[1] - 20.0, 28.0, 14.0);

@@ -42,21 +42,22 @@ fn mark(drawing: &mut Drawing, round: &Round, incidence: &Incidence, sun: Option
     }
 }
 
-/// Where light from one direction goes; the rest of its words, as of a beam, come on top.
+/// Where light from one direction goes, with a caption and, where it is forced, the greatest value and the decades of the
+/// scale.
 pub fn indicatrix(
     drawing: &mut Drawing,
     frame: Frame,
     btdf: &Btdf,
     incident: Incident,
-    (caption, range): (&str, Option<f64>),
+    (caption, range): (&str, Option<(f64, i32)>),
     inks: &Inks,
 ) {
     let (round, below, at) = places(frame);
     drawing.add(Shape::dot(round.centre, round.radius, inks.face));
     match btdf.indicatrix(incident) {
         Some(Indicatrix { basis, q }) => {
-            let max = range.unwrap_or_else(|| q.iter().copied().fold(0.0, f64::max));
-            let scale = ColourScale::up_to(max, true, 3, ColourMap::Sequential);
+            let (max, decades) = range.unwrap_or_else(|| (q.iter().copied().fold(0.0, f64::max), 3));
+            let scale = ColourScale::up_to(max, true, decades, ColourMap::Sequential);
             drawing.shapes.extend(round.cells((PROJECTION, Side::Emergent), &basis, |i| scale.rgb(q[i])));
             legend::scale(drawing, below, &scale, "q / (1/sr)", inks);
         }
@@ -81,11 +82,8 @@ pub fn indicatrix(
 
 pub(super) fn btdf(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> Result<String, String> {
     let btdf = subject.transmission().ok_or(NO_DATA)?;
-    let [outside, inside] = if frame.width > 1.1 * frame.height {
-        frame.split(0.5)
-    } else {
-        frame.cut_bottom(0.5 * frame.height)
-    };
+    let [outside, inside] =
+        if frame.width > 1.1 * frame.height { frame.split(0.5) } else { frame.cut_bottom(0.5 * frame.height) };
     let (round, below, at) = places(outside);
     let basis = incident_cells(btdf);
     let tau: Vec<f64> = basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).collect();

@@ -105,7 +105,11 @@ pub(super) fn lid(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
         .vertical
         .iter()
         .enumerate()
-        .map(|(k, (plane, _))| name(inks.curve(k, sample_line(), 2.5), format!("{}, cd", plane.label())))
+        .map(|(k, (plane, _))| {
+            let flat = *plane == LidPlane::Vertical(90) && lid.surface == Surface::Facade;
+            let zero = if flat { " (0: façade's plane)" } else { "" };
+            name(inks.curve(k, sample_line(), 2.5), format!("{}, cd{zero}", plane.label()))
+        })
         .collect();
     if two {
         names.push(name(inks.curve(3, sample_line(), 2.5), "γ = 90°, from above, cd".to_owned()));

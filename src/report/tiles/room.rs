@@ -50,7 +50,7 @@ pub(super) fn room(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
     // A dark room still needs a scale with an extent.
     let max = totals.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max).max(1.0);
     let scale = ColourScale::up_to(max, false, 2, ColourMap::Sequential);
-    let beside = frame.width > 1.9 * frame.height;
+    let beside = frame.width > 1.6 * frame.height;
     let [upper, lower] = if beside { frame.split(0.55) } else { frame.cut_bottom(0.38 * frame.height) };
     let [above, below] = upper.cut_bottom(legend::HEIGHT);
     let plan = Plan::within(above.inside([26.0, 4.0, 10.0, 4.0]), [wide, deep]);
@@ -66,7 +66,8 @@ pub(super) fn room(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
     let dashes = [plan.place(x, 0.0), plan.place(x, deep)];
     drawing.add(Shape::dashed(dashes, [255; 3], 1.2, [4.0, 4.0]));
     let mut used = vec![Frame::new(plan.area.left, dashes[0][1] - 1.0, plan.area.width, 2.0)];
-    used.push(scale_bar(drawing, &plan));
+    let mut bar = Drawing::new(1.0, 1.0);
+    used.push(scale_bar(&mut bar, &plan));
     let node = |p: &[f64; 2]| plan.place((p[0] + 0.5) * step[0], (p[1] + 0.5) * step[1]);
     let mut named: Vec<(f64, Vec<Vec<Point>>)> = Vec::new();
     for level in iso_levels(&scale, &totals) {
@@ -82,6 +83,7 @@ pub(super) fn room(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
         }
         named.push((level, lines));
     }
+    drawing.shapes.extend(bar.shapes);
     // The names come over all lines, those of the levels that are asked for first.
     named.sort_by_key(|(level, _)| !ASKED_FOR.contains(level));
     for (level, lines) in &named {
@@ -144,7 +146,8 @@ fn name(
         let top = (y - 0.5 * high).clamp(area.top + 1.0, area.bottom() - high - 1.0);
         let place = Frame::new(left, top, wide, high);
         let [cx, cy] = place.centre();
-        if (cx - x).hypot(cy - y) <= 0.5 * high + 1.0 && used.iter().all(|other| !other.meets(&place.inside([-2.0; 4]))) {
+        if (cx - x).hypot(cy - y) <= 0.5 * high + 1.0 && used.iter().all(|other| !other.meets(&place.inside([-2.0; 4])))
+        {
             let ground = scale.rgb(level);
             drawing.add(Shape::area(place.corners(), ground));
             drawing.add(Shape::text(place.centre(), text, contrast(ground)));

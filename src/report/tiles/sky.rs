@@ -14,9 +14,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Altitude and bearing of the middles of small pieces of the dome. \[rad\]
 fn pieces() -> impl Iterator<Item = (f64, f64)> {
-    (0..18).flat_map(|row| (0..72).map(move |column| (f64::from(row), f64::from(column)))).map(|(row, column)| {
-        ((row + 0.5) / 18.0 * FRAC_PI_2, (column + 0.5) / 72.0 * TAU)
-    })
+    (0..18)
+        .flat_map(|row| (0..72).map(move |column| (f64::from(row), f64::from(column))))
+        .map(|(row, column)| ((row + 0.5) / 18.0 * FRAC_PI_2, (column + 0.5) / 72.0 * TAU))
 }
 
 pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> String {
@@ -33,7 +33,8 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
     } else {
         ColourScale::up_to(1.0, true, 3, ColourMap::Sequential)
     };
-    let [left, right] = if frame.width > 1.25 * frame.height { frame.split(0.55) } else { frame.cut_bottom(0.36 * frame.height) };
+    let [left, right] =
+        if frame.width > 1.25 * frame.height { frame.split(0.55) } else { frame.cut_bottom(0.36 * frame.height) };
     let [dome, below] = left.cut_bottom(legend::HEIGHT);
     let round = Round::within(dome, 20.0);
     let facade = subject.file.site.azimuth.to_radians();
