@@ -127,6 +127,9 @@ pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
     let shown = if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) };
     pages.heading(&format!("Figures{shown}"));
     pages.figures(&figures(subject));
+    pages.note(
+        "Figures of the data as they are; how exact these are is said under Data, as far as their source tells it.",
+    );
     pictures(&mut pages, subject, inks)?;
     if let Some(product) = product.filter(|product| product.states.len() > 1) {
         states(&mut pages, product, inks);

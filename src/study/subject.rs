@@ -121,7 +121,9 @@ impl Subject {
             .and_then(|product| product.states.iter().find(|one| one.key == first.system.state))
             .map_or_else(|| first.system.state.clone(), state_words);
         let label = &first.system.label;
-        let name = if state.is_empty() { label.clone() } else { format!("{label}, {state}") };
+        // Described systems of files are called by their state already.
+        let told = state.is_empty() || (product.is_none() && label.ends_with(&format!(", {state}")));
+        let name = if told { label.clone() } else { format!("{label}, {state}") };
         progress.advance("luminous intensities", 1, STEPS);
         let lid = if asked.wanted.lid {
             let result = session.lid(&scene, 0, progress)?;
