@@ -25,7 +25,8 @@
 //!
 //! # Layers
 //!
-//! Imports go one way: [`compute`] ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← {[`cli`], [`app`]} ← `main`.
+//! Imports go one way: [`compute`] ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← [`report`] ←
+//! {[`cli`], [`app`]} ← `main`.
 //! `tests/tidy` enforces it.
 //!
 //! | module | owns | must not touch |
@@ -35,6 +36,7 @@
 //! | [`formats`] | every byte layout of data, as `&[u8]` ↔ values | files and paths, SQL, egui |
 //! | [`catalogue`] | the SQLite file: schema, search, exchange of products | egui, scene files |
 //! | [`study`] | scene → what is needed → result, with progress and cancelling | SQL, egui, terminal |
+//! | [`report`] | what is handed on: tiles as pictures, reports as PDF | files and paths, SQL, egui |
 //! | [`cli`] | arguments, tables, JSON, exit codes | SQL, egui, the window |
 //! | [`app`] | state, commands, drawing, file dialogs | SQL, byte layouts, the command line |
 //!
@@ -74,6 +76,7 @@
 //! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
 //! | add a tile to the bench | a picture, a file in [`app::tiles`] that feeds it, its entry in [`app::tiles::TILES`] |
 //! | add a plot, in the window or in a file | its numbers as a [`drawing::plot::Plot`]; [`app::paint::plot`] and [`drawing::chart`] draw it |
+//! | add a tile to what is handed on, or a kind of report | a file in [`report`] |
 //! | store something new | the next `migrations/NNNN_*.sql`, then [`catalogue`] |
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
@@ -84,4 +87,5 @@ pub mod cli;
 pub mod compute;
 pub mod drawing;
 pub mod formats;
+pub mod report;
 pub mod study;

@@ -2,7 +2,7 @@
 
 use cfs::compute::direction::Dir;
 use cfs::compute::direction::Facade;
-use cfs::drawing::{Drawing, Rgb, Shape};
+use cfs::drawing::{Align, Drawing, Rgb, Shape, TEXT};
 use glam::DVec3;
 use image::RgbImage;
 
@@ -91,7 +91,7 @@ pub fn sheet(panels: &[Panel], columns: usize) -> Drawing {
     for (k, panel) in panels.iter().enumerate() {
         draw(panel, [(k % columns) as f64 * CELL[0], (k / columns) as f64 * CELL[1]], &mut shapes);
     }
-    Drawing { width: (columns as f64 * CELL[0]) as u32, height: (rows as f64 * CELL[1]) as u32, shapes }
+    Drawing { width: columns as f64 * CELL[0], height: rows as f64 * CELL[1], shapes }
 }
 
 fn draw(panel: &Panel, [left, top]: [f64; 2], shapes: &mut Vec<Shape>) {
@@ -102,7 +102,7 @@ fn draw(panel: &Panel, [left, top]: [f64; 2], shapes: &mut Vec<Shape>) {
         let v = (p[1] - panel.y[0]) / (panel.y[1] - panel.y[0]);
         [x0 + u * (x1 - x0), y0 + v * (y1 - y0)]
     };
-    let mut text = |at: [f64; 2], text: String| shapes.push(Shape::Text { at, text, colour: INK });
+    let mut text = |at: [f64; 2], text: String| shapes.push(Shape::text(at, text, INK));
     text([0.5 * (x0 + x1), top + 16.0], panel.title.clone());
     text([0.5 * (x0 + x1), y0 + 34.0], panel.axes[0].to_owned());
     text([left + 34.0, y1 - 12.0], panel.axes[1].to_owned());
@@ -127,27 +127,22 @@ fn draw(panel: &Panel, [left, top]: [f64; 2], shapes: &mut Vec<Shape>) {
     }
     for (k, line) in panel.lines.iter().enumerate() {
         let [x, y] = [x0 + 8.0 + (k % 2) as f64 * 0.5 * (x1 - x0), top + 38.0 + 18.0 * (k / 2) as f64];
-        shapes.push(Shape::Line {
-            points: vec![[x, y], [x + 18.0, y]],
-            colour: line.colour,
-            width: line.width.max(2.5),
-        });
-        let centre = x + 26.0 + 3.6 * line.name.chars().count() as f64;
-        shapes.push(Shape::Text { at: [centre, y], text: line.name.clone(), colour: INK });
+        shapes.push(Shape::line([[x, y], [x + 18.0, y]], line.colour, line.width.max(2.5)));
+        shapes.push(Shape::words([x + 24.0, y], line.name.clone(), INK, TEXT, Align::Start));
     }
-    shapes.extend(grid.into_iter().map(|points| Shape::Line { points, colour: FAINT, width: 1.0 }));
+    shapes.extend(grid.into_iter().map(|points| Shape::line(points, FAINT, 1.0)));
     let frame = vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]];
-    shapes.push(Shape::Line { points: frame, colour: INK, width: 1.0 });
+    shapes.push(Shape::line(frame, INK, 1.0));
     for line in &panel.lines {
         let points: Vec<[f64; 2]> =
             line.points.iter().map(|p| place([p[0], p[1].clamp(panel.y[0], panel.y[1])])).collect();
-        shapes.push(Shape::Line { points, colour: line.colour, width: line.width });
+        shapes.push(Shape::line(points, line.colour, line.width));
     }
 }
 
 /// A hemisphere seen along the normal (direction cosines), one value a direction.
 pub struct Disc {
-    /// Small letters, figures and points alone have dots in PNG.
+    /// Above it.
     pub title: String,
     /// By pixel, row by row.
     pub values: Vec<f64>,
@@ -176,10 +171,10 @@ pub fn discs(rows: &[Vec<Disc>], gamma: f64) -> Result<Vec<u8>, image::ImageErro
     for (r, row) in rows.iter().enumerate() {
         for (c, disc) in row.iter().enumerate() {
             let at = [(c * wide + wide / 2) as f64, (r * high + 18) as f64];
-            shapes.push(Shape::Text { at, text: disc.title.clone(), colour: INK });
+            shapes.push(Shape::text(at, disc.title.clone(), INK));
         }
     }
-    let drawing = Drawing { width: (columns * wide) as u32, height: (rows.len() * high + 10) as u32, shapes };
+    let drawing = Drawing { width: (columns * wide) as f64, height: (rows.len() * high + 10) as f64, shapes };
     let mut picture = image::load_from_memory(&drawing.to_png()?)?.to_rgb8();
     for (r, row) in rows.iter().enumerate() {
         let most = row.iter().flat_map(|disc| &disc.values).copied().fold(0.0, f64::max);

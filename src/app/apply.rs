@@ -1,10 +1,11 @@
 //! Acting on commands: the only place where what the window knows changes by the user's will.
 
 use super::command::Command;
+use super::hand_on::What;
 use super::jobs::Lane;
 use super::moment;
 use super::scene::{Selection, fill, first_scene, rule, set_rule};
-use super::state::{Document, PathUse};
+use super::state::{Document, PathUse, Sheet};
 use super::window::App;
 use super::{control, title};
 use crate::catalogue::{FirstRule, Product};
@@ -28,8 +29,10 @@ impl App {
         match command {
             Command::Open => self.ask_paths(),
             Command::SaveScene => self.ask_target(PathUse::SaveScene),
-            Command::ExportLid => self.ask_target(PathUse::ExportLid),
-            Command::ExportTile(tile) => self.ask_target(PathUse::ExportTile(tile)),
+            Command::ExportLid => self.hand_on(What::Luminaire, None),
+            Command::ExportTile(tile) => self.hand_on(What::Picture, Some(tile)),
+            Command::HandOn(choices) => self.choose_hand_on(*choices),
+            Command::BrowseHandOn => self.browse_hand_on(),
             Command::CopyTile(tile) => self.copy_tile(tile),
             Command::Incidence(chosen) => state.incident = chosen,
             Command::Control(mode) => self.control(mode),
@@ -75,6 +78,9 @@ impl App {
             Command::Sheet(sheet) => {
                 // The key that opens a sheet also closes it.
                 state.sheet = if state.sheet == sheet { None } else { sheet };
+                if state.sheet == Some(Sheet::HandOn) {
+                    self.offer_hand_on();
+                }
             }
             Command::Cancel(lane) => {
                 let stopped = self.jobs.cancel(lane);

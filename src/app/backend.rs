@@ -1,14 +1,16 @@
 //! The window's services as they are in earnest: the catalogue's file, the study, luminaire files.
 
 use super::at_work::AtWork;
-use super::engine::{Engine, LidFigures, Question, RoomFigures};
+use super::engine::{Engine, LidFigures, Question, RoomFigures, subject};
 use super::error::AppError;
 use super::shelf::{Addition, Found, Query, Shelf};
+use super::shelf_library::WindowLibrary;
 use crate::catalogue::{
     Catalogue, Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateKey, StateName, Stored, Words,
     default_path,
 };
 use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::direction::Incident;
 use crate::compute::estimate::{Progress, Silent};
 use crate::formats::ies::IesEdition;
 use crate::study::accuracy::{Accuracy, ladder};
@@ -17,10 +19,9 @@ use crate::study::compact::stored_by_default;
 use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::scene_file::SystemKeys;
+use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
-use crate::study::system::Need;
-use crate::study::{Library, Scene, Session, StudyError, System, SystemLibrary};
+use crate::study::{Library, Scene, Session, StudyError};
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -237,37 +238,6 @@ impl Shelf for CatalogueShelf {
     }
 }
 
-/// Files and closed forms from the study's library, products from the shelf.
-struct WindowLibrary<'a> {
-    files: &'a Library,
-    shelf: &'a dyn Shelf,
-    progress: &'a dyn Progress,
-}
-
-impl SystemLibrary for WindowLibrary<'_> {
-    fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
-        let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
-        let told = |error: AppError| match error {
-            AppError::Study(error) => error,
-            other => StudyError::Catalogue(other.to_string()),
-        };
-        self.shelf.provide(key, state.as_deref(), self.progress).map_err(told)?;
-        let dataset = self.shelf.load(key, state.as_deref()).map_err(told)?;
-        let very = self.files.very_of(&dataset);
-        // The product's name: a dataset's own may be that of another product with the same data.
-        let label = self.shelf.product(key).map_err(|error| StudyError::Catalogue(error.to_string()))?.name.clone();
-        Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
-    }
-
-    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
-        self.shelf.controlled_state(product, asked)
-    }
-
-    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
-        self.files.controlled_description(path, asked)
-    }
-}
-
 /// The study with its caches.
 #[derive(Default)]
 pub struct StudyEngine {
@@ -318,6 +288,16 @@ impl Engine for StudyEngine {
             description: describe(&name, &question.scene, 0, ""),
             seconds: start.elapsed().as_secs_f64(),
         })
+    }
+
+    fn subject(
+        &self,
+        question: &Question,
+        incident: Option<Incident>,
+        wanted: Wanted,
+        progress: &dyn Progress,
+    ) -> Result<Subject, AppError> {
+        subject(question, incident, wanted, (&self.session, &*self.files), progress)
     }
 
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {

@@ -3,6 +3,7 @@
 
 use super::compare::Act;
 use super::goniophotometer::Setup;
+use super::hand_on::Choices;
 use super::import::{ImportFields, StateWords};
 use super::import_steps::Step;
 use super::jobs::Lane;
@@ -25,10 +26,14 @@ pub enum Command {
     Open,
     /// Ask where to save the scene.
     SaveScene,
-    /// Ask where to write the LID.
+    /// Hand the LID on.
     ExportLid,
-    /// Ask where to write a tile, as numbers or as a picture.
+    /// Hand a tile on, as a picture or as numbers.
     ExportTile(Tile),
+    /// What is handed on, and in which form.
+    HandOn(Box<Choices>),
+    /// Ask for folder and name of what is handed on.
+    BrowseHandOn,
     /// A tile's numbers into the clipboard.
     CopyTile(Tile),
     /// The incidence that tiles draw for; the sun's while `None`.

@@ -40,14 +40,17 @@ impl FileDialogs for NativeDialogs {
             PathUse::ExportLid => dialog
                 .add_filter("Luminaire files", &["ldt", "ies"])
                 .add_filter("Table or diagram", &["csv", "svg", "png"]),
-            PathUse::ExportTile(tile) => dialog
-                .set_title(format!("Export {}", tile.title))
-                .add_filter("Numbers", &["csv"])
-                .add_filter("Picture", &["png"]),
+            PathUse::ExportTile(tile) => {
+                dialog.set_title(format!("Export {}", tile.title)).add_filter("Numbers", &["csv"])
+            }
             PathUse::ExportMeasured => dialog
                 .add_filter("Package of all states", &["cfsp"])
                 .add_filter("BSDF", &["xml"])
                 .add_filter("BTDF text", &["btdf.txt"]),
+            PathUse::HandOn => match start.extension() {
+                Some(ending) => dialog.add_filter("What is handed on", &[ending.to_string_lossy()]),
+                None => dialog,
+            },
             PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState => dialog.add_filter("Scene", &["toml"]),
         };
         Ok(dialog.save_file())

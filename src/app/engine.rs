@@ -2,11 +2,15 @@
 
 use super::error::AppError;
 use super::shelf::Shelf;
+use super::shelf_library::WindowLibrary;
+use crate::compute::direction::Incident;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Lid;
 use crate::formats::luminaire::Description;
 use crate::study::accuracy::Accuracy;
 use crate::study::scene_file::SceneFile;
+use crate::study::subject::{Asked, Subject, Wanted};
+use crate::study::{Library, Session};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -78,8 +82,34 @@ pub trait Engine: Send + Sync {
     fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError>;
     /// The light of the first aperture.
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError>;
+    /// All that pictures and reports show; without caches of one's own everything is computed anew.
+    fn subject(
+        &self,
+        question: &Question,
+        incident: Option<Incident>,
+        wanted: Wanted,
+        progress: &dyn Progress,
+    ) -> Result<Subject, AppError> {
+        subject(question, incident, wanted, (&Session::new(), &Library::default()), progress)
+    }
     /// Error against run time of every method.
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;
     /// The bytes of a luminaire file, its format by the path's extension.
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError>;
+}
+
+/// All that pictures and reports show of a question.
+///
+/// # Errors
+/// What the scene or its systems lack.
+pub fn subject(
+    question: &Question,
+    incident: Option<Incident>,
+    wanted: Wanted,
+    (session, files): (&Session, &Library),
+    progress: &dyn Progress,
+) -> Result<Subject, AppError> {
+    let library = WindowLibrary { files, shelf: &*question.shelf, progress };
+    let asked = Asked { file: &question.scene, base: &question.base, incident, wanted };
+    Ok(Subject::of(&asked, session, &library, &|key| library.product(key), progress)?)
 }

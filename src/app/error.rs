@@ -5,6 +5,7 @@ use crate::catalogue::CatalogueError;
 use crate::compute::doctor::RepairError;
 use crate::formats::FormatError;
 use crate::formats::control_curve::CurveError;
+use crate::report::ReportError;
 use crate::study::StudyError;
 use crate::study::luminaire_file::LuminaireFileError;
 use std::fmt::Display;
@@ -47,20 +48,39 @@ pub enum AppError {
     /// The scene has no text.
     #[error("the scene cannot be written as text: {0}")]
     SceneText(#[from] toml::ser::Error),
+    /// Nothing can be handed on.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// A tile has not been drawn since it was asked for its numbers.
+    #[error("the tile has not given its numbers yet: wait for the preview, then write again")]
+    NoNumbers,
+    /// Something is asked of a product that is not there.
+    #[error("the product and its data are not there yet: choose a product and wait for its tiles, then write again")]
+    NoProduct,
+    /// A series without moments.
+    #[error(
+        "no file would be written: choose months and hours with the sun above the horizon, for a scene with place and date"
+    )]
+    NoMoments,
+    /// A series of too many files: how many, and how many at most.
+    #[error("{0} files would be written; expected at most {1}: choose fewer months, hours or states")]
+    ManyFiles(usize, usize),
+    /// A name with another ending than what it is.
+    #[error("what is handed on ends in {0}; give the name that ending, or choose another form")]
+    HandOnEnding(&'static str),
     /// A tile's picture has no file.
     #[error("the picture cannot be encoded: {0}")]
     Picture(#[from] image::ImageError),
-    /// A tile's picture is larger than any file of pictures.
-    #[error("the picture cannot be encoded: it is too large")]
-    PictureSize,
     /// An error that is about a file of this name or path.
     #[error("{0}: {1}")]
     About(String, Box<Self>),
     /// Bytes where text is expected: the first that is wrong, and what is expected, e.g. `a scene`.
     #[error("byte {0} is not UTF-8; {1} is a text file")]
     NotText(usize, &'static str),
-    /// An ending that says neither numbers nor picture of a tile.
-    #[error("the ending \"{0}\" is none that a tile is written as: use .csv for numbers, .png for a picture")]
+    /// An ending other than that of a tile's numbers.
+    #[error(
+        "the ending \"{0}\" is none that a tile's numbers are written as: use .csv; pictures are handed on by Ctrl+E"
+    )]
     TileEnding(String),
     /// A path for computed data whose ending names no format.
     #[error("an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt")]

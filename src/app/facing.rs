@@ -1,32 +1,3 @@
-//! Directions as the scene's façade or roof sees them.
+//! Directions as the scene's façade or roof sees them: the study's, as the window uses it.
 
-use super::moment;
-use crate::compute::angle::Bearing;
-use crate::compute::direction::{Dir, Facade, Incident, Orientation, Surface, World};
-use crate::study::scene_file::{SceneFile, SurfaceKey};
-
-/// Where an aperture of the scene lies; the façade where there is none.
-pub fn surface_of(scene: &SceneFile, aperture: usize) -> Surface {
-    match scene.aperture.get(aperture).map(|aperture| aperture.surface) {
-        Some(SurfaceKey::Roof) => Surface::Roof,
-        _ => Surface::Facade,
-    }
-}
-
-/// Where the scene's first aperture lies.
-pub fn surface(scene: &SceneFile) -> Surface {
-    surface_of(scene, 0)
-}
-
-/// A world direction as the façade sees it.
-pub fn incident(scene: &SceneFile, altitude: f64, bearing: Bearing) -> Dir<Facade> {
-    let orientation = Orientation::new(Bearing::from_degrees(scene.site.azimuth));
-    surface(scene).facade_dir(orientation.room_from_world(Dir::<World>::from_altitude_bearing(altitude, bearing)))
-}
-
-/// The sun, if it is up and before the façade.
-pub fn sun_incident(scene: &SceneFile) -> Option<Incident> {
-    let (altitude, bearing) = moment::sun(scene)?;
-    let direction = incident(scene, altitude, Bearing::from_degrees(bearing));
-    (altitude > 0.0 && direction.vector().z > 0.0).then_some(Incident(direction))
-}
+pub use crate::study::facing::*;

@@ -35,6 +35,7 @@ impl App {
         self.refresh();
         self.ask_peaks();
         self.ask_compared();
+        self.ask_preview();
         self.fill_catalogue();
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.keep_session();

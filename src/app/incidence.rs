@@ -1,74 +1,13 @@
-//! The one direction of incidence that everything drawn of a product speaks of, and the words for it.
+//! The one direction of incidence that tiles speak of: the study's, as the window uses it.
 
-use super::facing::sun_incident;
-use crate::compute::direction::{Dir, Facade, Incident};
-use crate::compute::profile_angle::profile_angle;
-use crate::drawing::ticks::degrees;
-use crate::study::scene_file::SceneFile;
-
-/// Why it is this direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
-    /// The sun stands there.
-    Sun,
-    /// The user chose it.
-    Chosen,
-    /// The sun is not before the aperture and nothing was chosen: perpendicular.
-    Normal,
-}
-
-/// A direction of incidence and why it is that one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Incidence {
-    /// Where the light comes from.
-    pub direction: Incident,
-    /// Why.
-    pub source: Source,
-}
-
-impl Incidence {
-    /// What tiles show in a scene: the chosen direction, else the sun's, else the perpendicular one.
-    pub fn shown(chosen: Option<Incident>, scene: &SceneFile) -> Self {
-        let of = |direction, source| Self { direction, source };
-        match (chosen, sun_incident(scene)) {
-            (Some(direction), _) => of(direction, Source::Chosen),
-            (None, Some(sun)) => of(sun, Source::Sun),
-            (None, None) => of(Incident(Dir::from_unit(glam::DVec3::Z)), Source::Normal),
-        }
-    }
-
-    /// Whose direction it is.
-    pub const fn name(&self) -> &'static str {
-        match self.source {
-            Source::Sun => "sun",
-            Source::Chosen => "chosen direction",
-            Source::Normal => "perpendicular light",
-        }
-    }
-
-    /// "sun at θ 49°, φ 98°, profile angle 49°", and shorter: the same direction in all of them.
-    pub fn texts(&self) -> [String; 3] {
-        let direction = self.direction.0;
-        let profile =
-            profile_angle(direction).map_or_else(String::new, |psi| format!(", profile angle {}", degrees(psi)));
-        let why = if self.source == Source::Normal { " (sun not before the façade)" } else { "" };
-        let angles = direction_text(direction);
-        [format!("{} at {angles}{profile}{why}", self.name()), format!("{} at {angles}", self.name()), angles]
-    }
-}
-
-/// "θ 49°, φ 98°": from the façade's normal, and from the right seen from outside towards up.
-pub fn direction_text(d: Dir<Facade>) -> String {
-    // Rounded first: just under a whole turn is 0° again.
-    let phi = d.phi().to_degrees().round() % 360.0;
-    format!("θ {}, φ {}", degrees(d.theta()), degrees(phi.to_radians()))
-}
+pub use crate::study::incidence::*;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::app::moment;
     use crate::app::scene::first_scene;
+    use crate::compute::direction::{Dir, Incident};
 
     #[test]
     fn a_choice_goes_before_the_sun_and_without_both_light_is_perpendicular() {

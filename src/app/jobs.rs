@@ -45,6 +45,8 @@ pub enum Lane {
     Compare,
     /// Data computed from a description.
     Goniophotometer,
+    /// What would be handed on.
+    Preview,
     /// Writing files.
     Export,
 }
@@ -66,6 +68,7 @@ impl Lane {
             Self::Builtin => "built-in products",
             Self::Compare => "comparison",
             Self::Goniophotometer => "goniophotometer",
+            Self::Preview => "preview",
             Self::Export => "writing file",
         }
     }

@@ -1,25 +1,10 @@
 //! Names that files are offered: product, state and moment, in characters that every system takes.
 
+use super::hand_on::{ReportKind, What};
 use super::moment;
+use super::safe_name::safe;
 use super::state::{PathUse, State};
 use std::path::PathBuf;
-
-/// Longest part of a name made from words. \[characters\]
-const LONGEST: usize = 80;
-
-/// A word in letters, digits, point and hyphen; other runs become one hyphen.
-fn safe(word: &str) -> String {
-    let mut text = String::new();
-    for c in word.chars() {
-        if c.is_ascii_alphanumeric() || c == '.' || (c == '-' && text.is_empty()) {
-            text.push(c);
-        } else if !text.ends_with('-') && !text.is_empty() {
-            text.push('-');
-        }
-    }
-    text.truncate(LONGEST);
-    text.trim_end_matches(['-', '.']).trim_start_matches('.').to_owned()
-}
 
 /// Product, state and moment, e.g. `venetian-80-72_45_2026-03-21T1200`.
 fn study(state: &State) -> String {
@@ -44,12 +29,36 @@ pub fn file_name(state: &State, what: PathUse) -> String {
         PathUse::SaveScene => format!("{}.toml", study(state)),
         PathUse::ExportLid => format!("{}.ldt", study(state)),
         PathUse::ExportTile(tile) => format!("{}_{}.csv", study(state), safe(&tile.title.to_lowercase())),
+        PathUse::HandOn => handed_on(state),
         PathUse::ExportMeasured => {
             let described = state.goniophotometer.run.as_ref().map(|run| &run.described.file);
             let name = described.map(|file| if file.key.is_empty() { &file.system.name } else { &file.key });
             let name = name.map(|name| safe(&name.to_lowercase())).filter(|name| !name.is_empty());
             format!("{}.cfsp", name.unwrap_or_else(|| "system".to_owned()))
         }
+    }
+}
+
+/// A name for what is handed on.
+fn handed_on(state: &State) -> String {
+    let choices = &state.settings.hand_on;
+    let (ending, tile) = (choices.ending(), choices.tile.word());
+    let product = match safe(&state.document.selection.product) {
+        none if none.is_empty() => "window".to_owned(),
+        product => product,
+    };
+    match choices.what {
+        What::Picture | What::Table => format!("{}_{tile}{ending}", study(state)),
+        What::Report if choices.report == ReportKind::Sheet => format!("{product}_sheet{ending}"),
+        What::Report => format!("{}_study{ending}", study(state)),
+        What::Series => format!("{product}_index{ending}"),
+        What::Package => format!("{product}{ending}"),
+        What::Dataset => {
+            let shown = safe(&state.shown_state);
+            let of = if shown.is_empty() { String::new() } else { format!("_{shown}") };
+            format!("{product}{of}{ending}")
+        }
+        What::Luminaire | What::Scene => format!("{}{ending}", study(state)),
     }
 }
 

@@ -108,9 +108,15 @@ fn table() -> Vec<Offer> {
         offer(SaveScene, "Save scene…", "Write everything this study needs as a text file")
             .keys(CTRL, Key::S)
             .menu(FILE, 10),
+        offer(
+            sheet(state::Sheet::HandOn),
+            "Hand on…",
+            "Pictures, reports (PDF), luminaire files, tables, datasets, packages, with a preview",
+        )
+        .keys(CTRL, Key::E)
+        .menu(FILE, 11),
         offer(ExportLid, "Export LID…", "Write the window as a luminaire (.ldt, .ies) for other programs")
-            .keys(CTRL, Key::E)
-            .menu(FILE, 11),
+            .menu(FILE, 12),
         offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
         offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
         offer(EditProduct(None), "Edit product…", "Words, states, files and history of the selected product")
@@ -156,7 +162,7 @@ fn table() -> Vec<Offer> {
         offer(ToggleScene, "Scene panel", "Show or hide place, time, sky and room").keys(CTRL, Key::J).menu(VIEW, 21),
     ]);
     list.extend(tiles().map(|tile| {
-        let tip = "Write this tile as numbers (.csv) or as a picture (.png)";
+        let tip = "Hand this tile on as a picture (.svg, .png) or as numbers (.csv)";
         offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(FILE, 12).within("Export tile")
     }));
     list.extend(tiles().map(|tile| {

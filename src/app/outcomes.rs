@@ -175,6 +175,8 @@ impl App {
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
+            // Chosen, not yet written: the preview goes on.
+            Outcome::Target(PathUse::HandOn, Ok(Some(path))) => self.state.path = path.display().to_string(),
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
             Outcome::Read(import) => self.take_import(*import),
@@ -216,6 +218,10 @@ impl App {
                     self.toasts.error(error.to_string());
                 }
                 self.search();
+            }
+            Outcome::Preview(result) => {
+                self.state.hand_on.revision += 1;
+                self.state.hand_on.shown = Some(result.map_err(|error| error.to_string()));
             }
             Outcome::There(what, path, there) => self.take_there(what, path, there),
             Outcome::Written(what, Ok(path)) => {

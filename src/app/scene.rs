@@ -2,11 +2,8 @@
 
 use super::moment;
 use crate::study::control::year::CONTROLLED;
-use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, DEFAULT_TURBIDITY, IlluminanceKey, PlaneKeys,
-    ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
-    TimeKey,
-};
+pub use crate::study::example::first_scene;
+use crate::study::scene_file::{ControlKeys, IlluminanceKey, SceneFile, SystemKeys};
 use crate::study::sky::illuminances;
 
 /// Product and state: the window's one selection.
@@ -16,56 +13,6 @@ pub struct Selection {
     pub product: String,
     /// Key of the state; empty for the one that stands for the product; `controlled` when the scene's control picks it.
     pub state: String,
-}
-
-/// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
-pub fn first_scene() -> SceneFile {
-    SceneFile {
-        room: RoomKeys {
-            width: 4.0,
-            depth: 6.0,
-            height: 3.0,
-            reflectance: ReflectanceKeys { floor: 0.2, walls: 0.5, ceiling: 0.7 },
-        },
-        aperture: vec![ApertureKeys {
-            surface: SurfaceKey::Facade,
-            origin: [0.5, 0.9],
-            size: [3.0, 1.8],
-            system: SystemKeys::Catalogue { key: String::new(), state: None },
-            reflectance: ApertureReflectance::default(),
-            structure: None,
-            control: None,
-        }],
-        site: SiteKeys {
-            azimuth: 180.0,
-            latitude: Some(48.78),
-            longitude: Some(9.18),
-            utc_offset: Some(1.0),
-            elevation: 252.0,
-            ground_reflectance: 0.2,
-        },
-        sky: SkyKeys {
-            model: SkyModelKey::Cie,
-            cie_type: Some(12),
-            illuminance: IlluminanceKey::ClearSky,
-            turbidity: DEFAULT_TURBIDITY,
-            diffuse_horizontal: None,
-            sun: SunKeys::default(),
-            time: Some(TimeKey::Text("2026-03-21T12:00".to_owned())),
-            direct_horizontal_irradiance: None,
-            diffuse_horizontal_irradiance: None,
-            file: None,
-            obstruction: None,
-        },
-        sensors: SensorKeys {
-            plane: Some(PlaneKeys { z: 0.85, nx: 16, ny: 24, normal: [0.0, 0.0, 1.0] }),
-            points: Vec::new(),
-            normal: None,
-        },
-        control: None,
-        compute: ComputeKeys::default(),
-        compare: Vec::new(),
-    }
 }
 
 /// The scene that the last session left; `None` where the text is no scene.

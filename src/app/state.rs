@@ -6,6 +6,7 @@ use super::control::{Year, YearKey};
 use super::engine::{LidFigures, RoomFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
+use super::hand_on::{Choices, HandOn};
 use super::import::{Import, KeptImport};
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
@@ -78,11 +79,20 @@ pub struct Settings {
     pub last_scene: Option<String>,
     /// The folder that was written to or read from last.
     pub folder: Option<PathBuf>,
+    /// What was handed on last, and in which form.
+    pub hand_on: Choices,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { theme: ThemeChoice::System, catalogue_open: true, scene_open: true, last_scene: None, folder: None }
+        Self {
+            theme: ThemeChoice::System,
+            catalogue_open: true,
+            scene_open: true,
+            last_scene: None,
+            folder: None,
+            hand_on: Choices::default(),
+        }
     }
 }
 
@@ -184,6 +194,8 @@ pub enum Sheet {
     Deleted,
     /// What the window said.
     Messages,
+    /// Handing on: pictures, reports, luminaires, data.
+    HandOn,
     /// A path to open or write.
     Path(PathUse),
 }
@@ -197,12 +209,14 @@ pub enum PathUse {
     SaveScene,
     /// Write the LID as a luminaire file.
     ExportLid,
-    /// Write a tile as numbers (.csv) or as a picture (.png).
+    /// Write a tile as numbers (.csv).
     ExportTile(Tile),
     /// Write what the goniophotometer computed.
     ExportMeasured,
     /// Read a file in place of that of a product's state.
     ReplaceState,
+    /// Write what is handed on.
+    HandOn,
 }
 
 impl PathUse {
@@ -215,6 +229,7 @@ impl PathUse {
             Self::ExportTile(_) => "Export a tile",
             Self::ExportMeasured => "Export the computed data",
             Self::ReplaceState => "Replace a state",
+            Self::HandOn => "Hand on",
         }
     }
 }
@@ -241,6 +256,8 @@ pub struct State {
     pub path: String,
     /// The path that was to be written and exists already: to be replaced?
     pub replace: Option<PathBuf>,
+    /// The dialog of handing on.
+    pub hand_on: HandOn,
     /// Files that were read.
     pub import: Option<Import>,
     /// An import that is on its way: from its files, or into the catalogue.
@@ -315,6 +332,7 @@ impl State {
             sheet: None,
             path: String::new(),
             replace: None,
+            hand_on: HandOn::default(),
             import: None,
             under_way: None,
             storing: None,

@@ -1,10 +1,8 @@
 //! Colours, gaps, strokes and type of the window: light and dark, each designed, not one turned into the other.
 
+use crate::drawing::font::DEJAVU;
 use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::{Color32, Context, CornerRadius, FontData, FontFamily, FontId, Margin, Stroke, TextStyle, Theme, Vec2};
-
-/// Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
-static FALLBACK: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
 
 /// Which theme the user wants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -127,7 +125,8 @@ pub fn install(ctx: &Context) {
     let family = |family| InsertFontFamily { family, priority: FontPriority::Lowest };
     ctx.add_font(FontInsert::new(
         "fallback",
-        FontData::from_static(FALLBACK),
+        // Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
+        FontData::from_static(DEJAVU),
         vec![family(FontFamily::Proportional), family(FontFamily::Monospace)],
     ));
     for (theme, palette) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {

@@ -4,52 +4,8 @@ use super::state::{CatalogueState, State};
 use super::{control, moment};
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
-use crate::study::places::city_at;
-use crate::study::scene_file::{SceneFile, SkyModelKey};
 
-/// The place in words: the city that it lies in, else coordinates.
-pub fn place(scene: &SceneFile) -> String {
-    let (Some(latitude), Some(longitude)) = (scene.site.latitude, scene.site.longitude) else {
-        return "no place".to_owned();
-    };
-    city_at(latitude, longitude).map_or_else(|| coordinates(latitude, longitude), |city| city.name.to_string())
-}
-
-/// `48.78°N 9.18°E`
-pub fn coordinates(latitude: f64, longitude: f64) -> String {
-    let ns = if latitude < 0.0 { "S" } else { "N" };
-    let ew = if longitude < 0.0 { "W" } else { "E" };
-    format!("{:.2}°{ns} {:.2}°{ew}", latitude.abs(), longitude.abs())
-}
-
-/// The moment in words.
-pub fn time(scene: &SceneFile) -> String {
-    moment::of(scene).map_or_else(
-        || match (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
-            (Some(altitude), Some(azimuth)) => {
-                format!("sun {} at {azimuth:.0}°", moment::height_words(altitude, 0))
-            }
-            _ => "no sun".to_owned(),
-        },
-        moment::words,
-    )
-}
-
-/// The sky in words.
-pub fn sky(scene: &SceneFile) -> String {
-    match scene.sky.model {
-        SkyModelKey::Cie => {
-            let kind = scene.sky.cie_type.unwrap_or(16);
-            let word = match kind {
-                1..=5 | 16 => "overcast",
-                6..=10 => "partly cloudy",
-                _ => "clear",
-            };
-            format!("{word} (CIE {kind})")
-        }
-        model => model.words()[1].to_owned(),
-    }
-}
+pub use crate::study::scene_words::{coordinates, place, sky, time};
 
 /// Name of the selected product: the product's own, whatever the list shows. While it is read, the list's, else its key.
 pub fn product(state: &State) -> String {

@@ -8,6 +8,7 @@ use super::engine::{Engine, LidFigures, RoomFigures};
 use super::error::AppError;
 use super::facing::surface_of;
 use super::goniophotometer::Finished;
+use super::hand_on::Preview;
 use super::import::{Import, Proposed};
 use super::jobs::JobState;
 use super::scene::{Selection, rule};
@@ -101,6 +102,8 @@ pub enum Outcome {
     Builtin(Result<usize, AppError>),
     /// A path that is to be written to: is a file there already?
     There(PathUse, PathBuf, bool),
+    /// What would be handed on.
+    Preview(Result<Preview, AppError>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
 }

@@ -1,8 +1,8 @@
 //! Files of the window: asking for paths, reading what was chosen, writing scene, luminaire, tiles and computed data.
 
 use super::disk::write_whole;
-use super::export::png;
 use super::goniophotometer;
+use super::handing_on;
 use super::jobs::Lane;
 use super::naming::start_path;
 use super::state::{PathUse, Sheet, Tile};
@@ -47,6 +47,7 @@ impl App {
         }
         let targets = match (what, &self.state.goniophotometer.run) {
             (PathUse::ExportMeasured, Some(run)) => goniophotometer::targets(run, &path),
+            (PathUse::HandOn, _) => handing_on::targets(&self.state, &path),
             _ => vec![path.clone()],
         };
         self.start(Lane::Export, move |_| {
@@ -59,7 +60,7 @@ impl App {
         if there {
             self.state.path = path.display().to_string();
             self.state.replace = Some(path);
-            self.state.sheet = Some(Sheet::Path(what));
+            self.state.sheet = Some(if what == PathUse::HandOn { Sheet::HandOn } else { Sheet::Path(what) });
         } else {
             self.write(what, path);
         }
@@ -89,6 +90,7 @@ impl App {
                 self.start_writing(move || save_scene(&path, text));
             }
             PathUse::ExportTile(tile) => self.export_tile(tile, path),
+            PathUse::HandOn => self.write_hand_on(path),
             PathUse::ExportMeasured => {
                 self.state.sheet = Some(Sheet::Goniophotometer);
                 match self.state.goniophotometer.run.clone() {
@@ -119,27 +121,21 @@ impl App {
     }
 
     /// A hidden tile is not drawn and so knows nothing.
-    fn bring_up(&mut self, tile: Tile) {
+    pub(super) fn bring_up(&mut self, tile: Tile) {
         if self.state.maximised.is_some_and(|shown| shown != tile) {
             self.state.maximised = Some(tile);
         }
     }
 
-    /// Writes what tiles and screen gave since the last frame.
+    /// Writes what tiles gave since the last frame.
     pub(super) fn write_exports(&mut self) {
+        self.take_numbers();
         if self.jobs.busy(Lane::Export) {
             return;
         }
         if let Some((tile, path, text)) = self.export.next_numbers() {
             self.start_writing(move || {
                 Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes()))
-            });
-            return;
-        }
-        if let Some((tile, path, picture)) = self.export.next_picture() {
-            self.start_writing(move || {
-                let written = png(&picture).and_then(|bytes| write_whole(&path, &bytes));
-                Outcome::Written(PathUse::ExportTile(tile), written)
             });
         }
     }

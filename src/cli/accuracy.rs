@@ -56,7 +56,7 @@ pub struct AccuracyArgs {
 }
 
 /// Size of the picture. \[px\]
-const SIZE: [u32; 2] = [1280, 560];
+const SIZE: [f64; 2] = [1280.0, 560.0];
 
 /// Runs the command.
 pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {

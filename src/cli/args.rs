@@ -2,8 +2,8 @@
 
 use super::{
     accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, compare::CompareArgs, control::ControlArgs,
-    convert::ConvertArgs, goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, repair::RepairArgs,
-    room::RoomArgs, sky::SkyArgs,
+    convert::ConvertArgs, goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, picture::PictureArgs,
+    repair::RepairArgs, report::ReportArgs, room::RoomArgs, sky::SkyArgs,
 };
 use clap::CommandFactory as _;
 use std::path::{Path, PathBuf};
@@ -24,6 +24,8 @@ Examples:
   cfs accuracy office.toml              error against run time of every method for this scene
   cfs compare office.toml               figures of what the scene compares, with errors
   cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
+  cfs picture office.toml --tile room --out room.svg         a tile of the window as a picture
+  cfs report office.toml --out office.pdf                    a study, or a product sheet, as PDF
   cfs control blind.toml --out year.csv a year of states of controlled systems
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs repair blind.xml --repair transpose --out mended.xml   what cfs info offers
@@ -127,6 +129,10 @@ pub enum Command {
     Compare(CompareArgs),
     /// Luminous-intensity distribution of an aperture as a luminaire file
     Lid(LidArgs),
+    /// A tile of the window as a picture (.svg or .png)
+    Picture(PictureArgs),
+    /// A report as PDF: on a scene, or a product sheet
+    Report(ReportArgs),
     /// Luminances of the 145 Tregenza patches of the sky dome
     Sky(SkyArgs),
     /// Compute a system's scattering from its geometry and material

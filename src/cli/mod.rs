@@ -19,8 +19,10 @@ pub mod listing;
 mod luminaire_info;
 mod output;
 pub mod packages;
+pub mod picture;
 mod progress;
 pub mod repair;
+pub mod report;
 pub mod room;
 pub mod sky;
 pub mod subscriptions;
@@ -42,6 +44,8 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Accuracy(args) => accuracy::run(args, &library),
         Command::Compare(args) => compare::run(args, &library),
         Command::Lid(args) => lid::run(args, &library),
+        Command::Picture(args) => picture::run(args, &library),
+        Command::Report(args) => report::run(args, &library),
         Command::Sky(args) => sky::run(args),
         Command::Goniophotometer(args) => goniophotometer::run(args, &library),
         Command::Control(args) => control::run(args, &library),

@@ -1,77 +1,75 @@
 //! Plots on paper: panels side by side under one legend, as shapes of a [`Drawing`].
 
+use super::colours::Inks;
+pub use super::colours::SERIES;
+use super::font::width;
+use super::legend::{self, Name};
 use super::plot::{Axis, Form, Plot, Series};
-use super::{Drawing, Rgb, Shape};
+use super::{Align, Drawing, Frame, Point, Shape, TEXT};
 
-const INK: Rgb = [30, 30, 30];
-const FAINT: Rgb = [222, 222, 222];
-/// One for each series; they keep apart for all common kinds of colour vision (after Okabe and Ito).
-pub const SERIES: [Rgb; 5] = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0]];
-
-/// Room for the labels left of a panel and below it, and for its title. \[px\]
-const LEFT: f64 = 84.0;
-const BELOW: f64 = 40.0;
+/// Room for the labels below a panel, with and without a name of the axis.
+const BELOW: [f64; 2] = [40.0, 22.0];
+/// Room above a panel for its title.
 const ABOVE: f64 = 30.0;
-/// Room for the names of the series. \[px\]
-const LEGEND: f64 = 58.0;
-/// Room for one name. \[px\]
-const NAME: f64 = 320.0;
 
 /// A plot and the paper that it has.
-struct Panel<'a> {
-    plot: &'a Plot,
-    left_right: [f64; 2],
-    top_bottom: [f64; 2],
+#[derive(Debug, Clone, Copy)]
+pub struct Panel<'a> {
+    /// What is drawn.
+    pub plot: &'a Plot,
+    /// The plotting area.
+    pub area: Frame,
+    /// Its inks.
+    pub inks: &'a Inks,
 }
 
-/// Draws plots of the same series on paper of a size. \[px\]
-pub fn draw(plots: &[Plot], [width, height]: [u32; 2]) -> Drawing {
-    let (across, down) = (f64::from(width), f64::from(height));
+/// Draws plots of the same series side by side under one legend, on paper of a size.
+pub fn draw(plots: &[Plot], [across, down]: [f64; 2]) -> Drawing {
+    let inks = &Inks::LIGHT;
+    let mut drawing = Drawing::new(across, down);
+    let head = Frame::new(20.0, 6.0, across - 40.0, 40.0);
+    let series = plots.first().map_or(&[][..], |plot| &plot.series);
+    let legend = names(&mut drawing, head, series, inks);
     let room = across / plots.len().max(1) as f64;
-    let panels: Vec<Panel<'_>> = plots
-        .iter()
-        .enumerate()
-        .map(|(k, plot)| Panel {
-            plot,
-            left_right: [k as f64 * room + LEFT, (k + 1) as f64 * room - 16.0],
-            top_bottom: [LEGEND + ABOVE, down - BELOW],
-        })
-        .collect();
-    let mut shapes: Vec<Shape> = panels.iter().flat_map(Panel::frame).collect();
-    for panel in &panels {
-        let guides = panel.plot.guides.iter();
-        let lines = guides
-            .map(|guide| guide.ends.iter().filter_map(|end| Some(panel.place(panel.plot.place(*end)?))).collect());
-        shapes.extend(lines.map(|points| Shape::Line { points, colour: INK, width: 1.0 }));
+    for (k, plot) in plots.iter().enumerate() {
+        let frame = Frame::new(k as f64 * room, 6.0 + legend, room - 8.0, down - legend - 6.0);
+        let title = format!("{} against {}", plot.y.name, plot.x.name);
+        drawing.add(Shape::text([frame.left + 0.5 * frame.width, frame.top + 14.0], title, inks.ink));
+        panel(&mut drawing, frame.inside([0.0, ABOVE, 8.0, 0.0]), plot, inks);
     }
-    for panel in &panels {
-        let at = [0.5 * (panel.left_right[0] + panel.left_right[1]), panel.top_bottom[0] - 14.0];
-        let text = format!("{} against {}", panel.plot.y.name, panel.plot.x.name);
-        shapes.push(Shape::Text { at, text, colour: INK });
+    drawing
+}
+
+/// The names of series, in lines; their height.
+pub fn names(drawing: &mut Drawing, frame: Frame, series: &[Series], inks: &Inks) -> f64 {
+    let name = |(k, series): (usize, &Series)| Name {
+        sample: inks.curve(k, vec![[0.0, 0.0], [18.0, 0.0]], 2.5),
+        text: series.name.clone(),
+    };
+    let list: Vec<Name> = series.iter().enumerate().map(name).collect();
+    legend::names(drawing, frame, &list, inks)
+}
+
+/// Draws one plot with ticks and names of its axes into a frame; returns it for what else is to be drawn.
+pub fn panel<'a>(drawing: &mut Drawing, frame: Frame, plot: &'a Plot, inks: &'a Inks) -> Panel<'a> {
+    let wide = |axis: &Axis| marks(axis).iter().map(|mark| width(&axis.tick(*mark, 1.0), TEXT)).fold(0.0, f64::max);
+    let named = |axis: &Axis| !axis.name.is_empty();
+    let left = wide(&plot.y) + if named(&plot.y) { 26.0 } else { 8.0 };
+    let below = if named(&plot.x) { BELOW[0] } else { BELOW[1] };
+    let panel = Panel { plot, area: frame.inside([left, 6.0, 10.0, below]), inks };
+    panel.axes(drawing);
+    panel.guides(drawing);
+    for (k, series) in plot.series.iter().enumerate() {
+        panel.series(drawing, series, k);
     }
-    let names: Vec<&str> =
-        plots.first().into_iter().flat_map(|plot| &plot.series).map(|series| &*series.name).collect();
-    // As many beside one another as there is room for.
-    let columns = ((across / NAME) as usize).clamp(1, names.len().max(1));
-    let step = across / columns as f64;
-    for (k, (name, colour)) in names.into_iter().zip(SERIES.into_iter().cycle()).enumerate() {
-        let (centre, line) = (((k % columns) as f64 + 0.5) * step, 14.0 + 18.0 * (k / columns) as f64);
-        // The letters of a PNG are wider than those of any font.
-        let half = 6.2 * name.chars().count() as f64;
-        let points = vec![[centre - half - 18.0, line], [centre - half, line]];
-        shapes.push(Shape::Line { points, colour, width: 3.0 });
-        shapes.push(Shape::Text { at: [centre + 6.0, line], text: name.to_owned(), colour: INK });
-        for panel in &panels {
-            shapes.extend(panel.plot.series.get(k).into_iter().flat_map(|series| panel.series(series, colour)));
-        }
-    }
-    Drawing { width, height, shapes }
+    panel
 }
 
 /// Coordinates of the ticks on paper: whole decades, or round values.
 fn marks(axis: &Axis) -> Vec<f64> {
     let ends = axis.ends();
-    if !axis.log {
+    let decades = ends[1].floor() - ends[0].ceil();
+    if !axis.log || decades < 2.0 {
         return axis.marks(ends, 6);
     }
     let [first, last] = [ends[0].ceil() as i32, ends[1].floor() as i32];
@@ -81,56 +79,109 @@ fn marks(axis: &Axis) -> Vec<f64> {
 
 impl Panel<'_> {
     /// Place on paper of a point in coordinates; what lies outside the axes' ranges is drawn on the border.
-    fn place(&self, point: [f64; 2]) -> [f64; 2] {
+    pub fn place(&self, point: [f64; 2]) -> Point {
         let along = |coordinate: f64, [first, last]: [f64; 2]| ((coordinate - first) / (last - first)).clamp(0.0, 1.0);
-        let ([left, right], [top, bottom]) = (self.left_right, self.top_bottom);
         let [u, v] = [along(point[0], self.plot.x.ends()), along(point[1], self.plot.y.ends())];
-        [left + (right - left) * u, bottom + (top - bottom) * v]
+        [self.area.left + self.area.width * u, self.area.bottom() - self.area.height * v]
     }
 
-    /// Border, and a line and a label at every tick.
-    fn frame(&self) -> Vec<Shape> {
-        let mut shapes = Vec::new();
-        let ([left, right], [top, bottom]) = (self.left_right, self.top_bottom);
-        let line = |points: Vec<[f64; 2]>, colour| Shape::Line { points, colour, width: 1.0 };
+    /// The same of a point in values; `None` for what is no number.
+    pub fn of(&self, values: [f64; 2]) -> Option<Point> {
+        Some(self.place(self.plot.place(values)?))
+    }
+
+    /// Border, a line and a label at every tick, and the names of the axes.
+    fn axes(&self, drawing: &mut Drawing) {
+        let (area, inks) = (self.area, self.inks);
         let (x, y) = (&self.plot.x, &self.plot.y);
+        let mut free = f64::NEG_INFINITY;
         for mark in marks(x) {
             let [at, _] = self.place([mark, 0.0]);
-            shapes.push(line(vec![[at, top], [at, bottom]], FAINT));
-            shapes.push(Shape::Text { at: [at, bottom + 14.0], text: x.tick(mark, 1.0), colour: INK });
+            drawing.add(Shape::line([[at, area.top], [at, area.bottom()]], inks.grid, 1.0));
+            let text = x.tick(mark, 1.0);
+            let half = 0.5 * width(&text, TEXT);
+            if at - half > free {
+                free = at + half + 4.0;
+                drawing.add(Shape::text([at, area.bottom() + 11.0], text, inks.ink));
+            }
         }
         for mark in marks(y) {
             let [_, at] = self.place([0.0, mark]);
-            shapes.push(line(vec![[left, at], [right, at]], FAINT));
-            shapes.push(Shape::Text { at: [left - 36.0, at], text: y.tick(mark, 1.0), colour: INK });
+            drawing.add(Shape::line([[area.left, at], [area.right(), at]], inks.grid, 1.0));
+            let text = y.tick(mark, 1.0);
+            drawing.add(Shape::words([area.left - 5.0, at], text, inks.ink, TEXT, Align::End));
         }
-        shapes.push(line(vec![[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], INK));
-        shapes
+        drawing.add(Shape::line(area.outline(), inks.outline, 1.0));
+        let [middle_x, middle_y] = area.centre();
+        if !x.name.is_empty() {
+            drawing.add(Shape::text([middle_x, area.bottom() + 29.0], x.title(), inks.weak));
+        }
+        if !y.name.is_empty() {
+            let wide = marks(y).iter().map(|mark| width(&y.tick(*mark, 1.0), TEXT)).fold(0.0, f64::max);
+            drawing.add(Shape::Text {
+                at: [area.left - wide - 16.0, middle_y],
+                text: y.title(),
+                colour: inks.weak,
+                size: TEXT,
+                align: Align::Middle,
+                turn: -90.0,
+            });
+        }
     }
 
-    /// Marks, lines and the edges of the band; a drawing has no areas.
-    fn series(&self, series: &Series, colour: Rgb) -> Vec<Shape> {
-        let mut shapes = Vec::new();
-        let line = |points: Vec<[f64; 2]>, width| Shape::Line { points, colour, width };
+    fn guides(&self, drawing: &mut Drawing) {
+        let mut used: Vec<Frame> = Vec::new();
+        for guide in &self.plot.guides {
+            let ends: Vec<Point> = guide.ends.iter().filter_map(|end| self.of(*end)).collect();
+            let inside = |axis: &Axis, k: usize| {
+                let [lo, hi] = axis.range;
+                guide.ends.iter().all(|end| end[k] >= lo && end[k] <= hi)
+            };
+            // What lies beyond the scale would be drawn on its border.
+            if ends.len() < 2 || !(inside(&self.plot.x, 0) && inside(&self.plot.y, 1)) {
+                continue;
+            }
+            let at = ends[1];
+            drawing.add(Shape::line(ends, self.inks.ink, 1.0));
+            if !guide.name.is_empty() {
+                // Over its end, where another has its name further along.
+                let wide = width(&guide.name, TEXT) + 4.0;
+                let y = (at[1] - 8.0).max(self.area.top + 8.0);
+                let places = (0..3).map(|k| Frame::new(at[0] - 4.0 - wide * f64::from(k + 1), y - 8.0, wide, 16.0));
+                let free = |place: &Frame| used.iter().all(|other| !other.meets(place));
+                if let Some(place) = places.into_iter().find(free) {
+                    let end = [place.right(), y];
+                    drawing.add(Shape::words(end, guide.name.clone(), self.inks.ink, TEXT, Align::End));
+                    used.push(place);
+                }
+            }
+        }
+    }
+
+    /// Band, lines and marks.
+    fn series(&self, drawing: &mut Drawing, series: &Series, number: usize) {
+        let colour = self.inks.series[number % self.inks.series.len()];
         for band in self.plot.bands(series) {
-            let edge = |side: usize| band.iter().map(|point| self.place([point[0], point[side]])).collect();
-            shapes.extend([1, 2].map(|side| line(edge(side), 0.5)));
+            let edge = |side: usize| band.iter().map(move |point| self.place([point[0], point[side]]));
+            let points: Vec<Point> = edge(1).chain(edge(2).rev()).collect();
+            drawing.add(Shape::Area { points, colour, opacity: 0.2, edge: 0.0 });
         }
         for run in self.plot.runs(series) {
-            let points: Vec<[f64; 2]> = run.into_iter().map(|point| self.place(point)).collect();
+            let points: Vec<Point> = run.into_iter().map(|point| self.place(point)).collect();
             for [x, y] in &points {
                 let corners = [[-3.0, -3.0], [3.0, -3.0], [3.0, 3.0], [-3.0, 3.0], [-3.0, -3.0]];
                 match series.form {
                     Form::Line => {}
-                    Form::Marked => shapes.push(line(corners.map(|[u, v]| [x + u, y + v]).into(), 2.0)),
-                    Form::Dots => shapes.push(line(vec![[x - 1.0, *y], [x + 1.0, *y]], 2.0)),
+                    Form::Marked => {
+                        drawing.add(Shape::line(corners.map(|[u, v]| [x + u, y + v]), colour, 2.0));
+                    }
+                    Form::Dots => drawing.add(Shape::dot([*x, *y], 1.6, colour)),
                 }
             }
             if series.form != Form::Dots && points.len() > 1 {
-                shapes.push(line(points, 1.5));
+                drawing.add(self.inks.curve(number, points, 2.0));
             }
         }
-        shapes
     }
 }
 
@@ -147,36 +198,38 @@ mod tests {
             x: Axis::log([0.01, 1.0], "time", Unit::Seconds),
             y: Axis::log([1e-4, 1.0], "error", Unit::Share),
             series: vec![series],
-            guides: vec![Guide { name: String::new(), ends: [[0.01, 1e-4], [1.0, 1.0]] }],
+            guides: vec![
+                Guide { name: "limit".to_owned(), ends: [[0.01, 1e-2], [1.0, 1e-2]] },
+                Guide { name: "beyond".to_owned(), ends: [[0.01, 1e3], [1.0, 1e3]] },
+            ],
         }
     }
 
     #[test]
     fn a_decade_is_a_constant_length_and_nothing_leaves_the_frame() {
         let plot = plot();
-        let panel = Panel { plot: &plot, left_right: [10.0, 110.0], top_bottom: [20.0, 60.0] };
-        let place = |point| panel.place(plot.place(point).unwrap());
-        assert_eq!(place([0.1, 1e-4]), [60.0, 60.0]);
-        assert_eq!(place([1.0, 1.0]), [110.0, 20.0]);
-        assert_eq!(place([0.0, 1e9]), [10.0, 20.0]);
+        let area = Frame::new(10.0, 20.0, 100.0, 40.0);
+        let panel = Panel { plot: &plot, area, inks: &Inks::LIGHT };
+        assert_eq!(panel.of([0.1, 1e-4]), Some([60.0, 60.0]));
+        assert_eq!(panel.of([1.0, 1.0]), Some([110.0, 20.0]));
+        assert_eq!(panel.of([0.0, 1e9]), Some([10.0, 20.0]));
+        assert_eq!(panel.of([f64::NAN, 1.0]), None);
     }
 
     #[test]
     fn every_part_of_a_plot_is_on_paper() {
-        let drawing = draw(&[plot(), plot()], [1000, 500]);
-        let texts: Vec<&str> = drawing
-            .shapes
-            .iter()
-            .filter_map(|shape| match shape {
-                Shape::Text { text, .. } => Some(text.as_str()),
-                Shape::Line { .. } => None,
-            })
-            .collect();
-        for text in ["10 ms", "100 ms", "1 s", "0.01 %", "100 %", "error against time", "a"] {
-            assert!(texts.contains(&text), "{text}: {texts:?}");
+        let drawing = draw(&[plot(), plot()], [1000.0, 500.0]);
+        let text = |shape: &Shape| if let Shape::Text { text, .. } = shape { Some(text.clone()) } else { None };
+        let texts: Vec<String> = drawing.shapes.iter().filter_map(text).collect();
+        for text in ["10 ms", "100 ms", "1 s", "0.01 %", "100 %", "error against time", "a", "limit"] {
+            assert!(texts.iter().any(|one| one == text), "{text}: {texts:?}");
         }
-        // Two panels: three marks, two edges of the band and the one line of two points each.
-        let of_series = |shape: &&Shape| matches!(shape, Shape::Line { colour, .. } if *colour == SERIES[0]);
-        assert_eq!(drawing.shapes.iter().filter(of_series).count(), 1 + 2 * (3 + 2 * 2 + 1));
+        assert!(!texts.iter().any(|one| one == "beyond"));
+        // A name, and on each of two panels three marks, the band and the one line of two points.
+        let of_series = |shape: &&Shape| match shape {
+            Shape::Line { colour, .. } | Shape::Area { colour, .. } => *colour == SERIES[0],
+            Shape::Text { .. } => false,
+        };
+        assert_eq!(drawing.shapes.iter().filter(of_series).count(), 1 + 2 * (3 + 2 + 1));
     }
 }

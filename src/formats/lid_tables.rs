@@ -1,7 +1,7 @@
 //! A luminaire's distribution as a picture and as a table: the polar diagram and the C-γ values as CSV.
 
 use super::luminaire::{Luminaire, number};
-use crate::drawing::{Drawing, Rgb, Shape};
+use crate::drawing::{Align, Drawing, Rgb, Shape, TEXT};
 
 const GRID: Rgb = [205, 205, 205];
 const INK: Rgb = [60, 60, 60];
@@ -10,8 +10,8 @@ const C90: Rgb = [38, 96, 168];
 
 /// The polar diagram of the planes C0–C180 (red) and C90–C270 (blue), nadir down, C0 and C90 to the right.
 pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
-    const SIZE: u32 = 640;
-    let centre = 0.5 * f64::from(SIZE);
+    const SIZE: f64 = 640.0;
+    let centre = 0.5 * SIZE;
     let radius = 250.0;
     let drawn = [0.0, 90.0, 180.0, 270.0].map(|c| luminaire.plane(nearest_plane(luminaire, c)));
     // One scale for all four half planes: their sizes are to be compared.
@@ -24,33 +24,33 @@ pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
     let mut shapes = Vec::new();
     for ring in 1..=4 {
         let r = radius * f64::from(ring) / 4.0;
-        let points = (0..=120).map(|k| at(f64::from(k) * 3.0, r, 1.0)).collect();
-        shapes.push(Shape::Line { points, colour: GRID, width: 1.0 });
+        shapes.push(Shape::ring([centre; 2], r, GRID, 1.0));
     }
     for k in 0..12 {
         let gamma = f64::from(k) * 30.0;
-        shapes.push(Shape::Line { points: vec![[centre, centre], at(gamma, radius, 1.0)], colour: GRID, width: 1.0 });
+        shapes.push(Shape::line([[centre, centre], at(gamma, radius, 1.0)], GRID, 1.0));
         // The circle is drawn once all round; γ runs from nadir to zenith on both sides.
         let shown = if gamma > 180.0 { 360.0 - gamma } else { gamma };
-        shapes.push(Shape::Text { at: at(gamma, radius + 26.0, 1.0), text: format!("{shown}°"), colour: INK });
+        shapes.push(Shape::text(at(gamma, radius + 22.0, 1.0), format!("{shown}°"), INK));
     }
     for (c, colour) in [(0.0, C0), (90.0, C90)] {
         // The two half planes of a colour make one section through the luminaire.
         for (plane_c, side) in [(c, 1.0), (c + 180.0, -1.0)] {
             let plane = luminaire.plane(nearest_plane(luminaire, plane_c));
-            let points =
+            let points: Vec<_> =
                 luminaire.gamma_deg.iter().zip(plane).map(|(&g, &i)| at(g, radius * i.max(0.0) / full, side)).collect();
-            shapes.push(Shape::Line { points, colour, width: 2.0 });
+            shapes.push(Shape::line(points, colour, 2.0));
         }
     }
     // Beside the zenith, between two rays, curves seldom reach; two of the four rings are enough to read the scale.
     for ring in [2.0, 4.0] {
         let text = format!("{} cd", number(full * ring / 4.0, 3));
-        shapes.push(Shape::Text { at: at(165.0, radius * ring / 4.0, 1.0), text, colour: INK });
+        shapes.push(Shape::text(at(165.0, radius * ring / 4.0, 1.0), text, INK));
     }
-    shapes.push(Shape::Text { at: [80.0, 20.0], text: "C0-C180".to_owned(), colour: C0 });
-    shapes.push(Shape::Text { at: [80.0, 42.0], text: "C90-C270".to_owned(), colour: C90 });
-    shapes.push(Shape::Text { at: [540.0, 20.0], text: format!("{} lm", number(luminaire.flux(), 1)), colour: INK });
+    let mut words = |at, text: String, colour, align| shapes.push(Shape::words(at, text, colour, TEXT, align));
+    words([16.0, 20.0], "C0–C180".to_owned(), C0, Align::Start);
+    words([16.0, 42.0], "C90–C270".to_owned(), C90, Align::Start);
+    words([SIZE - 16.0, 20.0], format!("{} lm", number(luminaire.flux(), 1)), INK, Align::End);
     Drawing { width: SIZE, height: SIZE, shapes }
 }
 
@@ -108,7 +108,7 @@ mod tests {
     fn light_into_the_room_and_up_is_drawn_right_and_up() {
         let drawing = polar_diagram(&upwards());
         let red = drawing.shapes.iter().find_map(|shape| match shape {
-            Shape::Line { points, colour, width } if *colour == C0 && *width == 2.0 => Some(points),
+            Shape::Line { points, colour, width, .. } if *colour == C0 && *width == 2.0 => Some(points),
             _ => None,
         });
         let far = red.unwrap().iter().filter(|p| (p[0] - 320.0).hypot(p[1] - 320.0) > 130.0);

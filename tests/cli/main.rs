@@ -12,5 +12,6 @@ mod examples;
 mod goniophotometer_cli;
 mod keeping_cli;
 mod program;
+mod report_cli;
 #[path = "../scenes/rooms.rs"]
 mod rooms;

@@ -162,13 +162,13 @@ fn the_picture_holds_every_series() {
     let accuracy = ladder(&scene, &Silent).unwrap();
     assert_eq!(accuracy.series.len(), 5);
     assert!(accuracy.series.iter().any(|series| series.quantity == Quantity::Total));
-    let drawing = chart::draw(&plots(&accuracy), [1000, 500]);
+    let drawing = chart::draw(&plots(&accuracy), [1000.0, 500.0]);
     for name in ["solid-angle", "subdivision", "monte-carlo", "profile-table", "with interreflection"] {
         assert!(drawing.shapes.iter().any(|shape| matches!(shape, Shape::Text { text, .. } if text == name)), "{name}");
     }
     for shape in &drawing.shapes {
         let points = match shape {
-            Shape::Line { points, .. } => points.clone(),
+            Shape::Line { points, .. } | Shape::Area { points, .. } => points.clone(),
             Shape::Text { at, .. } => vec![*at],
         };
         assert!(points.iter().all(|[x, y]| (0.0..=1000.0).contains(x) && (0.0..=500.0).contains(y)), "{shape:?}");

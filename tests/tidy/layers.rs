@@ -10,7 +10,7 @@ struct Layer {
     silent: bool,
 }
 
-const LAYERS: [Layer; 7] = [
+const LAYERS: [Layer; 8] = [
     Layer {
         name: "compute",
         below: &[],
@@ -94,14 +94,32 @@ const LAYERS: [Layer; 7] = [
         silent: true,
     },
     Layer {
-        name: "cli",
+        name: "report",
         below: &["compute", "drawing", "formats", "catalogue", "study"],
+        forbidden: &[
+            "std::fs",
+            "std::net",
+            "std::env",
+            "std::path",
+            "std::process",
+            "rusqlite",
+            "egui",
+            "eframe",
+            "egui_plot",
+            "clap",
+            "roxmltree",
+        ],
+        silent: true,
+    },
+    Layer {
+        name: "cli",
+        below: &["compute", "drawing", "formats", "catalogue", "study", "report"],
         forbidden: &["rusqlite", "egui", "eframe", "egui_plot", "rfd", "roxmltree", "quick_xml"],
         silent: false,
     },
     Layer {
         name: "app",
-        below: &["compute", "drawing", "formats", "catalogue", "study"],
+        below: &["compute", "drawing", "formats", "catalogue", "study", "report"],
         forbidden: &["rusqlite", "clap", "roxmltree", "quick_xml", "csv", "zip", "zstd"],
         silent: true,
     },

@@ -10,6 +10,7 @@ use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
 use cfs::app::error::AppError;
+use cfs::app::hand_on::{Choices, What};
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
@@ -121,6 +122,14 @@ fn a_blind_at_noon_can_be_read_at_all_sizes_in_all_tiles_and_sheets() {
         }
         apply(&mut harness, Command::Sheet(None));
     }
+    apply(&mut harness, Command::Sheet(Some(Sheet::HandOn)));
+    for what in What::ALL {
+        apply(&mut harness, Command::HandOn(Box::new(Choices { what, ..Choices::default() })));
+        for size in [SIZES[0], SIZES[1]] {
+            problems.look(&mut harness, &format!("hand on, {what:?}"), size);
+        }
+    }
+    apply(&mut harness, Command::Sheet(None));
     apply(&mut harness, Command::Palette);
     problems.look(&mut harness, "palette", SIZES[0]);
     apply(&mut harness, Command::Palette);

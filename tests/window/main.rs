@@ -12,6 +12,7 @@ mod driven;
 mod files_view;
 mod goniophotometer_view;
 mod import_view;
+mod hand_on_view;
 mod legible;
 mod scene_panel;
 mod truth;

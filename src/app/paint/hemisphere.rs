@@ -1,115 +1,16 @@
-//! A hemisphere as a disk, seen from inside the room: up is up, right is the viewer's right.
-//!
-//! The façade frame counts x to the right seen from **outside**; a viewer inside has −x on his right. Both disks use
-//! the same axes: an incident direction is drawn where its source is seen, an emergent one where its light **goes**,
-//! so light that goes up is drawn up, and a clear pane sends a sun from the top to the bottom.
-//! Disk coordinates: (right, up), the rim at radius 1.
+//! A hemisphere as a disk in the window: meshes of its cells, its frame, and its cells by the arrow keys. How directions
+//! become points of the disk is [`crate::drawing::hemisphere`]'s.
 
 use super::palette::Palette;
 use crate::compute::basis::{Cell, RingBasis};
-use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use crate::drawing::hemisphere::arc_steps;
+pub use crate::drawing::hemisphere::{Projection, Side, cell_outline, emergent_disk, incident_disk};
 use egui::epaint::TextShape;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, pos2};
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
-
-/// How the polar angle becomes a radius.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Projection {
-    /// r = sin θ: equal areas are equal **projected** solid angles, so area × value is flux.
-    #[default]
-    ProjectedSolidAngle,
-    /// r = √2 sin(θ/2) (Lambert): equal areas are equal solid angles.
-    SolidAngle,
-}
-
-impl Projection {
-    /// Radius of a polar angle. \[rad\]
-    pub fn radius(self, theta: f64) -> f64 {
-        match self {
-            Self::ProjectedSolidAngle => theta.sin(),
-            Self::SolidAngle => SQRT_2 * (0.5 * theta).sin(),
-        }
-    }
-
-    /// Polar angle of a radius, 0 … 1. \[rad\]
-    pub fn theta(self, radius: f64) -> f64 {
-        match self {
-            Self::ProjectedSolidAngle => radius.clamp(0.0, 1.0).asin(),
-            Self::SolidAngle => 2.0 * (radius / SQRT_2).clamp(0.0, 1.0).asin().min(0.25 * PI),
-        }
-    }
-}
-
-/// Which hemisphere, thus how a through-name's azimuth is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Where light comes from.
-    Incident,
-    /// Where light goes.
-    Emergent,
-}
-
-impl Side {
-    /// Disk point of a through-name (for [`Side::Incident`] the incident direction itself).
-    pub fn disk(self, projection: Projection, through: Dir<Facade>) -> [f64; 2] {
-        self.polar(projection.radius(through.theta().min(FRAC_PI_2)), through.phi())
-    }
-
-    fn polar(self, radius: f64, phi: f64) -> [f64; 2] {
-        let (sin, cos) = phi.sin_cos();
-        match self {
-            Self::Incident => [-radius * cos, radius * sin],
-            Self::Emergent => [radius * cos, -radius * sin],
-        }
-    }
-
-    /// Through-name of a disk point; `None` outside the rim.
-    pub fn through_name(self, projection: Projection, [right, up]: [f64; 2]) -> Option<Dir<Facade>> {
-        let radius = right.hypot(up);
-        if radius > 1.0 {
-            return None;
-        }
-        let phi = match self {
-            Self::Incident => up.atan2(-right),
-            Self::Emergent => (-up).atan2(right),
-        };
-        Some(Dir::from_theta_phi(projection.theta(radius), phi))
-    }
-}
-
-/// Disk point of where light comes from.
-pub fn incident_disk(projection: Projection, incident: Incident) -> [f64; 2] {
-    Side::Incident.disk(projection, incident.0)
-}
-
-/// Disk point of where light goes.
-pub fn emergent_disk(projection: Projection, emergent: Emergent) -> [f64; 2] {
-    Side::Emergent.disk(projection, emergent.through_name())
-}
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// How far a cell reaches under its neighbours: more than chords and rounding leave open, less than is seen. \[points\]
 const OVERLAP: f32 = 0.6;
-
-fn arc_steps(cell: &Cell) -> usize {
-    ((cell.width / 3_f64.to_radians()).ceil() as usize).max(1)
-}
-
-/// Outline of a cell as a closed polygon in disk coordinates.
-pub fn cell_outline(projection: Projection, side: Side, cell: &Cell) -> Vec<[f64; 2]> {
-    let n = arc_steps(cell);
-    let (inner, outer) = (projection.radius(cell.theta_min), projection.radius(cell.theta_max));
-    let phi = |k: usize| cell.phi - 0.5 * cell.width + cell.width * k as f64 / n as f64;
-    let whole = cell.width > 1.99 * PI;
-    let mut points: Vec<[f64; 2]> = (0..=n).map(|k| side.polar(outer, phi(k))).collect();
-    if whole && inner == 0.0 {
-        points.pop();
-    } else if inner == 0.0 {
-        points.push([0.0, 0.0]);
-    } else {
-        points.extend((0..=n).rev().map(|k| side.polar(inner, phi(k))));
-    }
-    points
-}
 
 /// Where a disk lies on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -255,46 +156,6 @@ pub fn neighbour(points: &[[f64; 2]], from: [f64; 2], [dx, dy]: [f64; 2]) -> Opt
 mod tests {
     use super::*;
     use crate::compute::basis::AzimuthMap;
-    use proptest::prelude::*;
-
-    fn area(points: &[[f64; 2]]) -> f64 {
-        let n = points.len();
-        0.5 * (0..n)
-            .map(|i| points[i][0] * points[(i + 1) % n][1] - points[(i + 1) % n][0] * points[i][1])
-            .sum::<f64>()
-            .abs()
-    }
-
-    #[test]
-    fn up_is_up_and_sides_are_seen_from_inside() {
-        let p = Projection::default();
-        // Façade x is right seen from outside: left for us.
-        let sun = Incident(Dir::from_theta_phi(0.8, 0.0));
-        assert!(incident_disk(p, sun)[0] < -0.7);
-        let high = Incident(Dir::from_theta_phi(0.8, FRAC_PI_2));
-        assert!(incident_disk(p, high)[1] > 0.7);
-        // Through a clear pane it leaves downwards.
-        assert!(emergent_disk(p, Emergent::from_through_name(high.0))[1] < -0.7);
-        // Light that goes up and to façade −x (our right).
-        let up_right = Emergent(Dir::new(glam::DVec3::new(-0.4, 0.5, -0.6)).unwrap());
-        let [right, up] = emergent_disk(p, up_right);
-        assert!(right > 0.1 && up > 0.1);
-    }
-
-    #[test]
-    fn areas_of_cells_are_their_projected_solid_angles() {
-        for side in [Side::Incident, Side::Emergent] {
-            for basis in [RingBasis::klems_full(AzimuthMap::KLEMS_FRONT), RingBasis::tregenza()] {
-                for cell in basis.cells() {
-                    // r = sin θ: the disk's area is the projected solid angle itself; chords of 3° lose 5e-4.
-                    let a = area(&cell_outline(Projection::ProjectedSolidAngle, side, &cell));
-                    assert!((a / cell.projected_solid_angle() - 1.0).abs() < 2e-2, "{cell:?}");
-                    let b = area(&cell_outline(Projection::SolidAngle, side, &cell));
-                    assert!((2.0 * b / cell.solid_angle() - 1.0).abs() < 2e-2, "{cell:?}");
-                }
-            }
-        }
-    }
 
     /// Is a point inside some triangle, corners and edges included?
     fn covered(mesh: &Mesh, at: Pos2) -> bool {
@@ -339,18 +200,5 @@ mod tests {
         assert!(points[up][1] > 0.1 && points[up][0].abs() < 1e-9);
         assert_eq!(neighbour(&points, points[up], [0.0, -1.0]), Some(0));
         assert_eq!(neighbour(&points, [0.0, 1.0], [0.0, 1.0]), None);
-    }
-
-    proptest! {
-        #[test]
-        fn disk_and_direction_are_inverse(theta in 0.01..1.55_f64, phi in 0.0..6.2_f64) {
-            for projection in [Projection::ProjectedSolidAngle, Projection::SolidAngle] {
-                for side in [Side::Incident, Side::Emergent] {
-                    let d = Dir::from_theta_phi(theta, phi);
-                    let back = side.through_name(projection, side.disk(projection, d)).unwrap();
-                    prop_assert!((back.vector() - d.vector()).length() < 1e-6);
-                }
-            }
-        }
     }
 }

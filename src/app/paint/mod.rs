@@ -2,10 +2,11 @@
 //! Nothing here knows photometry beyond the projections of a hemisphere.
 
 pub mod colour_scale;
-pub mod contour;
 pub mod hemisphere;
 pub mod palette;
 pub mod plot;
 pub mod polar;
 pub mod polygon;
 pub mod tile;
+
+pub use crate::drawing::contour;

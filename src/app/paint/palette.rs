@@ -1,43 +1,15 @@
 //! Colours of the pictures: the two data maps and the neutral greys, for light and dark windows.
 
-use crate::drawing::{Rgb, chart::SERIES};
-use colorgrad::Gradient;
+use crate::drawing::{Rgb, chart::SERIES, colours};
 use egui::{Color32, Visuals};
-use std::sync::LazyLock;
 
-/// A map from 0 … 1 to a colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColourMap {
-    /// Viridis: luminance, illuminance, luminance coefficient.
-    Sequential,
-    /// Blue over white to red: differences, zero in the middle.
-    Diverging,
-    /// Greys, dark to light: transmittance where viridis means something else beside it.
-    Grey,
-}
-
-fn table(gradient: &dyn Gradient) -> [Color32; 256] {
-    std::array::from_fn(|i| {
-        let [r, g, b, _] = gradient.at(i as f32 / 255.0).to_rgba8();
-        Color32::from_rgb(r, g, b)
-    })
-}
-
-static VIRIDIS: LazyLock<[Color32; 256]> = LazyLock::new(|| table(&colorgrad::preset::viridis()));
-
-/// Red at first: drawn from its end.
-static BLUE_TO_RED: LazyLock<[Color32; 256]> = LazyLock::new(|| table(&colorgrad::preset::rd_bu()));
+pub use crate::drawing::colours::ColourMap;
 
 impl ColourMap {
-    /// Colour of a fraction; values outside 0 … 1 get the end colours, NaN the lower one.
+    /// Colour of a fraction in the window; values outside 0 … 1 get the end colours, NaN the lower one.
     pub fn at(self, fraction: f32) -> Color32 {
-        // A cast of NaN gives 0.
-        let index = (fraction.clamp(0.0, 1.0) * 255.0).round() as usize;
-        match self {
-            Self::Sequential => VIRIDIS[index],
-            Self::Diverging => BLUE_TO_RED[255 - index],
-            Self::Grey => Color32::from_gray((45.0 + 195.0 * index as f32 / 255.0) as u8),
-        }
+        let [r, g, b] = self.rgb(fraction);
+        Color32::from_rgb(r, g, b)
     }
 }
 
@@ -107,23 +79,6 @@ impl Palette {
 
 /// Black or white, whichever reads better on a ground.
 pub fn contrast(ground: Color32) -> Color32 {
-    let luminance = 0.2126 * f32::from(ground.r()) + 0.7152 * f32::from(ground.g()) + 0.0722 * f32::from(ground.b());
-    if luminance > 120.0 { Color32::BLACK } else { Color32::WHITE }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn maps_run_from_end_to_end() {
-        assert_eq!(ColourMap::Sequential.at(-1.0), ColourMap::Sequential.at(0.0));
-        assert_eq!(ColourMap::Sequential.at(f32::NAN), ColourMap::Sequential.at(0.0));
-        // Viridis gets lighter all the way: it can be read in grey.
-        let light = |c: Color32| 0.2126 * f32::from(c.r()) + 0.7152 * f32::from(c.g()) + 0.0722 * f32::from(c.b());
-        for k in 1..16 {
-            let (a, b) = ((k - 1) as f32 / 15.0, k as f32 / 15.0);
-            assert!(light(ColourMap::Sequential.at(b)) > light(ColourMap::Sequential.at(a)));
-        }
-    }
+    let [r, g, b] = colours::contrast([ground.r(), ground.g(), ground.b()]);
+    Color32::from_rgb(r, g, b)
 }

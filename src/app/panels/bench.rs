@@ -40,7 +40,6 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
             }
         }
     });
-    app.export.picture(ui.ctx(), tile, rect);
     if response.double_clicked() {
         commands.push(Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) }));
     }

@@ -5,6 +5,7 @@ mod catalogue;
 mod compare;
 mod fields;
 mod goniophotometer;
+mod hand_on;
 mod import;
 mod menu;
 mod messages;

@@ -22,6 +22,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Product => "Product",
         Sheet::Deleted => "Recently deleted",
         Sheet::Messages => "Messages",
+        Sheet::HandOn => "Hand on",
         Sheet::Path(what) => what.title(),
     };
     ui.horizontal(|ui| {
@@ -59,6 +60,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Product => product::edit(ui, &app.state, commands),
         Sheet::Deleted => product::deleted(ui, &app.state, commands),
         Sheet::Messages => messages::list(ui, &app.toasts, commands),
+        Sheet::HandOn => super::hand_on::show(ui, app, commands),
         Sheet::Path(what) => path(ui, &app.state, what, commands),
     });
 }
@@ -107,7 +109,9 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
             "Export",
         ),
         PathUse::ExportMeasured => ("All states in a package (.cfsp), or a file a state (.xml, .btdf.txt).", "Export"),
-        PathUse::ExportTile(_) => ("Numbers (.csv) or a picture (.png); the ending decides.", "Export"),
+        PathUse::ExportTile(_) => ("Numbers (.csv).", "Export"),
+        // It has a sheet of its own.
+        PathUse::HandOn => ("Folder and name of what is handed on.", "Write"),
     };
     ui.add(egui::Label::new(hint).wrap());
     let mut text = state.path.clone();

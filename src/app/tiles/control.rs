@@ -37,16 +37,6 @@ fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
         .collect()
 }
 
-/// What the numbers of a product's states are.
-fn quantity(product: &crate::catalogue::Product) -> &'static str {
-    let numeric = product.states.iter().all(|state| state.value.is_some());
-    match (numeric, product.kind.as_str()) {
-        (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
-        (true, _) => "state / °",
-        (false, _) => "state",
-    }
-}
-
 /// Why nothing moves: the product has one state. What is waited for before there is a product, the bench says.
 fn still(product: Option<&crate::catalogue::Product>) -> String {
     let Some(product) = product else { return "The product is being read.".to_owned() };
@@ -231,7 +221,7 @@ impl Drawn for Drawing {
         let input = control::Input {
             states: &states,
             still: &still,
-            quantity: product.as_deref().map_or("state", quantity),
+            quantity: product.as_deref().map_or("state", rules::quantity),
             curve,
             editable: mode == ControlMode::Curve,
             name: &name,

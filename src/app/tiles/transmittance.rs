@@ -2,19 +2,17 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::facing::{incident, sun_incident, surface};
+use crate::app::facing::{sun_incident, surface};
 use crate::app::incidence::Incidence;
 use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::Cache;
 use crate::app::views::transmittance::{self, FluxSplit};
 use crate::app::{moment, title};
-use crate::compute::btdf::{Btdf, zone_shares};
 use crate::compute::direction::{Incident, Surface};
+use crate::study::incoming::{SunPath, flux_split, sun_paths};
 use crate::study::scene_file::SceneFile;
-use crate::study::sun_position::sun_path;
 use egui::Ui;
-use glam::DVec3;
 
 /// The tile.
 pub const TILE: Tile = Tile {
@@ -22,11 +20,6 @@ pub const TILE: Tile = Tile {
     help: "The share of the light from each direction that enters the room. Task 31, eq 1.",
 };
 
-/// Elevations between the zones of the flux split from top to bottom. \[°\]
-const LIMITS: [f64; 3] = [10.0, -10.0, -45.0];
-
-/// Hours of a day and where the sun is.
-type SunPath = Vec<(f64, Incident)>;
 /// Place and bearing that sun paths hang on.
 type PathKey = (i16, [u64; 4]);
 /// Dataset, direction and surface that the flux split hangs on.
@@ -47,29 +40,6 @@ fn path_key(scene: &SceneFile) -> PathKey {
     (year, numbers.map(|number| number.unwrap_or(f64::NAN).to_bits()))
 }
 
-/// The sun on the 21st of each month while it is up, by hours; places behind the façade part a path in two.
-fn sun_paths(scene: &SceneFile) -> Vec<SunPath> {
-    let Some(place) = moment::place(scene) else { return Vec::new() };
-    let year = path_key(scene).0;
-    (1..=12)
-        .map(|month| {
-            let points = sun_path(&place, year, month, 21, 0.25).unwrap_or_default();
-            points
-                .into_iter()
-                .filter(|point| point.altitude > 0.0)
-                .map(|point| (point.hour, Incident(incident(scene, point.altitude, point.bearing))))
-                .collect()
-        })
-        .collect()
-}
-
-/// Shares of the light from one direction that go to the zones; their sum is τ.
-fn split(btdf: &Btdf, incident: Incident, surface: Surface) -> FluxSplit {
-    let up = surface.facade_from_room(DVec3::Z);
-    let shares = zone_shares(btdf, incident, up, LIMITS.map(f64::to_radians));
-    FluxSplit { ceiling: shares[0], eye_zone: shares[1], work_zone: shares[2], floor: shares[3] }
-}
-
 impl Drawn for Drawing {
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.state.dataset.value.is_some()
@@ -86,7 +56,7 @@ impl Drawn for Drawing {
         let btdf = dataset.value.as_deref().and_then(|dataset| dataset.transmission());
         let split = btdf.map(|btdf| {
             let incident = incidence.direction;
-            *self.split.get((revision, incident, surface == Surface::Roof), || split(btdf, incident, surface))
+            *self.split.get((revision, incident, surface == Surface::Roof), || flux_split(btdf, incident, surface))
         });
         let name = title::selection(state);
         let key = path_key(scene);

@@ -13,21 +13,7 @@ pub mod sky;
 pub mod states;
 pub mod transmittance;
 
-use crate::compute::basis::RingBasis;
-use crate::compute::btdf::{Btdf, Indicatrices, Scattered};
-
-/// The data, when they are of a list of incident directions that are no lattice's: these have no cells of their own.
-fn listed(btdf: &Btdf) -> Option<&Indicatrices> {
-    match &btdf.scattered {
-        Some(Scattered::Directions(data)) if data.lattice().is_none() => Some(data),
-        _ => None,
-    }
-}
-
-/// Cells to draw incidence by: the data's own; for listed directions fine ones, each with its nearest direction.
-fn incident_cells(btdf: &Btdf) -> RingBasis {
-    if listed(btdf).is_some() { RingBasis::equal_area(20) } else { btdf.incident_basis() }
-}
+use crate::drawing::hemisphere::{incident_cells, listed};
 
 /// A value kept until its key changes.
 #[derive(Debug, Clone)]

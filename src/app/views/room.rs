@@ -6,16 +6,17 @@ mod marks;
 
 use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
-use crate::app::paint::contour::{IsoLine, iso_lines};
+use crate::app::paint::contour::{ASKED_FOR, IsoLine, iso_levels, iso_lines};
 use crate::app::paint::palette::{ColourMap, Palette, contrast};
 use crate::app::paint::plot::{self, LEFT, Look, RIGHT};
 use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::direction::Surface;
-use crate::compute::estimate::{Estimate, largest_relative_error};
+use crate::compute::estimate::Estimate;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{number, si};
+pub use crate::study::scene_words::error_words;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
-use marks::{ASKED_FOR, label_line, levels, scale_bar};
+use marks::{label_line, scale_bar};
 use std::sync::Arc;
 
 /// Result at one sensor. \[lx\]
@@ -44,15 +45,6 @@ pub struct Opening {
     pub origin: [f64; 2],
     /// Size in the same order. \[m\]
     pub size: [f64; 2],
-}
-
-/// How exact illuminances are, in the one way in which the window says it: see [`largest_relative_error`].
-pub fn error_words(totals: impl Iterator<Item = Estimate> + Clone) -> String {
-    match 100.0 * largest_relative_error(totals) {
-        error if error <= 0.0 => "no error stated".to_owned(),
-        error if error < 0.005 => "error < 0.01 % of each value".to_owned(),
-        error => format!("error ≤ {} % of each value", number(error, 2)),
-    }
 }
 
 /// What the tile draws.
@@ -287,7 +279,7 @@ fn plan_ui(
     painter.add(Shape::Mesh(mesh.clone()));
     let lines = state.lines.get((input.revision, [nx, ny], scale.clone()), || {
         let totals: Vec<f64> = input.cells.iter().map(|c| c.total).collect();
-        levels(scale, &totals).into_iter().map(|level| (level, iso_lines(nx, ny, &totals, level))).collect()
+        iso_levels(scale, &totals).into_iter().map(|level| (level, iso_lines(nx, ny, &totals, level))).collect()
     });
     // Nodes are cell centres.
     let node = |p: &[f64; 2]| plan.screen((p[0] + 0.5) * step[0], (p[1] + 0.5) * step[1]);

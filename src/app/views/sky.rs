@@ -8,6 +8,7 @@ use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::angle::wrap_two_pi;
+use crate::drawing::hemisphere::dome_point;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
@@ -114,8 +115,7 @@ fn figure_lines(width: f32) -> u8 {
 
 /// Disk point (right, up) of a place: north up, east left.
 fn disk_point(place: Place) -> [f64; 2] {
-    let r = 1.0 - place.altitude / FRAC_PI_2;
-    [-r * place.bearing.sin(), r * place.bearing.cos()]
+    dome_point(place.altitude, place.bearing)
 }
 
 /// The place of a disk point; beyond the rim on the horizon.

@@ -2,28 +2,8 @@
 
 use crate::app::paint::colour_scale::ColourScale;
 use crate::app::paint::palette::contrast;
-use crate::drawing::ticks::{logarithmic, tick};
+use crate::drawing::ticks::tick;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
-
-/// Round levels inside the range of the data, few enough to be told apart.
-pub(super) fn levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
-    let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
-    if min >= max || totals.is_empty() {
-        return vec![];
-    }
-    // Illuminances fall off steeply with depth: 1-2-5 steps even on a linear scale, with 300 lx among them.
-    let mut levels = logarithmic(min.max(scale.hi * 1e-3), max, 9);
-    for level in ASKED_FOR {
-        if min < level && max > level && !levels.contains(&level) {
-            levels.push(level);
-        }
-    }
-    levels.retain(|level| *level > min && *level < max);
-    levels
-}
-
-/// Levels that standards ask for: their lines always have their names. \[lx\]
-pub(super) const ASKED_FOR: [f64; 2] = [300.0, 500.0];
 
 /// Writes a line's level on it where nothing else stands, inside the plan; false where there is no such place.
 pub(super) fn label_line(
@@ -86,20 +66,4 @@ pub(super) fn scale_bar(ui: &Ui, area: Rect, scale: f32) -> Rect {
     let at = pos2(place.center().x - 0.5 * galley.size().x, place.top() + 1.0);
     painter.galley(at, galley, Color32::WHITE);
     place
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::app::paint::palette::ColourMap;
-
-    #[test]
-    fn levels_lie_inside_the_data() {
-        let totals: Vec<f64> = (1..100).map(|k| 20.0 * f64::from(k)).collect();
-        let scale = ColourScale::up_to(2000.0, false, 2, ColourMap::Sequential);
-        let levels = levels(&scale, &totals);
-        assert!(levels.contains(&300.0) && levels.contains(&500.0));
-        assert!(levels.iter().all(|l| *l > 20.0 && *l < 1980.0));
-        assert!(super::levels(&scale, &[5.0, 5.0]).is_empty());
-    }
 }

@@ -1,5 +1,7 @@
 //! Iso-lines of a grid by marching squares, joined to polylines. Pure.
 
+use super::colours::ColourScale;
+use super::ticks::logarithmic;
 use std::collections::HashMap;
 
 /// One iso-line in grid units: x = column, y = row of the nodes.
@@ -97,9 +99,30 @@ fn trace(mut links: HashMap<Edge, Vec<Edge>>) -> Vec<(Vec<Edge>, bool)> {
     chains
 }
 
+/// Round levels inside the range of the data, few enough to be told apart.
+pub fn iso_levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
+    let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
+    if min >= max || totals.is_empty() {
+        return vec![];
+    }
+    // Illuminances fall off steeply with depth: 1-2-5 steps even on a linear scale, with 300 lx among them.
+    let mut levels = logarithmic(min.max(scale.hi * 1e-3), max, 9);
+    for level in ASKED_FOR {
+        if min < level && max > level && !levels.contains(&level) {
+            levels.push(level);
+        }
+    }
+    levels.retain(|level| *level > min && *level < max);
+    levels
+}
+
+/// Levels that standards ask for: their lines always have their names. \[lx\]
+pub const ASKED_FOR: [f64; 2] = [300.0, 500.0];
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::colours::ColourMap;
     use proptest::prelude::*;
     use std::f64::consts::PI;
 
@@ -134,6 +157,16 @@ mod tests {
         let lines = iso_lines(5, 5, &values, 1.5);
         assert_eq!(lines.len(), 2);
         assert!(iso_lines(1, 5, &[0.0; 5], 0.0).is_empty());
+    }
+
+    #[test]
+    fn levels_lie_inside_the_data() {
+        let totals: Vec<f64> = (1..100).map(|k| 20.0 * f64::from(k)).collect();
+        let scale = ColourScale::up_to(2000.0, false, 2, ColourMap::Sequential);
+        let levels = iso_levels(&scale, &totals);
+        assert!(levels.contains(&300.0) && levels.contains(&500.0));
+        assert!(levels.iter().all(|l| *l > 20.0 && *l < 1980.0));
+        assert!(iso_levels(&scale, &[5.0, 5.0]).is_empty());
     }
 
     proptest! {

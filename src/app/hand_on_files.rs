@@ -1,0 +1,263 @@
+//! The bytes of what is handed on, and what is seen of them before. Runs in jobs.
+
+use super::disk::write_whole;
+use super::engine::{Engine, Question};
+use super::error::AppError;
+use super::hand_on::{Choices, MOST_FILES, Moment, Preview, ReportKind, What, moments};
+use crate::catalogue::{Catalogue, NewProduct, Product, StateName};
+use crate::compute::btdf::Dataset;
+use crate::compute::direction::Incident;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::drawing::Drawing;
+use crate::drawing::colours::Inks;
+use crate::formats::write_dataset;
+use crate::report::product::{Sheet, pages as sheet_pages};
+use crate::report::study::{Study, pages as study_pages};
+use crate::report::{Look, Size, pdf, picture};
+use crate::study::StudyError;
+use crate::study::moment;
+use crate::study::subject::Wanted;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What a job needs to know.
+pub struct Order {
+    /// In which form.
+    pub choices: Choices,
+    /// The scene.
+    pub question: Question,
+    /// The incidence that was chosen.
+    pub incident: Option<Incident>,
+    /// The product that is shown.
+    pub product: Option<Arc<Product>>,
+    /// The data of its state.
+    pub dataset: Option<Arc<Dataset>>,
+    /// Numbers of the tile.
+    pub numbers: Option<String>,
+    /// Computes.
+    pub engine: Arc<dyn Engine>,
+}
+
+/// A preview's picture is at most so wide and high. \[px\]
+const PREVIEW: f64 = 900.0;
+/// Lines of a text that are shown.
+const LINES: usize = 40;
+
+fn check(progress: &dyn Progress) -> Result<(), AppError> {
+    if progress.cancelled() { Err(AppError::Study(StudyError::Cancelled(Cancelled))) } else { Ok(()) }
+}
+
+impl Order {
+    const fn inks(&self) -> &'static Inks {
+        if self.choices.print { &Inks::PRINT } else { &Inks::LIGHT }
+    }
+
+    fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
+        let choices = &self.choices;
+        // Before anything is computed: settings of another day may hold any number.
+        let Size { width, height, unit } = choices.size;
+        let look = Look { size: Size::new(width, height, unit)?, print: choices.print, caption: choices.caption };
+        let subject = self.engine.subject(&self.question, self.incident, choices.tile.needs(), progress)?;
+        Ok(picture(&subject, choices.tile, &look)?)
+    }
+
+    /// Title and pages.
+    fn report(&self, progress: &dyn Progress) -> Result<(String, Vec<Drawing>), AppError> {
+        let choices = &self.choices;
+        let subject = self.engine.subject(&self.question, self.incident, Wanted::ALL, progress)?;
+        let pages = match choices.report {
+            ReportKind::Sheet => sheet_pages(&Sheet { subject: &subject, tender: &choices.tender, inks: self.inks() })?,
+            ReportKind::Study => study_pages(&Study {
+                subject: &subject,
+                title: choices.title.trim(),
+                question: choices.question.trim(),
+                comparison: None,
+                inks: self.inks(),
+            })?,
+        };
+        Ok((subject.name, pages))
+    }
+
+    /// The bytes of everything that is one file.
+    fn bytes(&self, path: &Path, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
+        let choices = &self.choices;
+        Ok(match choices.what {
+            What::Picture => {
+                let drawing = self.picture(progress)?;
+                if choices.vector { choices.size.svg(&drawing).into_bytes() } else { choices.size.png(&drawing)? }
+            }
+            What::Report => {
+                let (title, pages) = self.report(progress)?;
+                pdf::write(&pages, &title)?
+            }
+            What::Luminaire => {
+                let lid = self.engine.lid(&self.question, progress)?;
+                self.engine.luminaire(&lid, path)?
+            }
+            What::Table => self.numbers.clone().ok_or(AppError::NoNumbers)?.into_bytes(),
+            What::Dataset => {
+                let dataset = self.dataset.as_deref().ok_or(AppError::NoProduct)?;
+                let written = write_dataset(choices.format(), std::slice::from_ref(dataset));
+                written.map_err(|error| AppError::from(error).about(path.display()))?.bytes
+            }
+            What::Package => self.package(progress)?,
+            What::Scene => toml::to_string_pretty(&self.question.scene)?.into_bytes(),
+            What::Series => Vec::new(),
+        })
+    }
+
+    /// The product with all its states, which are computed where they are not yet.
+    fn package(&self, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
+        let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
+        let count = product.states.len();
+        let mut datasets = Vec::with_capacity(count);
+        for (k, state) in product.states.iter().enumerate() {
+            progress.advance("states", k, count);
+            check(progress)?;
+            self.question.shelf.provide(&product.key, Some(&state.key), progress)?;
+            datasets.push((*self.question.shelf.load(&product.key, Some(&state.key))?).clone());
+        }
+        let name = |state: &crate::catalogue::State| StateName { label: state.label.clone(), value: state.value };
+        let product = NewProduct {
+            key: Some(product.key.clone()),
+            name: product.name.clone(),
+            manufacturer: product.manufacturer.clone(),
+            kind: product.kind.clone(),
+            description: product.description.clone(),
+            provenance: product.provenance.clone(),
+            tags: product.tags.clone(),
+            states: product.states.iter().map(name).collect(),
+            control_curve: product.control_curve.clone(),
+            system: product.system.clone(),
+        };
+        let mut catalogue = Catalogue::empty_in_memory()?;
+        let imported = catalogue.import(&datasets, product)?;
+        Ok(catalogue.export_package(&[imported.key])?)
+    }
+
+    fn moments(&self, path: &Path) -> Result<Vec<Moment>, AppError> {
+        let list = moments(&self.choices, &self.question.scene, self.product.as_deref(), path);
+        match list.len() {
+            0 => Err(AppError::NoMoments),
+            count if count > MOST_FILES => Err(AppError::ManyFiles(count, MOST_FILES)),
+            _ => Ok(list),
+        }
+    }
+
+    /// A luminaire file for each moment, and the index last, so that it never names a file that is not there.
+    fn series(&self, path: &Path, progress: &dyn Progress) -> Result<Vec<(PathBuf, Vec<u8>)>, AppError> {
+        let moments = self.moments(path)?;
+        let mut index = String::from("file,time,state,sun_altitude_deg,sun_azimuth_deg,flux_lm,flux_error_lm\n");
+        let mut files = Vec::with_capacity(moments.len() + 1);
+        for (k, one) in moments.iter().enumerate() {
+            progress.advance("moments", k, moments.len());
+            check(progress)?;
+            let question = Question { scene: one.scene.clone(), ..self.question.clone() };
+            let lid = self.engine.lid(&question, progress)?;
+            let target = path.with_file_name(&one.name);
+            files.push((target.clone(), self.engine.luminaire(&lid, &target)?));
+            let (altitude, azimuth) = moment::sun(&one.scene).unwrap_or((f64::NAN, f64::NAN));
+            let time = one.time.strftime("%Y-%m-%dT%H:%M");
+            let state = super::paint::tile::csv_field(&one.state);
+            // Writing to a String cannot fail.
+            let _ = writeln!(
+                index,
+                "{},{time},{state},{:.4},{azimuth:.4},{:.3},{:.3}",
+                one.name,
+                altitude.to_degrees(),
+                lid.flux.value,
+                lid.flux.error
+            );
+        }
+        files.push((path.to_owned(), index.into_bytes()));
+        Ok(files)
+    }
+
+    /// Makes everything, then writes it: whole, or not at all. The path comes back.
+    ///
+    /// # Errors
+    /// What cannot be made, or not be written; then no file is new.
+    pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<PathBuf, AppError> {
+        if !path.to_string_lossy().to_lowercase().ends_with(self.choices.ending()) {
+            return Err(AppError::HandOnEnding(self.choices.ending()).about(path.display()));
+        }
+        let files = match self.choices.what {
+            What::Series => self.series(path, progress)?,
+            _ => vec![(path.to_owned(), self.bytes(path, progress)?)],
+        };
+        // Withdrawn after the last computation: nothing is written either.
+        check(progress)?;
+        let mut new: Vec<&Path> = Vec::new();
+        for (target, bytes) in &files {
+            let there = target.exists();
+            if let Err(error) = write_whole(target, bytes) {
+                // What was new goes again; the first error is what matters.
+                new.iter().for_each(|path| drop(std::fs::remove_file(path)));
+                return Err(error);
+            }
+            if !there {
+                new.push(target);
+            }
+        }
+        Ok(path.to_owned())
+    }
+
+    /// What would be written at a path, as far as it can be shown.
+    ///
+    /// # Errors
+    /// What cannot be made.
+    pub fn preview(&self, path: &Path, progress: &dyn Progress) -> Result<Preview, AppError> {
+        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        Ok(match self.choices.what {
+            What::Picture => {
+                let drawing = self.picture(progress)?;
+                let [width, height] = self.choices.size.pixels();
+                let scale = (PREVIEW / drawing.width.max(drawing.height)).min(width / drawing.width);
+                let said = if self.choices.vector {
+                    format!("{}, vectors", self.choices.size)
+                } else {
+                    format!("{width:.0} × {height:.0} pixels")
+                };
+                shown(&drawing, scale, said)
+            }
+            What::Report => {
+                let (_, pages) = self.report(progress)?;
+                let first = pages.first().ok_or(AppError::NoProduct)?;
+                let count = pages.len();
+                let said = if count == 1 { "1 page, A4".to_owned() } else { format!("page 1 of {count}, A4") };
+                shown(first, PREVIEW / first.height, said)
+            }
+            What::Series => {
+                let moments = self.moments(path)?;
+                let mut list = vec![(name(path), "index".to_owned())];
+                let words = |one: &Moment| match &*one.state {
+                    "" => moment::words(one.time),
+                    state => format!("{}, state {state}", moment::words(one.time)),
+                };
+                list.extend(moments.into_iter().map(|one| (one.name.clone(), words(&one))));
+                Preview::Files(list)
+            }
+            What::Package => {
+                let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
+                let states = product.states.len();
+                let waiting = product.states.iter().filter(|state| state.dataset.is_none()).count();
+                let mut words = if states == 1 { "one state".to_owned() } else { format!("{states} states") };
+                if waiting > 0 {
+                    words.push_str(&format!(", {waiting} still to be computed"));
+                }
+                Preview::Files(vec![(name(path), words)])
+            }
+            What::Luminaire | What::Table | What::Dataset | What::Scene => {
+                let bytes = self.bytes(path, progress)?;
+                let text = String::from_utf8_lossy(&bytes);
+                Preview::Text(text.lines().take(LINES).collect::<Vec<_>>().join("\n"), bytes.len())
+            }
+        })
+    }
+}
+
+fn shown(drawing: &Drawing, scale: f64, said: String) -> Preview {
+    let (width, height, pixels) = drawing.to_pixels(scale);
+    Preview::Picture([width, height], pixels, said)
+}

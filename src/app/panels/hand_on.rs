@@ -1,0 +1,290 @@
+//! The sheet of handing on: what, in which form, how it will look, and where to.
+
+use crate::app::command::Command;
+use crate::app::hand_on::{Choices, MOST_FILES, Preview, ReportKind, What};
+use crate::app::jobs::Lane;
+use crate::app::state::PathUse;
+use crate::app::theme;
+use crate::app::window::App;
+use crate::report::size::Unit;
+use crate::report::{Size, TileKind};
+use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, TextureOptions, Ui, vec2};
+use std::path::PathBuf;
+
+/// Height of the fields of longer texts. \[rows\]
+const ROWS: usize = 5;
+
+/// Draws the sheet.
+pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+    let before = app.state.settings.hand_on.clone();
+    let mut choices = before.clone();
+    let name = ui.label("What");
+    let combo = ComboBox::from_id_salt("what").width(ui.available_width().min(240.0));
+    let combo = combo.selected_text(choices.what.words()[0]).show_ui(ui, |ui| {
+        for what in What::ALL {
+            let [text, tip] = what.words();
+            ui.selectable_value(&mut choices.what, what, text).on_hover_text(tip);
+        }
+    });
+    combo.response.labelled_by(name.id);
+    ui.add(Label::new(RichText::new(choices.what.words()[1]).weak()).wrap());
+    ui.add_space(4.0);
+    options(ui, &mut choices);
+    ui.add_space(6.0);
+    target(ui, app, commands);
+    ui.separator();
+    preview(ui, app);
+    if choices != before {
+        commands.push(Command::HandOn(Box::new(choices)));
+    }
+}
+
+fn options(ui: &mut Ui, choices: &mut Choices) {
+    match choices.what {
+        What::Picture => {
+            tiles(ui, choices);
+            ui.horizontal_wrapped(|ui| {
+                ui.selectable_value(&mut choices.vector, false, ".png").on_hover_text("Pixels");
+                ui.selectable_value(&mut choices.vector, true, ".svg").on_hover_text("Vectors: sharp at any size");
+            });
+            size(ui, &mut choices.size);
+            ui.horizontal_wrapped(|ui| {
+                let tip = "Product, place, moment, errors and origin of the data round the picture";
+                ui.checkbox(&mut choices.caption, "Caption").on_hover_text(tip);
+                print(ui, &mut choices.print);
+            });
+        }
+        What::Report => {
+            ui.horizontal_wrapped(|ui| {
+                let tip = "Question, room, figures with errors, pictures, accuracy";
+                ui.selectable_value(&mut choices.report, ReportKind::Study, "Study").on_hover_text(tip);
+                let tip = "Figures, where light goes, states, tender text, origin of the data";
+                ui.selectable_value(&mut choices.report, ReportKind::Sheet, "Product sheet").on_hover_text(tip);
+            });
+            print(ui, &mut choices.print);
+            match choices.report {
+                ReportKind::Study => {
+                    text(ui, "Title", &mut choices.title, 1);
+                    text(ui, "Question", &mut choices.question, 2);
+                }
+                ReportKind::Sheet => text(ui, "Tender text", &mut choices.tender, ROWS),
+            }
+        }
+        What::Luminaire => luminaire(ui, &mut choices.ies),
+        What::Series => {
+            luminaire(ui, &mut choices.ies);
+            series(ui, choices);
+        }
+        What::Table => tiles(ui, choices),
+        What::Dataset => {
+            ui.horizontal_wrapped(|ui| {
+                ui.selectable_value(&mut choices.text, false, ".xml").on_hover_text("BSDF XML of LBNL WINDOW");
+                ui.selectable_value(&mut choices.text, true, ".btdf.txt")
+                    .on_hover_text("Text, as goniophotometers write");
+            });
+        }
+        What::Package | What::Scene => {}
+    }
+}
+
+fn print(ui: &mut Ui, print: &mut bool) {
+    let tip = "Black lines that are told apart without colours; false colours stay";
+    ui.checkbox(print, "For printers").on_hover_text(tip);
+}
+
+fn tiles(ui: &mut Ui, choices: &mut Choices) {
+    ui.horizontal(|ui| {
+        let name = ui.label("Tile");
+        let combo = ComboBox::from_id_salt("tile").selected_text(choices.tile.title()).show_ui(ui, |ui| {
+            for tile in TileKind::ALL {
+                ui.selectable_value(&mut choices.tile, tile, tile.title());
+            }
+        });
+        combo.response.labelled_by(name.id);
+    });
+}
+
+fn luminaire(ui: &mut Ui, ies: &mut bool) {
+    ui.horizontal_wrapped(|ui| {
+        ui.selectable_value(ies, false, ".ldt").on_hover_text("EULUMDAT");
+        ui.selectable_value(ies, true, ".ies").on_hover_text("IES LM-63-2002");
+    });
+}
+
+fn size(ui: &mut Ui, size: &mut Size) {
+    ui.horizontal_wrapped(|ui| {
+        let (unit, range) = match size.unit {
+            Unit::Pixels => ("px", 240.0..=8000.0),
+            Unit::Millimetres => ("mm", 21.0..=677.0),
+        };
+        let name = ui.label("Width");
+        let drag = |value| DragValue::new(value).range(range.clone()).suffix(format!(" {unit}")).max_decimals(0);
+        ui.add(drag(&mut size.width)).labelled_by(name.id);
+        let name = ui.label("Height");
+        ui.add(drag(&mut size.height)).labelled_by(name.id);
+        let before = size.unit;
+        ui.selectable_value(&mut size.unit, Unit::Pixels, "px").on_hover_text("For screens");
+        ui.selectable_value(&mut size.unit, Unit::Millimetres, "mm").on_hover_text("On paper; 300 pixels an inch");
+        if before != size.unit {
+            // Usual sizes of the other unit, in the same proportion.
+            let width = if size.unit == Unit::Pixels { 1600.0 } else { 160.0 };
+            (size.width, size.height) = (width, (width * size.height / size.width).round());
+        }
+    });
+}
+
+fn text(ui: &mut Ui, label: &str, text: &mut String, rows: usize) {
+    let name = ui.label(label);
+    let field = if rows == 1 { TextEdit::singleline(text) } else { TextEdit::multiline(text).desired_rows(rows) };
+    if rows < ROWS {
+        ui.add(field.desired_width(f32::INFINITY)).labelled_by(name.id);
+    } else {
+        ScrollArea::vertical().id_salt(label).max_height(110.0).show(ui, |ui| {
+            ui.add(field.desired_width(f32::INFINITY)).labelled_by(name.id);
+        });
+    }
+}
+
+fn series(ui: &mut Ui, choices: &mut Choices) {
+    const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
+    let series = &mut choices.series;
+    ui.label("On the 21st of");
+    ui.horizontal_wrapped(|ui| {
+        for (wanted, name) in series.months.iter_mut().zip(MONTHS) {
+            ui.toggle_value(wanted, name);
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        let [first, last] = &mut series.hours;
+        let name = ui.label("From");
+        ui.add(DragValue::new(first).range(0..=23).suffix(" h")).labelled_by(name.id);
+        let name = ui.label("to");
+        ui.add(DragValue::new(last).range(0..=23).suffix(" h")).labelled_by(name.id);
+        let name = ui.label("every");
+        ui.add(DragValue::new(&mut series.step).range(1..=12).suffix(" h")).labelled_by(name.id);
+    });
+    ui.checkbox(&mut series.all_states, "All states of the product")
+        .on_hover_text(format!("Else the scene's own state or control; at most {MOST_FILES} files"));
+}
+
+/// Folder and name, and the buttons.
+fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
+    let state = &app.state;
+    let mut text = state.path.clone();
+    let name = ui.label("Write to");
+    let field = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY)).labelled_by(name.id);
+    if text != state.path {
+        commands.push(Command::EditPath(text.clone()));
+    }
+    let path = PathBuf::from(text.trim());
+    let ready = !text.trim().is_empty();
+    if state.replace.as_ref() == Some(&path) {
+        let words = if state.settings.hand_on.what == What::Series {
+            "Files of these names exist already."
+        } else {
+            "A file of this name exists already."
+        };
+        ui.colored_label(theme::palette(ui).warning, words);
+        ui.horizontal(|ui| {
+            if ui.button("Replace").on_hover_text("Write over it").clicked() {
+                commands.push(Command::Write(PathUse::HandOn, path.clone()));
+            }
+            if ui.button("Other name").on_hover_text("Keep the file; give another name").clicked() {
+                commands.push(Command::KeepFile);
+                field.request_focus();
+            }
+        });
+        return;
+    }
+    let job = app.jobs.views().into_iter().find(|job| job.lane == Lane::Export).filter(|_| app.writing);
+    if let Some(job) = job {
+        ui.horizontal(|ui| {
+            if ui.button("Stop").on_hover_text("Write nothing").clicked() {
+                commands.push(Command::Cancel(Lane::Export));
+            }
+            let share = job.state.fraction().unwrap_or(0.0);
+            ui.add(egui::ProgressBar::new(share).desired_width(140.0).text(job.state.stage()));
+        });
+        return;
+    }
+    ui.horizontal(|ui| {
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let write =
+            ui.add_enabled(ready, Button::new("Write")).on_hover_text("Write it; a file that exists is asked about");
+        if ready && (write.clicked() || entered) {
+            commands.push(Command::WriteNew(PathUse::HandOn, path));
+        }
+        if ui.button("Browse…").on_hover_text("Choose folder and name").clicked() {
+            commands.push(Command::BrowseHandOn);
+        }
+    });
+}
+
+/// A size in bytes for people.
+fn bytes(count: usize) -> String {
+    match count {
+        0..10_000 => format!("{count} bytes"),
+        10_000..10_000_000 => format!("{} kB", count / 1000),
+        _ => format!("{} MB", count / 1_000_000),
+    }
+}
+
+fn preview(ui: &mut Ui, app: &App) {
+    let hand_on = &app.state.hand_on;
+    let busy = app.jobs.busy(Lane::Preview);
+    ui.horizontal(|ui| {
+        ui.strong("Preview");
+        if busy {
+            ui.spinner();
+        }
+    });
+    match &hand_on.shown {
+        None if busy => {}
+        None => {
+            ui.weak("Not yet: the product is being read.");
+        }
+        Some(Err(error)) => {
+            ui.add(Label::new(RichText::new(error).color(theme::palette(ui).error)).wrap());
+        }
+        Some(Ok(Preview::Picture([width, height], pixels, said))) => {
+            ui.weak(said);
+            let id = ui.scope_id().with("picture");
+            let known: Option<(u64, egui::TextureHandle)> = ui.data(|data| data.get_temp(id));
+            let texture = match known.filter(|(revision, _)| *revision == hand_on.revision) {
+                Some((_, texture)) => texture,
+                None => {
+                    let image = egui::ColorImage::from_rgb([*width, *height], pixels);
+                    let texture = ui.ctx().load_texture("preview", image, TextureOptions::LINEAR);
+                    ui.data_mut(|data| data.insert_temp(id, (hand_on.revision, texture.clone())));
+                    texture
+                }
+            };
+            let wide = ui.available_width().min(*width as f32);
+            let size = vec2(wide, wide * *height as f32 / (*width).max(1) as f32);
+            let image = egui::Image::new((texture.id(), size)).alt_text("Preview of what will be written");
+            let response = ui.add(image);
+            ui.painter().rect_stroke(
+                response.rect,
+                0,
+                egui::Stroke::new(1.0, theme::palette(ui).line),
+                egui::StrokeKind::Inside,
+            );
+        }
+        Some(Ok(Preview::Text(text, length))) => {
+            ui.weak(bytes(*length));
+            let shown = RichText::new(text).monospace().size(13.0);
+            ScrollArea::horizontal().id_salt("first lines").show(ui, |ui| ui.add(Label::new(shown).extend()));
+        }
+        Some(Ok(Preview::Files(files))) => {
+            let count = files.len();
+            ui.weak(if count == 1 { "One file".to_owned() } else { format!("{count} files") });
+            egui::Grid::new("files").num_columns(2).striped(true).show(ui, |ui| {
+                for (name, words) in files {
+                    ui.label(name);
+                    ui.weak(words);
+                    ui.end_row();
+                }
+            });
+        }
+    }
+}

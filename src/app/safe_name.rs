@@ -1,0 +1,18 @@
+//! Words as parts of file names, in characters that every system takes.
+
+/// Longest part of a name made from words. \[characters\]
+const LONGEST: usize = 80;
+
+/// A word in letters, digits, point and hyphen; other runs become one hyphen.
+pub fn safe(word: &str) -> String {
+    let mut text = String::new();
+    for c in word.chars() {
+        if c.is_ascii_alphanumeric() || c == '.' || (c == '-' && text.is_empty()) {
+            text.push(c);
+        } else if !text.ends_with('-') && !text.is_empty() {
+            text.push('-');
+        }
+    }
+    text.truncate(LONGEST);
+    text.trim_end_matches(['-', '.']).trim_start_matches('.').to_owned()
+}

@@ -1,0 +1,60 @@
+//! The systems of the window's scenes: files and closed forms from the study's library, products from the shelf.
+
+use super::error::AppError;
+use super::shelf::Shelf;
+use crate::catalogue::Product;
+use crate::compute::estimate::Progress;
+use crate::study::control::ControlQuestion;
+use crate::study::scene_file::SystemKeys;
+use crate::study::system::Need;
+use crate::study::{Library, StudyError, System, SystemLibrary};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Files and closed forms from the study's library, products from the shelf.
+pub struct WindowLibrary<'a> {
+    /// Files and closed forms.
+    pub files: &'a Library,
+    /// Products.
+    pub shelf: &'a dyn Shelf,
+    /// Of what has to be computed first.
+    pub progress: &'a dyn Progress,
+}
+
+impl SystemLibrary for WindowLibrary<'_> {
+    fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
+        let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
+        let told = |error: AppError| match error {
+            AppError::Study(error) => error,
+            other => StudyError::Catalogue(other.to_string()),
+        };
+        self.shelf.provide(key, state.as_deref(), self.progress).map_err(told)?;
+        let dataset = self.shelf.load(key, state.as_deref()).map_err(told)?;
+        let very = self.files.very_of(&dataset);
+        // The product's name: a dataset's own may be that of another product with the same data.
+        let label = self.shelf.product(key).map_err(|error| StudyError::Catalogue(error.to_string()))?.name.clone();
+        Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
+    }
+
+    fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        self.shelf.controlled_state(product, asked)
+    }
+
+    fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
+        self.files.controlled_description(path, asked)
+    }
+}
+
+impl WindowLibrary<'_> {
+    /// A product by its key.
+    ///
+    /// # Errors
+    /// The catalogue does not have it.
+    pub fn product(&self, key: &str) -> Result<Product, StudyError> {
+        match self.shelf.product(key) {
+            Ok(product) => Ok((*product).clone()),
+            Err(AppError::Study(error)) => Err(error),
+            Err(other) => Err(StudyError::Catalogue(other.to_string())),
+        }
+    }
+}

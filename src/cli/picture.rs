@@ -1,0 +1,64 @@
+//! `cfs picture`: a tile of the window as a picture, without the window.
+
+use super::progress::TerminalProgress;
+use crate::report::{Look, Size, TileKind, picture};
+use crate::study::goniophotometer::LayerLibrary as _;
+use crate::study::subject::{Asked, Subject, Wanted};
+use crate::study::{Library, Session, files, read_scene_file};
+use anyhow::{Context as _, bail};
+use std::path::{Path, PathBuf};
+
+/// A tile of the window as a picture (.svg or .png)
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  cfs picture office.toml --tile room --out room.svg                    1600 x 1200 pixels, with caption
+  cfs picture office.toml --tile lid --size 160x120mm --out lid.png     for print: 300 pixels an inch
+  cfs picture office.toml --tile btdf --print --plain --out btdf.svg    black lines, no caption")]
+pub struct PictureArgs {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Which: btdf, transmittance, sky, lid, room or control
+    #[arg(long)]
+    pub tile: TileKind,
+    /// Width and height in pixels, or in millimetres with mm
+    #[arg(long, default_value = "1600x1200")]
+    pub size: Size,
+    /// For printers: black lines, told apart without colours
+    #[arg(long)]
+    pub print: bool,
+    /// Without product, place, moment, errors and origin round it
+    #[arg(long)]
+    pub plain: bool,
+    /// File to write: .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+}
+
+/// A scene file's subject.
+pub(super) fn subject(path: &Path, wanted: Wanted, library: &Library) -> anyhow::Result<Subject> {
+    let file = read_scene_file(path)?;
+    let base = path.parent().unwrap_or(Path::new("."));
+    let asked = Asked { file: &file, base, incident: None, wanted };
+    let progress = TerminalProgress::new();
+    Subject::of(&asked, &Session::new(), library, &|key| library.product(key), &progress)
+        .with_context(|| path.display().to_string())
+}
+
+/// Runs the command.
+pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
+    let shown = args.out.display();
+    let ending = args.out.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if !["svg", "png"].contains(&&*ending) {
+        bail!("--out {shown}: a picture is written as .svg or .png");
+    }
+    let subject = subject(&args.scene, args.tile.needs(), library)?;
+    let look = Look { size: args.size, print: args.print, caption: !args.plain };
+    let drawing = picture(&subject, args.tile, &look).with_context(|| args.scene.display().to_string())?;
+    let bytes = if ending == "svg" {
+        args.size.svg(&drawing).into_bytes()
+    } else {
+        args.size.png(&drawing).with_context(|| format!("--out {shown}"))?
+    };
+    files::write(&args.out, &bytes)?;
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! `cfs report`: a study or a product sheet as PDF.
+
+use super::picture::subject;
+use super::progress::TerminalProgress;
+use crate::drawing::colours::Inks;
+use crate::report::product::{Sheet, pages as sheet_pages};
+use crate::report::study::{Study, pages as study_pages};
+use crate::report::{pdf, tender};
+use crate::study::example::scene_of;
+use crate::study::goniophotometer::LayerLibrary as _;
+use crate::study::subject::{Asked, Subject, Wanted};
+use crate::study::{Library, Session, files};
+use anyhow::{Context as _, bail};
+use std::path::{Path, PathBuf};
+
+/// A report as PDF: on a scene, or a product sheet
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  cfs report office.toml --out office.pdf                      the study of a scene
+  cfs report office.toml --question \"Blinds or panel?\" --out office.pdf
+  cfs report office.toml --sheet --out blind.pdf               the product sheet of its first window
+  cfs report venetian-80-72 --state 45 --out blind.pdf         the product sheet of a product of the catalogue
+
+A product sheet ends with a tender text; --tender takes another template, whose {fields} are explained in the shipped one:
+cfs report --template prints it.")]
+pub struct ReportArgs {
+    /// Scene file (.toml) or key of a product
+    #[arg(required_unless_present = "template")]
+    pub what: Option<String>,
+    /// State of the product; without it the one that stands for the product
+    #[arg(long)]
+    pub state: Option<String>,
+    /// The product sheet of a scene's first window instead of the study
+    #[arg(long)]
+    pub sheet: bool,
+    /// Title of the study
+    #[arg(long, default_value = "")]
+    pub title: String,
+    /// What the study is to answer
+    #[arg(long, default_value = "")]
+    pub question: String,
+    /// Template of the tender text
+    #[arg(long, value_name = "FILE")]
+    pub tender: Option<PathBuf>,
+    /// Print the template of the tender text and end
+    #[arg(long)]
+    pub template: bool,
+    /// For printers: black lines, told apart without colours
+    #[arg(long)]
+    pub print: bool,
+    /// File to write (.pdf)
+    #[arg(long, value_name = "FILE.pdf", required_unless_present = "template")]
+    pub out: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
+    if args.template {
+        return super::output::print(tender::TEMPLATE);
+    }
+    let (Some(what), Some(out)) = (&args.what, &args.out) else { bail!("a scene or product, and --out, are needed") };
+    if !out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
+        bail!("--out {}: a report is written as .pdf", out.display());
+    }
+    let template = match &args.tender {
+        Some(path) => String::from_utf8(files::read(path)?)
+            .with_context(|| format!("{}: not text in UTF-8; a tender text is", path.display()))?,
+        None => tender::TEMPLATE.to_owned(),
+    };
+    let inks = if args.print { &Inks::PRINT } else { &Inks::LIGHT };
+    let is_scene = what.ends_with(".toml") || Path::new(what).is_file();
+    let (subject, sheet) = if is_scene {
+        if args.state.is_some() {
+            bail!("--state is for a product; the scene {what} names its own");
+        }
+        (subject(Path::new(what), Wanted::ALL, library)?, args.sheet)
+    } else {
+        (of_product(what, args.state.as_deref(), library)?, true)
+    };
+    let pages = if sheet {
+        sheet_pages(&Sheet { subject: &subject, tender: &template, inks })
+    } else {
+        let (title, question) = (&*args.title, &*args.question);
+        study_pages(&Study { subject: &subject, title, question, comparison: None, inks })
+    };
+    let pages = pages.with_context(|| what.clone())?;
+    files::write(out, &pdf::write(&pages, &subject.name)?)?;
+    Ok(())
+}
+
+/// A product in the scene of a first start.
+fn of_product(key: &str, state: Option<&str>, library: &Library) -> anyhow::Result<Subject> {
+    let product = library.product(key).with_context(|| key.to_owned())?;
+    let own = product.states.get(product.representative().1).map(|state| state.key.clone());
+    let state = state.map(str::to_owned).or(own);
+    let file = scene_of(key, state.as_deref());
+    let asked = Asked { file: &file, base: Path::new("."), incident: None, wanted: Wanted::ALL };
+    let progress = TerminalProgress::new();
+    Subject::of(&asked, &Session::new(), library, &|key| library.product(key), &progress)
+        .with_context(|| key.to_owned())
+}

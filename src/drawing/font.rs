@@ -1,0 +1,328 @@
+//! The font of all drawings: DejaVu Sans as it is shipped, read as far as widths and outlines of letters need (TrueType:
+//! `cmap`, `hmtx`, `loca`, `glyf`). Letters that it does not have are drawn as its empty box.
+
+use super::shape::Point;
+use std::sync::LazyLock;
+
+/// The file, for those who embed it.
+pub static DEJAVU: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
+
+/// From the baseline up to the middle of capitals, of the size.
+pub const MIDDLE: f64 = 0.36;
+/// From one line of text to the next, of the size.
+pub const LEADING: f64 = 1.4;
+
+/// The tables by their first byte.
+struct Font {
+    glyf: usize,
+    loca: usize,
+    hmtx: usize,
+    /// The characters' glyphs: first, last, glyph of the first.
+    groups: Vec<[u32; 3]>,
+    metrics: u16,
+    units: f64,
+    long: bool,
+}
+
+/// Bytes beyond the end read as 0: the file is ours and whole.
+fn byte(at: usize) -> u8 {
+    DEJAVU.get(at).copied().unwrap_or(0)
+}
+
+fn u16_at(at: usize) -> u16 {
+    u16::from_be_bytes([byte(at), byte(at + 1)])
+}
+
+fn i16_at(at: usize) -> i16 {
+    i16::from_be_bytes([byte(at), byte(at + 1)])
+}
+
+fn u32_at(at: usize) -> u32 {
+    u32::from_be_bytes([byte(at), byte(at + 1), byte(at + 2), byte(at + 3)])
+}
+
+fn table(tag: &[u8; 4]) -> usize {
+    let count = usize::from(u16_at(4));
+    let record = (0..count).map(|k| 12 + 16 * k).find(|at| DEJAVU.get(*at..*at + 4) == Some(tag));
+    record.map_or(DEJAVU.len(), |at| u32_at(at + 8) as usize)
+}
+
+/// The groups of the character map in format 12, which covers all planes.
+fn groups(cmap: usize) -> Vec<[u32; 3]> {
+    let count = usize::from(u16_at(cmap + 2));
+    let starts = (0..count).map(|k| cmap + u32_at(cmap + 4 + 8 * k + 4) as usize);
+    let Some(start) = starts.into_iter().find(|start| u16_at(*start) == 12) else { return Vec::new() };
+    let groups = u32_at(start + 12) as usize;
+    (0..groups).map(|k| [0, 4, 8].map(|part| u32_at(start + 16 + 12 * k + part))).collect()
+}
+
+static FONT: LazyLock<Font> = LazyLock::new(|| {
+    let head = table(b"head");
+    Font {
+        glyf: table(b"glyf"),
+        loca: table(b"loca"),
+        hmtx: table(b"hmtx"),
+        groups: groups(table(b"cmap")),
+        metrics: u16_at(table(b"hhea") + 34),
+        units: f64::from(u16_at(head + 18)),
+        long: i16_at(head + 50) != 0,
+    }
+});
+
+impl Font {
+    fn glyph(&self, c: char) -> u16 {
+        let code = u32::from(c);
+        let group = self.groups.iter().find(|[first, last, _]| (*first..=*last).contains(&code));
+        group.map_or(0, |[first, _, glyph]| u16::try_from(glyph + code - first).unwrap_or(0))
+    }
+
+    fn advance(&self, glyph: u16) -> f64 {
+        let row = glyph.min(self.metrics.saturating_sub(1));
+        f64::from(u16_at(self.hmtx + 4 * usize::from(row))) / self.units
+    }
+
+    /// First byte of a glyph; `None` for one without ink.
+    fn place(&self, glyph: u16) -> Option<usize> {
+        let index = usize::from(glyph);
+        let [from, to] = [index, index + 1].map(|k| {
+            if self.long { u32_at(self.loca + 4 * k) as usize } else { 2 * usize::from(u16_at(self.loca + 2 * k)) }
+        });
+        (to > from).then_some(self.glyf + from)
+    }
+
+    /// Contours in units of the font, y up. `depth` limits parts of parts.
+    fn contours(&self, glyph: u16, depth: usize, out: &mut Vec<Vec<Point>>) {
+        let Some(start) = self.place(glyph) else { return };
+        let count = i16_at(start);
+        if count >= 0 {
+            simple(start + 10, usize::from(count.unsigned_abs()), out);
+        } else if depth > 0 {
+            self.composite(start + 10, depth, out);
+        }
+    }
+
+    fn composite(&self, mut at: usize, depth: usize, out: &mut Vec<Vec<Point>>) {
+        loop {
+            let (flags, glyph) = (u16_at(at), u16_at(at + 2));
+            at += 4;
+            let [dx, dy] = if flags & 1 != 0 {
+                at += 4;
+                [i16_at(at - 4), i16_at(at - 2)].map(f64::from)
+            } else {
+                at += 2;
+                [byte(at - 2), byte(at - 1)].map(|part| f64::from(part.cast_signed()))
+            };
+            let fixed = |at: usize| f64::from(i16_at(at)) / 16384.0;
+            let [a, b, c, d] = if flags & 0x08 != 0 {
+                at += 2;
+                [fixed(at - 2), 0.0, 0.0, fixed(at - 2)]
+            } else if flags & 0x40 != 0 {
+                at += 4;
+                [fixed(at - 4), 0.0, 0.0, fixed(at - 2)]
+            } else if flags & 0x80 != 0 {
+                at += 8;
+                [fixed(at - 8), fixed(at - 6), fixed(at - 4), fixed(at - 2)]
+            } else {
+                [1.0, 0.0, 0.0, 1.0]
+            };
+            let mut part = Vec::new();
+            self.contours(glyph, depth - 1, &mut part);
+            let place = |[x, y]: Point| [a * x + c * y + dx, b * x + d * y + dy];
+            out.extend(part.into_iter().map(|contour| contour.into_iter().map(place).collect()));
+            if flags & 0x20 == 0 {
+                return;
+            }
+        }
+    }
+}
+
+/// Steps of a curve.
+const STEPS: usize = 5;
+
+/// Contours of a glyph of its own: end points, instructions, flags, x, y.
+fn simple(start: usize, count: usize, out: &mut Vec<Vec<Point>>) {
+    if count == 0 {
+        return;
+    }
+    let ends: Vec<usize> = (0..count).map(|k| usize::from(u16_at(start + 2 * k))).collect();
+    let points = ends[count - 1] + 1;
+    let mut at = start + 2 * count;
+    at += 2 + usize::from(u16_at(at));
+    let mut flags = Vec::with_capacity(points);
+    while flags.len() < points {
+        let flag = byte(at);
+        at += 1;
+        let again = if flag & 8 != 0 {
+            at += 1;
+            usize::from(byte(at - 1))
+        } else {
+            0
+        };
+        flags.extend(std::iter::repeat_n(flag, again + 1));
+    }
+    let mut axis = |short: u8, same: u8| -> Vec<f64> {
+        let mut value = 0.0;
+        flags[..points]
+            .iter()
+            .map(|flag| {
+                if flag & short != 0 {
+                    at += 1;
+                    value += if flag & same != 0 { 1.0 } else { -1.0 } * f64::from(byte(at - 1));
+                } else if flag & same == 0 {
+                    at += 2;
+                    value += f64::from(i16_at(at - 2));
+                }
+                value
+            })
+            .collect()
+    };
+    let (x, y) = (axis(0x02, 0x10), axis(0x04, 0x20));
+    let mut first = 0;
+    for end in ends {
+        let contour: Vec<(Point, bool)> = (first..=end).map(|k| ([x[k], y[k]], flags[k] & 1 != 0)).collect();
+        first = end + 1;
+        out.push(flattened(&contour));
+    }
+}
+
+fn middle(a: Point, b: Point) -> Point {
+    [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+}
+
+/// Quadratic curves as short lines; between two control points lies a point of the curve.
+fn flattened(contour: &[(Point, bool)]) -> Vec<Point> {
+    let n = contour.len();
+    let mut out = Vec::new();
+    for k in 0..n {
+        let (here, on) = contour[k];
+        if on {
+            out.push(here);
+            continue;
+        }
+        let ((before, before_on), (after, after_on)) = (contour[(k + n - 1) % n], contour[(k + 1) % n]);
+        let from = if before_on { before } else { middle(before, here) };
+        let to = if after_on { after } else { middle(here, after) };
+        for step in 1..=STEPS {
+            let t = step as f64 / STEPS as f64;
+            let u = 1.0 - t;
+            out.push([0, 1].map(|i| u * u * from[i] + 2.0 * u * t * here[i] + t * t * to[i]));
+        }
+    }
+    out
+}
+
+/// Width of a text of a size.
+pub fn width(text: &str, size: f64) -> f64 {
+    let font = &*FONT;
+    size * text.chars().map(|c| font.advance(font.glyph(c))).sum::<f64>()
+}
+
+/// Outlines of a text's letters, a list for each letter, y down, the baseline at 0 and beginning at 0.
+pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
+    let font = &*FONT;
+    let scale = size / font.units;
+    let mut x = 0.0;
+    text.chars()
+        .map(|c| {
+            let glyph = font.glyph(c);
+            let mut contours = Vec::new();
+            font.contours(glyph, 4, &mut contours);
+            let start = x;
+            x += size * font.advance(glyph);
+            contours
+                .into_iter()
+                .map(|one| one.into_iter().map(|[u, v]| [start + scale * u, -scale * v]).collect())
+                .collect()
+        })
+        .collect()
+}
+
+/// Lines of a text that are at most so wide, broken between words, and within a word that is wider than a line.
+pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
+    let mut lines = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split_whitespace() {
+            let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+            if width(&longer, size) <= most {
+                line = longer;
+                continue;
+            }
+            if !line.is_empty() {
+                lines.push(std::mem::take(&mut line));
+            }
+            for c in word.chars() {
+                if !line.is_empty() && width(&line, size) + width(c.encode_utf8(&mut [0; 4]), size) > most {
+                    lines.push(std::mem::take(&mut line));
+                }
+                line.push(c);
+            }
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+/// A text that is at most so wide, its end as "…" where it would be wider.
+pub fn shortened(text: &str, size: f64, most: f64) -> String {
+    if width(text, size) <= most {
+        return text.to_owned();
+    }
+    let mut kept: Vec<char> = text.chars().collect();
+    loop {
+        kept.pop();
+        let short: String = kept.iter().collect::<String>().trim_end().to_owned() + "…";
+        if kept.is_empty() || width(&short, size) <= most {
+            return short;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_are_the_fonts_own() {
+        // Advance widths of DejaVu Sans 2.37 in 1/2048 em: M 1767, i 569, space 651, ä as a.
+        assert!((width("M", 2048.0) - 1767.0).abs() < 1e-9);
+        assert!((width("i ", 2048.0) - 569.0 - 651.0).abs() < 1e-9);
+        assert!((width("ä", 10.0) - width("a", 10.0)).abs() < 1e-9);
+        for c in "äöüßÄτθφαβωΩ°·²³µ±≤≥…–−→".chars() {
+            assert_ne!(FONT.glyph(c), 0, "{c}");
+        }
+    }
+
+    fn area(contours: &[Vec<Point>]) -> f64 {
+        let one = |points: &Vec<Point>| -> f64 {
+            let next = points.iter().cycle().skip(1);
+            0.5 * points.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
+        };
+        contours.iter().map(one).sum::<f64>().abs()
+    }
+
+    #[test]
+    fn letters_have_ink_and_holes() {
+        let of = |text: &str| outlines(text, 100.0);
+        assert!(of(" ")[0].is_empty());
+        let (o, ring) = (&of("O")[0], &of("o")[0]);
+        assert_eq!((o.len(), ring.len()), (2, 2));
+        // The hole counts against the outside, so ink is much less than the box.
+        assert!(area(o) < 0.55 * 70.0 * 75.0 && area(o) > 500.0, "{}", area(o));
+        // ä is a letter with two dots, a composite.
+        assert_eq!(of("ä")[0].len(), of("a")[0].len() + 2);
+        // The second letter begins where the first ends.
+        let left = of("MI")[1][0].iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+        assert!(left > width("M", 100.0));
+    }
+
+    #[test]
+    fn lines_break_at_words_and_within_what_is_too_long() {
+        let lines = wrapped("a venetian blind Donaudampfschifffahrtsgesellschaft end", 10.0, 90.0);
+        assert!(lines.iter().all(|line| width(line, 10.0) <= 90.0), "{lines:?}");
+        assert_eq!(lines.concat().replace(' ', ""), "avenetianblindDonaudampfschifffahrtsgesellschaftend");
+        assert_eq!(lines[0], "a venetian blind");
+        let short = shortened("a venetian blind", 10.0, 60.0);
+        assert!(short.ends_with('…') && width(&short, 10.0) <= 60.0);
+    }
+}

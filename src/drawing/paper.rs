@@ -1,0 +1,145 @@
+//! A drawing: shapes on paper, and the files that they become.
+
+use super::raster::Raster;
+use super::shape::{Frame, Shape, moved};
+use super::svg;
+
+/// Shapes on white paper, later ones on top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// Width of the paper.
+    pub width: f64,
+    /// Height of the paper.
+    pub height: f64,
+    /// What is drawn.
+    pub shapes: Vec<Shape>,
+}
+
+impl Drawing {
+    /// Empty paper.
+    pub const fn new(width: f64, height: f64) -> Self {
+        Self { width, height, shapes: Vec::new() }
+    }
+
+    /// All of the paper.
+    pub const fn frame(&self) -> Frame {
+        Frame::new(0.0, 0.0, self.width, self.height)
+    }
+
+    /// One more shape, on top.
+    pub fn add(&mut self, shape: Shape) {
+        self.shapes.push(shape);
+    }
+
+    /// Another drawing as large as fits into a frame, in its middle.
+    pub fn place(&mut self, other: &Self, frame: Frame) {
+        let scale = (frame.width / other.width).min(frame.height / other.height);
+        let [x, y] = frame.centre();
+        let corner = [x - 0.5 * scale * other.width, y - 0.5 * scale * other.height];
+        self.shapes.extend(other.shapes.iter().map(|shape| moved(shape, scale, corner)));
+    }
+
+    /// As SVG text, a pixel a unit.
+    pub fn to_svg(&self) -> String {
+        self.svg((1.0, "px"))
+    }
+
+    /// As SVG text; `unit`: how large a unit is, in `px` or `mm`.
+    pub fn svg(&self, unit: (f64, &str)) -> String {
+        svg::write(&self.shapes, [self.width, self.height], unit)
+    }
+
+    /// As PNG bytes, a pixel a unit; everything is anti-aliased.
+    ///
+    /// # Errors
+    /// More pixels than a PNG can have.
+    pub fn to_png(&self) -> Result<Vec<u8>, image::ImageError> {
+        self.png(1.0)
+    }
+
+    /// As PNG bytes, so many pixels a unit.
+    ///
+    /// # Errors
+    /// More pixels than a PNG can have.
+    pub fn png(&self, scale: f64) -> Result<Vec<u8>, image::ImageError> {
+        self.raster(scale).to_png()
+    }
+
+    /// Width, height and the pixels, row by row from above.
+    pub fn to_pixels(&self, scale: f64) -> (usize, usize, Vec<u8>) {
+        let raster = self.raster(scale);
+        (raster.width, raster.height, raster.pixels)
+    }
+
+    fn raster(&self, scale: f64) -> Raster {
+        let size = |length: f64| ((length * scale).round() as usize).max(1);
+        let mut raster = Raster::white(size(self.width), size(self.height));
+        for shape in &self.shapes {
+            raster.draw(&moved(shape, scale, [0.0, 0.0]));
+        }
+        raster
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cross() -> Drawing {
+        Drawing {
+            width: 40.0,
+            height: 30.0,
+            shapes: vec![
+                Shape::line([[0.0, 10.5], [40.0, 10.5]], [200, 0, 0], 1.0),
+                Shape::area([[30.0, 20.0], [38.0, 20.0], [38.0, 28.0], [30.0, 28.0]], [0, 0, 200]),
+                Shape::text([15.0, 22.0], "1<2", [0, 0, 0]),
+            ],
+        }
+    }
+
+    #[test]
+    fn png_holds_line_and_area_where_they_were_drawn() {
+        let png = image::load_from_memory(&cross().to_png().unwrap()).unwrap().to_rgb8();
+        assert_eq!(png.dimensions(), (40, 30));
+        assert_eq!(png.get_pixel(5, 10).0, [200, 0, 0]);
+        assert_eq!(png.get_pixel(5, 9).0, [255, 255, 255]);
+        assert_eq!(png.get_pixel(34, 24).0, [0, 0, 200]);
+        assert_eq!((png.get_pixel(34, 19).0, png.get_pixel(38, 24).0), ([255; 3], [255; 3]));
+        // The letters are dark and stand about their middle.
+        let dark = |x: u32, y: u32| png.get_pixel(x, y).0.iter().all(|part| *part < 110);
+        let rows: Vec<u32> = (14..30).filter(|y| (0..28).any(|x| dark(x, *y))).collect();
+        let middle = 0.5 * f64::from(rows[0] + rows[rows.len() - 1]);
+        assert!((middle - 21.5).abs() < 1.6 && rows.len() >= 8 && rows.len() <= 12, "{rows:?}");
+        // Twice as fine.
+        let png = image::load_from_memory(&cross().png(2.0).unwrap()).unwrap().to_rgb8();
+        assert_eq!((png.dimensions(), png.get_pixel(68, 48).0), ((80, 60), [0, 0, 200]));
+    }
+
+    #[test]
+    fn svg_is_well_formed_and_says_its_size() {
+        let svg = cross().svg((0.25, "mm"));
+        let tree = roxmltree::Document::parse(&svg).unwrap();
+        assert!(tree.descendants().any(|node| node.text() == Some("1<2")));
+        assert_eq!(tree.root_element().attribute("width"), Some("10mm"));
+        assert_eq!(tree.root_element().attribute("viewBox"), Some("0 0 40 30"));
+        assert_eq!(tree.descendants().filter(|node| node.has_tag_name("polygon")).count(), 1);
+    }
+
+    #[test]
+    fn shapes_beyond_the_paper_are_cut() {
+        let mut drawing = cross();
+        drawing.add(Shape::line([[-50.0, -50.0], [90.0, 90.0]], [0; 3], 3.0));
+        drawing.add(Shape::area([[-50.0, -50.0], [5.0, -50.0], [5.0, 90.0], [-50.0, 90.0]], [9, 9, 9]));
+        drawing.add(Shape::text([0.0, 0.0], "88", [0; 3]));
+        let png = image::load_from_memory(&drawing.to_png().unwrap()).unwrap().to_rgb8();
+        assert_eq!((png.get_pixel(2, 25).0, png.get_pixel(6, 29).0), ([9, 9, 9], [255; 3]));
+    }
+
+    #[test]
+    fn a_drawing_is_placed_as_large_as_fits() {
+        let mut paper = Drawing::new(200.0, 100.0);
+        paper.place(&cross(), Frame::new(100.0, 0.0, 100.0, 60.0));
+        let Shape::Line { points, width, .. } = &paper.shapes[0] else { panic!("a line") };
+        assert_eq!((points[0], points[1], *width), ([110.0, 21.0], [190.0, 21.0], 2.0));
+    }
+}

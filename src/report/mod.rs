@@ -1,0 +1,20 @@
+//! What is handed on: pictures of the tiles, and reports as PDF. Figures and pictures in, bytes out; no files, no window.
+//!
+//! A tile's picture is a [`Drawing`](crate::drawing::Drawing) made of a [`Subject`](crate::study::subject::Subject), so that
+//! window and command line hand the same on, whatever the window's size and theme. A report is pages of such drawings.
+
+mod error;
+pub mod pages;
+pub mod pdf;
+pub mod picture;
+pub mod product;
+pub mod size;
+pub mod study;
+pub mod table;
+pub mod tender;
+pub mod tiles;
+
+pub use error::ReportError;
+pub use picture::{Look, Origin, picture};
+pub use size::Size;
+pub use tiles::TileKind;

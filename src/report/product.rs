@@ -1,0 +1,391 @@
+//! The product sheet, for makers: what a system is, its figures, pictures of what it does, where the data come from.
+
+use super::pages::{Figure, Pages};
+use super::picture::Origin;
+use super::table::Table;
+use super::tender::{Fields, fill};
+use super::tiles::{TileKind, draw, indicatrix, section};
+use super::{ReportError, picture};
+use crate::catalogue::{Origin as From, Product, State, moving_part};
+use crate::compute::btdf::{Btdf, LightFigures, Severity};
+use crate::compute::direction::{Dir, Incident};
+use crate::compute::system::SystemDescription;
+use crate::drawing::chart;
+use crate::drawing::colours::Inks;
+use crate::drawing::plot::{Axis, Plot, Series, Unit};
+use crate::drawing::ticks::{number, si, tick};
+use crate::drawing::{Drawing, Frame};
+use crate::study::product_control::state_words;
+use crate::study::subject::Subject;
+
+/// Incidences of the indicatrices: from the normal upwards. \[°\]
+const INCIDENCES: [f64; 3] = [0.0, 30.0, 60.0];
+
+/// What a product sheet is made from.
+pub struct Sheet<'a> {
+    /// The product in a scene, in the state that is shown.
+    pub subject: &'a Subject,
+    /// Text of the tender template; empty: no tender text.
+    pub tender: &'a str,
+    /// Colours or print.
+    pub inks: &'a Inks,
+}
+
+/// A share as per cent.
+fn percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share, 3))
+}
+
+fn optional(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| number(value, 3))
+}
+
+/// What is told of the state that is shown, by the product's own figures or, for systems without a product, by its data.
+struct Told {
+    tau_normal: Option<f64>,
+    tau_hemispherical: Option<f64>,
+    light: Option<LightFigures>,
+}
+
+impl Told {
+    fn of(subject: &Subject) -> Self {
+        let own = &subject.scene.apertures[0].system.state;
+        let state = subject.product.as_ref().and_then(|product| product.states.iter().find(|one| one.key == *own));
+        let btdf = subject.transmission();
+        let normal = Incident(Dir::from_unit(glam::DVec3::Z));
+        Self {
+            tau_normal: state.and_then(|one| one.tau_normal).or_else(|| btdf.map(|btdf| btdf.tau(normal))),
+            tau_hemispherical: state
+                .and_then(|one| one.tau_hemispherical)
+                .or_else(|| btdf.map(Btdf::tau_hemispherical)),
+            light: state.and_then(|one| one.light).or_else(|| btdf.map(LightFigures::of)),
+        }
+    }
+}
+
+fn states_words(count: usize) -> String {
+    if count == 1 { "one state".to_owned() } else { format!("{count} states") }
+}
+
+/// The fields of a tender text.
+fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
+    let told = Told::of(subject);
+    let dataset = subject.dataset();
+    let product = subject.product.as_ref();
+    let figure = |value: Option<f64>| value.map_or_else(String::new, |value| number(value, 3));
+    let share = |value: Option<f64>| value.map_or_else(String::new, percent);
+    let length = |value: Option<f64>| value.map_or_else(String::new, |metres| format!("{} mm", tick(1000.0 * metres)));
+    let of = |text: fn(&Product) -> &str| product.map_or_else(String::new, |product| text(product).to_owned());
+    let origin = product.map_or("", |product| match product.provenance.origin {
+        From::Unknown => "",
+        origin => origin.word(),
+    });
+    vec![
+        ("name", subject.scene.apertures[0].system.label.clone()),
+        ("maker", product.map_or_else(|| dataset.manufacturer.clone(), |product| product.manufacturer.clone())),
+        ("kind", of(|product| &product.kind)),
+        ("states", states_words(product.map_or(1, |product| product.states.len()))),
+        ("state", if subject.state.is_empty() { "the only one".to_owned() } else { subject.state.clone() }),
+        ("tau_normal", figure(told.tau_normal)),
+        ("tau_hemispherical", figure(told.tau_hemispherical)),
+        ("to_ceiling", share(told.light.and_then(|light| light.to_ceiling))),
+        ("sun_blocked", share(told.light.map(|light| light.sun_blocked))),
+        ("view", share(told.light.map(|light| light.view))),
+        ("thickness", length(dataset.thickness)),
+        ("structure", length(dataset.structure)),
+        ("origin", origin.to_owned()),
+        ("method", of(|product| &product.provenance.method)),
+        ("file", of(|product| &product.provenance.source_file)),
+    ]
+}
+
+/// The fields that a tender text may name.
+pub fn field_names(subject: &Subject) -> Vec<&'static str> {
+    fields(subject).into_iter().map(|(name, _)| name).collect()
+}
+
+/// The pages of a product sheet.
+///
+/// # Errors
+/// A tender text that is no template; a system without data.
+pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
+    let (subject, inks) = (sheet.subject, sheet.inks);
+    let name = &subject.scene.apertures[0].system.label;
+    let product = subject.product.as_ref();
+    let under = match product {
+        Some(product) => {
+            let parts = [product.manufacturer.clone(), product.kind.clone(), states_words(product.states.len())];
+            parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
+        }
+        None => "not of the catalogue".to_owned(),
+    };
+    let mut pages = Pages::new("Product sheet", name, &under, inks);
+    let description = product.map_or(&*subject.dataset().description, |product| &product.description);
+    if !description.is_empty() {
+        pages.paragraph(description);
+    }
+    let shown = if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) };
+    pages.heading(&format!("Figures{shown}"));
+    pages.figures(&figures(subject));
+    pages.note(
+        "Figures of the data as they are; how exact these are is said under Data, as far as their source tells it.",
+    );
+    pictures(&mut pages, subject, inks)?;
+    if let Some(product) = product.filter(|product| product.states.len() > 1) {
+        states(&mut pages, product, inks);
+    }
+    in_use(&mut pages, subject, inks)?;
+    tender(&mut pages, sheet.tender, &fields(subject))?;
+    provenance(&mut pages, subject);
+    Ok(pages.finish())
+}
+
+fn figures(subject: &Subject) -> Vec<(String, String)> {
+    let told = Told::of(subject);
+    let dataset = subject.dataset();
+    let mut list: Vec<(String, String)> = Vec::new();
+    let mut add = |name: &str, value: String| list.push((name.to_owned(), value));
+    add("τ, normal incidence", optional(told.tau_normal));
+    add("τ, diffuse (hemispherical)", optional(told.tau_hemispherical));
+    if let Some(light) = told.light {
+        add("to the ceiling", light.to_ceiling.map_or_else(|| "–".to_owned(), percent));
+        add("sun kept out (45°)", percent(light.sun_blocked));
+        add("view (straight through)", percent(light.view));
+    }
+    if let Some(back) = dataset.room_side_reflectance() {
+        add("ρ, room side, diffuse", number(back, 3));
+    }
+    let length = |metres: f64| format!("{} mm", tick(1000.0 * metres));
+    if let Some(thickness) = dataset.thickness {
+        add("depth", length(thickness));
+    }
+    if let Some(structure) = dataset.structure {
+        add("spacing of structure", length(structure));
+    }
+    for (key, value) in dataset.thermal.known() {
+        let unit = if key.json().ends_with("_m") { " m" } else { "" };
+        add(key.word(), format!("{}{unit}", number(value, 3)));
+    }
+    list
+}
+
+/// Section, and where light from three directions goes.
+fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
+    let Some(btdf) = subject.transmission() else {
+        return Err(ReportError::Nothing("Product sheet", "the system has no transmission data".to_owned()));
+    };
+    pages.heading("Where light goes");
+    let incident = |degrees: f64| Incident(Dir::from_theta_phi(degrees.to_radians(), 0.5 * std::f64::consts::PI));
+    let greatest =
+        |degrees: &f64| btdf.indicatrix(incident(*degrees)).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max));
+    // One scale, so that the three can be compared.
+    let max = INCIDENCES.iter().map(greatest).fold(0.0, f64::max);
+    let mut row = Vec::new();
+    for degrees in INCIDENCES {
+        let mut drawing = Drawing::new(260.0, 290.0);
+        let caption = if degrees > 0.0 { format!("from {degrees:.0}° above") } else { "from the normal".to_owned() };
+        let frame = drawing.frame().inside([8.0; 4]);
+        indicatrix(&mut drawing, frame, btdf, incident(degrees), (&caption, Some((max, 4))), inks);
+        let tau = number(btdf.tau(incident(degrees)), 3);
+        row.push(Figure { drawing, caption: format!("{caption}: τ {tau}") });
+    }
+    pages.pictures(&row, 190.0);
+    pages.note(
+        "Luminance coefficient q = L/E of the light that leaves into the room, seen from inside: light that goes up is drawn \
+         up. One logarithmic scale for the three incidences in the vertical plane; equal areas are equal projected solid \
+         angles.",
+    );
+    let described = subject.product.as_ref().and_then(|product| moving_part(&product.system));
+    let curve = profile_curve(subject, inks);
+    let mut row = Vec::new();
+    if let Some(drawing) = described.and_then(|system| section_of(&system, subject, inks)) {
+        row.push(Figure {
+            drawing,
+            caption: format!(
+                "Section{}",
+                if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) }
+            ),
+        });
+    }
+    row.extend(curve.map(|drawing| Figure {
+        drawing,
+        caption: "Transmittance of light in the vertical plane, against the profile angle of its source".to_owned(),
+    }));
+    pages.gap(6.0);
+    pages.pictures(&row, 190.0);
+    Ok(())
+}
+
+fn section_of(system: &SystemDescription, subject: &Subject, inks: &Inks) -> Option<Drawing> {
+    let mut drawing = Drawing::new(400.0, 270.0);
+    let frame = drawing.frame().inside([10.0; 4]);
+    let state = &subject.scene.apertures[0].system.state;
+    section(&mut drawing, frame, system, state, inks).then_some(drawing)
+}
+
+/// Up to five states, even over their order.
+fn chosen(states: &[State]) -> Vec<&State> {
+    const MOST: usize = 5;
+    if states.len() <= MOST {
+        return states.iter().collect();
+    }
+    (0..MOST).map(|k| &states[k * (states.len() - 1) / (MOST - 1)]).collect()
+}
+
+fn profile_curve(subject: &Subject, inks: &Inks) -> Option<Drawing> {
+    use crate::catalogue::{PROFILE_ANGLES, profile_transmittances};
+    let line = |name: String, tau: &[f64]| Series::line(name, PROFILE_ANGLES.iter().zip(tau).map(|(a, t)| [*a, *t]));
+    let series: Vec<Series> = match &subject.product {
+        Some(product) => chosen(&product.states)
+            .into_iter()
+            .filter(|state| state.tau_profile.len() == PROFILE_ANGLES.len())
+            .map(|state| line(state_words(state), &state.tau_profile))
+            .collect(),
+        None => vec![line("τ".to_owned(), &profile_transmittances(subject.transmission()?))],
+    };
+    let top = series.iter().flat_map(|series| &series.points).map(|point| point[1]).fold(0.0, f64::max);
+    if series.is_empty() {
+        return None;
+    }
+    let plot = Plot {
+        x: Axis::linear([-90.0, 90.0], "profile angle", Unit::Degrees),
+        y: Axis::linear([0.0, crate::drawing::ticks::fine_ceil(top.max(0.01))], "τ", Unit::Named("")),
+        series,
+        guides: Vec::new(),
+    };
+    let mut drawing = Drawing::new(400.0, 270.0);
+    let high = if plot.series.len() > 1 || !plot.series[0].name.is_empty() {
+        chart::names(&mut drawing, Frame::new(50.0, 2.0, 340.0, 40.0), &plot.series, inks)
+    } else {
+        0.0
+    };
+    chart::panel(&mut drawing, Frame::new(4.0, high, 392.0, 266.0 - high), &plot, inks);
+    Some(drawing)
+}
+
+fn states(pages: &mut Pages, product: &Product, _inks: &Inks) {
+    pages.heading("States");
+    let mut table = Table::of(["state", "τ normal", "τ diffuse", "to ceiling / %", "sun kept out / %", "view / %"]);
+    let share = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |share| number(100.0 * share, 3));
+    for state in &product.states {
+        let words = state_words(state);
+        table.row([
+            if words.is_empty() { "–".to_owned() } else { words },
+            optional(state.tau_normal),
+            optional(state.tau_hemispherical),
+            share(state.light.and_then(|light| light.to_ceiling)),
+            share(state.light.map(|light| light.sun_blocked)),
+            share(state.light.map(|light| light.view)),
+        ]);
+    }
+    pages.table(&table);
+}
+
+/// What it does in the scene that goes with it.
+fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
+    pages.heading("In use");
+    pages.note(&format!("{}; a window of {}.", picture::situation(&subject.file), window(subject)));
+    let mut row = Vec::new();
+    for tile in [TileKind::Lid, TileKind::Room] {
+        let missing = match tile {
+            TileKind::Lid => subject.lid.is_none(),
+            _ => subject.room.is_none() || subject.scene.grid.is_none(),
+        };
+        if missing {
+            continue;
+        }
+        let mut drawing = Drawing::new(400.0, 430.0);
+        let frame = drawing.frame().inside([4.0; 4]);
+        let said = draw(&mut drawing, frame, subject, tile, inks)?;
+        row.push(Figure { drawing, caption: format!("{}: {said}", tile.title()) });
+    }
+    pages.pictures(&row, 260.0);
+    Ok(())
+}
+
+/// "3 × 1.8 m".
+fn window(subject: &Subject) -> String {
+    let [width, height] = subject.file.aperture[0].size;
+    format!("{} × {} m", tick(width), tick(height))
+}
+
+fn tender(pages: &mut Pages, template: &str, fields: &Fields) -> Result<(), ReportError> {
+    let lines = fill(template, fields)?;
+    if lines.iter().all(|line| line.trim().is_empty()) {
+        return Ok(());
+    }
+    pages.heading("Tender text");
+    for line in lines {
+        pages.paragraph(&line);
+    }
+    Ok(())
+}
+
+/// Where the data come from, and what the checks say of them.
+pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
+    pages.heading("Data");
+    let dataset = subject.dataset();
+    let mut list: Vec<(String, String)> = Vec::new();
+    let mut add = |name: &str, value: &str| {
+        if !value.is_empty() {
+            list.push((name.to_owned(), value.to_owned()));
+        }
+    };
+    match &subject.product {
+        Some(product) => {
+            let from = &product.provenance;
+            add("origin", from.origin.word());
+            add("method", &from.method);
+            add("by", &from.author);
+            add("date", &from.date);
+            add("file", &from.source_file);
+            add("BLAKE3 of the source", &from.source_hash);
+            add("face to the room", &from.inside_face);
+            add("key in the catalogue", &product.key);
+        }
+        None => add("origin", &Origin::words(subject)),
+    }
+    add("format", &dataset.format);
+    add("incident basis", &dataset.incident_basis);
+    add("emergent basis", &dataset.emergent_basis);
+    for link in links(subject) {
+        add("link", &link);
+    }
+    pages.figures(&list);
+    let findings: Vec<(Severity, String)> = match &subject.product {
+        Some(product) => {
+            let mut list: Vec<(Severity, String)> = Vec::new();
+            for finding in &product.findings {
+                let one = (finding.severity, finding.message.clone());
+                if !list.contains(&one) {
+                    list.push(one);
+                }
+            }
+            list
+        }
+        None => dataset.findings.iter().map(|finding| (finding.severity, finding.message.clone())).collect(),
+    };
+    if findings.is_empty() {
+        pages.paragraph("The checks of the data have nothing to say.");
+    }
+    for (severity, message) in findings {
+        pages.paragraph(&format!("{}: {message}", severity.word()));
+    }
+}
+
+/// Addresses that description and method name.
+fn links(subject: &Subject) -> Vec<String> {
+    let Some(product) = &subject.product else { return Vec::new() };
+    let words = product.description.split_whitespace().chain(product.provenance.method.split_whitespace());
+    let address = |word: &str| word.trim_matches(|c: char| "()<>,.;\"'".contains(c)).to_owned();
+    let mut list: Vec<String> =
+        words.map(address).filter(|word| word.starts_with("https://") || word.starts_with("http://")).collect();
+    list.dedup();
+    list
+}
+
+/// Flux and its error in words, for tables.
+pub(super) fn flux(subject: &Subject) -> Option<String> {
+    let (lid, _) = subject.lid.as_ref()?;
+    Some(format!("{} ± {}", si(lid.flux.value, "lm"), si(lid.flux.error, "lm")))
+}

@@ -1,0 +1,139 @@
+//! The size of a picture: pixels or millimetres.
+
+use super::error::ReportError;
+use crate::drawing::Drawing;
+use std::fmt;
+use std::str::FromStr;
+
+/// What sizes are counted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Unit {
+    /// Pixels.
+    #[default]
+    Pixels,
+    /// Millimetres on paper; as pixels 300 an inch.
+    Millimetres,
+}
+
+/// A picture's size.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Size {
+    /// To the right.
+    pub width: f64,
+    /// Down.
+    pub height: f64,
+    /// In which unit.
+    pub unit: Unit,
+}
+
+/// A drawing of this many units has letters of the usual size: larger pictures have larger letters. \[units²\]
+const USUAL: f64 = 800.0 * 600.0;
+/// Units a millimetre where letters have their usual size: text is 3.25 mm high.
+const FINE: f64 = 4.0;
+/// Pixels a millimetre: 300 an inch.
+const DOTS: f64 = 300.0 / 25.4;
+/// Fewer pixels hold no words.
+const LEAST: f64 = 240.0;
+/// More are no picture anybody opens.
+const MOST: f64 = 8000.0;
+
+impl Default for Size {
+    fn default() -> Self {
+        Self { width: 1600.0, height: 1200.0, unit: Unit::Pixels }
+    }
+}
+
+impl Size {
+    /// A size that a picture can have.
+    ///
+    /// # Errors
+    /// Too small for its words, or larger than any picture.
+    pub fn new(width: f64, height: f64, unit: Unit) -> Result<Self, ReportError> {
+        let size = Self { width, height, unit };
+        let wrong = |why| Err(ReportError::Size(size.to_string(), why));
+        let pixels = size.pixels();
+        if !pixels.iter().all(|side| *side >= LEAST) {
+            return wrong("too small for its words (240 pixels, 21 mm at least)");
+        }
+        if pixels.iter().any(|side| *side > MOST) {
+            return wrong("larger than 8000 pixels, 677 mm");
+        }
+        Ok(size)
+    }
+
+    /// Width and height of its pixels.
+    pub fn pixels(&self) -> [f64; 2] {
+        let dots = if self.unit == Unit::Pixels { 1.0 } else { DOTS };
+        [self.width * dots, self.height * dots]
+    }
+
+    /// How large a unit of the drawing is, in this size's unit.
+    fn scale(&self) -> f64 {
+        let usual = if self.unit == Unit::Pixels { 1.0 } else { 1.0 / FINE };
+        usual * (self.width * self.height / (USUAL * usual * usual)).sqrt().max(1.0)
+    }
+
+    /// Width and height of the drawing.
+    pub fn paper(&self) -> [f64; 2] {
+        let scale = self.scale();
+        [self.width / scale, self.height / scale]
+    }
+
+    /// A drawing of this size as SVG.
+    pub fn svg(&self, drawing: &Drawing) -> String {
+        drawing.svg((self.scale(), if self.unit == Unit::Pixels { "px" } else { "mm" }))
+    }
+
+    /// A drawing of this size as PNG.
+    ///
+    /// # Errors
+    /// The picture cannot be encoded.
+    pub fn png(&self, drawing: &Drawing) -> Result<Vec<u8>, image::ImageError> {
+        drawing.png(self.pixels()[0] / drawing.width)
+    }
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}{}", self.width, self.height, if self.unit == Unit::Pixels { "" } else { "mm" })
+    }
+}
+
+impl FromStr for Size {
+    type Err = ReportError;
+
+    fn from_str(text: &str) -> Result<Self, ReportError> {
+        let typed = text.trim();
+        let (numbers, unit) = match typed.strip_suffix("mm") {
+            Some(numbers) => (numbers, Unit::Millimetres),
+            None => (typed.strip_suffix("px").unwrap_or(typed), Unit::Pixels),
+        };
+        let parts = numbers.split_once(['x', '×']).and_then(|(width, height)| {
+            let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+            Some((number(width)?, number(height)?))
+        });
+        let (width, height) = parts.ok_or_else(|| ReportError::Size(text.to_owned(), "not two numbers"))?;
+        Self::new(width, height, unit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_read_in_pixels_and_millimetres() {
+        let size: Size = "1600x1200".parse().unwrap();
+        assert_eq!((size.paper(), size.pixels()), ([800.0, 600.0], [1600.0, 1200.0]));
+        let size: Size = " 160 × 120 mm".parse().unwrap();
+        assert_eq!((size.to_string(), size.paper()), ("160x120mm".to_owned(), [640.0, 480.0]));
+        let drawing = Drawing::new(640.0, 480.0);
+        assert!(size.svg(&drawing).contains("width=\"160mm\" height=\"120mm\""));
+        let png = image::load_from_memory(&size.png(&drawing).unwrap()).unwrap();
+        assert_eq!((png.width(), png.height()), (1890, 1417));
+        for wrong in ["", "1600", "ax3", "100x100", "9000x1000", "NaNx500", "-1600x1200", "10x10mm"] {
+            let error = wrong.parse::<Size>().unwrap_err().to_string();
+            assert!(error.contains("expected e.g. 1600x1200"), "{error}");
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Tables of words and figures, whose rows break within cells and between pages.
+
+use crate::drawing::Align;
+use crate::drawing::font::{width, wrapped};
+
+/// A column's head.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Words and unit.
+    pub head: String,
+    /// Figures stand at the right.
+    pub align: Align,
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// A text for each column; rows that are shorter have empty cells.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// With columns whose first holds words and whose others hold figures.
+    pub fn of<const N: usize>(heads: [&str; N]) -> Self {
+        let column = |(k, head): (usize, &str)| Column {
+            head: head.to_owned(),
+            align: if k == 0 { Align::Start } else { Align::End },
+        };
+        Self { columns: heads.into_iter().enumerate().map(column).collect(), rows: Vec::new() }
+    }
+
+    /// One more row.
+    pub fn row<const N: usize>(&mut self, cells: [String; N]) {
+        self.rows.push(cells.into());
+    }
+
+    /// Widths of the columns: as their texts need, the widest shortened until all fit, the rest shared out.
+    pub(super) fn widths(&self, size: f64, gap: f64, whole: f64) -> Vec<f64> {
+        let count = self.columns.len();
+        let room = (whole - gap * count.saturating_sub(1) as f64).max(1.0);
+        let natural = |k: usize| {
+            let cells = self.rows.iter().filter_map(|row| row.get(k));
+            cells.chain([&self.columns[k].head]).map(|text| width(text, size)).fold(8.0, f64::max) + 0.5
+        };
+        let mut widths: Vec<f64> = (0..count).map(natural).collect();
+        let sum: f64 = widths.iter().sum();
+        if sum <= room {
+            let more = (room - sum) / count.max(1) as f64;
+            return widths.into_iter().map(|width| width + more).collect();
+        }
+        // No column is wider than a limit, which is as large as fits.
+        let (mut low, mut high) = (0.0, room);
+        for _ in 0..50 {
+            let limit = 0.5 * (low + high);
+            if widths.iter().map(|width| width.min(limit)).sum::<f64>() <= room { low = limit } else { high = limit }
+        }
+        widths.iter_mut().for_each(|width| *width = width.min(low).max(1.0));
+        widths
+    }
+
+    /// The lines of a row's cells.
+    pub(super) fn lines(&self, row: &[String], size: f64, widths: &[f64]) -> Vec<Vec<String>> {
+        let empty = String::new();
+        let cell = |k: usize| wrapped(row.get(k).unwrap_or(&empty), size, widths[k]);
+        (0..self.columns.len()).map(cell).collect()
+    }
+
+    /// The heads' lines.
+    pub(super) fn head(&self, size: f64, widths: &[f64]) -> Vec<Vec<String>> {
+        self.columns.iter().zip(widths).map(|(column, width)| wrapped(&column.head, size, *width)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_fit_and_long_words_give_way() {
+        let mut table = Table::of(["state", "τ normal", "remark"]);
+        table.row(["45".to_owned(), "0.12".to_owned(), "a remark that goes on and on ".repeat(6)]);
+        let widths = table.widths(9.0, 10.0, 300.0);
+        assert!((widths.iter().sum::<f64>() + 20.0) <= 300.0 + 1e-6);
+        assert!(widths[0] >= width("state", 9.0) && widths[1] >= width("τ normal", 9.0));
+        assert!(table.lines(&table.rows[0], 9.0, &widths)[2].len() > 2);
+        // A narrow table fills the line.
+        let small = Table::of(["a", "b"]);
+        assert!((small.widths(9.0, 10.0, 300.0).iter().sum::<f64>() - 290.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,69 @@
+//! Tender texts: a template with named fields, filled with a product's figures.
+
+use super::ReportError;
+
+/// The template that is shipped, as a start for one's own.
+pub const TEMPLATE: &str = include_str!("../../assets/tender.txt");
+
+/// Names of fields and what stands for them; an empty text: not known.
+pub type Fields = [(&'static str, String)];
+
+/// The template's lines with their fields filled in. A line all of whose fields are unknown is left out; where only some
+/// are, `–` stands for them. Lines that begin with `#` are left out.
+///
+/// # Errors
+/// A field of another name, or a brace that is not closed.
+pub fn fill(template: &str, fields: &Fields) -> Result<Vec<String>, ReportError> {
+    let mut out = Vec::new();
+    for (number, line) in template.lines().enumerate() {
+        if line.starts_with('#') {
+            continue;
+        }
+        let wrong = |what: String| ReportError::Template(number + 1, what);
+        let (mut text, mut known, mut unknown) = (String::new(), 0, 0);
+        let mut rest = line;
+        while let Some((before, after)) = rest.split_once('{') {
+            let (name, behind) =
+                after.split_once('}').ok_or_else(|| wrong("a { without its }; expected {name}".to_owned()))?;
+            let names = || fields.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+            let (_, value) = fields
+                .iter()
+                .find(|(one, _)| *one == name)
+                .ok_or_else(|| wrong(format!("{{{name}}} is no field; fields are {}", names())))?;
+            text.push_str(before);
+            if value.is_empty() {
+                unknown += 1;
+                text.push('–');
+            } else {
+                known += 1;
+                text.push_str(value);
+            }
+            rest = behind;
+        }
+        text.push_str(rest);
+        if known > 0 || unknown == 0 {
+            out.push(text);
+        }
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_filled_and_lines_without_any_left_out() {
+        let fields = [("name", "Blind".to_owned()), ("maker", String::new()), ("view", "3 %".to_owned())];
+        let lines = fill("# x {nothing}\n{name}: {view}\nMaker: {maker}\nplain\n{view}, {maker}", &fields).unwrap();
+        assert_eq!(lines, ["Blind: 3 %", "plain", "3 %, –"]);
+    }
+
+    #[test]
+    fn what_is_no_field_is_told_with_its_line() {
+        let fields = [("name", String::new())];
+        let error = fill("a\n{nmae}", &fields).unwrap_err().to_string();
+        assert!(error.contains("line 2") && error.contains("{nmae}") && error.contains("fields are name"), "{error}");
+        assert!(fill("{name", &fields).unwrap_err().to_string().contains("without its }"));
+    }
+}

@@ -1,0 +1,140 @@
+//! The scene's date and time as people handle them: sliders, steps, words.
+
+use super::scene_file::{SceneFile, TimeKey};
+use super::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Dir, World};
+use jiff::civil::{Date, DateTime, Time};
+use jiff::{Span, ToSpan};
+
+/// The scene's local standard time; `None` when it is given by sun angles or is no time.
+pub fn of(scene: &SceneFile) -> Option<DateTime> {
+    parse_local_time(&scene.sky.time.as_ref()?.text()).ok()
+}
+
+/// Writes a moment into the scene, instead of sun angles.
+pub fn set(scene: &mut SceneFile, time: DateTime) {
+    scene.sky.time = Some(TimeKey::Text(time.strftime("%Y-%m-%dT%H:%M").to_string()));
+    scene.sky.sun.altitude = None;
+    scene.sky.sun.azimuth = None;
+}
+
+/// Moves the scene's moment; false where there is none or the calendar ends.
+pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
+    let span: Span = days.days().minutes(minutes);
+    let Some(moved) = of(scene).and_then(|time| time.checked_add(span).ok()) else { return false };
+    set(scene, moved);
+    true
+}
+
+/// The scene's place, if it is whole.
+pub fn place(scene: &SceneFile) -> Option<Place> {
+    let site = &scene.site;
+    Place::new(site.latitude?, site.longitude?, site.utc_offset?).ok()
+}
+
+/// Sunrise and sunset of the scene's day.
+pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
+    let time = of(scene)?;
+    rise_set(&place(scene)?, time.year(), time.month(), time.day()).ok()
+}
+
+/// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment.
+pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
+    match (of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
+        (Some(time), _, _) => {
+            sun_position(&place(scene)?, time).ok().map(|(altitude, bearing)| (altitude, bearing.degrees()))
+        }
+        (None, Some(altitude), Some(azimuth)) => Some((altitude.to_radians(), azimuth)),
+        _ => None,
+    }
+}
+
+/// Sets the date and leaves the clock; false where there is none.
+pub fn set_date(scene: &mut SceneFile, date: Date) -> bool {
+    let Some(now) = of(scene) else { return false };
+    set(scene, date.to_datetime(now.time()));
+    true
+}
+
+/// Sets the clock and leaves the date; false where there is none, or no such time.
+pub fn set_clock(scene: &mut SceneFile, hour: i8, minute: i8) -> bool {
+    let (Some(now), Ok(time)) = (of(scene), Time::new(hour, minute, 0, 0)) else { return false };
+    set(scene, now.date().to_datetime(time));
+    true
+}
+
+/// Moves the clock, and with `date` the date too, to where the sun comes nearest to a place in the sky \[rad\], in steps
+/// of 5 minutes; false without a place and a date to start from. The day stays else: on its path the sun above the
+/// horizon is looked for, where it rises. Of two days that fit, the one nearer to the present one.
+pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -> bool {
+    let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };
+    let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
+    let miss = |time: DateTime| {
+        sun_position(&place, time).map_or(f64::INFINITY, |(altitude, bearing)| {
+            // A sun below the horizon is the last choice.
+            let hidden = if altitude < 0.0 { 2.0 } else { 0.0 };
+            hidden + 1.0 - Dir::<World>::from_altitude_bearing(altitude, bearing).dot(aim)
+        })
+    };
+    let moved = |days: i32, minutes: i32| now.checked_add(days.days().minutes(minutes)).ok();
+    let start = 60 * i32::from(now.hour()) + i32::from(now.minute());
+    // In steps of 4 days and half hours first, then finer about the best; a day further away must be worth it.
+    let far = if date { 180 } else { 0 };
+    let mut best = (f64::INFINITY, now);
+    for days in (-far..=far).step_by(4) {
+        for minutes in (0..24 * 60).step_by(30) {
+            let Some(time) = moved(days, minutes - start) else { continue };
+            let cost = miss(time) + 1e-6 * f64::from(days.abs());
+            if time.year() == now.year() && cost < best.0 {
+                best = (cost, time);
+            }
+        }
+    }
+    let coarse = best.1;
+    let near = if date { 3 } else { 0 };
+    for days in -near..=near {
+        for minutes in (-30..=30).step_by(5) {
+            let Ok(time) = coarse.checked_add(days.days().minutes(minutes)) else { continue };
+            let cost = miss(time);
+            let stays = if date { time.year() == now.year() } else { time.date() == now.date() };
+            if stays && cost < best.0 {
+                best = (cost, time);
+            }
+        }
+    }
+    set(scene, best.1);
+    true
+}
+
+/// Is the sun at an altitude \[rad\] and a bearing \[°\] before a façade that faces another? \[°\]
+pub fn before_facade((altitude, bearing): (f64, f64), facade: f64) -> bool {
+    altitude > 0.0 && (bearing - facade).to_radians().cos() * altitude.cos() > 0.0
+}
+
+/// `14:05` of hours since midnight.
+pub fn clock(hours: f64) -> String {
+    let minutes = (hours * 60.0).round() as i64;
+    format!("{:02}:{:02}", minutes.div_euclid(60), minutes.rem_euclid(60))
+}
+
+/// `21 Mar 12:00`
+pub fn words(time: DateTime) -> String {
+    time.strftime("%-d %b %H:%M").to_string()
+}
+
+/// An altitude in degrees in words, with so many decimals: `41° high`, `15° below the horizon`.
+pub fn height_words(degrees: f64, decimals: usize) -> String {
+    let shown = format!("{:.decimals$}°", degrees.abs());
+    // What rounds to 0 is on the horizon, not under it.
+    if shown.chars().all(|c| !c.is_ascii_digit() || c == '0') {
+        return "on the horizon".to_owned();
+    }
+    if degrees < 0.0 { format!("{shown} below the horizon") } else { format!("{shown} high") }
+}
+
+/// A bearing in words: `south`, `south-west`.
+pub fn bearing_word(degrees: f64) -> &'static str {
+    const WORDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
+    WORDS[((degrees.rem_euclid(360.0) / 45.0).round() as usize) % 8]
+}

@@ -1,0 +1,201 @@
+//! What control does with a moving product: which rule, which state at which hour of today and of the year.
+//!
+//! Today and the year are told for a sun that shines: which hours it is before the façade, and which state it asks for.
+
+use super::StudyError;
+use super::control::year::{Moment, Moving, Setting, Situation, day, year as study_year};
+use super::control::{Device, curve, settings};
+use super::moment;
+use super::scene_file::{ControlKeys, ControlMode, SceneFile};
+use crate::catalogue::{FirstRule, Product, State};
+use crate::compute::direction::Surface;
+use crate::compute::estimate::Progress;
+use jiff::civil::Date;
+use std::path::{Path, PathBuf};
+
+/// Minutes between the hours of a year.
+const YEAR_STEP: u32 = 60;
+/// Minutes between the points of today.
+const DAY_STEP: u32 = 30;
+
+/// What people call a rule.
+pub struct Words {
+    /// In a list.
+    pub short: &'static str,
+    /// As what a product does.
+    pub does: &'static str,
+    /// As what it is told to do.
+    pub order: &'static str,
+    /// One sentence.
+    pub tip: &'static str,
+}
+
+/// What people call a rule.
+pub const fn words(mode: ControlMode) -> Words {
+    let (short, does, order, tip) = match mode {
+        ControlMode::Fixed => ("By hand", "fixed by hand", "by hand", "The state stays where [ and ] put it"),
+        ControlMode::Curve => (
+            "Curve",
+            "follows the curve",
+            "follow the curve",
+            "The state that a curve asks for at the sun's profile angle: the product's, or one edited in the tile",
+        ),
+        ControlMode::CutOff => (
+            "Cut-off",
+            "keeps the sun just out (cut-off)",
+            "keep the sun just out (cut-off)",
+            "The most open state that lets no direct sun through, the whole disc counted",
+        ),
+        ControlMode::Din5034 => (
+            "DIN 5034",
+            "closed in sun (DIN 5034)",
+            "closed in sun (DIN 5034)",
+            "The most closed state while the sun is on the façade, else the most open",
+        ),
+        ControlMode::RetroReflect => (
+            "Retro-reflect",
+            "throws the sun back",
+            "throw the sun back",
+            "Mirror slats stand across the beam: 90° − ψ, for the lower part of a window",
+        ),
+        ControlMode::Redirect => (
+            "Redirect",
+            "redirects the sun",
+            "redirect the sun",
+            "Mirror slats send the sun to the ceiling: half of (elevation − ψ), for the upper part of a window",
+        ),
+        ControlMode::User => (
+            "User",
+            "by the user's clock",
+            "by the user's clock",
+            "A state by hours of the day; the hours are set in the scene file",
+        ),
+    };
+    Words { short, does, order, tip }
+}
+
+/// A state in words: slat angles and other numbers as degrees, else as the product calls it.
+pub fn state_words(state: &State) -> String {
+    match state.value {
+        // A key that is the number: the format wrote an angle.
+        Some(value) if state.key.parse() == Ok(value) => format!("{value}°"),
+        _ if state.label.is_empty() => state.key.clone(),
+        _ => state.label.clone(),
+    }
+}
+
+/// The control of a product that was just chosen; `None`: by hand.
+pub fn first_keys(rule: FirstRule) -> Option<ControlKeys> {
+    let mode = match rule {
+        FirstRule::ByHand => return None,
+        FirstRule::Curve => ControlMode::Curve,
+        FirstRule::CutOff => ControlMode::CutOff,
+        FirstRule::Redirect => ControlMode::Redirect,
+    };
+    Some(ControlKeys::of(mode))
+}
+
+/// Place, façade and rule: all that a year of control hangs on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct YearKey {
+    /// Which product moves.
+    pub product: String,
+    /// By which rule; "fixed" with the state that is set by hand.
+    pub keys: ControlKeys,
+    situation: Situation,
+    surface: Surface,
+    base: PathBuf,
+}
+
+impl YearKey {
+    /// Of a scene in which one product moves by these keys, seen by an aperture of `surface`; `None` without place and
+    /// date.
+    pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, surface: Surface, base: PathBuf) -> Option<Self> {
+        moment::of(scene)?;
+        Some(Self { product: product.to_owned(), keys, situation: Situation::of(scene).ok()?, surface, base })
+    }
+
+    fn moving(&self, product: &Product) -> Result<Vec<Moving>, StudyError> {
+        let device = Device::of(product)?;
+        let section = device.section.clone();
+        Ok(vec![Moving { aperture: 1, surface: self.surface, device, keys: self.keys.clone(), section }])
+    }
+}
+
+/// A state for every hour of the year.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Year {
+    /// Of what.
+    pub key: YearKey,
+    /// Keys of the states, by rising value.
+    pub states: Vec<String>,
+    /// Day by day, the middle of each hour; `None` while the sun is not before the façade.
+    pub hours: Vec<Option<u16>>,
+    /// How often the device moves.
+    pub movements: usize,
+}
+
+/// Keys and numbers of the states, by rising value. Without numbers their order stands for them.
+pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
+    let number = |(i, state): (usize, &State)| (state.key.clone(), state.value.unwrap_or(i as f64));
+    let mut list: Vec<(String, f64)> = product.states.iter().enumerate().map(number).collect();
+    list.sort_by(|a, b| a.1.total_cmp(&b.1));
+    list
+}
+
+/// Profile angle \[°\] and place of the state among the ordered ones; `None` while the sun is not before the façade.
+fn seen(product: &Product, states: &[String], setting: &Setting) -> Option<(f64, u16)> {
+    let psi = setting.profile_angle?;
+    let key = &product.states[setting.state].key;
+    let index = states.iter().position(|state| state == key).unwrap_or(0);
+    Some((psi.to_degrees(), u16::try_from(index).unwrap_or(u16::MAX)))
+}
+
+fn ordered_keys(product: &Product) -> Vec<String> {
+    ordered_states(product).into_iter().map(|(state, _)| state).collect()
+}
+
+/// The year of a product. Called in a job.
+pub fn year(product: &Product, key: YearKey, progress: &dyn Progress) -> Result<Year, StudyError> {
+    let moving = key.moving(product)?;
+    let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &key.situation.sky, progress)?;
+    let states = ordered_keys(product);
+    let of = |moment: &Moment| seen(product, &states, &moment.settings[0]).map(|(_, index)| index);
+    let hours = moments.iter().map(of).collect();
+    let movements = moments.iter().filter(|moment| moment.settings[0].moved).count();
+    Ok(Year { key, states, hours, movements })
+}
+
+/// A point of today: hour, profile angle \[°\] and state, or neither while the sun is not before the façade.
+pub type TodayPoint = (f64, Option<(f64, u16)>);
+
+/// Every half hour of the scene's day.
+pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<TodayPoint>, StudyError> {
+    let Some(time) = moment::of(scene) else { return Ok(Vec::new()) };
+    let date: Date = time.date();
+    let moving = key.moving(product)?;
+    let moments = day(&key.situation, &key.base, &moving, date, DAY_STEP, &key.situation.sky)?;
+    let states = ordered_keys(product);
+    let hour = |step: usize| step as f64 * f64::from(DAY_STEP) / 60.0;
+    Ok(moments.iter().enumerate().map(|(k, moment)| (hour(k), seen(product, &states, &moment.settings[0]))).collect())
+}
+
+/// What a rule asks for at profile angles: points of its curve (profile angle \[°\], value); none for rules without one.
+pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
+    let device = Device::of(product)?;
+    if keys.mode == ControlMode::Curve {
+        return curve(keys, &device, base);
+    }
+    let settings = settings(keys, &device, base)?;
+    Ok(settings.curve().into_iter().map(|(psi, value)| [psi.to_degrees(), value.to_degrees()]).collect())
+}
+
+/// What the numbers of a product's states are.
+pub fn quantity(product: &Product) -> &'static str {
+    let numeric = product.states.iter().all(|state| state.value.is_some());
+    match (numeric, product.kind.as_str()) {
+        (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
+        (true, _) => "state / °",
+        (false, _) => "state",
+    }
+}

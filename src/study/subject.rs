@@ -1,0 +1,196 @@
+//! Everything that pictures and reports show of a scene, computed in one go by the calls that window and command line make.
+
+use super::error::StudyError;
+use super::facing::{sun_incident, surface};
+use super::incidence::Incidence;
+use super::product_control::{
+    TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year,
+};
+use super::scene::Scene;
+use super::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
+use super::session::{LidResult, RoomResult, Session};
+use super::system::SystemLibrary;
+use crate::catalogue::Product;
+use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::direction::Incident;
+use crate::compute::estimate::Progress;
+use crate::compute::lid::c_gamma::Peaks;
+use crate::compute::profile_angle::profile_angle;
+use std::path::Path;
+
+/// What is asked about.
+pub struct Asked<'a> {
+    /// The scene as typed.
+    pub file: &'a SceneFile,
+    /// What its relative paths start from.
+    pub base: &'a Path,
+    /// The incidence that was chosen; `None`: the sun's.
+    pub incident: Option<Incident>,
+    /// What of it.
+    pub wanted: Wanted,
+}
+
+/// Which parts are wanted; sky and system always are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted {
+    /// The luminous-intensity distribution with its peaks.
+    pub lid: bool,
+    /// Illuminances in the room.
+    pub room: bool,
+    /// What control does over day and year.
+    pub control: bool,
+}
+
+impl Wanted {
+    /// Everything.
+    pub const ALL: Self = Self { lid: true, room: true, control: true };
+    /// Sky and system alone.
+    pub const NOTHING: Self = Self { lid: false, room: false, control: false };
+}
+
+/// What control does with the first aperture's product.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Controlled {
+    /// By which rule.
+    pub mode: ControlMode,
+    /// Keys and numbers of the states, by rising number.
+    pub states: Vec<(String, f64)>,
+    /// What the numbers are, e.g. `slat angle / °`.
+    pub quantity: &'static str,
+    /// The rule: number over profile angle \[°\]; empty for rules without a curve.
+    pub curve: Vec<[f64; 2]>,
+    /// Every half hour of the scene's day; empty without place and date.
+    pub today: Vec<TodayPoint>,
+    /// Profile angle of the sun now \[°\]; `None` while it is not before the aperture.
+    pub profile_angle: Option<f64>,
+    /// Place of the present state.
+    pub current: usize,
+    /// The year; `None` without place and date.
+    pub year: Option<Year>,
+}
+
+/// A scene with its results.
+pub struct Subject {
+    /// The scene as typed.
+    pub file: SceneFile,
+    /// As meant.
+    pub scene: Scene,
+    /// The first aperture's product; `None` for files and ideal systems.
+    pub product: Option<Product>,
+    /// Product and state of the first aperture in words.
+    pub name: String,
+    /// Its state in words; empty without states.
+    pub state: String,
+    /// The incidence that pictures of the product speak of.
+    pub incidence: Incidence,
+    /// The sun, where it is before the aperture.
+    pub sun: Option<Incident>,
+    /// The first aperture as a luminaire, and its largest intensities.
+    pub lid: Option<(LidResult, Peaks)>,
+    /// The room.
+    pub room: Option<RoomResult>,
+    /// `None` where nothing moves, and where it was not wanted.
+    pub control: Option<Controlled>,
+}
+
+impl Subject {
+    /// Computes what is asked. `product` looks a product of the catalogue up by its key.
+    ///
+    /// # Errors
+    /// What the scene or its system lacks, or that the work was cancelled.
+    pub fn of(
+        asked: &Asked<'_>,
+        session: &Session,
+        library: &dyn SystemLibrary,
+        product: &dyn Fn(&str) -> Result<Product, StudyError>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        const STEPS: usize = 4;
+        let file = asked.file;
+        progress.advance("scene", 0, STEPS);
+        let scene = Scene::resolve(file, asked.base, library)?;
+        let Some(first) = scene.apertures.first() else {
+            return Err(StudyError::key("aperture", "the scene has none; expected at least one [[aperture]]"));
+        };
+        let product = match &file.aperture[0].system {
+            SystemKeys::Catalogue { key, .. } => Some(product(key)?),
+            _ => None,
+        };
+        let state = product
+            .as_ref()
+            .and_then(|product| product.states.iter().find(|one| one.key == first.system.state))
+            .map_or_else(|| first.system.state.clone(), state_words);
+        let label = &first.system.label;
+        // Described systems of files are called by their state already.
+        let told = state.is_empty() || (product.is_none() && label.ends_with(&format!(", {state}")));
+        let name = if told { label.clone() } else { format!("{label}, {state}") };
+        progress.advance("luminous intensities", 1, STEPS);
+        let lid = if asked.wanted.lid {
+            let result = session.lid(&scene, 0, progress)?;
+            let peaks = Peaks::of(&result.lid);
+            Some((result, peaks))
+        } else {
+            None
+        };
+        progress.advance("room", 2, STEPS);
+        let room = if asked.wanted.room { Some(session.room(&scene, progress)?) } else { None };
+        progress.advance("control", 3, STEPS);
+        let control = match &product {
+            Some(product) if asked.wanted.control && product.states.len() > 1 => {
+                Some(controlled(file, asked.base, product, &first.system.state, progress)?)
+            }
+            _ => None,
+        };
+        let (incidence, sun) = (Incidence::shown(asked.incident, file), sun_incident(file));
+        Ok(Self { file: file.clone(), product, name, state, incidence, sun, lid, room, control, scene })
+    }
+
+    /// Data of the first aperture's system.
+    pub fn dataset(&self) -> &Dataset {
+        &self.scene.apertures[0].system.dataset
+    }
+
+    /// Its transmission of light from outside; resolving a scene asks for it.
+    pub fn transmission(&self) -> Option<&Btdf> {
+        self.dataset().transmission()
+    }
+}
+
+fn controlled(
+    file: &SceneFile,
+    base: &Path,
+    product: &Product,
+    state: &str,
+    progress: &dyn Progress,
+) -> Result<Controlled, StudyError> {
+    use super::control::year::CONTROLLED;
+    let aperture = &file.aperture[0];
+    let moves = matches!(&aperture.system, SystemKeys::Catalogue { state: Some(word), .. } if word == CONTROLLED);
+    let rule = aperture.control.as_ref().or(file.control.as_ref()).filter(|_| moves);
+    let by_hand = || ControlKeys { state: Some(state.to_owned()), ..ControlKeys::of(ControlMode::Fixed) };
+    let keys = rule.cloned().unwrap_or_else(by_hand);
+    let states = ordered_states(product);
+    let curve = if keys.mode == ControlMode::Fixed {
+        // By hand, the product's own curve is shown for orientation.
+        product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect()
+    } else {
+        rule_curve(product, &keys, base)?
+    };
+    let mode = keys.mode;
+    let key = YearKey::new(file, &product.key, keys, surface(file), base.to_owned());
+    let today = match &key {
+        Some(key) => today(product, key, file)?,
+        None => Vec::new(),
+    };
+    let year = key.map(|key| year(product, key, progress)).transpose()?;
+    Ok(Controlled {
+        mode,
+        current: states.iter().position(|(key, _)| key == state).unwrap_or(0),
+        states,
+        quantity: quantity(product),
+        curve,
+        today,
+        profile_angle: sun_incident(file).and_then(|sun| profile_angle(sun.0)).map(f64::to_degrees),
+        year,
+    })
+}
