@@ -130,6 +130,7 @@ impl Order {
             states: product.states.iter().map(name).collect(),
             control_curve: product.control_curve.clone(),
             system: product.system.clone(),
+            ..NewProduct::default()
         };
         let mut catalogue = Catalogue::empty_in_memory()?;
         let imported = catalogue.import(&datasets, product)?;

@@ -126,6 +126,7 @@ mod tests {
             view: Some(0.0),
             favourite: false,
             builtin: false,
+            subscribed: String::new(),
         }
     }
 
