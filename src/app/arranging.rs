@@ -24,12 +24,15 @@ struct Part {
 
 /// The parts that names and contents propose. Files of the same data as one before them stand for themselves.
 fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -> Vec<Part> {
-    let mut first: HashMap<&str, usize> = HashMap::new();
+    let mut first: HashMap<(&str, Vec<&str>), usize> = HashMap::new();
     let mut own = Vec::new();
     let mut list = Vec::new();
     for &place in places {
-        let content = sources[place].content.as_str();
-        match first.get(content).filter(|_| !content.is_empty()) {
+        let file = &sources[place];
+        // What names its states itself may well have two of the same data.
+        let states: Vec<&str> = file.datasets.iter().map(|dataset| dataset.state.as_str()).collect();
+        let content = (file.content.as_str(), states);
+        match first.get(&content).filter(|_| !file.content.is_empty()) {
             Some(&other) => list.push(Part {
                 files: vec![place],
                 angles: None,

@@ -405,7 +405,7 @@ fn an_import_that_is_left_is_a_draft_after_a_restart_too_and_a_discarded_one_com
     harness.get_by_label("Keep as draft").click();
     settle(&mut harness);
     assert!(harness.state().state.import.is_none() && harness.state().state.drafts.len() == 1);
-    wait_for(folder.path(), "Three panels");
+    wait_for(folder.path(), "\"import\": null");
     let left = killed(folder.path());
     let mut next = window_in(left.path());
     apply(&mut next, Command::Sheet(Some(Sheet::Import)));
@@ -426,76 +426,6 @@ fn an_import_that_is_left_is_a_draft_after_a_restart_too_and_a_discarded_one_com
     open(&mut next, files.path());
     open(&mut next, &files.path().join("other.xml"));
     assert_eq!(next.state().state.drafts.len(), 1);
-}
-
-/// The product's sheet, by F2.
-fn edit(harness: &mut Harness<'_, App>, key: &str) {
-    apply(harness, Command::EditProduct(Some(key.to_owned())));
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Product));
-}
-
-#[test]
-fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_undone_and_written_down() {
-    let folder = tempfile::tempdir().unwrap();
-    for (file, tau) in [("ven0", 0.5), ("ven45", 0.2)] {
-        write(folder.path(), &format!("{file}.xml"), sheet("Venetian", tau));
-    }
-    let mut harness = window();
-    open(&mut harness, folder.path());
-    apply(&mut harness, Command::AddImport);
-    let shelf = harness.state().state.shelf().unwrap();
-    let tau = |place: usize| shelf.product("venetian").unwrap().states[place].tau_hemispherical.unwrap();
-    let near = |value: f64, wanted: f64| assert!((value - wanted).abs() < 0.005, "{value} {wanted}");
-    // Names and angles.
-    edit(&mut harness, "venetian");
-    harness.get_by_role_and_label(Role::TextInput, "Name of state 45").focus();
-    harness.run_steps(1);
-    harness.get_by_role_and_label(Role::TextInput, "Name of state 45").type_text("shut");
-    harness.run_steps(2);
-    harness.get_by_label("Save").click();
-    settle(&mut harness);
-    assert_eq!(shelf.product("venetian").unwrap().states[1].label, "shut");
-    apply(&mut harness, Command::Undo);
-    assert_eq!(shelf.product("venetian").unwrap().states[1].label, "45");
-    apply(&mut harness, Command::Redo);
-    // The same files, one of them written anew meanwhile: shown before it is taken.
-    edit(&mut harness, "venetian");
-    harness.get_by_label("Read its files again").click();
-    settle(&mut harness);
-    assert!(harness.query_by_label("Nothing has changed since they were read.").is_some());
-    write(folder.path(), "ven45.xml", sheet("Venetian", 0.1));
-    apply(&mut harness, Command::Sheet(None));
-    edit(&mut harness, "venetian");
-    harness.get_by_label("Read its files again").click();
-    settle(&mut harness);
-    near(tau(1), 0.2);
-    let told = harness.state().state.editing.as_ref().unwrap().reread.as_ref().unwrap().told.clone();
-    assert_eq!(told.len(), 1);
-    assert!(told[0].starts_with("ven45.xml: τ 0.2") && told[0].contains("becomes 0.1"), "{told:?}");
-    harness.get_by_label("Take the changes").click();
-    settle(&mut harness);
-    near(tau(1), 0.1);
-    apply(&mut harness, Command::Undo);
-    near(tau(1), 0.2);
-    // Another file in place of a state.
-    let other = write(folder.path(), "measured.xml", sheet("Measured", 0.44));
-    edit(&mut harness, "venetian");
-    harness.get_by_label("Replace state 0").click();
-    settle(&mut harness);
-    apply(&mut harness, Command::EditPath(other.display().to_string()));
-    harness.get_by_label("Replace").click();
-    settle(&mut harness);
-    near(tau(0), 0.44);
-    assert_eq!(shelf.product("venetian").unwrap().states[0].key, "0");
-    apply(&mut harness, Command::Undo);
-    near(tau(0), 0.5);
-    // The sheet says what happened.
-    edit(&mut harness, "venetian");
-    for words in ["added from ven0.xml, ven45.xml", "data of state 0 replaced by measured.xml"] {
-        let events = &harness.state().state.editing.as_ref().unwrap().looked.history;
-        assert!(events.iter().any(|event| event.what.contains(words)), "{words}: {events:?}");
-    }
-    assert!(harness.query_by_label("added from ven0.xml, ven45.xml").is_some());
 }
 
 #[test]

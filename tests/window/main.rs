@@ -14,6 +14,7 @@ mod goniophotometer_view;
 mod import_view;
 mod hand_on_view;
 mod legible;
+mod product_sheet;
 mod scene_panel;
 mod truth;
 mod views;

@@ -84,7 +84,7 @@ fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             ui.weak(format!("{} open: what they are about stays here.", plural(questions, "question")));
         }
         if wrong {
-            ui.weak("Something is missing: below, in red.");
+            ui.weak("What is in red below cannot be stored yet.");
         } else if import.wanted().next().is_none() && !import.products.is_empty() {
             ui.weak("All of it is in the catalogue already: below.");
         }

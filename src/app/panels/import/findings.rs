@@ -28,7 +28,7 @@ pub(super) fn worst(list: &[Diagnosis]) -> Option<Severity> {
 }
 
 /// What the doctor says about the selected dataset; asked once a dataset, not once a frame.
-pub(in crate::app::panels) fn of_selection(ui: &mut Ui, dataset: &Arc<Dataset>) {
+pub fn of_selection(ui: &mut Ui, dataset: &Arc<Dataset>) {
     type Examined = Arc<(usize, Vec<Diagnosis>)>;
     let (id, place) = (egui::Id::unique("examined"), Arc::as_ptr(dataset) as usize);
     let kept: Option<Examined> = ui.data(|data| data.get_temp(id));
