@@ -12,7 +12,7 @@ use crate::app::shelf::{Entry, Found, Query};
 use crate::app::state::{CatalogueState, State};
 use crate::app::views::states;
 use crate::app::{theme, title};
-use crate::catalogue::{Apart, Sort, moving_part};
+use crate::catalogue::{Sort, moving_part};
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::SystemKeys;
 use egui::{Align2, FontId, Key, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
@@ -199,8 +199,12 @@ fn row(
     let palette = theme::palette(ui);
     let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let like = found.like.as_ref().and_then(|like| Some((&like.name, like.apart.get(place)?)));
     let response = response.on_hover_ui(|ui| {
         ui.label(tip(entry));
+        if let Some((name, apart)) = like {
+            ui.label(format!("From {name}: {}", apart.words()));
+        }
     });
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, true, chosen, &entry.name));
@@ -227,8 +231,7 @@ fn row(
     let look = (FontId::proportional(13.5), palette.text);
     let name = names::layout(&painter, &entry.name, beside, look, width);
     // How far it is from what it should be like says more than its own figures.
-    let like = found.like.as_ref().and_then(|like| like.apart.get(place));
-    let words = like.map_or_else(|| figures(entry, sort), Apart::words);
+    let words = like.map_or_else(|| figures(entry, sort), |(_, apart)| apart.words());
     let words = theme::one_line(&painter, &words, FontId::proportional(13.0), palette.weak, width);
     // Both in the middle of the row, however many lines the name has.
     let top = rect.center().y - 0.5 * (name.size().y + 2.0 + words.size().y);

@@ -56,6 +56,7 @@ pub enum Action {
 pub struct State {
     /// Leave the sun's paths out.
     pub hide_paths: bool,
+    scale: Option<ColourScale>,
     max: Cache<u64, f64>,
     mesh: Cache<(u64, Disk, ColourScale), Arc<Mesh>>,
 }
@@ -123,7 +124,9 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
     // need an extent.
     let own = || ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
     let forced = |[lo, hi]: [f64; 2]| ColourScale { lo, hi, log: false, map: ColourMap::Sequential };
-    let scale = input.range.map_or_else(own, forced);
+    let held = state.scale.clone().filter(|_| input.status.hold_scale);
+    let scale = input.range.map(forced).or(held).unwrap_or_else(own);
+    state.scale = Some(scale.clone());
     let mesh =
         state.mesh.get((input.revision, disk, scale.clone()), || Arc::new(map_mesh(&disk, btdf, &basis, &scale)));
     ui.painter().add(Shape::Mesh(mesh.clone()));

@@ -1,6 +1,6 @@
 //! Each candidate less the base, with sign, all on one scale.
 
-use super::places::{missing, places};
+use super::places::{missing, places, short};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::paint::hemisphere::Side;
 use crate::app::paint::tile::Status;
@@ -46,13 +46,14 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
             true => "No transmission in the data.".to_owned(),
             false => missing(column),
         };
+        let title = short(&names[place], ((rect.width() - 60.0) / 9.0).max(4.0) as usize);
         let stale = column.state.dataset.stale || (tile == "Room" && column.results.room.stale);
         let results = column.revisions().into_iter().fold(0_u64, |all, one| all.rotate_left(16) ^ one);
         let incidence = column.incident().0.vector().to_array().into_iter();
         let input = difference::Input {
             picture: pictures[place].as_ref(),
             missing: &words,
-            title: &names[place],
+            title: &title,
             less: &less,
             scale: &scale,
             revision: incidence

@@ -29,11 +29,11 @@ pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
                 ui.colored_label(palette.error, format!("{name}: {error}"));
             }
         }
-        Grid::new("compared figures").striped(true).spacing([18.0, 6.0]).show(ui, |ui| {
+        Grid::new("compared figures").striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
             ui.label(RichText::new("Figure").strong());
             for name in &names {
                 ui.scope(|ui| {
-                    ui.set_max_width(170.0);
+                    ui.set_max_width(120.0);
                     ui.add(egui::Label::new(RichText::new(name).strong()).wrap());
                 });
             }

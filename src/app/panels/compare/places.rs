@@ -5,12 +5,16 @@ use crate::app::state::{State, Tile};
 use crate::app::tiles::TILES;
 use egui::{Rect, vec2};
 
-/// A name in at most so many letters.
+/// A name in at most so many letters: its beginning, which says what it is, and its end, which tells it from others.
 pub(super) fn short(name: &str, most: usize) -> String {
-    if name.chars().count() <= most {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= most {
         return name.to_owned();
     }
-    name.chars().take(most.saturating_sub(1)).collect::<String>().trim_end().to_owned() + "…"
+    let last = most.saturating_sub(1) / 2;
+    let first: String = letters[..most.saturating_sub(1 + last)].iter().collect();
+    let end: String = letters[letters.len() - last..].iter().collect();
+    format!("{}…{}", first.trim_end(), end.trim_start())
 }
 
 /// The tile that is compared.
@@ -59,6 +63,8 @@ mod tests {
 
     #[test]
     fn names_are_shortened_with_a_sign() {
-        assert_eq!((short("Venetian", 8), short("Venetian blind", 8)), ("Venetian".to_owned(), "Venetia…".to_owned()));
+        assert_eq!(short("Venetian", 8), "Venetian");
+        assert_eq!(short("Venetian blind, curve", 12), "Veneti…curve");
+        assert_eq!(short("Venetian", 1), "…");
     }
 }
