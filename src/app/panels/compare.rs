@@ -120,14 +120,15 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let whole = ui.available_rect_before_wrap();
     ui.painter().rect(whole, 6, palette.surface, egui::Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
-    let (bar, body) = whole.shrink2(vec2(8.0, 4.0)).split_top_bottom_at_y(whole.top() + 38.0);
-    let layout = Layout::left_to_right(Align::Center);
-    ui.scope_builder(UiBuilder::new().max_rect(bar).layout(layout), |ui| choices(ui, app, commands));
-    ui.scope_builder(UiBuilder::new().max_rect(body).id_salt("comparison"), |ui| match app.state.compare.look {
-        Look::Beside => beside::show(ui, app, commands),
-        Look::Difference => difference::show(ui, app),
-        Look::Curves => curves::show(ui, app),
-        Look::Figures => figures::show(ui, app, commands),
+    let builder = UiBuilder::new().max_rect(whole.shrink2(vec2(8.0, 6.0))).id_salt("comparison");
+    ui.scope_builder(builder, |ui| {
+        ui.horizontal_wrapped(|ui| choices(ui, app, commands));
+        match app.state.compare.look {
+            Look::Beside => beside::show(ui, app, commands),
+            Look::Difference => difference::show(ui, app),
+            Look::Curves => curves::show(ui, app),
+            Look::Figures => figures::show(ui, app, commands),
+        }
     });
 }
 
@@ -141,7 +142,6 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         }
     }
     if view.look != Look::Figures {
-        ui.separator();
         let combo = egui::ComboBox::from_id_salt("compared tile").width(110.0).selected_text(view.tile());
         let combo = combo.show_ui(ui, |ui| {
             for tile in TILES.iter().map(|entry| entry.tile.title) {
@@ -166,12 +166,10 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         });
         combo.response.on_hover_text("From which one the differences are taken").accessible_name("Base of differences");
     }
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        if ui.button("Close").on_hover_text("Back to the tiles").clicked() {
-            act(Act::Show);
-        }
-        if app.compare.stopped && ui.button("Go on").on_hover_text("Compute what is missing").clicked() {
-            act(Act::Resume);
-        }
-    });
+    if app.compare.stopped && ui.button("Go on").on_hover_text("Compute what is missing").clicked() {
+        act(Act::Resume);
+    }
+    if ui.button("Close").on_hover_text("Back to the tiles").clicked() {
+        act(Act::Show);
+    }
 }

@@ -307,7 +307,10 @@ mod tests {
     #[test]
     fn values_are_told_as_far_as_their_errors_reach() {
         let of = |value, error| Value { value, error }.words();
-        assert_eq!((of(0.41234, Some(0.003)), of(12_345.6, Some(123.0))), ("0.4123 ± 0.0030".into(), "12346 ± 123".into()));
+        assert_eq!(
+            (of(0.41234, Some(0.003)), of(12_345.6, Some(123.0))),
+            ("0.4123 ± 0.0030".into(), "12346 ± 123".into())
+        );
         assert_eq!((of(0.5, None), of(0.5, Some(0.0))), ("0.5000".to_owned(), "0.5000".to_owned()));
     }
 

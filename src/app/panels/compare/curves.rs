@@ -1,5 +1,6 @@
 //! Curves of all candidates in one plot, told apart by colour and dashes.
 
+use super::places::short;
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::control::rule_curve;
 use crate::app::paint::palette::Palette;
@@ -14,7 +15,12 @@ use egui::Ui;
 /// Draws the plots.
 pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let tile = app.state.compare.tile();
-    let names = app.compare.names();
+    let whole = ui.available_rect_before_wrap();
+    let wide = whole.width() > whole.height();
+    // Two plots side by side leave half of the width to the names.
+    let room = if wide && tile == "LID" { 0.5 * whole.width() } else { whole.width() };
+    let most = ((room - 70.0) / 8.0).max(8.0) as usize;
+    let names: Vec<String> = app.compare.names().iter().map(|name| short(name, most)).collect();
     // Rules are in the names of the scene's keys: with them the curves of control change.
     let rules = app.compare.list.iter().map(|column| format!("{:?}", column.state.control_keys()));
     let key = (app.compare.key(tile), 0, names.iter().cloned().chain(rules).collect());
@@ -34,8 +40,6 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     }
     let palette = Palette::of(ui.visuals());
     let colours: Vec<_> = palette.series.into_iter().chain([palette.ink]).collect();
-    let whole = ui.available_rect_before_wrap();
-    let wide = whole.width() > whole.height();
     let halves = if wide { whole.split_left_right_at_fraction(0.5) } else { whole.split_top_bottom_at_fraction(0.5) };
     let rects = if plots.len() > 1 { vec![halves.0, halves.1] } else { vec![whole] };
     let mut legend_of = None;

@@ -5,7 +5,7 @@ use crate::app::compare::Act;
 use crate::app::theme;
 use crate::app::window::App;
 use crate::study::comparison::{Row, Value, Verdict, verdict_words};
-use egui::{Grid, RichText, ScrollArea, Ui};
+use egui::{Grid, Label, RichText, ScrollArea, Ui};
 
 /// What the last column says.
 fn verdict(row: &Row, names: &[String]) -> String {
@@ -18,49 +18,81 @@ fn verdict(row: &Row, names: &[String]) -> String {
     }
 }
 
+/// A value as it stands in the table, marked where it is better.
+fn cell(ui: &mut Ui, row: &Row, place: usize, start: &str) {
+    let text = row.values[place].map_or_else(|| "–".to_owned(), Value::words);
+    if matches!(&row.verdict, Verdict::Better(list) if list.contains(&place)) {
+        let text = RichText::new(format!("▲ {start}{text}")).strong().color(theme::palette(ui).good);
+        ui.label(text).on_hover_text(format!("Better: {}", row.figure.sense.words()));
+    } else {
+        ui.label(format!("{start}{text}"));
+    }
+}
+
+/// Name and unit of a figure.
+fn heading(row: &Row) -> String {
+    let unit = if row.figure.unit.is_empty() { String::new() } else { format!(" / {}", row.figure.unit) };
+    format!("{}{unit}", row.figure.name)
+}
+
+/// A column a candidate.
+fn table(ui: &mut Ui, rows: &[Row], names: &[String]) {
+    Grid::new("compared figures").striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
+        ui.label(RichText::new("Figure").strong());
+        for name in names {
+            ui.scope(|ui| {
+                ui.set_max_width(COLUMN - 12.0);
+                ui.add(Label::new(RichText::new(name).strong()).wrap());
+            });
+        }
+        let tip = "Where the difference is larger than the errors together";
+        ui.label(RichText::new("Better").strong()).on_hover_text(tip);
+        ui.end_row();
+        for row in rows {
+            ui.label(heading(row)).on_hover_text(row.figure.tip);
+            (0..names.len()).for_each(|place| cell(ui, row, place, ""));
+            ui.label(RichText::new(verdict(row, names)).color(theme::palette(ui).weak));
+            ui.end_row();
+        }
+    });
+}
+
+/// Where there is no room for columns: a line a candidate under each figure.
+fn lines(ui: &mut Ui, rows: &[Row], names: &[String]) {
+    names.iter().for_each(|name| drop(ui.add(Label::new(RichText::new(name).strong()).wrap())));
+    for row in rows {
+        ui.add_space(6.0);
+        ui.label(RichText::new(heading(row)).strong()).on_hover_text(row.figure.tip);
+        for place in 0..names.len() {
+            cell(ui, row, place, &format!("{}: ", place + 1));
+        }
+        ui.label(RichText::new(verdict(row, names)).color(theme::palette(ui).weak));
+    }
+}
+
+/// Width of a candidate's column, and of the first and the last together. \[points\]
+const COLUMN: f32 = 134.0;
+const OUTER: f32 = 370.0;
+
 /// Draws the table.
 pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let rows = app.rows();
-    let names = app.compare.names();
+    let (rows, names) = (app.rows(), app.compare.names());
     let palette = theme::palette(ui);
-    ScrollArea::both().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
+    ScrollArea::vertical().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
         for (column, name) in app.compare.list.iter().zip(&names) {
             if let Some(error) = column.error() {
-                ui.colored_label(palette.error, format!("{name}: {error}"));
+                let text = RichText::new(format!("{name}: {error}")).color(palette.error);
+                ui.add(Label::new(text).wrap());
             }
         }
-        Grid::new("compared figures").striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
-            ui.label(RichText::new("Figure").strong());
-            for name in &names {
-                ui.scope(|ui| {
-                    ui.set_max_width(120.0);
-                    ui.add(egui::Label::new(RichText::new(name).strong()).wrap());
-                });
-            }
-            ui.label(RichText::new("Better").strong())
-                .on_hover_text("Where the difference is larger than the errors together");
-            ui.end_row();
-            for row in &rows {
-                let unit = if row.figure.unit.is_empty() { String::new() } else { format!(" / {}", row.figure.unit) };
-                ui.label(format!("{}{unit}", row.figure.name)).on_hover_text(row.figure.tip);
-                for (place, value) in row.values.iter().enumerate() {
-                    let better = matches!(&row.verdict, Verdict::Better(list) if list.contains(&place));
-                    let text = value.map_or_else(|| "–".to_owned(), Value::words);
-                    if better {
-                        let text = RichText::new(format!("▲ {text}")).strong().color(palette.good);
-                        let label = ui.label(text);
-                        label.on_hover_text(format!("Better: {}", row.figure.sense.words()));
-                    } else {
-                        ui.label(text);
-                    }
-                }
-                ui.label(RichText::new(verdict(row, &names)).color(palette.weak));
-                ui.end_row();
-            }
-        });
+        if ui.available_width() < OUTER + COLUMN * names.len() as f32 {
+            lines(ui, &rows, &names);
+        } else {
+            table(ui, &rows, &names);
+        }
         ui.add_space(6.0);
         let note = "Errors are those of computation and data that are stated; measured data state none.";
-        ui.label(RichText::new(note).color(palette.weak));
+        ui.add(Label::new(RichText::new(note).color(palette.weak)).wrap());
         if ui.button("Copy as CSV").on_hover_text("The table with all digits into the clipboard").clicked() {
             commands.push(Command::Compare(Act::Copy));
         }
