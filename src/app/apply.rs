@@ -87,6 +87,11 @@ impl App {
                 if lane == Lane::Import {
                     state.under_way = None;
                 }
+                if lane == Lane::Mend {
+                    for product in state.import.iter_mut().flat_map(|import| &mut import.products) {
+                        product.wished = None;
+                    }
+                }
                 if lane == Lane::Compare {
                     self.compare.stop();
                 }
@@ -103,7 +108,7 @@ impl App {
                     Lane::Builtin => "Stopped; the others are computed when they are chosen".to_owned(),
                     Lane::Product => "Stopped; choose another state or product".to_owned(),
                     Lane::Lid if !self.results.lid.stale => "Stopped; the LID's peak is not computed".to_owned(),
-                    Lane::Import | Lane::Export => format!("{} stopped", lane.word()),
+                    Lane::Import | Lane::Mend | Lane::Dialog | Lane::Export => format!("{} stopped", lane.word()),
                     _ => format!("{} stopped; what is shown is older than the scene", lane.word()),
                 };
                 // The job may have ended between the picture and the click: then nothing was lost, and nothing is said.
@@ -322,7 +327,8 @@ impl App {
             self.store(move |shelf| shelf.remove_all(&gone));
         }
         self.step_discarded(&before.discarded);
-        let back = after.iter().filter(|number| !before.additions.contains(number));
+        // What is still being stored since it was added is there again as soon as it is there.
+        let back = after.iter().filter(|number| !before.additions.contains(number) && !self.adding.contains(number));
         let back: Vec<_> = back.map(|&number| (number, self.state.additions[number].addition.clone())).collect();
         if !back.is_empty() {
             self.store_additions(back);

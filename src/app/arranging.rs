@@ -288,6 +288,6 @@ fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
 }
 
 /// Makes repairs on all states of a product and examines what comes of it.
-pub fn mend(number: usize, product: &Proposed) -> Outcome {
-    Outcome::Mended(repaired(product).map(|product| (number, Box::new(product))))
+pub fn mend(product: &Proposed) -> Outcome {
+    Outcome::Mended(product.files.clone(), repaired(product).map(Box::new))
 }

@@ -85,6 +85,8 @@ pub struct Proposed {
     pub diagnoses: Vec<Vec<Diagnosis>>,
     /// Repairs made, in order; recorded when the product is stored.
     pub repairs: Vec<Repair>,
+    /// Repairs that are being made in place of these.
+    pub wished: Option<Vec<Repair>>,
     /// Fields for the user to fill in.
     pub fields: ImportFields,
     /// What else the files tell: provenance, description, control curve, key.
@@ -137,7 +139,7 @@ impl Proposed {
 
     /// Will it be stored when the import is added?
     pub fn ready(&self) -> bool {
-        self.wanted() && self.doubt.is_none() && self.problem().is_none()
+        self.wanted() && self.doubt.is_none() && self.wished.is_none() && self.problem().is_none()
     }
 
     /// What is stored.
@@ -312,7 +314,7 @@ impl KeptProduct {
             files: product.files.clone(),
             fields: product.fields.clone(),
             states: product.states.clone(),
-            repairs: product.repairs.iter().map(ToString::to_string).collect(),
+            repairs: product.wished.as_ref().unwrap_or(&product.repairs).iter().map(ToString::to_string).collect(),
             add_anyway: product.add_anyway,
         }
     }

@@ -42,9 +42,19 @@ impl App {
 
     /// Reads what was asked for before the catalogue was open.
     pub(super) fn start_waiting_files(&mut self) {
-        for (paths, grouping, kept) in std::mem::take(&mut self.waiting_files) {
-            self.read_again(paths, grouping, kept);
+        let (kept, new): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.waiting_files).into_iter().partition(|(.., kept)| kept.is_some());
+        let new: Vec<PathBuf> = new.into_iter().flat_map(|(paths, ..)| paths).collect();
+        for (paths, grouping, kept) in kept {
+            if new.is_empty() {
+                self.read_again(paths, grouping, kept);
+            } else {
+                // One is read at a time: what was open before waits.
+                self.state.under_way = None;
+                self.state.drafts.extend(kept);
+            }
         }
+        self.read_paths(new);
     }
 
     /// Shows what was read; what was there before of other files becomes a draft.
@@ -53,6 +63,7 @@ impl App {
         self.keep_draft_of(|old| old.paths != import.paths);
         self.state.import = Some(import);
         self.state.sheet = Some(Sheet::Import);
+        self.mend_next();
     }
 
     /// Puts the import that is open among the drafts, if it holds something.
@@ -136,20 +147,43 @@ impl App {
         self.state.import.as_mut()?.products.get_mut(number)
     }
 
-    /// What was read with other repairs, made and examined in the background.
+    /// What was read with other repairs, made and examined in the background; until then it is not stored.
     pub(super) fn repair_import(&mut self, number: usize, change: impl FnOnce(&mut Vec<Repair>)) {
-        let Some(mut product) = self.proposed(number).cloned() else { return };
-        change(&mut product.repairs);
-        self.start(Lane::Import, move |_| mend(number, &product));
+        if let Some(product) = self.proposed(number) {
+            change(product.wished.get_or_insert_with(|| product.repairs.clone()));
+            self.mend_next();
+        }
+    }
+
+    /// One product after the other.
+    fn mend_next(&mut self) {
+        let import = self.state.import.as_ref().filter(|_| !self.jobs.busy(Lane::Mend));
+        let Some(product) = import.and_then(|import| import.products.iter().find(|one| one.wished.is_some())) else {
+            return;
+        };
+        let repairs = product.wished.clone().unwrap_or_default();
+        let product = Proposed { repairs, ..product.clone() };
+        self.start(Lane::Mend, move |_| mend(&product));
     }
 
     /// Takes the repaired data in; words that were typed meanwhile stay.
-    pub(super) fn take_mended(&mut self, number: usize, mended: Proposed) {
-        let same = |product: &&mut Proposed| product.files == mended.files;
-        if let Some(product) = self.proposed(number).filter(same) {
-            (product.datasets, product.diagnoses, product.repairs) =
-                (mended.datasets, mended.diagnoses, mended.repairs);
+    pub(super) fn take_mended(&mut self, files: &[String], mended: Result<Box<Proposed>, AppError>) {
+        let products = self.state.import.iter_mut().flat_map(|import| &mut import.products);
+        if let Some(product) = products.into_iter().find(|product| product.files == files) {
+            match mended {
+                Ok(mended) => {
+                    // Another one may have been wished since: it is made next.
+                    product.wished.take_if(|wished| *wished == mended.repairs);
+                    (product.datasets, product.diagnoses, product.repairs) =
+                        (mended.datasets, mended.diagnoses, mended.repairs);
+                }
+                Err(error) => {
+                    product.wished = None;
+                    self.tell(&error);
+                }
+            }
         }
+        self.mend_next();
     }
 
     /// Stores all products that are wanted and about which nothing is open, as one step. The others stay in the sheet.
@@ -192,6 +226,7 @@ impl App {
 
     /// None of the additions could be stored: what they came from is open again.
     pub(super) fn take_not_added(&mut self, numbers: &[usize], error: &AppError) {
+        self.adding.retain(|number| !numbers.contains(number));
         self.state.document.additions.retain(|other| !numbers.contains(other));
         if let Some(import) = self.state.storing.take() {
             self.state.import = Some(import);

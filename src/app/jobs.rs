@@ -23,6 +23,10 @@ pub enum Lane {
     Catalogue,
     /// Reading files that the user opened.
     Import,
+    /// Repairs of what was read.
+    Mend,
+    /// Asking the desktop for paths.
+    Dialog,
     /// Writing into the catalogue.
     Store,
     /// Reading folders of packages that are subscribed to.
@@ -57,6 +61,8 @@ impl Lane {
         match self {
             Self::Catalogue => "catalogue",
             Self::Import => "reading files",
+            Self::Mend => "repairing",
+            Self::Dialog => "file dialog",
             Self::Store => "storing",
             Self::Subscribed => "subscribed folders",
             Self::Scene => "sky and system",

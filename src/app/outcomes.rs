@@ -72,6 +72,7 @@ impl App {
 
     /// Stores additions of this session: all, or none.
     pub(super) fn store_additions(&mut self, additions: Vec<(usize, Addition)>) {
+        self.adding.extend(additions.iter().map(|(number, _)| *number));
         self.queue(move |shelf| {
             let (numbers, additions): (Vec<_>, Vec<_>) = additions.into_iter().unzip();
             let look = |one: Stored| Ok((one.new, shelf.product(&one.imported.key)?));
@@ -180,10 +181,7 @@ impl App {
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
             Outcome::Read(import) => self.take_import(*import),
-            Outcome::Mended(Ok((number, mended))) => self.take_mended(number, *mended),
-            Outcome::Mended(Err(error)) => {
-                self.toasts.error(error.to_string());
-            }
+            Outcome::Mended(files, mended) => self.take_mended(&files, mended),
             Outcome::ReadScene(path, Ok(scene)) => {
                 self.undoer.add_undo(&self.state.document);
                 self.state.document.scene = *scene;
@@ -257,6 +255,7 @@ impl App {
     }
 
     fn take_added(&mut self, numbers: &[usize], products: Vec<(bool, Arc<Product>)>) {
+        self.adding.retain(|number| !numbers.contains(number));
         (self.state.under_way, self.state.storing) = (None, None);
         let (mut added, mut there, mut undone) = (Vec::new(), 0, Vec::new());
         for (&number, (new, product)) in numbers.iter().zip(products) {

@@ -56,7 +56,9 @@ fn read_single(single: Single, path: &Path) -> Outcome {
 /// added; other files are told.
 pub fn read_files(asked: &Asked, progress: &dyn Progress) -> Outcome {
     let taken = take_in(&asked.paths, asked.read, progress);
-    let mut list: Vec<Outcome> = taken.singles.iter().map(|(single, path)| read_single(*single, path)).collect();
+    // Taken up again, what is opened by itself is open already: reading it once more would take back what was changed since.
+    let singles = taken.singles.iter().filter(|_| asked.kept.is_none());
+    let mut list: Vec<Outcome> = singles.map(|(single, path)| read_single(*single, path)).collect();
     let by_hand = asked.kept.as_ref().and_then(|kept| kept.by_hand.clone());
     let answered = asked.kept.as_ref().map(|kept| kept.answered.clone()).unwrap_or_default();
     let mut import = Import {

@@ -19,7 +19,7 @@ use super::work::{Outcome, ReadDataset};
 use crate::catalogue::{Grouping, SourceFile};
 use crate::study::Library;
 use egui::util::undoer::Undoer;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -55,6 +55,8 @@ pub struct App {
     /// Some built-in products wait for their data.
     pub(super) fill_due: bool,
     pub(super) fill_failures: usize,
+    /// Additions that are being stored.
+    pub(super) adding: BTreeSet<usize>,
     pub(super) undoer: Undoer<Document>,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
@@ -100,6 +102,7 @@ impl App {
             pending_changes: VecDeque::new(),
             fill_due: false,
             fill_failures: 0,
+            adding: BTreeSet::new(),
             asked: None,
             asked_year: None,
             asked_peaks: None,

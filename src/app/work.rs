@@ -67,9 +67,9 @@ pub enum Outcome {
     Read(Box<Import>),
     /// Several at once, in order.
     Several(Vec<Outcome>),
-    /// A product that was read (its number from 0), with repairs: its datasets, what is said about them, and the
-    /// repairs; or why not.
-    Mended(Result<(usize, Box<Proposed>), AppError>),
+    /// A product that was read, known by its files, with the repairs that were wished: its datasets, what is said about
+    /// them, and the repairs; or why not.
+    Mended(Vec<String>, Result<Box<Proposed>, AppError>),
     /// A system file was read: its text and folder.
     ReadSystem(Result<(String, PathBuf), AppError>),
     /// A state of a system was measured; the keys of all.

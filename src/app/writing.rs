@@ -16,7 +16,7 @@ impl App {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
         let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Import, move |_| Outcome::Chosen(dialogs.open()));
+        self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open()));
     }
 
     /// Asks for a folder: the path field at once, the desktop's dialog beside it.
@@ -24,7 +24,7 @@ impl App {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
         let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Import, move |_| Outcome::Chosen(dialogs.open_folder()));
+        self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open_folder()));
     }
 
     pub(super) fn ask_target(&mut self, what: PathUse) {
@@ -33,7 +33,7 @@ impl App {
         self.state.replace = None;
         self.state.sheet = Some(Sheet::Path(what));
         let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Export, move |_| Outcome::Target(what, dialogs.save(what, &start)));
+        self.start(Lane::Dialog, move |_| Outcome::Target(what, dialogs.save(what, &start)));
     }
 
     /// Writes where nothing is yet; else the sheet asks.

@@ -63,24 +63,24 @@ fn state(ui: &mut Ui, (number, place): Row, product: &Proposed, commands: &mut V
             picture(ui, btdf, &text);
         }
     }
+    let repairs = product.wished.as_ref().unwrap_or(&product.repairs);
     let turn = Repair::whole(RepairKind::TurnUpsideDown);
     ui.horizontal_wrapped(|ui| {
         let tip = "Up and down exchanged in all states of this product; the picture shows what comes of it";
         if ui.button("Turn upside down").on_hover_text(tip).clicked() {
-            commands.push(match product.repairs.last() == Some(&turn) {
+            commands.push(match repairs.last() == Some(&turn) {
                 true => Command::UndoRepair(number),
                 false => Command::Repair(number, turn),
             });
         }
-        if !product.repairs.is_empty()
-            && ui.button("Undo the repair").on_hover_text("Take the last repair back").clicked()
-        {
+        if !repairs.is_empty() && ui.button("Undo the repair").on_hover_text("Take the last repair back").clicked() {
             commands.push(Command::UndoRepair(number));
         }
     });
-    if !product.repairs.is_empty() {
-        let words: Vec<String> = product.repairs.iter().map(|repair| repair.label()).collect();
-        ui.add(egui::Label::new(format!("Repaired: {}", words.join("; "))).wrap());
+    if !repairs.is_empty() {
+        let words: Vec<String> = repairs.iter().map(|repair| repair.label()).collect();
+        let how = if product.wished.is_some() { "Repairing" } else { "Repaired" };
+        ui.add(egui::Label::new(format!("{how}: {}", words.join("; "))).wrap());
     }
     ui.add_space(6.0);
     let found = product.diagnoses.get(place).map_or(&[][..], Vec::as_slice);
@@ -88,7 +88,7 @@ fn state(ui: &mut Ui, (number, place): Row, product: &Proposed, commands: &mut V
     let title = if found.is_empty() { "No findings".to_owned() } else { format!("Findings: {}", counts(found)) };
     egui::CollapsingHeader::new(title).id_salt(("findings", number, place)).default_open(grave).show(ui, |ui| {
         let mut asked = None;
-        diagnoses(ui, found, &product.repairs, |repair| asked = Some(repair));
+        diagnoses(ui, found, repairs, |repair| asked = Some(repair));
         commands.extend(asked.map(|repair| Command::Repair(number, repair)));
     });
 }
