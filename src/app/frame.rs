@@ -33,6 +33,7 @@ impl App {
             self.apply(Command::OpenPaths(dropped));
         }
         self.refresh();
+        self.ask_due();
         self.ask_peaks();
         self.fill_catalogue();
         let dragging = ctx.input(|input| input.pointer.any_down());

@@ -4,6 +4,9 @@
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
 pub mod apply;
+pub mod arrange;
+mod arranging;
+mod asking;
 pub mod at_work;
 pub mod autosave;
 pub mod backend;
@@ -13,6 +16,7 @@ pub mod command;
 pub mod control;
 pub mod dialogs;
 pub mod disk;
+mod due;
 pub mod engine;
 pub mod error;
 pub mod examples;
@@ -35,6 +39,7 @@ pub mod paint;
 pub mod panels;
 pub mod reading;
 pub mod restoring;
+pub mod room_look;
 pub mod scene;
 pub mod session;
 pub mod shelf;

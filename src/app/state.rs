@@ -2,10 +2,11 @@
 
 use super::changes::{Change, Editing};
 use super::control::{Year, YearKey};
-use super::engine::{LidFigures, RoomFigures};
+use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::import::{Import, KeptImport};
+use super::room_look::RoomLook;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
@@ -66,11 +67,23 @@ pub struct Settings {
     pub last_scene: Option<String>,
     /// The folder that was written to or read from last.
     pub folder: Option<PathBuf>,
+    /// Where the tiles stand; `None`: as at a first start.
+    pub layout: Option<String>,
+    /// How the room is drawn.
+    pub room: RoomLook,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { theme: ThemeChoice::System, catalogue_open: true, scene_open: true, last_scene: None, folder: None }
+        Self {
+            theme: ThemeChoice::System,
+            catalogue_open: true,
+            scene_open: true,
+            last_scene: None,
+            folder: None,
+            layout: None,
+            room: RoomLook::default(),
+        }
     }
 }
 
@@ -131,6 +144,8 @@ pub struct Results {
     pub peaks: Option<(Arc<LidFigures>, Peaks)>,
     /// The room.
     pub room: Shown<RoomFigures>,
+    /// The room's surfaces; asked for only while they are drawn.
+    pub surfaces: Shown<SurfaceFigures>,
     /// What control does over the year.
     pub year: Shown<Year>,
     /// Error against run time, of the scene that it was asked for.

@@ -4,6 +4,7 @@ use super::autosave::Autosave;
 use super::backend;
 use super::control::YearKey;
 use super::dialogs::{FileDialogs, NoDialogs};
+use super::due::Due;
 use super::engine::{Engine, LidFigures};
 use super::error::AppError;
 use super::export::Exports;
@@ -58,6 +59,7 @@ pub struct App {
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
+    pub(super) due: Due,
     pub(super) export: Exports,
     /// What it says.
     pub toasts: Messages,
@@ -100,6 +102,7 @@ impl App {
             asked: None,
             asked_year: None,
             asked_peaks: None,
+            due: Due::default(),
             export: Exports::default(),
             toasts: Messages::default(),
             waiting_files: Vec::new(),

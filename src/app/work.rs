@@ -2,7 +2,7 @@
 
 use super::control::Year;
 use super::disk::write_whole;
-use super::engine::{Engine, LidFigures, RoomFigures};
+use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
 use super::facing::surface_of;
 use super::goniophotometer::Finished;
@@ -52,6 +52,8 @@ pub enum Outcome {
     Peaks(Arc<LidFigures>, Peaks),
     /// The room.
     Room(Result<RoomFigures, AppError>),
+    /// The room's surfaces.
+    Surfaces(Result<SurfaceFigures, AppError>),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
     /// Files that the user chose.

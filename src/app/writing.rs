@@ -109,13 +109,6 @@ impl App {
         self.bring_up(tile);
     }
 
-    /// A hidden tile is not drawn and so knows nothing.
-    fn bring_up(&mut self, tile: Tile) {
-        if self.state.maximised.is_some_and(|shown| shown != tile) {
-            self.state.maximised = Some(tile);
-        }
-    }
-
     /// Writes what tiles and screen gave since the last frame.
     pub(super) fn write_exports(&mut self) {
         if self.jobs.busy(Lane::Export) {

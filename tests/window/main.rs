@@ -3,6 +3,8 @@
 mod accuracy_view;
 mod app;
 mod app_engine;
+mod arranging;
+mod bodies;
 mod catalogue_panel;
 #[path = "../common/mod.rs"]
 mod common;
@@ -11,6 +13,7 @@ mod driven;
 mod files_view;
 mod goniophotometer_view;
 mod legible;
+mod room_view;
 mod scene_panel;
 mod truth;
 mod views;

@@ -1,0 +1,133 @@
+//! Arranging the tiles: what menus, palette and keys ask for.
+
+use super::arrange::{Arrange, Way};
+use super::state::Tile;
+use super::tiles::{Layout, all, preset};
+use super::window::App;
+use egui::{Pos2, Rect};
+
+/// The nearest of some rectangles on one side of another: the one across from its middle first.
+fn beside(places: &[(Tile, Rect)], from: Tile, way: Way) -> Option<Tile> {
+    let own = places.iter().find(|(tile, _)| *tile == from)?.1;
+    let gap = |rect: &Rect| match way {
+        Way::Left => own.left() - rect.right(),
+        Way::Right => rect.left() - own.right(),
+        Way::Up => own.top() - rect.bottom(),
+        Way::Down => rect.top() - own.bottom(),
+    };
+    let aside = |rect: &Rect| {
+        let nearest: Pos2 = rect.clamp(own.center());
+        match way {
+            Way::Left | Way::Right => (nearest.y - own.center().y).abs(),
+            Way::Up | Way::Down => (nearest.x - own.center().x).abs(),
+        }
+    };
+    // Borders touch or leave a gap; rounding may let them overlap a little.
+    let there = places.iter().filter(|(tile, rect)| *tile != from && gap(rect) > -4.0);
+    let nearest = there.min_by(|(_, a), (_, b)| (gap(a) + aside(a)).total_cmp(&(gap(b) + aside(b))));
+    nearest.map(|(tile, _)| *tile)
+}
+
+impl App {
+    /// Arranges the tiles.
+    pub(super) fn arrange(&mut self, what: Arrange) {
+        let state = &mut self.state;
+        if let Arrange::Preset(ready) = what {
+            state.maximised = None;
+            state.settings.layout = (ready != super::arrange::Preset::All).then(|| preset(ready, &all()).text());
+            return;
+        }
+        let bench = &mut self.bench;
+        let mut layout = bench.layout();
+        let in_sight = layout.in_sight();
+        if !in_sight.contains(&bench.in_hand) {
+            bench.in_hand = in_sight.first().copied().unwrap_or(bench.in_hand);
+        }
+        let own = bench.in_hand;
+        let number = in_sight.iter().position(|tile| *tile == own).unwrap_or(0) as i32;
+        let next = |step: i32| in_sight[(number + step).rem_euclid(in_sight.len() as i32) as usize];
+        let mut nothing = None;
+        let changed = match what {
+            Arrange::Preset(_) => None,
+            Arrange::Focus(step) => {
+                // One that fills the bench gives way to the next.
+                bench.in_hand = next(step);
+                state.maximised = state.maximised.map(|_| bench.in_hand);
+                None
+            }
+            Arrange::FocusOn(way) => {
+                bench.in_hand = beside(&bench.places, own, way).unwrap_or(own);
+                None
+            }
+            Arrange::Tab(step) => match layout.next_tab(own, step) {
+                Some(tile) => {
+                    bench.in_hand = tile;
+                    Some(layout)
+                }
+                None => {
+                    nothing = Some("is no tab: put it to others first (Join tabs)");
+                    None
+                }
+            },
+            Arrange::Move(way) => {
+                let other = beside(&bench.places, own, way);
+                nothing = other.is_none().then_some("has no tile on that side");
+                other.map(|other| layout.swapped(own, other))
+            }
+            Arrange::Join => Some(layout.joined(own, next(1))),
+            Arrange::Split => {
+                let split = layout.clone().split(own);
+                nothing = (split == layout).then_some("is no tab");
+                Some(split)
+            }
+            Arrange::Width(more) | Arrange::Height(more) => {
+                let wide = matches!(what, Arrange::Width(_));
+                let done = layout.resize(own, wide, more);
+                nothing = (!done).then_some(if wide { "shares no width" } else { "shares no height" });
+                Some(layout)
+            }
+        };
+        bench.to_focus = true;
+        if let Some(words) = nothing {
+            self.toasts.info(format!("{} {words}", own.title));
+        } else if let Some(layout) = changed {
+            self.keep_layout(&layout);
+        }
+    }
+
+    /// Remembers where the tiles stand; the bench follows with the next frame.
+    fn keep_layout(&mut self, layout: &Layout) {
+        self.state.settings.layout = Some(layout.text());
+    }
+
+    /// Brings a tile into sight: a hidden one is not drawn and so knows nothing.
+    pub(super) fn bring_up(&mut self, tile: Tile) {
+        if self.state.maximised.is_some_and(|shown| shown != tile) {
+            self.state.maximised = Some(tile);
+        }
+        let mut layout = self.bench.layout();
+        if self.state.maximised.is_none() && layout.reveal(tile) {
+            self.keep_layout(&layout);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    #[test]
+    fn the_tile_beside_is_the_one_across() {
+        let tile = |title| Tile { title, help: "" };
+        let [a, b, c] = ["a", "b", "c"].map(tile);
+        let at = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
+        // a over the whole height at the left, b over c at the right.
+        let places = [(a, at(0.0, 0.0, 50.0, 100.0)), (b, at(56.0, 0.0, 50.0, 30.0)), (c, at(56.0, 36.0, 50.0, 64.0))];
+        assert_eq!(beside(&places, a, Way::Right), Some(c));
+        assert_eq!(beside(&places, b, Way::Left), Some(a));
+        assert_eq!(beside(&places, b, Way::Down), Some(c));
+        assert_eq!(beside(&places, c, Way::Up), Some(b));
+        assert_eq!(beside(&places, a, Way::Left), None);
+    }
+}
