@@ -1,6 +1,6 @@
 //! A thing in space that is turned by hand: where its points are on the screen.
 
-use egui::{EventFilter, Key, Pos2, Rect, Response, Ui, Vec2, pos2};
+use egui::{Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Ui, Vec2, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -74,6 +74,19 @@ impl Camera {
             near: NEAR * radius,
         }
     }
+}
+
+/// Words over a point, on a ground, kept inside an area.
+pub fn words(painter: &Painter, area: Rect, at: Pos2, text: &str, [colour, ground]: [Color32; 2]) {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), colour);
+    let size = galley.size();
+    let room = area.shrink(4.0);
+    if size.x > room.width() || size.y > room.height() {
+        return;
+    }
+    let place = Align2::CENTER_BOTTOM.anchor_size(at, size).min.clamp(room.min, room.max - size);
+    painter.rect_filled(Rect::from_min_size(place, size).expand(2.0), 3, ground);
+    painter.galley(place, galley, colour);
 }
 
 /// A camera that stands.

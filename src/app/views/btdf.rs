@@ -204,7 +204,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
 }
 
 fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
-    let [outside, inside] = places(rect);
+    let [outside, inside] = places(rect, state.leaving != Leaving::Disk);
     let incident = incident_side(ui, &outside, btdf, input, state, out);
     let emergent = emergent_side(ui, &inside, btdf, input, state);
     emergent.or(incident).unwrap_or_else(|| selection_text(btdf, &input.incidence))
@@ -246,8 +246,8 @@ fn incident_side(
     } else {
         outline_all(ui, &disk, projection, &cells.basis, &palette);
     }
-    let from = match place.legend {
-        None if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
+    let from = match (place.legend, place.corner) {
+        (None, Some(_)) if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
         _ => "where light comes from".to_owned(),
     };
     frame(ui, place, projection, ["outside", &from], &palette);

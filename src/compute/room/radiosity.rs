@@ -336,8 +336,8 @@ mod tests {
             falling += patch.area * (e - e0);
             leaving += patch.area * b;
         }
-        // All that leaves a surface falls on one.
-        assert!((falling / leaving - 1.0).abs() < 1e-9, "{falling} {leaving}");
+        // All that leaves a surface falls on one; black patches know the first light by its means over coarse ones.
+        assert!((falling / leaving - 1.0).abs() < 1e-3, "{falling} {leaving}");
     }
 
     #[test]

@@ -3,14 +3,14 @@
 use super::place::Place;
 use super::words::{drawn, leaving_text};
 use crate::app::paint::body::Body;
-use crate::app::paint::camera::{Camera, View};
+use crate::app::paint::camera::{Camera, View, words};
 use crate::app::paint::colour_scale::ColourScale;
 use crate::app::paint::palette::Palette;
 use crate::app::paint::tile::{self, Foot};
 use crate::app::views::Cache;
 use crate::compute::btdf::Indicatrix;
 use crate::compute::direction::{Dir, Facade, Incident, Surface};
-use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2};
+use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -91,7 +91,7 @@ fn axes(painter: &Painter, view: &View, palette: &Palette) {
     for (end, word) in [(DVec3::Z, "up"), (DVec3::Y, "into the room")] {
         if let (Some((from, _)), Some((to, _))) = (view.screen(DVec3::ZERO), view.screen(1.12 * end)) {
             painter.line_segment([from, to], Stroke::new(1.0, palette.weak));
-            painter.text(to, Align2::CENTER_BOTTOM, word, FontId::proportional(13.0), palette.weak);
+            words(painter, painter.clip_rect(), to, word, [palette.weak, egui::Color32::TRANSPARENT]);
         }
     }
 }
@@ -100,11 +100,7 @@ fn axes(painter: &Painter, view: &View, palette: &Palette) {
 pub(super) fn show(ui: &mut Ui, place: &Place, input: &Input<'_>, state: &mut State) -> (Option<Foot>, Option<f64>) {
     let palette = Palette::of(ui.visuals());
     let bottom = place.legend.map_or(place.rect.bottom(), |legend| legend.top());
-    // On a diagonal of two disks the body has the place of its disk.
-    let rect = match place.corner {
-        Some(_) => Rect::from_center_size(place.disk.centre, egui::Vec2::splat(2.0 * place.disk.radius)),
-        None => Rect::from_min_max(place.rect.min, pos2(place.rect.right(), bottom)),
-    };
+    let rect = Rect::from_min_max(place.rect.min, pos2(place.rect.right(), bottom));
     let response = ui.interact(rect, ui.scope_id().with("lobe"), Sense::click_and_drag());
     if response.clicked() {
         response.request_focus();
@@ -129,8 +125,8 @@ pub(super) fn show(ui: &mut Ui, place: &Place, input: &Input<'_>, state: &mut St
     let largest = input.indicatrix.basis.cells().zip(&input.indicatrix.q);
     let largest = largest.map(|(cell, q)| drawn(*q, &cell, input.weighted)).fold(0.0, f64::max);
     let what = if input.weighted { "q·cosθ" } else { "q" };
-    let words = format!("largest {what} {} 1/sr", crate::drawing::ticks::number(largest, 3));
-    tile::name(ui, &response, "Emergent body", &words);
+    let told = format!("largest {what} {} 1/sr", crate::drawing::ticks::number(largest, 3));
+    tile::name(ui, &response, "Emergent body", &told);
     let hovered = response.hover_pos().filter(|_| !response.dragged());
     let Some(index) = hovered.and_then(|at| body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)) else {
         return (None, None);

@@ -20,7 +20,9 @@ pub(super) struct Place {
 
 /// The incident and the emergent hemisphere: side by side in a wide tile, else on a diagonal, where two disks of one
 /// tile are largest and the free corners hold the captions.
-pub(super) fn places(rect: Rect) -> [Place; 2] {
+///
+/// `stacked`: what leaves is no disk, and stands below the other in a narrow tile.
+pub(super) fn places(rect: Rect, stacked: bool) -> [Place; 2] {
     if rect.width() > 1.6 * rect.height() || rect.width() > 440.0 {
         let (left, right) = rect.split_left_right_at_fraction(0.5);
         return [left, right].map(|rect| {
@@ -28,6 +30,15 @@ pub(super) fn places(rect: Rect) -> [Place; 2] {
             let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
             Place { rect, disk, legend: Some(legend), corner: None }
         });
+    }
+    if stacked {
+        let (upper, lower) = rect.split_top_bottom_at_fraction(0.42);
+        let legend = Rect::from_min_max(pos2(lower.left() + 2.0, lower.bottom() - LEGEND_HEIGHT), lower.max);
+        let above = Rect::from_min_max(lower.min, pos2(lower.right(), legend.top()));
+        return [
+            Place { rect: upper, disk: Disk::within(upper), legend: None, corner: None },
+            Place { rect: lower, disk: Disk::within(above), legend: Some(legend), corner: None },
+        ];
     }
     const UP: f32 = 16.0;
     const GAP: f32 = 8.0;

@@ -2,14 +2,14 @@
 
 use super::scaling::{Scaling, intensity, towards};
 use crate::app::paint::body::Body;
-use crate::app::paint::camera::Camera;
+use crate::app::paint::camera::{Camera, words};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Foot};
 use crate::app::views::Cache;
 use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
-use egui::{Align2, FontId, Rect, Sense, Shape, Stroke, Ui};
+use egui::{Rect, Sense, Shape, Stroke, Ui};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -86,11 +86,10 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
     let view = state.camera.view(DVec3::ZERO, 1.15, rect);
     let painter = ui.painter_at(rect);
     let (body, largest) = state.body.get(input.revision, || make(lid));
-    let font = FontId::proportional(13.0);
     let ray = |to: DVec3, stroke: Stroke, word: &str, colour| {
         if let (Some((from, _)), Some((end, _))) = (view.screen(DVec3::ZERO), view.screen(to)) {
             painter.line_segment([from, end], stroke);
-            painter.text(end, Align2::CENTER_BOTTOM, word, font.clone(), colour);
+            words(&painter, rect, end, word, [colour, palette.face.gamma_multiply(0.7)]);
         }
     };
     // The aperture's plane, and what is what in the room.
@@ -111,16 +110,16 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
         }
     }
     let aim = Aim::of(lid.surface);
-    let mut words = format!("largest intensity drawn {}", input.scaling.text(*largest));
+    let mut said = format!("largest intensity drawn {}", input.scaling.text(*largest));
     if let Some(peak) = input.peaks.and_then(|peaks| peaks.scattered).filter(|_| *largest > 0.0) {
         let to = aim.direction(peak.c, peak.gamma);
         let told = format!("peak {}", input.scaling.text(peak.intensity));
-        words = format!("{told} to {}", towards(lid.surface, to));
+        said = format!("{told} to {}", towards(lid.surface, to));
         // The file's mean over its step may be less than the largest value drawn.
         let length = 1.05 * (peak.intensity / *largest).clamp(1.0, 1.1);
         ray(length * into_room(lid.surface, to), Stroke::new(2.0, palette.second), &told, palette.ink);
     }
-    tile::name(ui, &response, "LID body", &words);
+    tile::name(ui, &response, "LID body", &said);
     let at = response.hover_pos().filter(|_| !response.dragged())?;
     let node = body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)?;
     let (place, _) = view.screen(body.point(node)?)?;

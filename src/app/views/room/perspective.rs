@@ -5,7 +5,7 @@
 
 use super::input::Input;
 use super::lit::{self, Piece};
-use crate::app::paint::camera::{Camera, View};
+use crate::app::paint::camera::{Camera, View, words};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Foot};
@@ -13,7 +13,7 @@ use crate::app::views::Cache;
 use crate::compute::direction::Surface;
 use crate::drawing::ticks::{number, si};
 use crate::study::SurfaceLight;
-use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Color32, Mesh, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -140,7 +140,6 @@ fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
             line(painter, view, [from, to], Stroke::new(1.0, palette.outline));
         }
     }
-    let font = FontId::proportional(13.0);
     for (axis, other) in [(0, 1), (1, 0)] {
         // Along the edge of the floor that is nearer to the eye.
         let mut at = DVec3::ZERO;
@@ -157,7 +156,7 @@ fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
             if metre == last
                 && let Some((place, _)) = view.screen(beyond)
             {
-                painter.text(place, Align2::CENTER_CENTER, format!("{metre} m"), font.clone(), palette.ink);
+                words(painter, painter.clip_rect(), place + vec2(0.0, 8.0), &format!("{metre} m"), [palette.ink, Color32::TRANSPARENT]);
             }
         }
     }
@@ -220,7 +219,8 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     else {
         return;
     };
-    let colour = palette.ink.gamma_multiply(0.75);
+    // Orange is in neither the colours of the scale nor the greys.
+    let colour = palette.second;
     let mut mesh = Mesh::default();
     for (l, r) in left.iter().zip(&right) {
         mesh.colored_vertex(*l, colour);
@@ -233,8 +233,7 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     painter.add(Shape::mesh(mesh));
     if let (Some(head), Some(top)) = (at(0.0, PERSON - 0.12), at(0.0, PERSON)) {
         painter.circle_filled(head, head.distance(top), colour);
-        let text = format!("{PERSON:.2} m");
-        painter.text(top - vec2(0.0, 2.0), Align2::CENTER_BOTTOM, text, FontId::proportional(13.0), palette.ink);
+        words(painter, painter.clip_rect(), top - vec2(0.0, 2.0), &format!("{PERSON:.2} m"), [Color32::WHITE, Color32::from_black_alpha(170)]);
     }
 }
 
