@@ -55,6 +55,9 @@ impl App {
             }
             Command::EditPalette(text) => state.palette = Some(text),
             Command::Maximise(tile) => state.maximised = tile,
+            Command::Arrange(what) => self.arrange(what),
+            Command::RoomLook(look) => state.settings.room = look,
+            Command::RoomView(view) => state.settings.room.view = view,
             Command::Hour(hours) => {
                 // A sun that is given by angles has no clock: the key does nothing then.
                 moment::step(&mut state.document.scene, 0, 60 * hours);
@@ -99,6 +102,7 @@ impl App {
                     // They wait for the same data, and would compute them themselves.
                     self.jobs.cancel(Lane::Lid);
                     self.jobs.cancel(Lane::Room);
+                    self.jobs.cancel(Lane::Surfaces);
                     self.stop_computing();
                 }
                 let told = match lane {

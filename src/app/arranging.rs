@@ -1,293 +1,133 @@
-//! From files that were read to the products of the import sheet, and from one arrangement of them to another.
+//! Arranging the tiles: what menus, palette and keys ask for.
 
-use super::error::AppError;
-use super::import::{Import, ImportFields, KeptImport, Proposed, StateWords, file_id};
-use super::shelf::Shelf;
-use super::work::Outcome;
-use crate::catalogue::{Doubt, Gathered, Grouping, Known, NewProduct, SourceFile, content_of, gathered, propose};
-use crate::compute::btdf::Dataset;
-use crate::compute::doctor::{examine, repaired_all};
-use crate::compute::estimate::Progress;
-use rayon::prelude::*;
-use std::collections::HashMap;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use super::arrange::{Arrange, Way};
+use super::state::Tile;
+use super::tiles::{Layout, all, preset};
+use super::window::App;
+use egui::{Pos2, Rect};
 
-/// Files of one product, by their places.
-struct Part {
-    files: Vec<usize>,
-    angles: Option<Vec<f64>>,
-    doubt: Option<Doubt>,
-    /// The file that holds the same data.
-    same_as: Option<String>,
-}
-
-/// The parts that names and contents propose. Files of the same data as one before them stand for themselves.
-fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -> Vec<Part> {
-    let mut first: HashMap<(&str, Vec<&str>), usize> = HashMap::new();
-    let mut own = Vec::new();
-    let mut list = Vec::new();
-    for &place in places {
-        let file = &sources[place];
-        // What names its states itself may well have two of the same data.
-        let states: Vec<&str> = file.datasets.iter().map(|dataset| dataset.state.as_str()).collect();
-        let content = (file.content.as_str(), states);
-        match first.get(&content).filter(|_| !file.content.is_empty()) {
-            Some(&other) => list.push(Part {
-                files: vec![place],
-                angles: None,
-                doubt: None,
-                same_as: Some(sources[other].name.clone()),
-            }),
-            None => {
-                first.insert(content, place);
-                own.push(place);
-            }
-        }
-    }
-    let files: Vec<&SourceFile> = own.iter().map(|&place| &*sources[place]).collect();
-    list.extend(propose(&files, grouping).into_iter().map(|one| Part {
-        files: one.files.into_iter().map(|place| own[place]).collect(),
-        angles: one.angles,
-        doubt: one.doubt,
-        same_as: None,
-    }));
-    list
-}
-
-/// Which files make a product together.
-fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<String>]>) -> Vec<Part> {
-    let Some(by_hand) = by_hand else {
-        return proposed(sources, &(0..sources.len()).collect::<Vec<_>>(), grouping);
+/// The nearest of some rectangles on one side of another: the one across from its middle first.
+fn beside(places: &[(Tile, Rect)], from: Tile, way: Way) -> Option<Tile> {
+    let own = places.iter().find(|(tile, _)| *tile == from)?.1;
+    let gap = |rect: &Rect| match way {
+        Way::Left => own.left() - rect.right(),
+        Way::Right => rect.left() - own.right(),
+        Way::Up => own.top() - rect.bottom(),
+        Way::Down => rect.top() - own.bottom(),
     };
-    let places: HashMap<String, usize> =
-        sources.iter().enumerate().map(|(place, file)| (file_id(file), place)).collect();
-    let mut taken = vec![false; sources.len()];
-    let mut list = Vec::new();
-    // What would be asked without the hand is still asked of products that it did not touch.
-    let mut untouched = proposed(sources, &(0..sources.len()).collect::<Vec<_>>(), grouping);
-    for group in by_hand {
-        // What is not there any more is left out; it was told when it could not be read.
-        let files: Vec<usize> =
-            group.iter().filter_map(|id| places.get(id).copied()).filter(|&at| !taken[at]).collect();
-        files.iter().for_each(|&place| taken[place] = true);
-        let own: Vec<&SourceFile> = files.iter().map(|&place| &*sources[place]).collect();
-        list.extend(propose(&own, Grouping::One).into_iter().map(|one| Part {
-            files: one.files.iter().map(|&place| files[place]).collect(),
-            // A single file names its state itself, if it does.
-            angles: one.angles.filter(|_| files.len() > 1),
-            doubt: None,
-            same_as: None,
-        }));
-        let same = |one: &Part| one.files == files;
-        if let (Some(own), Some(last)) = (untouched.iter().position(same), list.last_mut()) {
-            *last = untouched.swap_remove(own);
+    let aside = |rect: &Rect| {
+        let nearest: Pos2 = rect.clamp(own.center());
+        match way {
+            Way::Left | Way::Right => (nearest.y - own.center().y).abs(),
+            Way::Up | Way::Down => (nearest.x - own.center().x).abs(),
         }
-    }
-    let rest: Vec<usize> = (0..sources.len()).filter(|&place| !taken[place]).collect();
-    list.extend(proposed(sources, &rest, grouping));
-    list
+    };
+    // Borders touch or leave a gap; rounding may let them overlap a little.
+    let there = places.iter().filter(|(tile, rect)| *tile != from && gap(rect) > -4.0);
+    let nearest = there.min_by(|(_, a), (_, b)| (gap(a) + aside(a)).total_cmp(&(gap(b) + aside(b))));
+    nearest.map(|(tile, _)| *tile)
 }
 
-/// What products are to be made of, and what is known of them from before.
-pub struct Arranging<'a> {
-    /// Where the same content may be already; `None` before the catalogue is open.
-    pub shelf: Option<&'a dyn Shelf>,
-    /// Products as they were arranged before; those of the same files stay as they are.
-    pub before: Vec<Proposed>,
-    /// What was typed and tried on the same files.
-    pub kept: Option<&'a KeptImport>,
-}
-
-impl Arranging<'_> {
-    /// Makes the products of an import from its files; `packed`: products that come out of packages.
-    pub fn products(mut self, import: &mut Import, packed: Vec<Proposed>, progress: &dyn Progress) {
-        let parts = parts(&import.sources, import.grouping, import.by_hand.as_deref());
-        let mut list: Vec<(usize, Proposed)> = Vec::new();
-        let (count, done) = (parts.len(), AtomicUsize::new(0));
-        let mut fresh = Vec::new();
-        for part in parts {
-            let place = part.files.iter().min().copied().unwrap_or(0);
-            let ids: Vec<String> = part.files.iter().map(|&place| file_id(&import.sources[place])).collect();
-            match self.before.iter().position(|old| !old.packed && old.files == ids) {
-                // The question may be another one in another company.
-                Some(old) => {
-                    let old = self.before.swap_remove(old);
-                    list.push((place, Proposed { doubt: part.doubt, same_as: part.same_as, ..old }));
+impl App {
+    /// Arranges the tiles.
+    pub(super) fn arrange(&mut self, what: Arrange) {
+        let state = &mut self.state;
+        if let Arrange::Preset(ready) = what {
+            state.maximised = None;
+            state.settings.layout = (ready != super::arrange::Preset::All).then(|| preset(ready, &all()).text());
+            return;
+        }
+        let bench = &mut self.bench;
+        let mut layout = bench.layout();
+        let in_sight = layout.in_sight();
+        if !in_sight.contains(&bench.in_hand) {
+            bench.in_hand = in_sight.first().copied().unwrap_or(bench.in_hand);
+        }
+        let own = bench.in_hand;
+        let number = in_sight.iter().position(|tile| *tile == own).unwrap_or(0) as i32;
+        let next = |step: i32| in_sight[(number + step).rem_euclid(in_sight.len() as i32) as usize];
+        let mut nothing = None;
+        let changed = match what {
+            Arrange::Preset(_) => None,
+            Arrange::Focus(step) => {
+                // One that fills the bench gives way to the next.
+                bench.in_hand = next(step);
+                state.maximised = state.maximised.map(|_| bench.in_hand);
+                None
+            }
+            Arrange::FocusOn(way) => {
+                bench.in_hand = beside(&bench.places, own, way).unwrap_or(own);
+                None
+            }
+            Arrange::Tab(step) => match layout.next_tab(own, step) {
+                Some(tile) => {
+                    bench.in_hand = tile;
+                    Some(layout)
                 }
-                None => fresh.push((place, ids, part)),
-            }
-        }
-        let sources = &import.sources;
-        let made: Vec<(usize, Proposed)> = fresh
-            .into_par_iter()
-            .map(|(place, ids, part)| {
-                let files: Vec<&SourceFile> = part.files.iter().map(|&place| &*sources[place]).collect();
-                let product = of_files(&files, ids, part);
-                progress.advance("checks", done.fetch_add(1, Ordering::Relaxed) + 1, count);
-                (place, product)
-            })
-            .collect();
-        let mut failures = Vec::new();
-        for (place, mut product) in made {
-            self.take_kept(&mut product, &mut failures);
-            list.push((place, product));
-        }
-        list.sort_by_key(|(place, _)| *place);
-        import.products = list.into_iter().map(|(_, product)| product).collect();
-        for mut product in packed {
-            self.take_kept(&mut product, &mut failures);
-            import.products.push(product);
-        }
-        import.failures.extend(failures);
-        for product in &mut import.products {
-            // A catalogue that does not answer keeps nobody from adding: it will say so itself.
-            product.known = self.shelf.map(|shelf| known(product, shelf)).unwrap_or_default();
-            if product.files.iter().any(|file| import.answered.contains(file)) {
-                product.doubt = None;
-            }
-        }
-    }
-
-    /// Gives a product what was typed and tried on the same files before.
-    fn take_kept(&self, product: &mut Proposed, failures: &mut Vec<String>) {
-        self.carry_over(product);
-        if let Some(kept) = self.kept.and_then(|kept| kept.products.iter().find(|kept| kept.is_about(product))) {
-            product.fields = kept.fields.clone();
-            product.add_anyway = kept.add_anyway;
-            if kept.states.len() == product.states.len() {
-                product.states.clone_from(&kept.states);
-            }
-            product.repairs = kept.made();
-            if !product.repairs.is_empty() {
-                match repaired(product) {
-                    Ok(whole) => *product = whole,
-                    Err(error) => {
-                        product.repairs.clear();
-                        failures.push(error.to_string());
-                    }
+                None => {
+                    nothing = Some("is no tab: put it to others first (Join tabs)");
+                    None
                 }
+            },
+            Arrange::Move(way) => {
+                let other = beside(&bench.places, own, way);
+                nothing = other.is_none().then_some("has no tile on that side");
+                other.map(|other| layout.swapped(own, other))
             }
-        }
-    }
-}
-
-impl Arranging<'_> {
-    /// Gives a product what was typed about its files while they made other products: names and angles of states, maker,
-    /// kind, tags and author. Its name is that of its own files.
-    fn carry_over(&self, product: &mut Proposed) {
-        let holding = |file: &String| self.before.iter().find(|old| !old.packed && old.files.contains(file));
-        if let Some(old) = product.files.first().and_then(holding) {
-            let (new, old) = (&mut product.fields, &old.fields);
-            new.manufacturer.clone_from(&old.manufacturer);
-            new.kind.clone_from(&old.kind);
-            new.tags.clone_from(&old.tags);
-            new.author.clone_from(&old.author);
-        }
-        for (words, part) in product.states.iter_mut().zip(&product.parts) {
-            let [file] = part.as_slice() else { continue };
-            let Some(old) = holding(&product.files[*file]) else { continue };
-            let place = old.files.iter().position(|other| *other == product.files[*file]);
-            let state =
-                old.parts.iter().position(|part| Some(part.as_slice()) == place.as_ref().map(std::slice::from_ref));
-            if let Some(state) = state
-                && old.states[state] != StateWords::of(&old.originals[state].state)
-            {
-                words.clone_from(&old.states[state]);
+            Arrange::Join => Some(layout.joined(own, next(1))),
+            Arrange::Split => {
+                let split = layout.clone().split(own);
+                nothing = (split == layout).then_some("is no tab");
+                Some(split)
             }
+            Arrange::Width(more) | Arrange::Height(more) => {
+                let wide = matches!(what, Arrange::Width(_));
+                let done = layout.resize(own, wide, more);
+                nothing = (!done).then_some(if wide { "shares no width" } else { "shares no height" });
+                Some(layout)
+            }
+        };
+        bench.to_focus = true;
+        if let Some(words) = nothing {
+            self.toasts.info(format!("{} {words}", own.title));
+        } else if let Some(layout) = changed {
+            self.keep_layout(&layout);
+        }
+    }
+
+    /// Remembers where the tiles stand; the bench follows with the next frame.
+    fn keep_layout(&mut self, layout: &Layout) {
+        self.state.settings.layout = Some(layout.text());
+    }
+
+    /// Brings a tile into sight: a hidden one is not drawn and so knows nothing.
+    pub(super) fn bring_up(&mut self, tile: Tile) {
+        if self.state.maximised.is_some_and(|shown| shown != tile) {
+            self.state.maximised = Some(tile);
+        }
+        let mut layout = self.bench.layout();
+        if self.state.maximised.is_none() && layout.reveal(tile) {
+            self.keep_layout(&layout);
         }
     }
 }
 
-/// Products of the catalogue that hold all data of this one.
-fn known(product: &Proposed, shelf: &dyn Shelf) -> Vec<Known> {
-    let mut list = shelf.products_from(&product.told.provenance.source_hash).unwrap_or_default();
-    let mut holding: Option<Vec<Known>> = None;
-    for content in &product.contents {
-        let these = shelf.products_holding(content).unwrap_or_default();
-        holding = Some(match holding {
-            None => these,
-            Some(before) => before.into_iter().filter(|one| these.contains(one)).collect(),
-        });
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    #[test]
+    fn the_tile_beside_is_the_one_across() {
+        let tile = |title| Tile { title, help: "" };
+        let [a, b, c] = ["a", "b", "c"].map(tile);
+        let at = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
+        // a over the whole height at the left, b over c at the right.
+        let places = [(a, at(0.0, 0.0, 50.0, 100.0)), (b, at(56.0, 0.0, 50.0, 30.0)), (c, at(56.0, 36.0, 50.0, 64.0))];
+        assert_eq!(beside(&places, a, Way::Right), Some(c));
+        assert_eq!(beside(&places, b, Way::Left), Some(a));
+        assert_eq!(beside(&places, b, Way::Down), Some(c));
+        assert_eq!(beside(&places, c, Way::Up), Some(b));
+        assert_eq!(beside(&places, a, Way::Left), None);
     }
-    for one in holding.into_iter().flatten() {
-        if !list.contains(&one) {
-            list.push(one);
-        }
-    }
-    list
-}
-
-fn of_files(files: &[&SourceFile], ids: Vec<String>, part: Part) -> Proposed {
-    let Gathered { meta, datasets, sources, parts, file_stem, .. } = gathered(files, part.angles.as_deref());
-    let content = |(dataset, own): (&Dataset, &Vec<usize>)| match own.as_slice() {
-        [one] if files[*one].datasets.len() == 1 && !files[*one].content.is_empty() => files[*one].content.clone(),
-        _ => content_of(dataset),
-    };
-    let contents = datasets.iter().zip(&parts).map(content).collect();
-    let mut product = of_datasets(meta, datasets, &file_stem);
-    (product.files, product.contents, product.sources, product.parts) = (ids, contents, sources, parts);
-    (product.doubt, product.same_as) = (part.doubt, part.same_as);
-    product
-}
-
-/// A product of datasets with what is told about it.
-fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed {
-    let diagnoses = datasets.par_iter().map(examine).collect();
-    let datasets: Vec<_> = datasets.into_iter().map(Arc::new).collect();
-    let fields = ImportFields {
-        name: if meta.name.is_empty() { stem.to_owned() } else { meta.name.clone() },
-        manufacturer: meta.manufacturer.clone(),
-        kind: meta.kind.clone(),
-        tags: meta.tags.join(", "),
-        author: meta.provenance.author.clone(),
-    };
-    Proposed {
-        diagnoses,
-        states: datasets.iter().map(|dataset| StateWords::of(&dataset.state)).collect(),
-        // Repairs always start from what the files hold, so that each can be taken back.
-        originals: datasets.clone(),
-        datasets,
-        fields,
-        told: meta,
-        ..Proposed::default()
-    }
-}
-
-/// A product that comes out of a package.
-pub fn of_package(package: &str, datasets: Vec<Dataset>, meta: NewProduct) -> Proposed {
-    let id = format!("{package}#{}", meta.key.as_deref().unwrap_or(&meta.name));
-    let contents = datasets.par_iter().map(content_of).collect();
-    let sources = vec![package.to_owned(); datasets.len()];
-    let parts = vec![Vec::new(); datasets.len()];
-    let product = of_datasets(meta, datasets, package);
-    Proposed { files: vec![id], packed: true, contents, sources, parts, ..product }
-}
-
-/// The same files arranged otherwise; words, repairs and answers stay with products that remain the same.
-pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn Progress) -> Outcome {
-    let before = std::mem::take(&mut import.products);
-    let (packed, before): (Vec<_>, Vec<_>) = before.into_iter().partition(|product| product.packed);
-    import.selected.clear();
-    import.shown = None;
-    import.folded.clear();
-    Arranging { shelf, before, kept: None }.products(&mut import, packed, progress);
-    Outcome::Read(Box::new(import))
-}
-
-/// The product with its repairs made on all states, and examined.
-fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
-    let mended: Result<Vec<_>, _> =
-        product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs)).collect();
-    let datasets = mended?;
-    Ok(Proposed {
-        diagnoses: datasets.iter().map(examine).collect(),
-        datasets: datasets.into_iter().map(Arc::new).collect(),
-        ..product.clone()
-    })
-}
-
-/// Makes repairs on all states of a product and examines what comes of it.
-pub fn mend(product: &Proposed) -> Outcome {
-    Outcome::Mended(product.files.clone(), repaired(product).map(Box::new))
 }

@@ -1,7 +1,7 @@
 //! The window's services as they are in earnest: the catalogue's file, the study, luminaire files.
 
 use super::at_work::AtWork;
-use super::engine::{Engine, LidFigures, Question, RoomFigures, subject};
+use super::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures, subject};
 use super::error::AppError;
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::shelf_library::WindowLibrary;
@@ -269,8 +269,15 @@ impl Engine for StudyEngine {
             beam: result.sensors.iter().map(|sensor| sensor.beam).collect(),
             data_error: result.sensors.iter().map(|sensor| sensor.data_error).collect(),
             grid: scene.grid,
+            coarse: false,
             seconds: start.elapsed().as_secs_f64(),
         })
+    }
+
+    fn surfaces(&self, question: &Question, progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
+        let start = Instant::now();
+        let light = self.session.surfaces(&self.scene(question, progress)?, progress)?;
+        Ok(SurfaceFigures { light, seconds: start.elapsed().as_secs_f64() })
     }
 
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError> {

@@ -1,12 +1,14 @@
 //! Everything that the window can do: one enum. Drawing returns it, [`super::apply`] is the only place that acts on it,
 //! and [`super::offer`] says which of it menu, palette and keys offer.
 
+use super::arrange::Arrange;
 use super::compare::Act;
 use super::goniophotometer::Setup;
 use super::hand_on::Choices;
 use super::import::{ImportFields, StateWords};
 use super::import_steps::Step;
 use super::jobs::Lane;
+use super::room_look::{RoomLook, RoomView};
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
 use super::theme::ThemeChoice;
@@ -56,6 +58,12 @@ pub enum Command {
     Palette,
     /// Fill the bench with a tile, or show all.
     Maximise(Option<Tile>),
+    /// Arrange the tiles.
+    Arrange(Arrange),
+    /// How the room is drawn.
+    RoomLook(RoomLook),
+    /// From where the room is looked at.
+    RoomView(RoomView),
     /// Move the scene's clock. \[h\]
     Hour(i32),
     /// Move the scene's date. \[d\]

@@ -7,6 +7,7 @@ use crate::compute::direction::Incident;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Lid;
 use crate::formats::luminaire::Description;
+use crate::study::SurfaceLight;
 use crate::study::accuracy::Accuracy;
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
@@ -29,6 +30,17 @@ pub struct RoomFigures {
     pub data_error: Vec<f64>,
     /// Columns and rows when the sensors are a grid.
     pub grid: Option<[usize; 2]>,
+    /// Of fewer sensors than the scene has, for a picture at once; all of them follow.
+    pub coarse: bool,
+    /// Wall-clock time that it took. \[s\]
+    pub seconds: f64,
+}
+
+/// Illuminances of the room's surfaces.
+#[derive(Debug, Clone)]
+pub struct SurfaceFigures {
+    /// Patch by patch.
+    pub light: SurfaceLight,
     /// Wall-clock time that it took. \[s\]
     pub seconds: f64,
 }
@@ -80,6 +92,8 @@ pub struct Question {
 pub trait Engine: Send + Sync {
     /// Illuminances in the room.
     fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError>;
+    /// Illuminances of the room's surfaces.
+    fn surfaces(&self, question: &Question, progress: &dyn Progress) -> Result<SurfaceFigures, AppError>;
     /// The light of the first aperture.
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError>;
     /// All that pictures and reports show; without caches of one's own everything is computed anew.

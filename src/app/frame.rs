@@ -33,6 +33,7 @@ impl App {
             self.apply(Command::OpenPaths(dropped));
         }
         self.refresh();
+        self.ask_due();
         self.ask_peaks();
         self.ask_compared();
         self.ask_preview();

@@ -1,6 +1,6 @@
 //! The import sheet's table: what its steps do.
 
-use super::arranging::rearranged;
+use super::import_arranging::rearranged;
 use super::import::{Import, Row};
 use super::import_steps::{Choose, Step};
 use super::jobs::Lane;

@@ -1,6 +1,6 @@
 //! The import sheet's part of the window: reads what was opened, tries repairs, stores what is wanted, keeps drafts.
 
-use super::arranging::mend;
+use super::import_arranging::mend;
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed};
 use super::jobs::Lane;

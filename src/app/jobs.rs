@@ -37,6 +37,8 @@ pub enum Lane {
     Lid,
     /// Illuminances in the room.
     Room,
+    /// Illuminances of the room's surfaces.
+    Surfaces,
     /// What control chooses over the year.
     Year,
     /// Error against run time.
@@ -68,6 +70,7 @@ impl Lane {
             Self::Scene => "sky and system",
             Self::Lid => "LID",
             Self::Room => "room",
+            Self::Surfaces => "surfaces of the room",
             Self::Year => "year of control",
             Self::Accuracy => "error against time",
             Self::Product => "product data",

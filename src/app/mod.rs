@@ -4,7 +4,9 @@
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
 pub mod apply;
-pub mod arranging;
+pub mod arrange;
+mod arranging;
+mod asking;
 pub mod at_work;
 pub mod autosave;
 pub mod backend;
@@ -17,6 +19,7 @@ pub mod comparing;
 pub mod control;
 pub mod dialogs;
 pub mod disk;
+mod due;
 pub mod editing;
 pub mod engine;
 pub mod error;
@@ -29,6 +32,7 @@ pub mod hand_on;
 pub mod hand_on_files;
 pub mod handing_on;
 pub mod import;
+pub mod import_arranging;
 pub mod import_steps;
 pub mod import_table;
 pub mod importing;
@@ -45,6 +49,7 @@ pub mod paint;
 pub mod panels;
 pub mod reading;
 pub mod restoring;
+pub mod room_look;
 pub mod safe_name;
 pub mod scene;
 pub mod session;

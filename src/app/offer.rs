@@ -1,10 +1,12 @@
 //! What is offered: one table of the commands that menus, palette, keys sheet and keyboard know, with their words, keys
 //! and places. A new one is an entry here and its effect in [`super::apply`].
 
+use super::arrange::{self, Way};
 use super::command::{Command, SYSTEM_EDITOR};
 use super::compare::{Act, Look};
 use super::control;
 use super::examples::EXAMPLES;
+use super::room_look::RoomView;
 use super::state::{self, PathUse};
 use super::theme::ThemeChoice;
 use super::tiles::TILES;
@@ -76,6 +78,38 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 /// Numbers of tiles in words.
 const COUNTS: [&str; 10] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
 
+/// What arranges the tiles. Arrow keys do the same at a tile's head, see the bench.
+fn arrangement() -> Vec<Offer> {
+    use arrange::Arrange::*;
+    let plain = |what, text: &str, tip| offer(Command::Arrange(what), text, tip).menu(VIEW, 3).within("Arrange tiles");
+    let mut list: Vec<Offer> = arrange::Preset::ALL
+        .map(|ready| offer(Command::Arrange(Preset(ready)), ready.word(), ready.tip()).menu(VIEW, 2).within("Layout"))
+        .into();
+    list.extend([
+        plain(Focus(1), "Next tile", "The keyboard goes to the next tile in sight").keys(PLAIN, Key::F6),
+        plain(Focus(-1), "Previous tile", "The keyboard goes to the tile before").keys(SHIFT, Key::F6),
+        plain(Tab(1), "Next tab", "The next of the tabs that the tile in hand is one of").keys(CTRL, Key::PageDown),
+        plain(Tab(-1), "Previous tab", "The tab before").keys(CTRL, Key::PageUp),
+    ]);
+    list.extend(RoomView::ALL.map(|view| {
+        let text = format!("Room: {}", view.word().to_lowercase());
+        offer(Command::RoomView(view), text, view.tip()).menu(VIEW, 4).within("Room")
+    }));
+    list.extend(Way::ALL.map(|way| {
+        let text = format!("Move tile {}", way.word());
+        plain(Move(way), &text, "The tile in hand changes places with the one on that side")
+    }));
+    list.extend([
+        plain(Join, "Join tabs", "The tile in hand becomes a tab of the next one"),
+        plain(Split, "Split from tabs", "The tile in hand leaves its tabs and stands beside them"),
+        plain(Width(true), "Wider tile", "More width for the tile in hand"),
+        plain(Width(false), "Narrower tile", "Less width for the tile in hand"),
+        plain(Height(true), "Higher tile", "More height for the tile in hand"),
+        plain(Height(false), "Lower tile", "Less height for the tile in hand"),
+    ]);
+    list
+}
+
 /// The table, in the order of palette and keys sheet.
 fn table() -> Vec<Offer> {
     use Command::*;
@@ -138,6 +172,7 @@ fn table() -> Vec<Offer> {
         list.push(Offer { keys: key.map(|key| KeyboardShortcut::new(PLAIN, key)), ..one });
     }
     let all = format!("All {} tiles", COUNTS.get(TILES.len()).unwrap_or(&"the"));
+    list.extend(arrangement());
     list.extend([
         offer(Maximise(None), all, "Back from one tile to all").keys(PLAIN, Key::Num0).menu(VIEW, 1),
         offer(Hour(1), "One hour later", "Move the clock").keys(PLAIN, Key::ArrowRight),
@@ -324,7 +359,7 @@ mod tests {
         for keys in offers().iter().filter_map(|offer| offer.keys) {
             let last = key_words(&keys);
             let last = last.rsplit('+').next().unwrap();
-            let printed = |key: &str| ["Enter", "Escape", "Delete", "F2"].contains(&key);
+            let printed = |key: &str| ["Enter", "Escape", "Delete", "F2", "F6", "PageUp", "PageDown"].contains(&key);
             assert!(last.chars().count() == 1 || printed(last), "{last}");
         }
     }

@@ -8,6 +8,7 @@ use super::jobs::Lane;
 use super::scene::selection_of;
 use super::shelf::{Addition, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
+use super::tiles;
 use super::window::{App, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
 use crate::catalogue::{Product, Stored};
@@ -116,6 +117,7 @@ impl App {
                     match finished.lane {
                         Lane::Lid => self.results.lid.error = Some(text),
                         Lane::Room => self.results.room.error = Some(text),
+                        Lane::Surfaces => self.results.surfaces.error = Some(text),
                         Lane::Accuracy => self.results.accuracy.error = Some(text),
                         Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
                         Lane::Year => self.results.year.error = Some(text),
@@ -171,7 +173,11 @@ impl App {
             Outcome::Accuracy(result) => self.results.accuracy.take(result),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
-            Outcome::Room(result) => self.results.room.take(result),
+            Outcome::Room(result) => {
+                self.results.room.take(result);
+                self.results.room.stale |= self.due.owes(Lane::Room);
+            }
+            Outcome::Surfaces(result) => self.results.surfaces.take(result),
             Outcome::Compared(id, what) => self.compare.take(id, *what),
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
             // Without a dialog the sheet's path field is the way, and it is open already.
@@ -246,7 +252,7 @@ impl App {
                     }
                     None => self.compute_state(&product, state),
                 }
-                self.ask_year();
+                self.due.owe(Lane::Year);
             }
             Err(error) => self.state.dataset.error = Some(error.to_string()),
         }
@@ -320,7 +326,7 @@ impl App {
     }
 
     /// Asks for the year of control anew when something that it hangs on has changed.
-    fn ask_year(&mut self) {
+    pub(super) fn ask_year(&mut self) {
         let state = &self.state;
         let Some(product) = state.product.clone() else { return };
         let key = state.year_key(&product.key);
@@ -346,7 +352,8 @@ impl App {
         let asked = self.asked_peaks.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, figures));
         // A table of all directions takes seconds: not before the pictures are there.
         let sooner = [Lane::Scene, Lane::Product, Lane::Lid, Lane::Room].into_iter().any(|lane| self.jobs.busy(lane));
-        if asked || sooner || self.ctx.input(|input| input.pointer.any_down()) {
+        let hidden = !self.bench.in_sight(self.state.maximised).contains(&tiles::LID);
+        if asked || sooner || hidden || self.ctx.input(|input| input.pointer.any_down()) {
             return;
         }
         let figures = figures.clone();
@@ -386,9 +393,9 @@ impl App {
 
     /// Asks for everything that the document's change since the last call affects.
     pub fn refresh(&mut self) {
-        let Some(shelf) = self.state.shelf() else { return };
         let document = &self.state.document;
-        if document.selection.product.is_empty()
+        if self.state.shelf().is_none()
+            || document.selection.product.is_empty()
             || self.asked.as_ref().is_some_and(|asked| asked.asks_the_same(document))
         {
             return;
@@ -396,18 +403,14 @@ impl App {
         self.asked = Some(document.clone());
         // What is in sight has the computer to itself.
         self.fill_due |= self.jobs.cancel(Lane::Builtin);
-        let document = &self.state.document;
-        let question = Question { scene: document.scene.clone(), base: self.state.base(), shelf };
         self.stop_computing();
         self.state.dataset.stale = true;
         self.state.daylight.stale = true;
         self.results.lid.stale = true;
         self.results.room.stale = true;
         self.results.accuracy.stale = true;
+        self.results.surfaces.stale = true;
         self.ask_scene();
-        let (engine, asked) = (self.services.engine.clone(), question.clone());
-        self.start(Lane::Lid, move |job| Outcome::Lid(engine.lid(&asked, job)));
-        let engine = self.services.engine.clone();
-        self.start(Lane::Room, move |job| Outcome::Room(engine.room(&question, job)));
+        self.owe_results();
     }
 }

@@ -1,6 +1,6 @@
 //! Reads what was opened or dropped: files, folders and archives, each taken for what it is.
 
-use super::arranging::{Arranging, of_package};
+use super::import_arranging::{Arranging, of_package};
 use super::disk::read_bytes;
 use super::error::AppError;
 use super::import::{Import, KeptImport};

@@ -3,11 +3,12 @@
 use super::changes::{Change, Editing};
 use super::compare::View;
 use super::control::{Year, YearKey};
-use super::engine::{LidFigures, RoomFigures};
+use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::hand_on::{Choices, HandOn};
 use super::import::{Import, KeptImport};
+use super::room_look::RoomLook;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
@@ -81,6 +82,10 @@ pub struct Settings {
     pub folder: Option<PathBuf>,
     /// What was handed on last, and in which form.
     pub hand_on: Choices,
+    /// Where the tiles stand; `None`: as at a first start.
+    pub layout: Option<String>,
+    /// How the room is drawn.
+    pub room: RoomLook,
 }
 
 impl Default for Settings {
@@ -92,6 +97,8 @@ impl Default for Settings {
             last_scene: None,
             folder: None,
             hand_on: Choices::default(),
+            layout: None,
+            room: RoomLook::default(),
         }
     }
 }
@@ -153,6 +160,8 @@ pub struct Results {
     pub peaks: Option<(Arc<LidFigures>, Peaks)>,
     /// The room.
     pub room: Shown<RoomFigures>,
+    /// The room's surfaces; asked for only while they are drawn.
+    pub surfaces: Shown<SurfaceFigures>,
     /// What control does over the year.
     pub year: Shown<Year>,
     /// Error against run time, of the scene that it was asked for.

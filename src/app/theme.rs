@@ -102,7 +102,12 @@ pub const DARK: Palette = Palette {
 
 /// The palette in force.
 pub fn palette(ui: &egui::Ui) -> &'static Palette {
-    if ui.visuals().dark_mode { &DARK } else { &LIGHT }
+    palette_of(ui.visuals())
+}
+
+/// The palette that goes with egui's own colours.
+pub const fn palette_of(visuals: &egui::Visuals) -> &'static Palette {
+    if visuals.dark_mode { &DARK } else { &LIGHT }
 }
 
 /// Gap between tiles. \[points\]

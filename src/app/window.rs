@@ -5,6 +5,7 @@ use super::backend;
 use super::compare_columns::Columns;
 use super::control::YearKey;
 use super::dialogs::{FileDialogs, NoDialogs};
+use super::due::Due;
 use super::engine::{Engine, LidFigures};
 use super::error::AppError;
 use super::export::Exports;
@@ -61,6 +62,7 @@ pub struct App {
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
+    pub(super) due: Due,
     pub(super) export: Exports,
     /// What was computed of the candidates in the tray.
     pub compare: Columns,
@@ -106,6 +108,7 @@ impl App {
             asked: None,
             asked_year: None,
             asked_peaks: None,
+            due: Due::default(),
             export: Exports::default(),
             compare: Columns::default(),
             toasts: Messages::default(),

@@ -4,7 +4,7 @@ use super::changes::{Change, Looked, Reread};
 use super::compare::Part;
 use super::control::Year;
 use super::disk::write_whole;
-use super::engine::{Engine, LidFigures, RoomFigures};
+use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
 use super::facing::surface_of;
 use super::goniophotometer::Finished;
@@ -57,6 +57,8 @@ pub enum Outcome {
     Room(Result<RoomFigures, AppError>),
     /// A part of what is known of a candidate, by its number.
     Compared(u64, Box<Compared>),
+    /// The room's surfaces.
+    Surfaces(Result<SurfaceFigures, AppError>),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
     /// Files that the user chose.

@@ -120,13 +120,6 @@ impl App {
         self.bring_up(tile);
     }
 
-    /// A hidden tile is not drawn and so knows nothing.
-    pub(super) fn bring_up(&mut self, tile: Tile) {
-        if self.state.maximised.is_some_and(|shown| shown != tile) {
-            self.state.maximised = Some(tile);
-        }
-    }
-
     /// Writes what tiles gave since the last frame.
     pub(super) fn write_exports(&mut self) {
         self.take_numbers();

@@ -4,6 +4,7 @@
 mod emission;
 pub(super) mod interreflected;
 pub(super) mod responses;
+mod surfaces;
 mod through_room;
 mod thrown_back;
 mod weights;
@@ -30,6 +31,7 @@ use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
+pub use surfaces::{PatchLight, SurfaceLight};
 use weights::{ByCells, Response};
 
 /// Relative accuracy asked of the cubature at every sensor: half of what the scene asks for, the rest is for the light

@@ -15,4 +15,5 @@ mod rooms;
 mod sharp_sun;
 mod stability;
 mod stability_measured;
+mod surfaces;
 mod validation;

@@ -3,7 +3,7 @@
 use crate::common::compares_pictures;
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::jobs::Lane;
 use cfs::app::state::Sheet;
@@ -63,6 +63,10 @@ impl Engine for Scripted {
             seconds: 0.001,
             ..RoomFigures::default()
         })
+    }
+
+    fn surfaces(&self, _question: &Question, _progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
+        Err(AppError::NoAperture)
     }
 
     fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {

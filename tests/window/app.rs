@@ -2,7 +2,7 @@
 
 use crate::driven::{frames, settle};
 use cfs::app::App;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::state::Sheet;
 use cfs::app::tiles::TILES;
@@ -51,6 +51,10 @@ impl Engine for Scripted {
             seconds: 0.001,
             ..RoomFigures::default()
         })
+    }
+
+    fn surfaces(&self, _question: &Question, _progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
+        Err(AppError::NoAperture)
     }
 
     fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {

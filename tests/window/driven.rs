@@ -3,7 +3,7 @@
 use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::dialogs::NoDialogs;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::shelf::{Addition, Query, Shelf};
 use cfs::app::state::Settings;
@@ -55,6 +55,10 @@ impl Engine for Idle {
             seconds: 0.001,
             ..RoomFigures::default()
         })
+    }
+
+    fn surfaces(&self, _question: &Question, _progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
+        Err(AppError::NoAperture)
     }
 
     fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {

@@ -6,11 +6,13 @@ pub mod inspect;
 
 use crate::driven::{LONG, apply, harness, select, services, settle, window};
 use cfs::app::App;
+use cfs::app::arrange::{Arrange, Preset};
 use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
 use cfs::app::error::AppError;
 use cfs::app::hand_on::{Choices, What};
+use cfs::app::room_look::RoomView;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
@@ -89,6 +91,26 @@ fn a_window_that_opens_says_so_everywhere_and_can_be_read() {
     problems.each_tile(&mut harness, "opening");
     problems.none_left();
     drop(release);
+}
+
+#[test]
+fn layouts_and_the_room_from_all_sides_can_be_read() {
+    let mut harness = window();
+    let mut problems = Problems::default();
+    for ready in Preset::ALL {
+        apply(&mut harness, Command::Arrange(Arrange::Preset(ready)));
+        problems.bench(&mut harness, ready.word());
+    }
+    apply(&mut harness, Command::Arrange(Arrange::Preset(Preset::All)));
+    let room = TILES.iter().find(|entry| entry.tile.title == "Room").unwrap().tile;
+    for view in RoomView::ALL {
+        apply(&mut harness, Command::RoomView(view));
+        problems.bench(&mut harness, view.word());
+        apply(&mut harness, Command::Maximise(Some(room)));
+        problems.look(&mut harness, view.word(), SIZES[0]);
+        apply(&mut harness, Command::Maximise(None));
+    }
+    problems.none_left();
 }
 
 #[test]

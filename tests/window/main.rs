@@ -3,6 +3,8 @@
 mod accuracy_view;
 mod app;
 mod app_engine;
+mod arranging;
+mod bodies;
 mod catalogue_panel;
 #[path = "../common/mod.rs"]
 mod common;
@@ -15,6 +17,7 @@ mod hand_on_view;
 mod import_view;
 mod legible;
 mod product_sheet;
+mod room_view;
 mod scene_panel;
 mod truth;
 mod views;

@@ -212,12 +212,11 @@ fn room_input(cells: &[room::CellValue], nx: usize, ny: usize) -> room::Input<'_
         nx,
         ny,
         cells,
-        listed: false,
-        plane_z: 0.85,
+        plane_z: Some(0.85),
         name: "sensor plane 0.85 m",
-        range: None,
         revision: 1,
         status: FINE,
+        ..room::Input::nothing()
     }
 }
 
@@ -546,7 +545,7 @@ fn a_legend_hides_and_shows_a_series() {
         let shown = |h: &Harness<'_, Bench>| h.get_by_label(name).accesskit_node().toggled();
         let rect = h.get_by_label(name).rect();
         // Above its plot, not on it.
-        for plot in ["Room section", "Control curve"] {
+        for plot in ["Room profile", "Control curve"] {
             assert!(!h.get_by_label(plot).rect().intersects(rect), "{name}");
         }
         assert_eq!(shown(&h), Some(Toggled::True), "{name}");

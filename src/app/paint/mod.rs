@@ -1,6 +1,8 @@
 //! Drawing that several tiles share: colour scales, hemispheres, polar axes, plots, iso-lines.
 //! Nothing here knows photometry beyond the projections of a hemisphere.
 
+pub mod body;
+pub mod camera;
 pub mod colour_scale;
 pub mod hemisphere;
 pub mod palette;

@@ -1,48 +1,139 @@
 //! The bench: tiles where its layout has them, or one that fills it.
+//!
+//! A tile is taken by its head: dragged it docks elsewhere or becomes a tab, double clicked it fills the bench. With the
+//! keyboard on the head arrow keys go to the tile on that side, with Shift they change places with it, with Alt they make
+//! the tile wider, narrower, higher or lower; Enter fills the bench.
 
+use crate::app::arrange::{Arrange, Way};
 use crate::app::command::Command;
 use crate::app::offer;
 use crate::app::state::Tile;
 use crate::app::theme::{self, TILE_GAP};
 use crate::app::tiles::{TILES, TileInput};
 use crate::app::window::App;
-use egui::{Rect, Sense, Ui, UiBuilder, vec2};
+use egui::{Color32, EventFilter, Key, Modifiers, Rect, Response, Sense, Stroke, Ui, UiBuilder, Visuals, vec2};
+use egui_tiles::{Behavior, EditAction, ResizeState, TabState, TileId, Tiles, Tree, UiResponse};
+
+/// No tile is dragged to less than this. \[points\]
+const LEAST: f32 = 120.0;
 
 /// Draws the bench.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+    if let Err(problem) = app.bench.follow(app.state.settings.layout.as_ref()) {
+        app.state.settings.layout = None;
+        app.toasts
+            .warning(format!("The kept layout of the tiles cannot be read: {problem}; they stand as at a first start"));
+    }
     let whole = ui.available_rect_before_wrap();
-    let places = match app.state.maximised {
-        Some(tile) => vec![(tile, whole)],
-        None => app.bench.layout.places(whole, TILE_GAP),
-    };
-    for (tile, rect) in places {
-        frame(ui, rect, tile, app, commands);
+    if let Some(tile) = app.state.maximised {
+        app.bench.places = vec![(tile, whole)];
+        frame(ui, whole, tile, app, commands);
+        return;
+    }
+    // Its tiles are drawn by the bench that holds it.
+    let mut tree = std::mem::replace(&mut app.bench.tree, Tree::empty(egui::Id::unique("bench")));
+    app.bench.places.clear();
+    let mut behaviour = Docking { app, commands, edited: false };
+    tree.ui(&mut behaviour, ui);
+    let edited = behaviour.edited;
+    app.bench.tree = tree;
+    if edited {
+        let text = app.bench.layout().text();
+        app.bench.text = Some(text.clone());
+        app.state.settings.layout = Some(text);
     }
 }
 
-/// A tile's ground; a double click on its head fills the bench with it, or shows all again.
-fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<Command>) {
+/// Tiles that dock.
+struct Docking<'a> {
+    app: &'a mut App,
+    commands: &'a mut Vec<Command>,
+    edited: bool,
+}
+
+impl Behavior<Tile> for Docking<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _id: TileId, tile: &mut Tile) -> UiResponse {
+        let rect = ui.max_rect();
+        self.app.bench.places.push((*tile, rect));
+        let dragged = frame(ui, rect, *tile, self.app, self.commands);
+        if dragged { UiResponse::DragStarted } else { UiResponse::None }
+    }
+
+    fn tab_title_for_pane(&mut self, tile: &Tile) -> egui::WidgetText {
+        tile.title.into()
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        TILE_GAP
+    }
+
+    fn min_size(&self) -> f32 {
+        LEAST
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        26.0
+    }
+
+    fn resize_stroke(&self, style: &egui::Style, state: ResizeState) -> Stroke {
+        let palette = theme::palette_of(&style.visuals);
+        match state {
+            ResizeState::Idle => Stroke::NONE,
+            ResizeState::Hovering => Stroke::new(2.0, palette.weak),
+            ResizeState::Dragging => Stroke::new(2.0, palette.accent),
+        }
+    }
+
+    fn tab_bar_color(&self, visuals: &Visuals) -> Color32 {
+        theme::palette_of(visuals).ground
+    }
+
+    fn tab_bg_color(&self, visuals: &Visuals, _: &Tiles<Tile>, _: TileId, state: &TabState) -> Color32 {
+        let palette = theme::palette_of(visuals);
+        if state.active { palette.surface } else { palette.raised }
+    }
+
+    fn tab_outline_stroke(&self, visuals: &Visuals, _: &Tiles<Tile>, _: TileId, _: &TabState) -> Stroke {
+        Stroke::new(1.0, theme::palette_of(visuals).line)
+    }
+
+    fn tab_text_color(&self, visuals: &Visuals, _: &Tiles<Tile>, _: TileId, state: &TabState) -> Color32 {
+        let palette = theme::palette_of(visuals);
+        if state.active { palette.text } else { palette.weak }
+    }
+
+    fn on_edit(&mut self, _action: EditAction) {
+        self.edited = true;
+    }
+}
+
+/// A tile's ground and head; true when it begins to be dragged.
+fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<Command>) -> bool {
     let palette = theme::palette(ui);
-    ui.painter().rect(rect, 6, palette.surface, egui::Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
     let head = Rect::from_min_size(rect.min, vec2((rect.width() * 0.5).min(120.0), 26.0));
-    let response = ui.interact(head, ui.scope_id().with(("tile", tile)), Sense::click());
+    let response = ui.interact(head, egui::Id::unique(("tile", tile.title)), Sense::click_and_drag());
+    let line = if response.has_focus() { Stroke::new(2.0, palette.accent) } else { Stroke::new(1.0, palette.line) };
+    ui.painter().rect(rect, 6, palette.surface, line, egui::StrokeKind::Inside);
     let response = response.on_hover_text(format!(
-        "Double click: fill the bench, or show all tiles (keys 1–{} and 0). Right click: export, copy",
+        "Drag: dock elsewhere or as a tab. Double click: fill the bench, or show all tiles (keys 1–{} and 0). Right click: \
+         export, copy, arrange",
         TILES.len()
     ));
     response
         .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Tile {}", tile.title)));
-    response.context_menu(|ui| {
-        for offer in [Command::ExportTile(tile), Command::CopyTile(tile)].iter().filter_map(offer::of) {
-            if ui.button(&offer.text).on_hover_text(offer.tip).clicked() {
-                commands.push(offer.command.clone());
-                ui.close();
-            }
-        }
-    });
-    if response.double_clicked() {
-        commands.push(Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) }));
+    response.context_menu(|ui| menu(ui, tile, commands));
+    if response.clicked() || response.secondary_clicked() || response.drag_started() || response.has_focus() {
+        app.bench.in_hand = tile;
     }
+    if app.bench.to_focus && app.bench.in_hand == tile {
+        app.bench.to_focus = false;
+        response.request_focus();
+    }
+    let fill = Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) });
+    if response.double_clicked() {
+        commands.push(fill.clone());
+    }
+    keys(ui, &response, &fill, commands);
     let (state, results) = app.compare.shown(&app.state, &app.results);
     let seen = TileInput {
         state,
@@ -58,4 +149,59 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     if let Some(text) = numbers {
         app.export.numbers(ui.ctx(), text);
     }
+    response.drag_started() && app.state.maximised.is_none()
+}
+
+/// What a tile's own menu offers.
+fn menu(ui: &mut Ui, tile: Tile, commands: &mut Vec<Command>) {
+    for command in [Command::ExportTile(tile), Command::CopyTile(tile)] {
+        let Some(offer) = offer::of(&command) else { continue };
+        if ui.button(&offer.text).on_hover_text(offer.tip).clicked() {
+            commands.push(command);
+            ui.close();
+        }
+    }
+    ui.separator();
+    for what in [Arrange::Join, Arrange::Split] {
+        let Some(offer) = offer::of(&Command::Arrange(what)) else { continue };
+        if ui.button(&offer.text).on_hover_text(offer.tip).clicked() {
+            commands.push(Command::Arrange(what));
+            ui.close();
+        }
+    }
+}
+
+/// What keys do while a tile's head has the keyboard.
+fn keys(ui: &Ui, head: &Response, fill: &Command, commands: &mut Vec<Command>) {
+    if !head.has_focus() {
+        return;
+    }
+    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(head.id, arrows));
+    let ways = [
+        (Key::ArrowLeft, Way::Left, Arrange::Width(false)),
+        (Key::ArrowRight, Way::Right, Arrange::Width(true)),
+        (Key::ArrowUp, Way::Up, Arrange::Height(true)),
+        (Key::ArrowDown, Way::Down, Arrange::Height(false)),
+    ];
+    ui.input_mut(|input| {
+        for (key, way, size) in ways {
+            // The longer combinations first: egui matches a plain key also while Shift is down.
+            let asked = [
+                (Modifiers::ALT, size),
+                (Modifiers::SHIFT, Arrange::Move(way)),
+                (Modifiers::NONE, Arrange::FocusOn(way)),
+            ];
+            let what = asked.into_iter().find(|(modifiers, _)| input.consume_key(*modifiers, key));
+            commands.extend(what.map(|(_, what)| Command::Arrange(what)));
+        }
+        for (modifiers, step) in [(Modifiers::SHIFT, -1), (Modifiers::NONE, 1)] {
+            if input.consume_key(modifiers, Key::F6) {
+                commands.push(Command::Arrange(Arrange::Focus(step)));
+            }
+        }
+        if input.consume_key(Modifiers::NONE, Key::Enter) {
+            commands.push(fill.clone());
+        }
+    });
 }

@@ -34,10 +34,11 @@ fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'stati
     }
 }
 
-/// How exact room and LID are.
+/// How exact room and LID are, as far as tiles in sight show them.
 fn figures(app: &App) -> Vec<Figure> {
     let mut list = Vec::new();
-    if let Some(room) = &app.results.room.value {
+    let in_sight = |lane| app.bench.shows(lane, app.state.maximised);
+    if let Some(room) = app.results.room.value.as_ref().filter(|_| in_sight(Lane::Room)) {
         let age = age(app, &app.results.room, Lane::Room);
         let error = error_words(room.totals());
         list.push(Figure {
@@ -46,7 +47,7 @@ fn figures(app: &App) -> Vec<Figure> {
                   below 1 % of the mean, left out), and the time it took",
         });
     }
-    if let Some(lid) = &app.results.lid.value {
+    if let Some(lid) = app.results.lid.value.as_ref().filter(|_| in_sight(Lane::Lid)) {
         let relative = if lid.flux.value > 0.0 { 100.0 * lid.flux.error / lid.flux.value } else { 0.0 };
         let age = age(app, &app.results.lid, Lane::Lid);
         let error = percent(relative);

@@ -4,6 +4,7 @@ use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::control as rules;
 use crate::app::facing::sun_incident;
+use crate::app::jobs::Lane;
 use crate::app::state::{State, Tile};
 use crate::app::views::{Cache, control};
 use crate::app::{moment, title};
@@ -169,6 +170,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn lanes(&self) -> &'static [Lane] {
+        &[Lane::Year]
+    }
+
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.state.product.is_some()
     }

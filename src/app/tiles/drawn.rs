@@ -66,6 +66,10 @@ impl<'a> TileInput<'a> {
 
 /// The drawing of a tile, with what it remembers from frame to frame.
 pub trait Drawn {
+    /// The lanes whose results it draws, beside that of the scene: they run only while it is in sight.
+    fn lanes(&self) -> &'static [Lane] {
+        &[]
+    }
     /// Is there anything that the tile could draw? Until then the bench says what is waited for.
     fn ready(&self, seen: &TileInput<'_>) -> bool;
     /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.

@@ -1,78 +1,337 @@
-//! Where tiles stand on the bench, as a value.
+//! Where tiles stand on the bench, as a value: read, written, rearranged; and the tree that draws it.
 
 use crate::app::state::Tile;
-use egui::{Rect, vec2};
+use egui_tiles::{Container, Linear, LinearDir, Tabs, TileId, Tiles, Tree};
+use serde::{Deserialize, Serialize};
 
-/// Rows from top to bottom, each with tiles from left to right.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Layout {
-    /// The rows.
-    pub rows: Vec<Row>,
+/// Number of the form in which layouts are kept. A newer one is left alone.
+const VERSION: u32 = 1;
+/// What a step wider or higher does to a share of a row or column.
+const STEP: f32 = 1.2;
+
+/// A tile, or tiles with their places. `T`: a tile, or its title in a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Place<T> {
+    /// One tile.
+    Tile(T),
+    /// One in front of the others.
+    Tabs {
+        /// Number of the one in front.
+        front: usize,
+        /// All of them.
+        tabs: Vec<Place<T>>,
+    },
+    /// From left to right, with shares of the width.
+    Row(Vec<(f32, Place<T>)>),
+    /// From top to bottom, with shares of the height.
+    Column(Vec<(f32, Place<T>)>),
 }
 
-/// Tiles side by side.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// Its height against that of the others.
-    pub weight: f32,
-    /// Tiles, each with its width against that of the others.
-    pub tiles: Vec<(f32, Tile)>,
+/// The bench's arrangement.
+pub type Layout = Place<Tile>;
+
+/// A layout as it is kept.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    version: u32,
+    tree: Place<String>,
 }
 
-/// Starts and lengths of parts of a length, by their weights, with gaps between them.
-fn parts(length: f32, gap: f32, weights: impl Iterator<Item = f32> + Clone) -> Vec<(f32, f32)> {
-    let gaps = weights.clone().count().saturating_sub(1) as f32;
-    let all: f32 = weights.clone().sum();
-    let mut start = 0.0;
-    let part = |weight| {
-        let part = (start, (length - gaps * gap) * weight / all);
-        start += part.1 + gap;
-        part
-    };
-    weights.map(part).collect()
+impl<T> Place<T> {
+    /// The same of other tiles; those that become nothing leave, and so does what then holds nothing or one thing.
+    fn filter_map<U>(self, of: &mut impl FnMut(T) -> Option<U>) -> Option<Place<U>> {
+        let mut list = |children: Vec<(f32, Self)>| -> Vec<(f32, Place<U>)> {
+            children.into_iter().filter_map(|(share, child)| Some((share, child.filter_map(of)?))).collect()
+        };
+        let only = |mut children: Vec<(f32, Place<U>)>, make: fn(Vec<(f32, Place<U>)>) -> Place<U>| match children.len()
+        {
+            0 => None,
+            1 => children.pop().map(|(_, child)| child),
+            _ => Some(make(children)),
+        };
+        match self {
+            Self::Tile(tile) => of(tile).map(Place::Tile),
+            Self::Row(children) => only(list(children), Place::Row),
+            Self::Column(children) => only(list(children), Place::Column),
+            Self::Tabs { front, tabs } => {
+                let kept: Vec<(usize, Place<U>)> = tabs
+                    .into_iter()
+                    .enumerate()
+                    .filter_map(|(number, tab)| Some((number, tab.filter_map(of)?)))
+                    .collect();
+                let front = kept.iter().position(|(number, _)| *number == front).unwrap_or(0);
+                let mut tabs: Vec<Place<U>> = kept.into_iter().map(|(_, tab)| tab).collect();
+                if tabs.len() > 1 { Some(Place::Tabs { front, tabs }) } else { tabs.pop() }
+            }
+        }
+    }
+
+    /// Are all shares numbers that a length can be shared by?
+    fn sound(&self) -> bool {
+        match self {
+            Self::Tile(_) => true,
+            Self::Tabs { tabs, .. } => tabs.iter().all(Self::sound),
+            Self::Row(list) | Self::Column(list) => {
+                list.iter().all(|(share, child)| (1e-3..=1e3).contains(share) && child.sound())
+            }
+        }
+    }
+
+    fn children_mut(&mut self) -> Vec<&mut Self> {
+        match self {
+            Self::Tile(_) => vec![],
+            Self::Tabs { tabs, .. } => tabs.iter_mut().collect(),
+            Self::Row(list) | Self::Column(list) => list.iter_mut().map(|(_, child)| child).collect(),
+        }
+    }
 }
 
 impl Layout {
     /// Two rows of equal tiles.
-    pub fn even(tiles: Vec<Tile>) -> Self {
+    pub fn even(tiles: &[Tile]) -> Self {
         let columns = tiles.len().div_ceil(2).max(1);
-        let row = |tiles: &[Tile]| Row { weight: 1.0, tiles: tiles.iter().map(|tile| (1.0, *tile)).collect() };
-        Self { rows: tiles.chunks(columns).map(row).collect() }
+        let row = |tiles: &[Tile]| (1.0, Self::Row(tiles.iter().map(|tile| (1.0, Self::Tile(*tile))).collect()));
+        Self::Column(tiles.chunks(columns).map(row).collect())
     }
 
-    /// The tiles' rectangles, in order.
-    pub fn places(&self, whole: Rect, gap: f32) -> Vec<(Tile, Rect)> {
-        let mut places = Vec::new();
-        let rows = parts(whole.height(), gap, self.rows.iter().map(|row| row.weight));
-        for (row, (top, height)) in self.rows.iter().zip(rows) {
-            let columns = parts(whole.width(), gap, row.tiles.iter().map(|(weight, _)| *weight));
-            for ((_, tile), (left, width)) in row.tiles.iter().zip(columns) {
-                places.push((*tile, Rect::from_min_size(whole.min + vec2(left, top), vec2(width, height))));
+    /// Tabs, the first in front.
+    pub fn tabs(tiles: &[Tile]) -> Self {
+        Self::Tabs { front: 0, tabs: tiles.iter().copied().map(Self::Tile).collect() }
+    }
+
+    /// As it is kept.
+    pub fn text(&self) -> String {
+        let title = |tile: Tile| Some(tile.title.to_owned());
+        let tree = self.clone().filter_map(&mut { title });
+        // Strings and finite numbers: what cannot be written does not arise.
+        tree.and_then(|tree| serde_json::to_string(&Kept { version: VERSION, tree }).ok()).unwrap_or_default()
+    }
+
+    /// Reads what was kept. Tiles that are not known, or there twice, leave; tiles that are missing become tabs.
+    ///
+    /// # Errors
+    /// One clause on what is wrong.
+    pub fn read(text: &str, known: &[Tile]) -> Result<Self, String> {
+        let kept: Kept = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if kept.version != VERSION {
+            return Err(format!("form {}, where this program reads {VERSION}", kept.version));
+        }
+        if !kept.tree.sound() {
+            return Err("a share of a row or column is not between 0.001 and 1000".to_owned());
+        }
+        let mut left = known.to_vec();
+        let layout = kept.tree.filter_map(&mut |title: String| {
+            let number = left.iter().position(|tile| tile.title == title)?;
+            Some(left.remove(number))
+        });
+        let Some(layout) = layout else { return Err("none of its tiles is known".to_owned()) };
+        Ok(if left.is_empty() { layout } else { layout.with(&left) })
+    }
+
+    /// With more tiles, as tabs of the last one.
+    fn with(self, more: &[Tile]) -> Self {
+        let last = self.tiles().last().copied();
+        match last {
+            Some(last) => self.replaced(last, &mut |own| {
+                let tabs = std::iter::once(own).chain(more.iter().copied()).map(Self::Tile).collect();
+                Self::Tabs { front: 0, tabs }
+            }),
+            None => self,
+        }
+    }
+
+    /// All tiles, in order.
+    pub fn tiles(&self) -> Vec<Tile> {
+        match self {
+            Self::Tile(tile) => vec![*tile],
+            Self::Tabs { tabs, .. } => tabs.iter().flat_map(Self::tiles).collect(),
+            Self::Row(list) | Self::Column(list) => list.iter().flat_map(|(_, child)| child.tiles()).collect(),
+        }
+    }
+
+    /// Those in sight, in order.
+    pub fn in_sight(&self) -> Vec<Tile> {
+        match self {
+            Self::Tile(tile) => vec![*tile],
+            Self::Tabs { front, tabs } => tabs.get(*front).or(tabs.first()).map_or_else(Vec::new, Self::in_sight),
+            Self::Row(list) | Self::Column(list) => list.iter().flat_map(|(_, child)| child.in_sight()).collect(),
+        }
+    }
+
+    fn replaced(self, wanted: Tile, with: &mut impl FnMut(Tile) -> Self) -> Self {
+        let mut list = |children: Vec<(f32, Self)>| {
+            children.into_iter().map(|(share, child)| (share, child.replaced(wanted, with))).collect()
+        };
+        match self {
+            Self::Tile(tile) if tile == wanted => with(tile),
+            Self::Tile(tile) => Self::Tile(tile),
+            Self::Row(children) => Self::Row(list(children)),
+            Self::Column(children) => Self::Column(list(children)),
+            Self::Tabs { front, tabs } => {
+                Self::Tabs { front, tabs: tabs.into_iter().map(|tab| tab.replaced(wanted, with)).collect() }
             }
         }
-        places
+    }
+
+    fn without(self, tile: Tile) -> Option<Self> {
+        self.filter_map(&mut |own| (own != tile).then_some(own))
+    }
+
+    /// Two tiles change places.
+    pub fn swapped(self, a: Tile, b: Tile) -> Self {
+        let other = |own: Tile| {
+            Some(if own == a {
+                b
+            } else if own == b {
+                a
+            } else {
+                own
+            })
+        };
+        self.clone().filter_map(&mut { other }).unwrap_or(self)
+    }
+
+    /// A tile becomes a tab of another, in front.
+    pub fn joined(self, tile: Tile, to: Tile) -> Self {
+        if tile == to {
+            return self;
+        }
+        let Some(mut rest) = self.clone().without(tile) else { return self };
+        if !rest.join(tile, to) {
+            rest = rest.replaced(to, &mut |own| Self::Tabs { front: 1, tabs: vec![Self::Tile(own), Self::Tile(tile)] });
+        }
+        rest
+    }
+
+    /// Into the tabs that hold `to`, if there are such.
+    fn join(&mut self, tile: Tile, to: Tile) -> bool {
+        if let Self::Tabs { front, tabs } = self
+            && let Some(number) = tabs.iter().position(|tab| *tab == Self::Tile(to))
+        {
+            tabs.insert(number + 1, Self::Tile(tile));
+            *front = number + 1;
+            return true;
+        }
+        self.children_mut().into_iter().any(|child| child.join(tile, to))
+    }
+
+    /// A tile leaves its tabs and stands to the right of them; nothing where it is no tab.
+    pub fn split(mut self, tile: Tile) -> Self {
+        self.split_off(tile);
+        self
+    }
+
+    fn split_off(&mut self, tile: Tile) -> bool {
+        if let Self::Tabs { tabs, .. } = self
+            && tabs.contains(&Self::Tile(tile))
+        {
+            if let Some(rest) = self.clone().without(tile) {
+                *self = Self::Row(vec![(1.0, rest), (1.0, Self::Tile(tile))]);
+            }
+            return true;
+        }
+        self.children_mut().into_iter().any(|child| child.split_off(tile))
+    }
+
+    /// A tile comes before the others of its tabs; true where it was not in sight.
+    pub fn reveal(&mut self, tile: Tile) -> bool {
+        if let Self::Tabs { front, tabs } = self
+            && let Some(number) = tabs.iter().position(|tab| tab.tiles().contains(&tile))
+        {
+            let hidden = *front != number;
+            *front = number;
+            return tabs[number].reveal(tile) || hidden;
+        }
+        self.children_mut().into_iter().any(|child| child.reveal(tile))
+    }
+
+    /// The tab after (+1) or before (−1) the one in front, among the tabs that hold a tile; their tile.
+    pub fn next_tab(&mut self, tile: Tile, step: i32) -> Option<Tile> {
+        if let Some(inner) = self.children_mut().into_iter().find_map(|child| child.next_tab(tile, step)) {
+            return Some(inner);
+        }
+        match self {
+            Self::Tabs { front, tabs } if tabs.iter().any(|tab| tab.tiles().contains(&tile)) => {
+                *front = (*front as i32 + step).rem_euclid(tabs.len() as i32) as usize;
+                tabs[*front].in_sight().first().copied()
+            }
+            _ => None,
+        }
+    }
+
+    /// Gives a tile more (or less) of the nearest row (`wide`) or column that shares a length with it.
+    pub fn resize(&mut self, tile: Tile, wide: bool, more: bool) -> bool {
+        if self.children_mut().into_iter().any(|child| child.resize(tile, wide, more)) {
+            return true;
+        }
+        let ((Self::Row(list), true) | (Self::Column(list), false)) = (self, wide) else { return false };
+        let Some((share, _)) = list.iter_mut().find(|(_, child)| child.tiles().contains(&tile)) else { return false };
+        *share = (*share * if more { STEP } else { 1.0 / STEP }).clamp(0.05, 20.0);
+        true
+    }
+
+    /// As a tree to be drawn.
+    pub fn tree(&self) -> Tree<Tile> {
+        let mut tiles = Tiles::default();
+        let root = self.plant(&mut tiles);
+        Tree::new(egui::Id::unique("bench"), root, tiles)
+    }
+
+    fn plant(&self, tiles: &mut Tiles<Tile>) -> TileId {
+        match self {
+            Self::Tile(tile) => tiles.insert_pane(*tile),
+            Self::Tabs { front, tabs } => {
+                let children: Vec<TileId> = tabs.iter().map(|tab| tab.plant(tiles)).collect();
+                let active = children.get(*front).or(children.first()).copied();
+                tiles.insert_container(Tabs { children, active })
+            }
+            Self::Row(list) => Self::plant_line(LinearDir::Horizontal, list, tiles),
+            Self::Column(list) => Self::plant_line(LinearDir::Vertical, list, tiles),
+        }
+    }
+
+    fn plant_line(dir: LinearDir, list: &[(f32, Self)], tiles: &mut Tiles<Tile>) -> TileId {
+        let children: Vec<TileId> = list.iter().map(|(_, child)| child.plant(tiles)).collect();
+        let mut line = Linear::new(dir, children.clone());
+        for (child, (share, _)) in children.into_iter().zip(list) {
+            line.shares.set_share(child, *share);
+        }
+        tiles.insert_container(line)
+    }
+
+    /// As a tree stands.
+    pub fn of(tree: &Tree<Tile>) -> Option<Self> {
+        Self::harvest(tree, tree.root()?)
+    }
+
+    fn harvest(tree: &Tree<Tile>, id: TileId) -> Option<Self> {
+        let children = |ids: &[TileId]| -> Vec<(TileId, Self)> {
+            ids.iter().filter_map(|id| Some((*id, Self::harvest(tree, *id)?))).collect()
+        };
+        Some(match tree.tiles.get(id)? {
+            egui_tiles::Tile::Pane(tile) => Self::Tile(*tile),
+            egui_tiles::Tile::Container(Container::Tabs(tabs)) => {
+                let list = children(&tabs.children);
+                let front = list.iter().position(|(id, _)| Some(*id) == tabs.active).unwrap_or(0);
+                Self::Tabs { front, tabs: list.into_iter().map(|(_, tab)| tab).collect() }
+            }
+            egui_tiles::Tile::Container(Container::Linear(line)) => {
+                let list = children(&line.children).into_iter();
+                let list = list.map(|(id, child)| (line.shares[id].clamp(1e-3, 1e3), child)).collect();
+                match line.dir {
+                    LinearDir::Horizontal => Self::Row(list),
+                    LinearDir::Vertical => Self::Column(list),
+                }
+            }
+            // None is ever made here.
+            egui_tiles::Tile::Container(Container::Grid(grid)) => {
+                let ids: Vec<TileId> = grid.children().copied().collect();
+                Self::Row(children(&ids).into_iter().map(|(_, child)| (1.0, child)).collect())
+            }
+        })
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use egui::pos2;
-
-    #[test]
-    fn weights_share_what_gaps_leave() {
-        let [a, b, c] = ["a", "b", "c"].map(|title| Tile { title, help: "" });
-        let whole = Rect::from_min_max(pos2(10.0, 20.0), pos2(116.0, 226.0));
-        let rows =
-            vec![Row { weight: 3.0, tiles: vec![(1.0, a), (4.0, b)] }, Row { weight: 1.0, tiles: vec![(2.0, c)] }];
-        let rect = |x0, y0, x1, y1| Rect::from_min_max(pos2(x0, y0), pos2(x1, y1));
-        let wanted = [
-            (a, rect(10.0, 20.0, 30.0, 170.0)),
-            (b, rect(36.0, 20.0, 116.0, 170.0)),
-            (c, rect(10.0, 176.0, 116.0, 226.0)),
-        ];
-        assert_eq!(Layout { rows }.places(whole, 6.0), wanted);
-        let even = Layout::even(vec![a, b, c]);
-        assert_eq!(even.rows.iter().map(|row| row.tiles.len()).collect::<Vec<_>>(), [2, 1]);
-    }
-}
+mod tests;

@@ -18,6 +18,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn lanes(&self) -> &'static [Lane] {
+        &[Lane::Lid]
+    }
+
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.results.lid.value.is_some() || seen.results.lid.error.is_some()
     }

@@ -7,17 +7,22 @@ mod control;
 mod drawn;
 mod layout;
 mod lid;
+mod presets;
 mod room;
 mod sky;
 mod transmittance;
 
 pub use drawn::{Drawn, TileInput};
-pub use layout::{Layout, Row};
+pub use layout::Layout;
+pub use lid::TILE as LID;
+pub use presets::layout as preset;
 
 use super::command::Command;
+use super::jobs::Lane;
 use super::paint::tile::waiting;
 use super::state::Tile;
-use egui::Ui;
+use egui::{Rect, Ui};
+use egui_tiles::Tree;
 
 /// A tile, and how its drawing begins.
 pub struct Entry {
@@ -42,21 +47,68 @@ pub const TILES: &[Entry] = &[
 
 /// The tiles of one window, and where they stand.
 pub struct Bench {
-    /// Where they stand.
-    pub layout: Layout,
+    /// The arrangement as it is drawn.
+    pub tree: Tree<Tile>,
+    /// As text, what `tree` was made of or left; `None`: a first start's.
+    pub text: Option<String>,
+    /// Where tiles stood in the last frame, in order.
+    pub places: Vec<(Tile, Rect)>,
+    /// The tile in hand: pointed at, or walked to by keys.
+    pub in_hand: Tile,
+    /// The tile in hand is to get the keyboard in the next frame.
+    pub to_focus: bool,
     drawn: Vec<(Tile, Box<dyn Drawn>)>,
+}
+
+/// All tiles, in the order of bench and keys.
+pub fn all() -> Vec<Tile> {
+    TILES.iter().map(|entry| entry.tile).collect()
 }
 
 impl Default for Bench {
     fn default() -> Self {
         Self {
-            layout: Layout::even(TILES.iter().map(|entry| entry.tile).collect()),
+            tree: Layout::even(&all()).tree(),
+            text: None,
+            places: Vec::new(),
+            in_hand: TILES[0].tile,
+            to_focus: false,
             drawn: TILES.iter().map(|entry| (entry.tile, (entry.begin)())).collect(),
         }
     }
 }
 
 impl Bench {
+    /// The arrangement as it stands.
+    pub fn layout(&self) -> Layout {
+        Layout::of(&self.tree).unwrap_or_else(|| Layout::even(&all()))
+    }
+
+    /// Arranges the tiles as a text says, where it is another than that of the present arrangement.
+    ///
+    /// # Errors
+    /// One clause on what is wrong with the text; the tiles then stand as at a first start.
+    pub fn follow(&mut self, text: Option<&String>) -> Result<(), String> {
+        if self.text.as_ref() == text {
+            return Ok(());
+        }
+        self.text = text.cloned();
+        let read = text.map_or_else(|| Ok(Layout::even(&all())), |text| Layout::read(text, &all()));
+        self.tree = read.as_ref().cloned().unwrap_or_else(|_| Layout::even(&all())).tree();
+        read.map(drop)
+    }
+
+    /// The tiles in sight: one that fills the bench hides the others.
+    pub fn in_sight(&self, maximised: Option<Tile>) -> Vec<Tile> {
+        maximised.map_or_else(|| self.layout().in_sight(), |tile| vec![tile])
+    }
+
+    /// Does a tile in sight draw what a lane computes?
+    pub fn shows(&self, lane: Lane, maximised: Option<Tile>) -> bool {
+        let in_sight = self.in_sight(maximised);
+        self.drawn.iter().any(|(tile, drawn)| in_sight.contains(tile) && drawn.lanes().contains(&lane))
+    }
+
     /// Draws a tile; its numbers where they are asked for.
     pub fn show(
         &mut self,
@@ -73,5 +125,34 @@ impl Bench {
             return None;
         }
         drawn.show(ui, seen, commands)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::arrange::Preset;
+
+    #[test]
+    fn every_preset_has_every_tile_once() {
+        for ready in Preset::ALL {
+            let mut tiles = preset(ready, &all()).tiles();
+            tiles.sort_by_key(|tile| all().iter().position(|one| one == tile));
+            assert_eq!(tiles, all(), "{ready:?}");
+        }
+    }
+
+    #[test]
+    fn a_lane_is_asked_for_by_tiles_in_sight_alone() {
+        let mut bench = Bench::default();
+        assert!(bench.shows(Lane::Room, None) && bench.shows(Lane::Lid, None) && bench.shows(Lane::Year, None));
+        assert!(!bench.shows(Lane::Room, Some(btdf::TILE)));
+        let maker = preset(Preset::Maker, &all()).text();
+        bench.follow(Some(&maker)).unwrap();
+        assert!(bench.shows(Lane::Room, None) && !bench.shows(Lane::Year, None));
+        assert!(bench.follow(Some(&"{".to_owned())).is_err());
+        assert_eq!(bench.layout().in_sight(), all());
+        // Said once.
+        assert!(bench.follow(Some(&"{".to_owned())).is_ok());
     }
 }

@@ -1,13 +1,15 @@
-//! The room tile: illuminances on the sensor plane; the plane can be moved.
+//! The room tile: light on the sensors and, where that is looked at, on the surfaces; windows and sensors can be moved.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::engine::{RoomFigures, part};
 use crate::app::jobs::Lane;
-use crate::app::state::Tile;
+use crate::app::paint::tile::Status;
+use crate::app::room_look::RoomView;
+use crate::app::state::{Daylight, State, Tile};
 use crate::app::views::{Cache, room};
 use crate::compute::direction::Surface;
-use crate::study::scene_file::{SceneFile, SurfaceKey};
+use crate::study::scene_file::{SceneFile, SkyModelKey, SurfaceKey};
 use egui::Ui;
 
 /// The tile.
@@ -18,8 +20,14 @@ pub const TILE: Tile =
 #[derive(Default)]
 pub struct Drawing {
     view: room::State,
-    cells: Cache<u64, Vec<room::CellValue>>,
+    shown: RoomView,
+    /// Horizontal illuminance outside under the sky that a result (by its revision) is of. \[lx\]
+    outside: Option<(u64, f64)>,
+    cells: Cache<(u64, u64), Vec<room::CellValue>>,
 }
+
+/// The CIE's overcast skies: its standard and its traditional one (ISO 15469).
+const OVERCAST: [u8; 2] = [1, 16];
 
 fn openings(scene: &SceneFile) -> Vec<room::Opening> {
     let surface = |key| match key {
@@ -33,53 +41,131 @@ fn openings(scene: &SceneFile) -> Vec<room::Opening> {
         .collect()
 }
 
-fn cells(figures: &RoomFigures) -> Vec<room::CellValue> {
+/// Sensors' light, times a factor.
+fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
     let cell = |i: usize| {
-        let total = figures.total(i);
+        let total = figures.total(i) * factor;
         room::CellValue {
             total: total.value,
             error: total.error,
-            direct: figures.direct[i].value,
-            inter: figures.interreflected[i].value,
-            beam: part(&figures.beam, i),
-            data_error: part(&figures.data_error, i),
+            direct: factor * figures.direct[i].value,
+            inter: factor * figures.interreflected[i].value,
+            beam: factor * part(&figures.beam, i),
+            data_error: factor * part(&figures.data_error, i),
         }
     };
     (0..figures.positions.len()).map(cell).collect()
 }
 
+/// What a daylight factor is a share of, the horizontal illuminance of the open overcast sky \[lx\]; or why there is
+/// none.
+fn outside(state: &State, daylight: Option<&Daylight>) -> Result<f64, &'static str> {
+    let sky = &state.document.scene.sky;
+    let daylight = daylight.ok_or("no daylight factor without a sky")?;
+    if sky.model != SkyModelKey::Cie || !sky.cie_type.is_some_and(|number| OVERCAST.contains(&number)) {
+        return Err("no daylight factor: it needs an overcast CIE sky, type 1 or 16");
+    }
+    if daylight.sun.is_some() {
+        return Err("no daylight factor: it needs a sky without sun");
+    }
+    let horizontal = daylight.outside.diffuse_horizontal();
+    if horizontal > 0.0 { Ok(horizontal) } else { Err("no daylight factor: the sky is dark") }
+}
+
+/// The scene with what was moved.
+fn moved(scene: &SceneFile, action: room::Action) -> SceneFile {
+    let mut scene = scene.clone();
+    match action {
+        room::Action::PlaneMoved(z) => {
+            if let Some(plane) = &mut scene.sensors.plane {
+                plane.z = z;
+            }
+        }
+        room::Action::OpeningMoved(number, to) => {
+            if let Some(aperture) = scene.aperture.get_mut(number) {
+                (aperture.origin, aperture.size) = (to.origin, to.size);
+            }
+        }
+        room::Action::PointMoved(number, to) => {
+            if let Some(point) = scene.sensors.points.get_mut(number) {
+                *point = to;
+            }
+        }
+        room::Action::Look(_) => {}
+    }
+    scene
+}
+
 impl Drawn for Drawing {
+    fn lanes(&self) -> &'static [Lane] {
+        if self.shown == RoomView::Perspective { &[Lane::Room, Lane::Surfaces] } else { &[Lane::Room] }
+    }
+
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.results.room.value.is_some() || seen.results.room.error.is_some()
     }
 
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
-        let shown = &seen.results.room;
-        let figures = shown.value.as_deref().filter(|figures| figures.grid.is_some());
-        let scene = &seen.state.document.scene;
-        let [nx, ny] = figures.and_then(|figures| figures.grid).unwrap_or([0, 0]);
+        let state = seen.state;
+        let scene = &state.document.scene;
+        let look = state.settings.room;
+        if self.shown != look.view {
+            // The bench knows with the next frame what is to be computed for it.
+            self.shown = look.view;
+            ui.ctx().request_repaint();
+        }
+        let (shown, surfaces) = (&seen.results.room, &seen.results.surfaces);
+        let factor = outside(state, state.daylight.value.as_deref());
+        if let Ok(horizontal) = factor
+            && !(shown.stale || state.daylight.stale)
+        {
+            self.outside = Some((shown.revision, horizontal));
+        }
+        // A result of an earlier sky is a share of that one.
+        let known = self.outside.filter(|(of, _)| *of == shown.revision && look.daylight_factor && factor.is_ok());
+        let (quantity, times) = match known {
+            Some((_, horizontal)) => (room::Quantity::DaylightFactor, 100.0 / horizontal),
+            None => (room::Quantity::Illuminance, 1.0),
+        };
+        let listed = scene.sensors.plane.is_none();
+        let figures = shown.value.as_deref();
+        let [nx, ny] = figures.and_then(|figures| figures.grid).filter(|_| !listed).unwrap_or([0, 0]);
+        let fits = figures.filter(|figures| {
+            figures.grid.is_none() == listed && (!listed || figures.positions.len() == scene.sensors.points.len())
+        });
         let openings = openings(scene);
         let name = seen.caption();
+        let status = match look.view {
+            RoomView::Perspective => seen.status_of(surfaces, Lane::Surfaces),
+            _ => {
+                let coarse = figures.is_some_and(|figures| figures.coarse);
+                Status { coarse, ..seen.status_of(shown, Lane::Room) }
+            }
+        };
+        let light = surfaces.value.as_deref().map(|figures| &figures.light);
         let input = room::Input {
             room: [scene.room.width, scene.room.depth, scene.room.height],
             apertures: &openings,
             nx,
             ny,
-            cells: self.cells.get(shown.revision, || figures.map_or_else(Vec::new, cells)),
-            listed: shown.value.is_some() && figures.is_none(),
-            plane_z: scene.sensors.plane.map_or(0.0, |plane| plane.z),
+            cells: self.cells.get((shown.revision, times.to_bits()), || fits.map_or_else(Vec::new, |one| cells(one, times))),
+            points: if listed { &scene.sensors.points } else { &[] },
+            plane_z: scene.sensors.plane.map(|plane| plane.z),
+            quantity,
+            no_factor: factor.err(),
+            look,
+            surfaces: light.zip(Some(surfaces.revision)),
             name: &name,
-            range: seen.scale,
-            revision: shown.revision,
-            status: seen.status_of(shown, Lane::Room),
+    shown: RoomView,
+    /// Horizontal illuminance outside under the sky that a result (by its revision) is of. \[lx\]
+    outside: Option<(u64, f64)>,
+    cells: Cache<(u64, u64), Vec<room::CellValue>>,
         };
         for action in room::show(ui, &input, &mut self.view) {
-            let room::Action::PlaneMoved(z) = action;
-            let mut scene = scene.clone();
-            if let Some(plane) = &mut scene.sensors.plane {
-                plane.z = z;
-            }
-            commands.push(Command::Scene(Box::new(scene)));
+            commands.push(match action {
+                room::Action::Look(look) => Command::RoomLook(look),
+                action => Command::Scene(Box::new(moved(scene, action))),
+            });
         }
         seen.numbers.then(|| room::csv(&input))
     }

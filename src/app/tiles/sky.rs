@@ -22,6 +22,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn lanes(&self) -> &'static [Lane] {
+        &[Lane::Lid]
+    }
+
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.state.daylight.value.is_some() || seen.state.daylight.error.is_some()
     }

@@ -1,20 +1,24 @@
 //! The BTDF: left where light comes from, right where it goes, both seen from inside the room.
 
+mod cut;
+mod lobe;
+mod place;
 mod words;
 
 use super::Cache;
 use crate::app::incidence::{Incidence, Source};
-use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::colour_scale::ColourScale;
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
-use crate::drawing::ticks::{degrees, number};
-use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use crate::drawing::ticks::number;
+use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2};
+use place::{Place, frame, places};
 use std::sync::Arc;
-use words::{pointed_text, selection_text};
+use words::{drawn, leaving_text, pointed_text, selection_text};
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
@@ -89,9 +93,31 @@ impl Incidences {
     }
 }
 
+/// How the side is drawn on which light leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Leaving {
+    /// As a disk in false colours.
+    #[default]
+    Disk,
+    /// As a body, its radius the value; turned by hand.
+    Body,
+    /// As curves over the angle, in the plane of incidence and across it.
+    Cuts,
+}
+
+impl Leaving {
+    const ALL: [(Self, &'static str, &'static str); 3] = [
+        (Self::Disk, "Disk", "Where light goes, in false colours"),
+        (Self::Body, "3D", "The same as a body, its radius the value; drag to turn, wheel to zoom"),
+        (Self::Cuts, "Cuts", "Curves over the angle, in the plane of incidence and across it"),
+    ];
+}
+
 /// The tile's own settings and pictures.
 #[derive(Debug, Clone)]
 pub struct State {
+    /// How the side is drawn on which light leaves.
+    pub leaving: Leaving,
     /// How θ becomes a radius.
     pub projection: Projection,
     /// Logarithmic colours.
@@ -105,11 +131,14 @@ pub struct State {
     left: Cache<(u64, Disk, Projection, bool, bool), Arc<Mesh>>,
     right: Cache<EmergentKey, Arc<Mesh>>,
     scale: Option<ColourScale>,
+    lobe: lobe::State,
 }
 
 impl Default for State {
     fn default() -> Self {
         Self {
+            leaving: Leaving::default(),
+            lobe: lobe::State::default(),
             projection: Projection::default(),
             log: true,
             weighted: false,
@@ -136,10 +165,11 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: HELP,
         empty: input.btdf.is_none().then_some("Choose a product in the catalogue to see where its light goes."),
-        controls_width: 330.0,
+        controls_width: 460.0,
     };
     // The toggles and the picture both write: settings are copied for the head and taken back after.
     let mut settings = (state.projection, state.log, state.weighted, state.shade_tau);
+    let mut leaving = state.leaving;
     let followed = input.incidence.source != Source::Chosen;
     let mut follow = followed;
     tile::show(
@@ -148,6 +178,9 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         &input.status,
         |ui| {
             ui.checkbox(&mut follow, "Follow the sun");
+            for (look, word, tip) in Leaving::ALL {
+                ui.selectable_value(&mut leaving, look, word).on_hover_text(tip);
+            }
             ui.toggle_value(&mut settings.1, "log").on_hover_text("Logarithmic colours, three decades");
             ui.toggle_value(&mut settings.2, "q·cosθ").on_hover_text("Times the cosine: what intensity is made of");
             ui.toggle_value(&mut settings.3, "τ").on_hover_text("Grey by transmittance on the incident side");
@@ -163,6 +196,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         },
     );
     (state.projection, state.log, state.weighted, state.shade_tau) = settings;
+    state.leaving = leaving;
     if follow != followed {
         actions.push(Action::FollowSun(follow));
     }
@@ -170,85 +204,10 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
 }
 
 fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
-    let [outside, inside] = places(rect);
+    let [outside, inside] = places(rect, state.leaving != Leaving::Disk);
     let incident = incident_side(ui, &outside, btdf, input, state, out);
     let emergent = emergent_side(ui, &inside, btdf, input, state);
     emergent.or(incident).unwrap_or_else(|| selection_text(btdf, &input.incidence))
-}
-
-/// Where one of the two hemispheres is drawn.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    /// All that may be written on.
-    rect: Rect,
-    disk: Disk,
-    /// Its legend, where it has one of its own.
-    legend: Option<Rect>,
-    /// A corner for the caption; without one it goes under the disk.
-    corner: Option<(Rect, Align2)>,
-}
-
-/// The incident and the emergent hemisphere: side by side in a wide tile, else on a diagonal, where two disks of one
-/// tile are largest and the free corners hold the captions.
-fn places(rect: Rect) -> [Place; 2] {
-    if rect.width() > 1.6 * rect.height() || rect.width() > 440.0 {
-        let (left, right) = rect.split_left_right_at_fraction(0.5);
-        return [left, right].map(|rect| {
-            let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
-            let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
-            Place { rect, disk, legend: Some(legend), corner: None }
-        });
-    }
-    const UP: f32 = 16.0;
-    const GAP: f32 = 8.0;
-    let legend = Rect::from_min_max(pos2(rect.left() + 2.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
-    let area = Rect::from_min_max(
-        pos2(rect.left() + 3.0, rect.top() + UP),
-        pos2(rect.right() - 3.0, (legend.top() - 4.0).max(rect.top() + UP + 20.0)),
-    );
-    // The centres, in opposite corners, are two radii and a gap apart: (w − 2r)² + (h − 2r)² = (2r + gap)².
-    let (w, h) = (area.width(), area.height());
-    let b = 4.0 * (w + h + GAP);
-    let r = (b - (b * b - 16.0 * (w * w + h * h - GAP * GAP)).max(0.0).sqrt()) / 8.0;
-    let radius = r.clamp(8.0, (0.5 * w.min(h)).max(8.0));
-    let corner = vec2(w - 2.0 * radius - 2.0, h - 2.0 * radius - UP);
-    let top = Rect::from_min_size(pos2(area.right() - corner.x, rect.top()), corner);
-    let bottom = Rect::from_min_size(area.left_bottom() - vec2(0.0, corner.y), corner);
-    [
-        Place {
-            rect,
-            disk: Disk { centre: area.min + vec2(radius, radius), radius },
-            legend: None,
-            corner: Some((top, Align2::RIGHT_TOP)),
-        },
-        Place {
-            rect,
-            disk: Disk { centre: area.max - vec2(radius, radius), radius },
-            legend: Some(legend),
-            corner: Some((bottom, Align2::LEFT_BOTTOM)),
-        },
-    ]
-}
-
-/// Rim and caption: the long one where it fits.
-fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2], palette: &Palette) {
-    let Some((corner, align)) = place.corner else {
-        let long = format!("{side}: {what}");
-        let caption = if place.rect.width() > 195.0 { &long } else { side };
-        place.disk.frame(ui.painter(), projection, caption, palette);
-        return;
-    };
-    place.disk.rim(ui.painter(), projection, palette);
-    let text =
-        if corner.width() > 76.0 && corner.height() > 44.0 { format!("{side}:\n{what}") } else { side.to_owned() };
-    let mut job =
-        egui::text::LayoutJob::simple(text, egui::FontId::proportional(13.0), palette.weak, corner.width().max(50.0));
-    job.halign = align.x();
-    let galley = ui.painter().layout_job(job);
-    let height = galley.size().y;
-    let y = if align == Align2::RIGHT_TOP { corner.top() } else { corner.bottom() - height };
-    let x = if align == Align2::RIGHT_TOP { corner.right() } else { corner.left() };
-    ui.painter().galley(pos2(x, y), galley, palette.weak);
 }
 
 fn disk_rect(disk: &Disk) -> Rect {
@@ -287,8 +246,8 @@ fn incident_side(
     } else {
         outline_all(ui, &disk, projection, &cells.basis, &palette);
     }
-    let from = match place.legend {
-        None if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
+    let from = match (place.legend, place.corner) {
+        (None, Some(_)) if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
         _ => "where light comes from".to_owned(),
     };
     frame(ui, place, projection, ["outside", &from], &palette);
@@ -357,87 +316,115 @@ fn outline_all(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, 
     }
 }
 
-/// Value drawn for a cell: q, or q times the cell's mean cosine.
-fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
-    if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
+/// The scale of what leaves; while something is dragged it holds still.
+fn scale_of(max: f64, input: &Input<'_>, state: &State) -> ColourScale {
+    let held = state.scale.clone().filter(|s| input.status.hold_scale && s.log == state.log);
+    match input.range {
+        Some([lo, hi]) => ColourScale {
+            lo: if state.log { lo.max(hi * 1e-6) } else { lo },
+            hi,
+            log: state.log,
+            map: ColourMap::Sequential,
+        },
+        None => held.unwrap_or_else(|| ColourScale::up_to(max, state.log, 3, ColourMap::Sequential)),
+    }
 }
 
 fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
-    let (projection, weighted) = (state.projection, state.weighted);
-    let (rect, disk) = (place.rect, place.disk);
-    let legend = place.legend.unwrap_or(rect);
-    let response = ui.interact(disk_rect(&disk), ui.scope_id().with("emergent"), Sense::hover());
-    let key = bits(input.incidence.direction);
-    let indicatrix = state.indicatrix.get((input.revision, key), || btdf.indicatrix(input.incidence.direction));
-    let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
-    let mut text = None;
-    ui.painter().circle_filled(disk.centre, disk.radius, palette.face);
-    if let Some(Indicatrix { basis, q }) = indicatrix {
+    let direction = input.incidence.direction;
+    let key = bits(direction);
+    // Taken for this frame: the settings beside it are written meanwhile.
+    let mut kept = std::mem::take(&mut state.indicatrix);
+    let found = kept.get((input.revision, key), || btdf.indicatrix(direction));
+    let weighted = state.weighted;
+    let scale = found.as_ref().map(|Indicatrix { basis, q }| {
         let values = basis.cells().zip(q).map(|(cell, q)| drawn(*q, &cell, weighted));
-        let max = values.fold(0.0, f64::max);
-        let held = state.scale.clone().filter(|s| input.status.hold_scale && s.log == state.log);
-        let scale = match input.range {
-            Some([lo, hi]) => ColourScale {
-                lo: if state.log { lo.max(hi * 1e-6) } else { lo },
-                hi,
-                log: state.log,
-                map: ColourMap::Sequential,
-            },
-            None => held.unwrap_or_else(|| ColourScale::up_to(max, state.log, 3, ColourMap::Sequential)),
-        };
-        let mesh = state.right.get((input.revision, key, disk, projection, weighted, scale.clone()), || {
-            Arc::new(
-                disk.cells(projection, Side::Emergent, basis, |i| scale.colour(drawn(q[i], &basis.cell(i), weighted))),
-            )
-        });
-        ui.painter().add(Shape::Mesh(mesh.clone()));
-        let pointed = response
-            .hover_pos()
-            .and_then(|at| Side::Emergent.through_name(projection, disk.disk(at)))
-            .and_then(|d| basis.index(d));
-        if let Some(index) = pointed {
-            let cell = basis.cell(index);
-            let leaving = Emergent::from_through_name(cell.centre());
-            ui.painter().add(Shape::closed_line(
-                outline(&disk, projection, Side::Emergent, &cell),
-                Stroke::new(1.5, Color32::WHITE),
-            ));
-            let theta = cell.centre().theta();
-            let (theta, phi) = (degrees(theta), degrees(leaving.0.phi()));
-            let value = number(drawn(q[index], &cell, weighted), 3);
-            let what = if weighted { "q·cosθ" } else { "q" };
-            text = Some(Foot::from([
-                format!("leaving {theta} off the normal, φ {phi} · {what} {value} 1/sr"),
-                format!("{theta} off normal, φ {phi} · {what} {value} 1/sr"),
-                format!("{what} {value} 1/sr"),
-            ]));
+        scale_of(values.fold(0.0, f64::max), input, state)
+    });
+    let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
+    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(direction.0.theta()));
+    let legend = place.legend.unwrap_or(place.rect);
+    let (text, name) = match (found, &scale, state.leaving) {
+        (Some(indicatrix), Some(scale), Leaving::Body) => {
+            let body = lobe::Input { indicatrix, direction, regular, scale, weighted, key: (input.revision, key) };
+            let (text, value) = lobe::show(ui, place, &body, &mut state.lobe);
+            scale.paint_legend(ui.painter(), legend, unit, value, &palette);
+            (text, None)
         }
-        let value = pointed.map(|i| drawn(q[i], &basis.cell(i), weighted));
-        scale.paint_legend(ui.painter(), legend, unit, value, &palette);
-        state.scale = Some(scale);
-    } else {
-        let at = pos2(legend.center().x, legend.top() + 4.0);
-        tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
+        (Some(indicatrix), Some(scale), Leaving::Cuts) => {
+            cut::show(ui, place.rect, indicatrix, direction, scale, weighted);
+            (None, None)
+        }
+        (found, scale, _) => {
+            let (text, value, response) = emergent_disk_ui(ui, place, found.as_ref().zip(scale.as_ref()), input, state);
+            match scale {
+                Some(scale) => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
+                None => {
+                    let at = pos2(legend.center().x, legend.top() + 4.0);
+                    tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
+                }
+            }
+            frame(ui, place, state.projection, ["inside", "where light goes"], &palette);
+            if regular > 0.0 && direction.0.vector().z > 0.0 {
+                regular_dot(ui, place, state.projection, (direction, regular), &palette);
+            }
+            (text, Some(response))
+        }
+    };
+    state.indicatrix = kept;
+    state.scale = scale.or(state.scale.take());
+    if let Some(response) = name {
+        tile::name(ui, &response, "Emergent hemisphere", selection_text(btdf, &input.incidence).full());
     }
-    frame(ui, place, projection, ["inside", "where light goes"], &palette);
-    let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(input.incidence.direction.0.theta()));
-    if regular > 0.0 && input.incidence.direction.0.vector().z > 0.0 {
-        let at = disk.screen(emergent_disk(projection, Emergent::from_through_name(input.incidence.direction.0)));
-        ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
-        let label = format!("regular τ {}", number(regular, 3));
-        let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
-        // Beside the dot where there is room, else over it.
-        let right = Align2::LEFT_CENTER.anchor_size(at + egui::vec2(9.0, 0.0), galley.size());
-        let left = Align2::RIGHT_CENTER.anchor_size(at - egui::vec2(9.0, 0.0), galley.size());
-        let over = Align2::CENTER_BOTTOM.anchor_size(at - egui::vec2(0.0, 9.0), galley.size());
-        let fits = |place: &Rect| place.left() >= rect.left() + 2.0 && place.right() <= rect.right() - 2.0;
-        let place = [right, left].into_iter().find(fits).unwrap_or(over);
-        ui.painter().rect_filled(place.expand(2.0), 3, palette.face);
-        ui.painter().galley(place.min, galley, palette.ink);
-    }
-    tile::name(ui, &response, "Emergent hemisphere", selection_text(btdf, &input.incidence).full());
     text
+}
+
+/// The hemisphere in false colours: words and value of what is under the cursor.
+fn emergent_disk_ui(
+    ui: &mut Ui,
+    place: &Place,
+    found: Option<(&Indicatrix, &ColourScale)>,
+    input: &Input<'_>,
+    state: &mut State,
+) -> (Option<Foot>, Option<f64>, egui::Response) {
+    let palette = Palette::of(ui.visuals());
+    let (projection, weighted, disk) = (state.projection, state.weighted, place.disk);
+    let response = ui.interact(disk_rect(&disk), ui.scope_id().with("emergent"), Sense::hover());
+    ui.painter().circle_filled(disk.centre, disk.radius, palette.face);
+    let Some((Indicatrix { basis, q }, scale)) = found else { return (None, None, response) };
+    let key = bits(input.incidence.direction);
+    let mesh = state.right.get((input.revision, key, disk, projection, weighted, scale.clone()), || {
+        Arc::new(disk.cells(projection, Side::Emergent, basis, |i| scale.colour(drawn(q[i], &basis.cell(i), weighted))))
+    });
+    ui.painter().add(Shape::Mesh(mesh.clone()));
+    let pointed = response
+        .hover_pos()
+        .and_then(|at| Side::Emergent.through_name(projection, disk.disk(at)))
+        .and_then(|d| basis.index(d));
+    let Some(index) = pointed else { return (None, None, response) };
+    let cell = basis.cell(index);
+    let outline = outline(&disk, projection, Side::Emergent, &cell);
+    ui.painter().add(Shape::closed_line(outline, Stroke::new(1.5, Color32::WHITE)));
+    let value = drawn(q[index], &cell, weighted);
+    (Some(leaving_text(cell.centre(), value, weighted)), Some(value), response)
+}
+
+/// What goes straight on, where it goes.
+fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Incident, f64), palette: &Palette) {
+    let rect = place.rect;
+    let at = place.disk.screen(emergent_disk(projection, Emergent::from_through_name(from.0)));
+    ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
+    let label = format!("regular τ {}", number(tau, 3));
+    let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
+    // Beside the dot where there is room, else over it.
+    let right = Align2::LEFT_CENTER.anchor_size(at + egui::vec2(9.0, 0.0), galley.size());
+    let left = Align2::RIGHT_CENTER.anchor_size(at - egui::vec2(9.0, 0.0), galley.size());
+    let over = Align2::CENTER_BOTTOM.anchor_size(at - egui::vec2(0.0, 9.0), galley.size());
+    let fits = |place: &Rect| place.left() >= rect.left() + 2.0 && place.right() <= rect.right() - 2.0;
+    let place = [right, left].into_iter().find(fits).unwrap_or(over);
+    ui.painter().rect_filled(place.expand(2.0), 3, palette.face);
+    ui.painter().galley(place.min, galley, palette.ink);
 }
 
 /// The indicatrix of the chosen incidence: direction in which light leaves (façade frame), q and solid angle.

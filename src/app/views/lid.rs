@@ -1,5 +1,8 @@
 //! The luminous-intensity distribution of the aperture, drawn as lighting designers draw a luminaire's: nadir down.
 
+mod body;
+mod scaling;
+
 use super::Cache;
 use crate::app::paint::palette::Palette;
 use crate::app::paint::polar::PolarAxes;
@@ -10,6 +13,7 @@ use crate::compute::lid::c_gamma::{Aim, Peaks};
 use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample, vertical_planes};
 use crate::drawing::ticks::{number, si};
 use egui::{Color32, FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use scaling::{Scaling, towards};
 use std::f64::consts::{PI, TAU};
 
 /// What the tile draws.
@@ -40,6 +44,9 @@ pub enum Action {}
 pub struct State {
     /// Intensity per m² of aperture instead of the whole aperture's.
     pub per_area: bool,
+    /// As a body instead of curves.
+    pub solid: bool,
+    body: body::State,
     curves: Cache<(u64, Vec<LidPlane>), Curves>,
     ring: Option<f64>,
 }
@@ -58,41 +65,30 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: HELP,
         empty: input.lid.is_none().then_some("No luminous-intensity distribution: the scene has no window to shine."),
-        controls_width: 60.0,
+        controls_width: 96.0,
     };
-    let mut per_area = state.per_area;
+    let (mut per_area, mut solid) = (state.per_area, state.solid);
     tile::show(
         ui,
         &words,
         &input.status,
         |ui| {
             ui.toggle_value(&mut per_area, "per m²").on_hover_text("Candela per square metre of aperture");
+            let tip = "The body of light: its radius is the intensity; drag to turn, wheel to zoom";
+            ui.toggle_value(&mut solid, "3D").on_hover_text(tip);
         },
         |ui, rect| match input.lid {
+            Some(lid) if state.solid => {
+                let scaling = Scaling::of(lid, state.per_area);
+                let light = body::Input { lid, peaks: input.peaks, revision: input.revision, scaling };
+                body::show(ui, rect, &light, &mut state.body).unwrap_or_else(|| summary(lid, input, scaling))
+            }
             Some(lid) => picture(ui, rect, lid, input, state),
             None => Foot::default(),
         },
     );
-    state.per_area = per_area;
+    (state.per_area, state.solid) = (per_area, solid);
     vec![]
-}
-
-/// In what intensities are told: the whole aperture's, or those of a square metre of it.
-#[derive(Debug, Clone, Copy)]
-struct Scaling {
-    factor: f64,
-    per_area: bool,
-}
-
-impl Scaling {
-    const fn unit(self) -> &'static str {
-        if self.per_area { "cd per m² of aperture" } else { "cd" }
-    }
-
-    /// "11.5 Mcd", "2.1 kcd per m²".
-    fn text(self, intensity: f64) -> String {
-        format!("{}{}", si(intensity * self.factor, "cd"), if self.per_area { " per m²" } else { "" })
-    }
 }
 
 /// Colours of the vertical planes, in their order.
@@ -102,7 +98,7 @@ fn colours(palette: &Palette) -> [Color32; 3] {
 
 fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
-    let scaling = Scaling { factor: if state.per_area { 1.0 / lid.area() } else { 1.0 }, per_area: state.per_area };
+    let scaling = Scaling::of(lid, state.per_area);
     let factor = scaling.factor;
     let planes = vertical_planes(lid.surface, input.peaks);
     let curves = state.curves.get((input.revision, planes.clone()), || sample(lid, &planes)).clone();
@@ -174,12 +170,6 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     tile::name(ui, &response, "LID polar diagram", rest.full());
     legend_ui(ui, legend, lid, input, (&curves, scaling), &palette);
     text.unwrap_or(rest)
-}
-
-/// "C 12°, γ 80°": where a direction lies for the aperture's luminaire file.
-fn towards(surface: Surface, d: Emergent) -> String {
-    let (c, gamma) = Aim::of(surface).angles(d);
-    format!("C {:.0}°, γ {:.0}°", c.to_degrees().round() % 360.0, gamma.to_degrees())
 }
 
 /// The strongest scattered light and where it goes; the beam has its words in the legend.
@@ -330,72 +320,4 @@ pub fn csv(input: &Input<'_>) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::compute::lid::EmergentLuminance;
-    use crate::compute::lid::c_gamma::{Peak, Step};
-    use std::f64::consts::FRAC_PI_2;
-
-    fn lambert(surface: Surface) -> Lid {
-        Lid { surface, size: [2.0, 1.5], parts: vec![EmergentLuminance::Uniform(1000.0)], beams: Vec::new() }
-    }
-
-    #[test]
-    fn planes_and_angles_agree() {
-        let near = |plane: LidPlane, angle: f64, c: f64, gamma: f64| {
-            for aim in [Aim::Mounted, Aim::Down] {
-                let found = aim.angles(plane.direction(aim, angle));
-                let turned = (found.0.to_degrees() - c + 180.0).rem_euclid(360.0) - 180.0;
-                assert!(turned.abs() < 1e-9 && (found.1.to_degrees() - gamma).abs() < 1e-9, "{plane:?} {found:?}");
-            }
-        };
-        near(LidPlane::Vertical(0), 30_f64.to_radians(), 0.0, 30.0);
-        near(LidPlane::Vertical(0), -30_f64.to_radians(), 180.0, 30.0);
-        near(LidPlane::Vertical(15), 80_f64.to_radians(), 15.0, 80.0);
-        near(LidPlane::Horizontal, 10_f64.to_radians(), 10.0, 90.0);
-    }
-
-    #[test]
-    fn a_uniform_aperture_is_the_ideal_diffuser_of_its_flux() {
-        for (surface, level) in [(Surface::Facade, FRAC_PI_2), (Surface::Roof, 0.0)] {
-            let lid = lambert(surface);
-            let aim = Aim::of(surface);
-            let flux = PI * 1000.0 * lid.area();
-            for section in [LidPlane::Vertical(0), LidPlane::Vertical(90), LidPlane::Horizontal] {
-                for k in 0..24 {
-                    let d = section.direction(aim, f64::from(k) * TAU / 24.0 + 0.01);
-                    assert!((intensity(&lid, d) - diffuser(flux, d)).abs() < 1e-6);
-                }
-            }
-            // A façade's largest intensity is level into the room, a roof's straight down: L·A.
-            assert!((intensity(&lid, LidPlane::Vertical(0).direction(aim, level)) - 3000.0).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn the_plane_of_the_peak_is_drawn() {
-        let peaks = |c: f64, gamma: f64| Peaks {
-            scattered: Some(Peak { intensity: 1.0, c: c.to_radians(), gamma: gamma.to_radians() }),
-            beam: None,
-            step: Step::NORMAL,
-        };
-        let names = |surface, peaks: &Peaks| -> Vec<String> {
-            vertical_planes(surface, Some(peaks)).iter().map(LidPlane::label).collect()
-        };
-        assert_eq!(names(Surface::Facade, &peaks(345.0, 80.0)), ["C0–C180", "C345–C165"]);
-        // Across the façade already, or straight down: the usual two.
-        for usual in [peaks(180.0, 80.0), peaks(77.0, 0.0)] {
-            assert_eq!(names(Surface::Facade, &usual), ["C0–C180", "C90–C270"]);
-        }
-        assert_eq!(names(Surface::Roof, &peaks(45.0, 30.0)), ["C0–C180", "C45–C225", "C90–C270"]);
-        assert_eq!(names(Surface::Roof, &peaks(270.0, 30.0)), ["C0–C180", "C270–C90"]);
-    }
-
-    #[test]
-    fn intensities_of_a_square_metre_say_so() {
-        let scaling = Scaling { factor: 0.5, per_area: true };
-        assert_eq!(scaling.text(30_000.0), "15.0 kcd per m²");
-        assert_eq!(scaling.unit(), "cd per m² of aperture");
-        assert_eq!(Scaling { factor: 1.0, per_area: false }.text(30_000.0), "30.0 kcd");
-    }
-}
+mod tests;

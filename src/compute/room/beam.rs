@@ -17,12 +17,15 @@ pub struct Beam {
     pub flux: f64,
 }
 
-/// What of a beam lies on one wall.
-struct Lit {
-    wall: usize,
-    corners: Vec<DVec2>,
-    /// \[lx\]
-    illuminance: f64,
+/// What of a beam lies on one wall: a convex piece of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lit {
+    /// Index of the wall.
+    pub wall: usize,
+    /// In the wall's own coordinates, in order. \[m\]
+    pub corners: Vec<DVec2>,
+    /// By the beam alone. \[lx\]
+    pub illuminance: f64,
 }
 
 /// Beams of more directions than this through all apertures together are merged before the room reflects them.
@@ -30,7 +33,7 @@ pub const MOST_BEAMS: usize = 24;
 
 impl Beam {
     /// Where it lands, scaled to its flux. The disc's penumbra is left out: its mean over a patch is nil but at the edges.
-    fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
+    pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         let mut lit = Vec::with_capacity(3);
         let mut landed = 0.0;
         for (number, wall) in mesh.walls.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! What every surface of the room receives directly from an aperture: the right-hand side of the interreflection.
 
 use super::aperture::{Aperture, View};
-use super::beam::{Beam, merged};
+use super::beam::{Beam, Lit, merged};
 use super::direct::{Reception, Sensor};
 use super::mesh::{Mesh, Patch, Wall};
 use super::outline::{Outline, thrown_on_patches};
@@ -296,6 +296,11 @@ impl FirstLight {
             let from = aperture.surface.room_dir(beam.to).vector();
             self.beams.push(Beam { aperture: *aperture, from, flux: beam.exitance * aperture.area() });
         }
+    }
+
+    /// What the beams light, as sharp as the room reflects it: those of a wide fan together.
+    pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
+        merged(&self.beams).iter().flat_map(|beam| beam.lit(mesh)).collect()
     }
 
     /// Where the beams land; `None` without any.

@@ -93,6 +93,18 @@ impl Radiosity {
         }
     }
 
+    /// Illuminance of every fine patch by first light and all its reflections, and by how much the mean over the patch's
+    /// coarse one differs from what the coarse patches alone make of it. \[lx\]
+    pub fn illuminance(&self, first: &[f64]) -> Vec<(f64, f64)> {
+        let received = |level: &MeshBalance, mesh: &Mesh, first: &[f64]| -> Vec<f64> {
+            first.iter().zip(level.after_reflection(mesh, first)).map(|(e, r)| e + r).collect()
+        };
+        let fine = received(&self.level, &self.nested.fine, first);
+        let coarse = received(&self.coarser, &self.nested.coarse, &self.level.means(&self.nested.fine, first));
+        let means = self.level.means(&self.nested.fine, &fine);
+        fine.into_iter().zip(&self.level.holder).map(|(e, &holder)| (e, means[holder] - coarse[holder])).collect()
+    }
+
     /// What a sum over the exitance of the fine patches (weights `gather`) hangs on: weights a with
     /// Σ gather·exitance = Σ a·first for every first illuminance. One solution serves every light.
     pub fn adjoint_fine(&self, gather: &[f64]) -> Vec<f64> {
@@ -307,6 +319,25 @@ mod tests {
                 assert!((b / rho * (1.0 - rho) / 100.0 - 1.0).abs() < 1e-8, "{rho}: {b}");
             }
         }
+    }
+
+    #[test]
+    fn illuminance_is_exitance_over_reflectance_and_known_on_black_patches_too() {
+        let floor_black = BoxRoom { floor: 0.0, ..room(0.6) };
+        let radiosity = radiosity(&floor_black, &[window()], 0.3, 500);
+        let mesh = &radiosity.nested.fine;
+        let first: Vec<f64> = mesh.patches.iter().map(|patch| 10.0 + patch.extent[0][0] + patch.extent[1][1]).collect();
+        let received = radiosity.illuminance(&first);
+        let exitance = radiosity.exitance(&first).fine;
+        let (mut falling, mut leaving) = (0.0, 0.0);
+        for (((patch, e0), (e, _)), b) in mesh.patches.iter().zip(&first).zip(&received).zip(&exitance) {
+            assert!((patch.reflectance * e - b).abs() < 1e-9 * (1.0 + b));
+            assert!(e > e0);
+            falling += patch.area * (e - e0);
+            leaving += patch.area * b;
+        }
+        // All that leaves a surface falls on one; black patches know the first light by its means over coarse ones.
+        assert!((falling / leaving - 1.0).abs() < 1e-3, "{falling} {leaving}");
     }
 
     #[test]

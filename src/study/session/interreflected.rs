@@ -124,6 +124,27 @@ impl Session {
         }
     }
 
+    /// What the apertures send straight to about so many fine patches.
+    pub(super) fn first_light(
+        &self,
+        scene: &Scene,
+        emissions: &[Emission],
+        count: usize,
+        progress: &dyn Progress,
+    ) -> Result<FirstLight, StudyError> {
+        let key = room_key(scene, count);
+        let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
+        let radiosity = self.radiosity(scene, count)?;
+        let mesh = &radiosity.nested.fine;
+        let mut first = FirstLight::dark(mesh.patches.len());
+        for (index, emission) in emissions.iter().enumerate() {
+            check(progress)?;
+            let weights = |basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
+            first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
+        }
+        Ok(first)
+    }
+
     /// With about so many fine patches.
     fn reflected(
         &self,
@@ -139,12 +160,7 @@ impl Session {
         let mesh = &radiosity.nested.fine;
         let gather = self.gathering(scene, count, &radiosity)?;
         let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
-        let mut first = FirstLight::dark(mesh.patches.len());
-        for (index, emission) in emissions.iter().enumerate() {
-            check(progress)?;
-            let weights = |basis: &Arc<RingBasis>| weights(index, basis);
-            first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
-        }
+        let first = self.first_light(scene, emissions, count, progress)?;
         check(progress)?;
         // What the beams light reflects as the sharp outlines that they are, to sensors and patches; the balance begins
         // with what these receive.

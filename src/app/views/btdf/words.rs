@@ -2,9 +2,10 @@
 
 use crate::app::incidence::{Incidence, direction_text};
 use crate::app::paint::tile::Foot;
+use crate::compute::basis::Cell;
 use crate::compute::btdf::{Btdf, Scattered};
-use crate::compute::direction::Incident;
-use crate::drawing::ticks::number;
+use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use crate::drawing::ticks::{degrees, number};
 
 /// The incidence under the pointer, which a click would choose.
 pub(super) fn pointed_text(d: Incident, tau: f64) -> Foot {
@@ -42,4 +43,22 @@ fn measured_at(btdf: &Btdf, incident: Incident) -> String {
         return String::new();
     }
     format!(" · data of {}", direction_text(own))
+}
+
+/// Value drawn for a cell: q, or q times the cell's mean cosine.
+pub(super) fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
+    if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
+}
+
+/// What leaves into a direction that is given by its through-name.
+pub(super) fn leaving_text(through: Dir<Facade>, value: f64, weighted: bool) -> Foot {
+    let leaving = Emergent::from_through_name(through);
+    let (theta, phi) = (degrees(through.theta()), degrees(leaving.0.phi()));
+    let value = number(value, 3);
+    let what = if weighted { "q·cosθ" } else { "q" };
+    Foot::from([
+        format!("leaving {theta} off the normal, φ {phi} · {what} {value} 1/sr"),
+        format!("{theta} off normal, φ {phi} · {what} {value} 1/sr"),
+        format!("{what} {value} 1/sr"),
+    ])
 }

@@ -1,0 +1,94 @@
+//! Asks for what is to be computed as soon as it is in sight: a tile behind a tab, or behind one that fills the bench,
+//! asks for nothing.
+
+use super::due::Geometry;
+use super::engine::Question;
+use super::jobs::Lane;
+use super::state::Sheet;
+use super::window::App;
+use super::work::Outcome;
+use crate::study::scene_file::SceneFile;
+
+/// A plane of more sensors than this is computed with half as many along both sides while room, openings or sensors are
+/// being dragged.
+const AT_ONCE: usize = 96;
+
+impl App {
+    /// After a change of the document: what is under way for the old one is withdrawn, and all is to be computed anew.
+    pub(super) fn owe_results(&mut self) {
+        for lane in [Lane::Lid, Lane::Room, Lane::Surfaces] {
+            // While something is dragged a coarse picture comes to its end: else none ever would.
+            if !(lane == Lane::Room && self.due.coarse && self.held()) {
+                self.jobs.cancel(lane);
+            }
+            self.due.owe(lane);
+        }
+        self.ask_due();
+    }
+
+    fn held(&self) -> bool {
+        self.ctx.input(|input| input.pointer.any_down())
+    }
+
+    /// Starts what is to be computed and in sight.
+    pub(super) fn ask_due(&mut self) {
+        if self.due.coarse && !self.held() {
+            self.due.coarse = false;
+            self.due.owe(Lane::Room);
+            self.jobs.cancel(Lane::Room);
+        }
+        for lane in self.due.lanes.clone() {
+            let waits = lane == Lane::Room && self.due.coarse && self.jobs.busy(lane);
+            if !waits && self.is_wanted(lane) {
+                self.due.lanes.remove(&lane);
+                self.ask(lane);
+            }
+        }
+    }
+
+    /// Files may hold what no tile in sight shows: where one is about to be written all is wanted.
+    fn is_wanted(&self, lane: Lane) -> bool {
+        let to_file = matches!(self.state.sheet, Some(Sheet::Path(_))) && lane != Lane::Surfaces;
+        to_file || self.bench.shows(lane, self.state.maximised)
+    }
+
+    fn ask(&mut self, lane: Lane) {
+        if lane == Lane::Year {
+            return self.ask_year();
+        }
+        let Some(shelf) = self.state.shelf() else { return };
+        let scene = self.state.document.scene.clone();
+        let mut question = Question { scene, base: self.state.base(), shelf };
+        let engine = self.services.engine.clone();
+        match lane {
+            Lane::Lid => self.start(lane, move |job| Outcome::Lid(engine.lid(&question, job))),
+            Lane::Surfaces => self.start(lane, move |job| Outcome::Surfaces(engine.surfaces(&question, job))),
+            _ => {
+                let coarse = self.coarsen(&mut question.scene);
+                self.start(Lane::Room, move |job| {
+                    let room = engine.room(&question, job);
+                    Outcome::Room(room.map(|mut figures| {
+                        figures.coarse = coarse;
+                        figures
+                    }))
+                });
+            }
+        }
+    }
+
+    /// While geometry is dragged, fewer sensors; true if so.
+    fn coarsen(&mut self, scene: &mut SceneFile) -> bool {
+        let geometry = Geometry::of(scene);
+        let moved = self.due.geometry.as_ref().is_some_and(|old| *old != geometry);
+        if let Some(plane) = scene.sensors.plane.as_mut().filter(|plane| plane.nx * plane.ny > AT_ONCE)
+            && moved
+            && self.held()
+        {
+            (plane.nx, plane.ny) = (plane.nx.div_ceil(2), plane.ny.div_ceil(2));
+            self.due.coarse = true;
+            return true;
+        }
+        self.due.geometry = Some(geometry);
+        false
+    }
+}

@@ -1,0 +1,168 @@
+//! A thing in space that is turned by hand: where its points are on the screen.
+
+use egui::{Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Ui, Vec2, pos2};
+use glam::DVec3;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Turning by one point of a drag. \[rad\]
+const PER_POINT: f64 = 0.008;
+/// Turning by one arrow key. \[rad\]
+const PER_KEY: f64 = 0.087;
+/// Nearest that anything is drawn, relative to the thing's radius.
+const NEAR: f64 = 0.02;
+
+/// From where a thing is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Of the eye round the upright axis z, from +x towards +y. \[rad\]
+    pub turn: f64,
+    /// Of the eye above the level. \[rad\]
+    pub tilt: f64,
+    /// 1: all of the thing is seen.
+    pub zoom: f64,
+}
+
+impl Camera {
+    /// All of it from a direction. \[rad\]
+    pub const fn from(turn: f64, tilt: f64) -> Self {
+        Self { turn, tilt, zoom: 1.0 }
+    }
+
+    /// Turns by what was dragged, by the wheel, by arrow keys, + and −; Home goes back to `first`. True: it has moved.
+    pub fn obey(&mut self, ui: &Ui, response: &Response, first: Self) -> bool {
+        let before = *self;
+        let drag = if response.dragged() { response.drag_delta() } else { Vec2::ZERO };
+        self.turn -= PER_POINT * f64::from(drag.x);
+        self.tilt += PER_POINT * f64::from(drag.y);
+        if response.hovered() {
+            let wheel = ui.input(|input| input.smooth_scroll_delta().y + 200.0 * (input.zoom_delta() - 1.0));
+            self.zoom *= f64::from(wheel * 0.004).exp();
+        }
+        if response.has_focus() {
+            let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+            let pressed = |key| f64::from(u8::from(ui.input(|input| input.key_pressed(key))));
+            self.turn += PER_KEY * (pressed(Key::ArrowRight) - pressed(Key::ArrowLeft));
+            self.tilt += PER_KEY * (pressed(Key::ArrowUp) - pressed(Key::ArrowDown));
+            self.zoom *= 1.25_f64.powf(pressed(Key::Plus) + pressed(Key::Equals) - pressed(Key::Minus));
+            if pressed(Key::Home) > 0.0 {
+                *self = first;
+            }
+        }
+        self.turn = self.turn.rem_euclid(TAU);
+        self.tilt = self.tilt.clamp(-FRAC_PI_2 + 0.01, FRAC_PI_2 - 0.01);
+        self.zoom = self.zoom.clamp(0.4, 12.0);
+        *self != before
+    }
+
+    /// The view of a ball into a rectangle.
+    pub fn view(&self, centre: DVec3, radius: f64, rect: Rect) -> View {
+        let (sin, cos) = self.turn.sin_cos();
+        let (up, level) = self.tilt.sin_cos();
+        let outward = DVec3::new(level * cos, level * sin, up);
+        let right = DVec3::new(-sin, cos, 0.0);
+        // At zoom 1 the ball is seen whole; nearer the eye goes into it before it goes on magnifying.
+        let distance = 3.0 * radius / self.zoom.min(6.0);
+        let focal = 0.5 * f64::from(rect.width().min(rect.height())) * 2.8 * (self.zoom / 6.0).max(1.0);
+        View {
+            eye: centre + distance * outward,
+            right,
+            up: outward.cross(right),
+            forward: -outward,
+            focal,
+            middle: rect.center(),
+            near: NEAR * radius,
+        }
+    }
+}
+
+/// Words over a point, on a ground, kept inside an area.
+pub fn words(painter: &Painter, area: Rect, at: Pos2, text: &str, [colour, ground]: [Color32; 2]) {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), colour);
+    let size = galley.size();
+    let room = area.shrink(4.0);
+    if size.x > room.width() || size.y > room.height() {
+        return;
+    }
+    let place = Align2::CENTER_BOTTOM.anchor_size(at, size).min.clamp(room.min, room.max - size);
+    painter.rect_filled(Rect::from_min_size(place, size).expand(2.0), 3, ground);
+    painter.galley(place, galley, colour);
+}
+
+/// A camera that stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Where the eye is.
+    pub eye: DVec3,
+    /// To the right on the screen, unit.
+    pub right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    focal: f64,
+    middle: Pos2,
+    near: f64,
+}
+
+impl View {
+    /// A point on the screen, and how far before the eye it is; `None` behind the eye or too near to it.
+    pub fn screen(&self, point: DVec3) -> Option<(Pos2, f64)> {
+        let from = point - self.eye;
+        let depth = from.dot(self.forward);
+        if depth < self.near {
+            return None;
+        }
+        let scale = self.focal / depth;
+        let (x, y) = (scale * from.dot(self.right), -scale * from.dot(self.up));
+        Some((pos2(self.middle.x + x as f32, self.middle.y + y as f32), depth))
+    }
+
+    /// The direction in which a point of the screen is seen.
+    pub fn ray(&self, at: Pos2) -> DVec3 {
+        let [x, y] = [at.x - self.middle.x, self.middle.y - at.y].map(|v| f64::from(v) / self.focal);
+        (self.forward + x * self.right + y * self.up).normalize()
+    }
+
+    /// Does a plane through a point, with a normal, show this side to the eye?
+    pub fn faces(&self, point: DVec3, normal: DVec3) -> bool {
+        (self.eye - point).dot(normal) > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::vec2;
+
+    fn rect() -> Rect {
+        Rect::from_min_size(pos2(100.0, 50.0), vec2(400.0, 300.0))
+    }
+
+    #[test]
+    fn rays_go_through_the_points_that_are_seen() {
+        let view = Camera { turn: 0.7, tilt: 0.4, zoom: 2.0 }.view(DVec3::new(2.0, 3.0, 1.5), 3.9, rect());
+        for point in [DVec3::new(2.0, 3.0, 1.5), DVec3::new(0.1, 5.0, 2.9), DVec3::new(3.0, 1.0, 0.0)] {
+            let (at, _) = view.screen(point).unwrap();
+            assert!(view.ray(at).dot((point - view.eye).normalize()) > 1.0 - 1e-9);
+        }
+        assert!(view.screen(view.eye + 2.0 * (view.eye - DVec3::new(2.0, 3.0, 1.5))).is_none());
+    }
+
+    #[test]
+    fn all_of_a_ball_is_seen_upright_and_nearer_things_are_larger() {
+        let centre = DVec3::new(1.0, -2.0, 0.5);
+        for (turn, tilt) in [(0.0, 0.0), (2.0, 0.9), (5.0, -0.7)] {
+            let view = Camera::from(turn, tilt).view(centre, 2.0, rect());
+            assert!((view.screen(centre).unwrap().0 - rect().center()).length() < 1e-3);
+            for direction in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE.normalize()] {
+                for sign in [-2.0, 2.0] {
+                    let (at, _) = view.screen(centre + sign * direction).unwrap();
+                    assert!(rect().expand(8.0).contains(at), "{turn} {tilt}: {at}");
+                }
+            }
+            let top = view.screen(centre + DVec3::Z).unwrap().0;
+            assert!(top.y < rect().center().y);
+            let size = |at: DVec3| (view.screen(at + view.right).unwrap().0 - view.screen(at).unwrap().0).length();
+            assert!(size(centre - view.forward) > size(centre + view.forward));
+        }
+    }
+}

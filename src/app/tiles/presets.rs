@@ -1,0 +1,38 @@
+//! Ready arrangements.
+
+use super::layout::Layout;
+use super::{btdf, control, lid, room, sky, transmittance};
+use crate::app::arrange::Preset;
+use crate::app::state::Tile;
+
+/// A ready arrangement of all tiles; `all`: every tile there is, in order.
+pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
+    let one = |share: f32, tile: Tile| (share, Layout::Tile(tile));
+    match preset {
+        Preset::All => Layout::even(all),
+        Preset::Designer => Layout::Row(vec![
+            one(1.6, room::TILE),
+            (
+                1.0,
+                Layout::Column(vec![
+                    one(1.0, sky::TILE),
+                    (1.0, Layout::tabs(&[transmittance::TILE, control::TILE, lid::TILE, btdf::TILE])),
+                ]),
+            ),
+        ]),
+        Preset::Maker => Layout::Column(vec![
+            (1.2, Layout::Row(vec![one(1.3, btdf::TILE), one(1.0, transmittance::TILE)])),
+            (1.0, Layout::Row(vec![one(1.0, lid::TILE), (1.3, Layout::tabs(&[room::TILE, sky::TILE, control::TILE]))])),
+        ]),
+        Preset::Science => Layout::Row(vec![
+            (1.2, Layout::Column(vec![one(1.0, btdf::TILE), one(1.0, lid::TILE)])),
+            (
+                1.0,
+                Layout::Column(vec![
+                    one(1.3, room::TILE),
+                    (1.0, Layout::tabs(&[sky::TILE, transmittance::TILE, control::TILE])),
+                ]),
+            ),
+        ]),
+    }
+}

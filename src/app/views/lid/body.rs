@@ -1,0 +1,154 @@
+//! The light of an aperture as a body: its radius in every direction is the intensity, its true peak marked.
+
+use super::scaling::{Scaling, intensity, towards};
+use crate::app::paint::body::Body;
+use crate::app::paint::camera::{Camera, words};
+use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::tile::{self, Foot};
+use crate::app::views::Cache;
+use crate::compute::direction::{Emergent, Surface};
+use crate::compute::lid::Lid;
+use crate::compute::lid::c_gamma::{Aim, Peaks};
+use egui::{Rect, Sense, Shape, Stroke, Ui};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// Steps of γ and of C: 3 degrees.
+const STEPS: [usize; 2] = [60, 120];
+/// From the side, a little from above.
+const FIRST: Camera = Camera::from(-0.45, 0.3);
+/// A node so near to the cursor is meant. \[points\]
+const REACH: f32 = 14.0;
+
+/// What only this picture knows.
+#[derive(Debug, Clone)]
+pub struct State {
+    camera: Camera,
+    body: Cache<u64, (Body, f64)>,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self { camera: FIRST, body: Cache::default() }
+    }
+}
+
+/// What is drawn.
+pub(super) struct Input<'a> {
+    /// The distribution.
+    pub lid: &'a Lid,
+    /// Its largest intensities, once they are known.
+    pub peaks: Option<&'a Peaks>,
+    /// Changes with `lid`.
+    pub revision: u64,
+    /// How intensities are told.
+    pub scaling: Scaling,
+}
+
+/// C and γ of a node. \[rad\]
+fn angles(node: usize) -> (f64, f64) {
+    (TAU * (node % STEPS[1]) as f64 / STEPS[1] as f64, PI * (node / STEPS[1]) as f64 / STEPS[0] as f64)
+}
+
+/// Where light goes, in the room: x along the façade, y into the room, z up.
+fn into_room(surface: Surface, to: Emergent) -> DVec3 {
+    surface.room_from_facade(to.0.vector())
+}
+
+/// Intensities over the largest of them, and that. \[cd\]
+fn make(lid: &Lid) -> (Body, f64) {
+    let aim = Aim::of(lid.surface);
+    let to = |node: usize| {
+        let (c, gamma) = angles(node);
+        aim.direction(c, gamma)
+    };
+    let all: Vec<f64> = (0..(STEPS[0] + 1) * STEPS[1]).map(|node| intensity(lid, to(node))).collect();
+    let largest = all.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let body = Body::new(STEPS[0], STEPS[1], |row, column| {
+        let node = row * STEPS[1] + column;
+        let share = if largest > 0.0 { all[node] / largest } else { 0.0 };
+        (share * into_room(lid.surface, to(node)), ColourMap::Sequential.at(share as f32))
+    });
+    (body, largest)
+}
+
+/// Draws it; words on what is under the cursor.
+pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Option<Foot> {
+    let palette = Palette::of(ui.visuals());
+    let response = ui.interact(rect, ui.scope_id().with("body"), Sense::click_and_drag());
+    if response.clicked() {
+        response.request_focus();
+    }
+    if state.camera.obey(ui, &response, FIRST) {
+        ui.ctx().request_repaint();
+    }
+    let lid = input.lid;
+    let view = state.camera.view(DVec3::ZERO, 1.15, rect);
+    let painter = ui.painter_at(rect);
+    let (body, largest) = state.body.get(input.revision, || make(lid));
+    let ray = |to: DVec3, stroke: Stroke, word: &str, colour| {
+        if let (Some((from, _)), Some((end, _))) = (view.screen(DVec3::ZERO), view.screen(to)) {
+            painter.line_segment([from, end], stroke);
+            words(&painter, rect, end, word, [colour, palette.face.gamma_multiply(0.7)]);
+        }
+    };
+    // The aperture's plane, and what is what in the room.
+    let ring = |k: u32| {
+        let (sin, cos) = (TAU * f64::from(k) / 64.0).sin_cos();
+        let point = if lid.surface == Surface::Facade { DVec3::new(cos, 0.0, sin) } else { DVec3::new(cos, sin, 0.0) };
+        Some(view.screen(point)?.0)
+    };
+    painter.add(Shape::closed_line((0..64).filter_map(ring).collect(), Stroke::new(1.0, palette.outline)));
+    let thin = Stroke::new(1.0, palette.weak);
+    ray(DVec3::Y, thin, "into the room", palette.weak);
+    ray(-DVec3::Z, thin, "down", palette.weak);
+    body.paint(&painter, &view, DVec3::ZERO, 1.0);
+    for beam in &lid.beams {
+        let to = into_room(lid.surface, beam.direction);
+        if let (Some((from, _)), Some((end, _))) = (view.screen(DVec3::ZERO), view.screen(1.1 * to)) {
+            painter.extend(Shape::dashed_line(&[from, end], Stroke::new(2.0, palette.beam), 2.0, 4.0));
+        }
+    }
+    let aim = Aim::of(lid.surface);
+    let mut said = format!("largest intensity drawn {}", input.scaling.text(*largest));
+    if let Some(peak) = input.peaks.and_then(|peaks| peaks.scattered).filter(|_| *largest > 0.0) {
+        let to = aim.direction(peak.c, peak.gamma);
+        let told = format!("peak {}", input.scaling.text(peak.intensity));
+        said = format!("{told} to {}", towards(lid.surface, to));
+        // The file's mean over its step may be less than the largest value drawn.
+        let length = 1.05 * (peak.intensity / *largest).clamp(1.0, 1.1);
+        ray(length * into_room(lid.surface, to), Stroke::new(2.0, palette.second), &told, palette.ink);
+    }
+    tile::name(ui, &response, "LID body", &said);
+    let at = response.hover_pos().filter(|_| !response.dragged())?;
+    let node = body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)?;
+    let (place, _) = view.screen(body.point(node)?)?;
+    painter.circle(place, 3.5, palette.ink, Stroke::new(1.5, palette.face));
+    let (c, gamma) = angles(node);
+    let to = aim.direction(c, gamma);
+    let value = input.scaling.text(intensity(lid, to));
+    Some(Foot::from([format!("{} · {value}", towards(lid.surface, to)), value]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::lid::EmergentLuminance;
+
+    #[test]
+    fn the_body_of_an_even_window_is_the_ball_that_a_diffuser_has() {
+        for surface in [Surface::Facade, Surface::Roof] {
+            let parts = vec![EmergentLuminance::Uniform(1000.0)];
+            let lid = Lid { surface, size: [2.0, 1.5], parts, beams: Vec::new() };
+            let (body, largest) = make(&lid);
+            assert!((largest - 3000.0).abs() < 1e-6, "{largest}");
+            let inward = if surface == Surface::Facade { DVec3::Y } else { -DVec3::Z };
+            for node in 0..(STEPS[0] + 1) * STEPS[1] {
+                let point = body.point(node).unwrap();
+                // I = I₀ cosθ is a sphere through the origin, half as large, round the half of the normal.
+                let off = (point - 0.5 * inward).length();
+                assert!(point.length() < 1e-9 || (off - 0.5).abs() < 1e-9, "{surface:?} {point}");
+            }
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! What the room tile draws, and what may be asked of it.
+
+use crate::app::paint::tile::Status;
+use crate::app::room_look::{RoomLook, RoomView};
+use crate::compute::direction::Surface;
+use crate::drawing::ticks::{number, si};
+use crate::study::SurfaceLight;
+use egui::{Pos2, Rect, pos2, vec2};
+
+/// Result at one sensor, in the unit of the input.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CellValue {
+    /// Direct and interreflected together.
+    pub total: f64,
+    /// Estimated absolute error of `total`.
+    pub error: f64,
+    /// Straight from the apertures.
+    pub direct: f64,
+    /// By way of the room's surfaces.
+    pub inter: f64,
+    /// The part of `direct` that is the sun's beams.
+    pub beam: f64,
+    /// The part of `error` that the data leave open.
+    pub data_error: f64,
+}
+
+/// An aperture as a rectangle of its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Opening {
+    /// Façade or roof.
+    pub surface: Surface,
+    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
+    pub origin: [f64; 2],
+    /// Size in the same order. \[m\]
+    pub size: [f64; 2],
+}
+
+/// In what the sensors' light is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Quantity {
+    /// \[lx\]
+    #[default]
+    Illuminance,
+    /// Of the unobstructed horizontal illuminance outside. \[%\]
+    DaylightFactor,
+}
+
+impl Quantity {
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Illuminance => "lx",
+            Self::DaylightFactor => "%",
+        }
+    }
+
+    /// Its sign in plots.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Self::Illuminance => "E",
+            Self::DaylightFactor => "D",
+        }
+    }
+
+    /// A value with its unit.
+    pub fn told(self, value: f64) -> String {
+        match self {
+            Self::Illuminance => si(value, "lx"),
+            Self::DaylightFactor => format!("{} %", number(value, 3)),
+        }
+    }
+}
+
+/// What the tile draws.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Width (x), depth (y), height (z). \[m\]
+    pub room: [f64; 3],
+    /// Windows and rooflights.
+    pub apertures: &'a [Opening],
+    /// Sensors along x.
+    pub nx: usize,
+    /// Sensors along y.
+    pub ny: usize,
+    /// Results at the centres of the cells, x running fastest, or at the listed points; empty before the first result.
+    pub cells: &'a [CellValue],
+    /// The sensors where they are listed points instead of a plane. \[m\]
+    pub points: &'a [[f64; 3]],
+    /// Height of the sensor plane; `None`: there is none. \[m\]
+    pub plane_z: Option<f64>,
+    /// In what `cells` are.
+    pub quantity: Quantity,
+    /// Why there is no daylight factor, where there is none.
+    pub no_factor: Option<&'a str>,
+    /// How it is drawn.
+    pub look: RoomLook,
+    /// Light on the surfaces, for the perspective, with a number that changes with it.
+    pub surfaces: Option<(&'a SurfaceLight, u64)>,
+    /// Product and moment in words.
+    pub name: &'a str,
+    /// Scale forced from outside (comparison), in the unit of `cells`.
+    pub range: Option<[f64; 2]>,
+    /// Changes with the results.
+    pub revision: u64,
+    /// How far the content is to be trusted.
+    pub status: Status<'a>,
+}
+
+impl Input<'_> {
+    /// A room of no size without anything in it.
+    pub const fn nothing() -> Self {
+        Self {
+            room: [0.0; 3],
+            apertures: &[],
+            nx: 0,
+            ny: 0,
+            cells: &[],
+            points: &[],
+            plane_z: None,
+            quantity: Quantity::Illuminance,
+            no_factor: None,
+            look: RoomLook { view: RoomView::Plan, daylight_factor: false, as_seen: false },
+            surfaces: None,
+            name: "",
+            range: None,
+            revision: 0,
+            status: Status { coarse: false, stale: false, idle: false, hold_scale: false, doing: None, error: None },
+        }
+    }
+
+    /// Has every cell of the plane its value?
+    pub const fn complete(&self) -> bool {
+        self.nx > 0 && self.ny > 0 && self.cells.len() == self.nx * self.ny
+    }
+
+    /// Where a sensor is. \[m\]
+    pub fn position(&self, sensor: usize) -> [f64; 3] {
+        if let Some(point) = self.points.get(sensor) {
+            return *point;
+        }
+        let (nx, ny) = (self.nx.max(1), self.ny.max(1));
+        let at = |k: usize, n: usize, length: f64| (k as f64 + 0.5) / n as f64 * length;
+        [at(sensor % nx, nx, self.room[0]), at(sensor / nx, ny, self.room[1]), self.plane_z.unwrap_or(0.0)]
+    }
+}
+
+/// What the user did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// The sensor plane should lie at this height. \[m\]
+    PlaneMoved(f64),
+    /// An aperture (from 0) should be there.
+    OpeningMoved(usize, Opening),
+    /// A listed sensor (from 0) should be there. \[m\]
+    PointMoved(usize, [f64; 3]),
+    /// It should be drawn so.
+    Look(RoomLook),
+}
+
+/// A room on the screen, the façade at the left: from above with x downwards, or from the side with z upwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// The room's outline.
+    pub area: Rect,
+    /// Points a metre.
+    pub scale: f32,
+    /// From the side.
+    pub side: bool,
+}
+
+impl Frame {
+    /// The largest into a rectangle, at its left.
+    pub fn within(rect: Rect, room: [f64; 3], side: bool) -> Self {
+        let across = if side { room[2] } else { room[0] };
+        let [across, depth] = [across.max(1e-3) as f32, room[1].max(1e-3) as f32];
+        let scale = (rect.width() / depth).min(rect.height() / across).max(1e-3);
+        let size = vec2(depth, across) * scale;
+        Self { area: Rect::from_min_size(pos2(rect.left(), rect.center().y - 0.5 * size.y), size), scale, side }
+    }
+
+    /// On the screen, from the depth and what runs across: x from above, z from the side. \[m\]
+    pub fn screen(&self, depth: f64, across: f64) -> Pos2 {
+        let across = across as f32 * self.scale;
+        let y = if self.side { self.area.bottom() - across } else { self.area.top() + across };
+        pos2(self.area.left() + depth as f32 * self.scale, y)
+    }
+
+    /// In the room: depth and what runs across. \[m\]
+    pub fn room(&self, at: Pos2) -> (f64, f64) {
+        let depth = (at.x - self.area.left()) / self.scale;
+        let across = if self.side { self.area.bottom() - at.y } else { at.y - self.area.top() };
+        (f64::from(depth), f64::from(across / self.scale))
+    }
+
+    /// An aperture on the screen; a line where it is seen edge-on.
+    pub fn opening(&self, opening: &Opening, room: [f64; 3]) -> Rect {
+        let ([o, s], side) = ([opening.origin, opening.size], self.side);
+        let [depth, across] = match (opening.surface, side) {
+            (Surface::Facade, false) => [[0.0, 0.0], [o[0], o[0] + s[0]]],
+            (Surface::Facade, true) => [[0.0, 0.0], [o[1], o[1] + s[1]]],
+            (Surface::Roof, false) => [[o[1], o[1] + s[1]], [o[0], o[0] + s[0]]],
+            (Surface::Roof, true) => [[o[1], o[1] + s[1]], [room[2], room[2]]],
+        };
+        Rect::from_two_pos(self.screen(depth[0], across[0]), self.screen(depth[1], across[1]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn screen_and_room_are_inverse() {
+        let rect = Rect::from_min_size(pos2(50.0, 10.0), vec2(300.0, 150.0));
+        for side in [false, true] {
+            let frame = Frame::within(rect, [4.0, 6.0, 3.0], side);
+            let (depth, across) = frame.room(frame.screen(4.5, 1.25));
+            assert!((across - 1.25).abs() < 1e-4 && (depth - 4.5).abs() < 1e-4);
+            assert!(rect.expand(0.01).contains_rect(frame.area));
+            // Seen from above with the depth to the right, x runs down; from the side, z runs up.
+            assert_eq!(frame.screen(0.0, 1.0).y > frame.screen(0.0, 0.0).y, !side);
+        }
+    }
+
+    #[test]
+    fn openings_are_lines_where_they_are_seen_edge_on() {
+        let room = [4.0, 6.0, 3.0];
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, 400.0));
+        let [plan, side] = [false, true].map(|side| Frame::within(rect, room, side));
+        let window = Opening { surface: Surface::Facade, origin: [0.5, 0.9], size: [3.0, 1.8] };
+        let place = side.opening(&window, room);
+        assert!(place.width() == 0.0 && (place.height() - 1.8 * side.scale).abs() < 1e-3);
+        assert!((side.area.bottom() - place.bottom() - 0.9 * side.scale).abs() < 1e-3);
+        let light = Opening { surface: Surface::Roof, origin: [1.0, 2.0], size: [1.0, 2.5] };
+        let place = plan.opening(&light, room);
+        assert!((place.width() - 2.5 * plan.scale).abs() < 1e-3 && (place.height() - plan.scale).abs() < 1e-3);
+        assert_eq!(side.opening(&light, room).height(), 0.0);
+    }
+}

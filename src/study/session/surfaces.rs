@@ -1,0 +1,116 @@
+//! What falls on the surfaces of the room: means over the patches between which light is balanced, and the outlines of
+//! what the sun's beams light.
+
+use super::interreflected::{DIFFERENCE_ALONE, PATCHES, REST, mirrors, room_key};
+use super::{Session, check};
+use crate::compute::basis::RingBasis;
+use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::lid::Emission;
+use crate::compute::room::back_reflection::settled_light;
+use crate::compute::room::beam::Lit;
+use crate::compute::room::mesh::{Patch, Wall};
+use crate::study::error::StudyError;
+use crate::study::plan::Plan;
+use crate::study::scene::Scene;
+use std::sync::Arc;
+
+/// Steps that are reported.
+const STEPS: usize = 3;
+
+/// What falls on one patch, as a mean over it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PatchLight {
+    /// Where it is, and what it reflects.
+    pub patch: Patch,
+    /// All light but the sun's beams that reach it straight. \[lx\]
+    pub diffuse: Estimate,
+    /// The sun's beams that reach it straight. \[lx\]
+    pub beam: f64,
+}
+
+impl PatchLight {
+    /// All that falls on it. \[lx\]
+    pub fn total(&self) -> Estimate {
+        self.diffuse + Estimate::exact(self.beam)
+    }
+}
+
+/// What falls on all surfaces.
+#[derive(Debug, Clone)]
+pub struct SurfaceLight {
+    /// Floor, ceiling, x = 0, x = width, façade, back wall.
+    pub walls: Vec<Wall>,
+    /// Wall by wall, first axis slowest; the room sides of apertures are among them.
+    pub patches: Vec<PatchLight>,
+    /// What the sun's beams light straight; pieces on each other add up.
+    pub lit: Vec<Lit>,
+    /// Flux that enters through all apertures. \[lm\]
+    pub flux: Estimate,
+}
+
+impl Session {
+    /// Illuminance of every surface of the room.
+    ///
+    /// # Errors
+    /// What makes the scene impossible to compute, in words; or that it was withdrawn.
+    pub fn surfaces(&self, scene: &Scene, progress: &dyn Progress) -> Result<SurfaceLight, StudyError> {
+        progress.advance("surfaces", 0, STEPS);
+        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect();
+        let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
+        let of_aperture = |(index, emission): (usize, &Emission)| {
+            let area = geometry[index].area();
+            (emission.exitance(&scene.facing(index)) * area, emission.exitance_doubt() * area)
+        };
+        let fluxes: Vec<_> = emissions.iter().enumerate().map(of_aperture).collect();
+        let flux: Estimate = fluxes.iter().map(|(flux, _)| *flux).sum();
+        let doubted: f64 = fluxes.iter().map(|(_, doubt)| doubt).sum();
+        check(progress)?;
+        let count = PATCHES[0];
+        let radiosity = self.radiosity(scene, count)?;
+        let mesh = &radiosity.nested.fine;
+        progress.advance("surfaces", 1, STEPS);
+        let first = self.first_light(scene, &emissions, count, progress)?;
+        let landing = first.landing(mesh);
+        let beams = landing.as_ref().map_or_else(|| vec![0.0; mesh.patches.len()], |landing| landing.direct.clone());
+        let lit = first.lit(mesh);
+        let gap = landing.as_ref().map_or(0.0, |landing| landing.gap).max(first.gap);
+        check(progress)?;
+        progress.advance("surfaces", 2, STEPS);
+        let received = if Plan::new(scene).runs("interreflection") {
+            let mut all = first.diffuse;
+            if let Some(landing) = &landing {
+                all.iter_mut().zip(&landing.thrown).for_each(|(sum, e)| *sum += e);
+            }
+            let key = room_key(scene, count);
+            let mirrors = mirrors(scene, |index: usize, basis: &Arc<RingBasis>| {
+                self.patch_weights(&key, mesh, index, &geometry, basis)
+            });
+            if !mirrors.is_empty() {
+                let mut exitance = radiosity.exitance(&all);
+                let luminances = settled_light(&radiosity, &geometry, &mirrors, &all, &beams, &mut exitance);
+                for ((_, mirror), luminance) in mirrors.iter().zip(luminances) {
+                    let (thrown, _) = mirror.weights().illuminance(&luminance);
+                    all.iter_mut().zip(thrown).for_each(|(sum, e)| *sum += e);
+                }
+            }
+            radiosity.illuminance(&all)
+        } else {
+            first.diffuse.into_iter().map(|e| (e, 0.0)).collect()
+        };
+        // What is not known of the flux that comes in is not known of what it becomes.
+        let open = if flux.value > 0.0 { (flux.error + doubted) / flux.value } else { 0.0 };
+        let rest = (REST / mesh.patches.len() as f64).hypot(gap);
+        let patches = mesh
+            .patches
+            .iter()
+            .zip(received)
+            .zip(beams)
+            .map(|((patch, (value, difference)), beam)| {
+                let error = (DIFFERENCE_ALONE * difference).hypot(rest * value) + open * (value + beam);
+                PatchLight { patch: *patch, diffuse: Estimate::new(value, error), beam }
+            })
+            .collect();
+        progress.advance("surfaces", STEPS, STEPS);
+        Ok(SurfaceLight { walls: mesh.walls.clone(), patches, lit, flux })
+    }
+}
