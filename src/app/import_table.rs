@@ -1,7 +1,7 @@
 //! The import sheet's table: what its steps do.
 
-use super::import_arranging::rearranged;
 use super::import::{Import, Row};
+use super::import_arranging::rearranged;
 use super::import_steps::{Choose, Step};
 use super::jobs::Lane;
 use super::window::App;
@@ -107,7 +107,7 @@ impl App {
     fn arrange_by_hand(&mut self, groups: Vec<Vec<String>>) {
         if let Some(import) = &mut self.state.import {
             import.by_hand = Some(groups);
-            self.arrange();
+            self.rearrange();
         }
     }
 
@@ -116,11 +116,11 @@ impl App {
         let Some(import) = &mut self.state.import else { return };
         if import.grouping != grouping || import.by_hand.is_some() {
             (import.grouping, import.by_hand) = (grouping, None);
-            self.arrange();
+            self.rearrange();
         }
     }
 
-    fn arrange(&mut self) {
+    fn rearrange(&mut self) {
         let Some(import) = self.state.import.clone() else { return };
         let shelf = self.state.shelf();
         self.start(Lane::Import, move |job| rearranged(import, shelf.as_deref(), job));

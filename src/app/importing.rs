@@ -1,8 +1,8 @@
 //! The import sheet's part of the window: reads what was opened, tries repairs, stores what is wanted, keeps drafts.
 
-use super::import_arranging::mend;
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed};
+use super::import_arranging::mend;
 use super::jobs::Lane;
 use super::reading::{Asked, read_files};
 use super::shelf::Addition;

@@ -1,9 +1,9 @@
 //! Reads what was opened or dropped: files, folders and archives, each taken for what it is.
 
-use super::import_arranging::{Arranging, of_package};
 use super::disk::read_bytes;
 use super::error::AppError;
 use super::import::{Import, KeptImport};
+use super::import_arranging::{Arranging, of_package};
 use super::shelf::Shelf;
 use super::work::{Outcome, ReadDataset};
 use crate::catalogue::Grouping;

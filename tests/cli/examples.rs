@@ -98,12 +98,21 @@ fn commented_keys_of_the_office_are_keys() {
         line.contains(" = ") && word.is_some_and(|word| word.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
     };
     let mut tried = 0;
-    for (index, line) in lines.iter().enumerate().filter(|(_, line)| is_key(line)) {
-        if line.starts_with("# mode") {
-            continue; // belongs to the commented table above it; examples/blind.toml has both
+    // The table that a key belongs to may be a comment itself: its sign goes too.
+    let mut table = None;
+    for (index, line) in lines.iter().enumerate() {
+        if line.starts_with('[') {
+            table = None;
+        } else if line.starts_with("# [") {
+            table = Some(index);
+        }
+        if !is_key(line) {
+            continue;
         }
         let mut changed = lines.clone();
-        changed[index] = &line[2..];
+        for place in table.into_iter().chain([index]) {
+            changed[place] = &lines[place][2..];
+        }
         if let Err(error) = SceneFile::parse(&changed.join("\n")) {
             assert!(!error.to_string().contains("unknown"), "{line}: {error}");
         }

@@ -148,7 +148,9 @@ impl Drawn for Drawing {
             apertures: &openings,
             nx,
             ny,
-            cells: self.cells.get((shown.revision, times.to_bits()), || fits.map_or_else(Vec::new, |one| cells(one, times))),
+            cells: self
+                .cells
+                .get((shown.revision, times.to_bits()), || fits.map_or_else(Vec::new, |one| cells(one, times))),
             points: if listed { &scene.sensors.points } else { &[] },
             plane_z: scene.sensors.plane.map(|plane| plane.z),
             quantity,
@@ -156,10 +158,9 @@ impl Drawn for Drawing {
             look,
             surfaces: light.zip(Some(surfaces.revision)),
             name: &name,
-    shown: RoomView,
-    /// Horizontal illuminance outside under the sky that a result (by its revision) is of. \[lx\]
-    outside: Option<(u64, f64)>,
-    cells: Cache<(u64, u64), Vec<room::CellValue>>,
+            range: seen.scale.map(|range| range.map(|end| end * times)),
+            revision: shown.revision << 1 | u64::from(quantity == room::Quantity::DaylightFactor),
+            status,
         };
         for action in room::show(ui, &input, &mut self.view) {
             commands.push(match action {

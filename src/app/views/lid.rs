@@ -7,7 +7,7 @@ use super::Cache;
 use crate::app::paint::palette::Palette;
 use crate::app::paint::polar::PolarAxes;
 use crate::app::paint::tile::{self, Foot, Status, Words};
-use crate::compute::direction::{Emergent, Surface};
+use crate::compute::direction::Surface;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
 use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample, vertical_planes};

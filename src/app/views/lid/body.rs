@@ -1,6 +1,6 @@
 //! The light of an aperture as a body: its radius in every direction is the intensity, its true peak marked.
 
-use super::scaling::{Scaling, intensity, towards};
+use super::scaling::{Scaling, towards};
 use crate::app::paint::body::Body;
 use crate::app::paint::camera::{Camera, words};
 use crate::app::paint::palette::{ColourMap, Palette};
@@ -9,6 +9,7 @@ use crate::app::views::Cache;
 use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
+use crate::drawing::lid_curves::intensity;
 use egui::{Rect, Sense, Shape, Stroke, Ui};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};

@@ -1,6 +1,7 @@
 use super::*;
 use crate::compute::lid::EmergentLuminance;
-use crate::compute::lid::c_gamma::Step;
+use crate::compute::lid::c_gamma::{Peak, Step};
+use std::f64::consts::FRAC_PI_2;
 
 fn lambert(surface: Surface) -> Lid {
     Lid { surface, size: [2.0, 1.5], parts: vec![EmergentLuminance::Uniform(1000.0)], beams: Vec::new() }

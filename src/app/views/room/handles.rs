@@ -123,7 +123,11 @@ fn handles(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
     for (number, opening) in input.apertures.iter().enumerate() {
         let rect = frame.opening(opening, input.room);
         let name = format!("Aperture {}", number + 1);
-        list.push(Handle { part: Part::Opening(number), place: rect.expand(REACH), name: format!("Move aperture {}", number + 1) });
+        list.push(Handle {
+            part: Part::Opening(number),
+            place: rect.expand(REACH),
+            name: format!("Move aperture {}", number + 1),
+        });
         let [along, across] = axes(opening.surface, frame.side);
         // Where a larger number of the room lies: depth to the right, x down, z up.
         let (low, high) = if frame.side { (rect.bottom(), rect.top()) } else { (rect.top(), rect.bottom()) };

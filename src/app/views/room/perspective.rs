@@ -156,7 +156,13 @@ fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
             if metre == last
                 && let Some((place, _)) = view.screen(beyond)
             {
-                words(painter, painter.clip_rect(), place + vec2(0.0, 8.0), &format!("{metre} m"), [palette.ink, Color32::TRANSPARENT]);
+                words(
+                    painter,
+                    painter.clip_rect(),
+                    place + vec2(0.0, 8.0),
+                    &format!("{metre} m"),
+                    [palette.ink, Color32::TRANSPARENT],
+                );
             }
         }
     }
@@ -233,7 +239,13 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     painter.add(Shape::mesh(mesh));
     if let (Some(head), Some(top)) = (at(0.0, PERSON - 0.12), at(0.0, PERSON)) {
         painter.circle_filled(head, head.distance(top), colour);
-        words(painter, painter.clip_rect(), top - vec2(0.0, 2.0), &format!("{PERSON:.2} m"), [Color32::WHITE, Color32::from_black_alpha(170)]);
+        words(
+            painter,
+            painter.clip_rect(),
+            top - vec2(0.0, 2.0),
+            &format!("{PERSON:.2} m"),
+            [Color32::WHITE, Color32::from_black_alpha(170)],
+        );
     }
 }
 

@@ -1,9 +1,9 @@
 //! The room from above: false colours with iso-lux lines, the row of the section, a scale.
 
 use super::input::{Frame, Input};
-use super::marks::{ASKED_FOR, label_line, levels, scale_bar};
+use super::marks::{label_line, scale_bar};
 use crate::app::paint::colour_scale::ColourScale;
-use crate::app::paint::contour::{IsoLine, iso_lines};
+use crate::app::paint::contour::{ASKED_FOR, IsoLine, iso_levels, iso_lines};
 use crate::app::paint::palette::{Palette, contrast};
 use crate::app::views::Cache;
 use crate::compute::direction::Surface;
@@ -49,7 +49,7 @@ pub(super) fn show(
     painter.add(Shape::Mesh(mesh.clone()));
     let lines = pictures.lines.get((input.revision, [nx, ny], scale.clone()), || {
         let totals: Vec<f64> = input.cells.iter().map(|c| c.total).collect();
-        levels(scale, &totals).into_iter().map(|level| (level, iso_lines(nx, ny, &totals, level))).collect()
+        iso_levels(scale, &totals).into_iter().map(|level| (level, iso_lines(nx, ny, &totals, level))).collect()
     });
     // Nodes are cell centres.
     let node = |p: &[f64; 2]| plan.screen((p[1] + 0.5) * step[1], (p[0] + 0.5) * step[0]);
