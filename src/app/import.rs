@@ -81,6 +81,8 @@ pub struct Proposed {
     pub parts: Vec<Vec<usize>>,
     /// What each state is called.
     pub states: Vec<StateWords>,
+    /// Transmittance of each under uniform light, where there is one.
+    pub taus: Vec<Option<f64>>,
     /// What the data doctor says about each.
     pub diagnoses: Vec<Vec<Diagnosis>>,
     /// Repairs made, in order; recorded when the product is stored.
@@ -191,6 +193,7 @@ impl Proposed {
     }
 }
 
+/// Is there what a product needs?
 fn transmits(dataset: &Dataset) -> bool {
     dataset.transmission().or(dataset.visible.transmission_back.as_ref()).is_some()
 }

@@ -244,6 +244,7 @@ fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed
     };
     Proposed {
         diagnoses,
+        taus: taus(&datasets),
         states: datasets.iter().map(|dataset| StateWords::of(&dataset.state)).collect(),
         // Repairs always start from what the files hold, so that each can be taken back.
         originals: datasets.clone(),
@@ -275,16 +276,22 @@ pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn 
     Outcome::Read(Box::new(import))
 }
 
+/// Transmittances under uniform light.
+fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
+    let tau = |dataset: &Arc<Dataset>| {
+        let visible = &dataset.visible;
+        Some(visible.transmission_front.as_ref().or(visible.transmission_back.as_ref())?.tau_hemispherical())
+    };
+    datasets.iter().map(tau).collect()
+}
+
 /// The product with its repairs made on all states, and examined.
 fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
     let mended: Result<Vec<_>, _> =
         product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs)).collect();
-    let datasets = mended?;
-    Ok(Proposed {
-        diagnoses: datasets.iter().map(examine).collect(),
-        datasets: datasets.into_iter().map(Arc::new).collect(),
-        ..product.clone()
-    })
+    let diagnoses = mended?.into_iter().map(|dataset| (examine(&dataset), Arc::new(dataset)));
+    let (diagnoses, datasets): (_, Vec<Arc<Dataset>>) = diagnoses.unzip();
+    Ok(Proposed { diagnoses, taus: taus(&datasets), datasets, ..product.clone() })
 }
 
 /// Makes repairs on all states of a product and examines what comes of it.

@@ -174,8 +174,8 @@ impl App {
                 Ok(mended) => {
                     // Another one may have been wished since: it is made next.
                     product.wished.take_if(|wished| *wished == mended.repairs);
-                    (product.datasets, product.diagnoses, product.repairs) =
-                        (mended.datasets, mended.diagnoses, mended.repairs);
+                    (product.datasets, product.taus) = (mended.datasets, mended.taus);
+                    (product.diagnoses, product.repairs) = (mended.diagnoses, mended.repairs);
                 }
                 Err(error) => {
                     product.wished = None;

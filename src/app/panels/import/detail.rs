@@ -1,12 +1,12 @@
 //! Beside the table of what was found: words about the products that are chosen, and the row that is shown, as it will be
 //! stored.
 
-use super::findings::{counts, diagnoses, picture, plural};
+use super::findings::{counts, diagnoses, picture, plural, seen};
 use crate::app::command::Command;
 use crate::app::import::{Import, Proposed, Row};
 use crate::app::import_steps::{Step, Word};
 use crate::compute::btdf::Severity;
-use crate::compute::doctor::{Repair, RepairKind, sun_from_above};
+use crate::compute::doctor::{Repair, RepairKind};
 use egui::{TextEdit, Ui};
 
 /// Draws it.
@@ -57,10 +57,10 @@ fn state(ui: &mut Ui, (number, place): Row, product: &Proposed, commands: &mut V
     let source = product.sources.get(place).filter(|source| !source.is_empty());
     ui.add(egui::Label::new(egui::RichText::new(source.map_or(dataset.name.as_str(), String::as_str)).strong()).wrap());
     ui.weak(format!("{}; incident {}, emergent {}", dataset.format, dataset.incident_basis, dataset.emergent_basis));
-    if let Some(btdf) = dataset.transmission() {
-        ui.weak(format!("τ {:.3} normal, {:.3} hemispherical", btdf.tau_normal(), btdf.tau_hemispherical()));
-        if let Some(text) = sun_from_above(btdf) {
-            picture(ui, btdf, &text);
+    if let Some(seen) = seen(ui, dataset) {
+        ui.weak(format!("τ {:.3} normal, {:.3} hemispherical", seen.tau[0], seen.tau[1]));
+        if let Some(sentence) = &seen.sentence {
+            picture(ui, seen.up, sentence);
         }
     }
     let repairs = product.wished.as_ref().unwrap_or(&product.repairs);

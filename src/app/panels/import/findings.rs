@@ -1,9 +1,9 @@
 //! What the checks say about datasets, with repairs to try, and the picture by which one sees whether they lie as they should.
 
 use crate::app::theme;
-use crate::compute::btdf::{Btdf, Dataset, Severity};
+use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::direction::{Dir, Incident};
-use crate::compute::doctor::{Diagnosis, Repair, Ways, examine};
+use crate::compute::doctor::{Diagnosis, Repair, Ways, examine, sun_from_above};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::Arc;
@@ -78,17 +78,43 @@ pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut as
     }
 }
 
+/// What is shown of a dataset: asked once a dataset, not once a frame.
+pub(super) struct Seen {
+    /// Transmittance at normal incidence and under uniform light.
+    pub tau: [f64; 2],
+    /// What becomes of the sun from above, in a sentence.
+    pub sentence: Option<String>,
+    /// Share of its light that leaves upwards.
+    pub up: Option<f64>,
+}
+
+/// What is shown of a dataset; `None` for one without transmission of light from outside.
+pub(super) fn seen(ui: &Ui, dataset: &Arc<Dataset>) -> Option<Arc<Seen>> {
+    type Kept = (Arc<Dataset>, Arc<Seen>);
+    let id = egui::Id::unique("import seen");
+    let kept: Option<Kept> = ui.data(|data| data.get_temp(id));
+    if let Some((_, seen)) = kept.filter(|(of, _)| Arc::ptr_eq(of, dataset)) {
+        return Some(seen);
+    }
+    let btdf = dataset.transmission()?;
+    let up = Ways::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2))).map(|ways| ways.up);
+    let tau = [btdf.tau_normal(), btdf.tau_hemispherical()];
+    let seen = Arc::new(Seen { tau, sentence: sun_from_above(btdf), up });
+    ui.data_mut(|data| data.insert_temp::<Kept>(id, (dataset.clone(), seen.clone())));
+    Some(seen)
+}
+
 /// The section through a window with the sun 45° above outside, on the left, and arrows into the room as long as their
-/// shares of the light.
-pub(super) fn picture(ui: &mut Ui, btdf: &Btdf, sentence: &str) {
-    let Some(ways) = Ways::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2))) else { return };
+/// shares of the light; `up`: the share that leaves upwards.
+pub(super) fn picture(ui: &mut Ui, up: Option<f64>, sentence: &str) {
+    let Some(up) = up else { return };
     let (response, painter) = ui.allocate_painter(Vec2::new(120.0, 72.0), Sense::hover());
     let palette = theme::palette(ui);
     let line: Color32 = ui.visuals().text_color();
     let middle = response.rect.center();
     painter.line_segment([middle - Vec2::Y * 34.0, middle + Vec2::Y * 34.0], Stroke::new(3.0, palette.weak));
     painter.arrow(middle + Vec2::new(-30.0, -30.0), Vec2::new(27.0, 27.0), Stroke::new(2.0, line));
-    for (share, y) in [(ways.up, -1.0), (1.0 - ways.up, 1.0)] {
+    for (share, y) in [(up, -1.0), (1.0 - up, 1.0)] {
         let length = 32.0 * share as f32;
         if length > 1.0 {
             painter.arrow(

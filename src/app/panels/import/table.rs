@@ -248,7 +248,7 @@ fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, comman
         return;
     }
     let palette = theme::palette(ui);
-    let (dataset, words) = (&product.datasets[row.1], &product.states[row.1]);
+    let words = &product.states[row.1];
     let cells = cells(line);
     let source = product.sources.get(row.1).map_or("", String::as_str);
     let parts = product.parts.get(row.1).map_or(0, Vec::len);
@@ -280,8 +280,8 @@ fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, comman
     if typed != *words {
         commands.push(Command::Import(Step::Name(row, typed)));
     }
-    let tau = dataset.transmission().or(dataset.visible.transmission_back.as_ref());
-    let tau = tau.map_or_else(|| "–".to_owned(), |btdf| format!("{:.2}", btdf.tau_hemispherical()));
+    let tau = product.taus.get(row.1).copied().flatten();
+    let tau = tau.map_or_else(|| "–".to_owned(), |tau| format!("{tau:.2}"));
     let found = product.diagnoses.get(row.1).map_or(&[][..], Vec::as_slice);
     let colour = match worst(found) {
         Some(Severity::Error) => palette.error,
