@@ -99,11 +99,6 @@ fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The fields that a tender text may name.
-pub fn field_names(subject: &Subject) -> Vec<&'static str> {
-    fields(subject).into_iter().map(|(name, _)| name).collect()
-}
-
 /// The pages of a product sheet.
 ///
 /// # Errors
@@ -132,7 +127,7 @@ pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
     );
     pictures(&mut pages, subject, inks)?;
     if let Some(product) = product.filter(|product| product.states.len() > 1) {
-        states(&mut pages, product, inks);
+        states(&mut pages, product);
     }
     in_use(&mut pages, subject, inks)?;
     tender(&mut pages, sheet.tender, &fields(subject))?;
@@ -263,7 +258,7 @@ fn profile_curve(subject: &Subject, inks: &Inks) -> Option<Drawing> {
     Some(drawing)
 }
 
-fn states(pages: &mut Pages, product: &Product, _inks: &Inks) {
+fn states(pages: &mut Pages, product: &Product) {
     pages.heading("States");
     let mut table = Table::of(["state", "τ normal", "τ diffuse", "to ceiling / %", "sun kept out / %", "view / %"]);
     let share = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |share| number(100.0 * share, 3));
