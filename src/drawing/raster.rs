@@ -38,7 +38,8 @@ impl Raster {
                 self.fill(std::slice::from_ref(points), *colour, *opacity);
                 if let (true, Some(first)) = (*edge > 0.0, points.first()) {
                     let closed: Vec<Point> = points.iter().chain([first]).copied().collect();
-                    self.line(&closed, *colour, *edge);
+                    // At least as wide as closes what two neighbours leave of a pixel that they share.
+                    self.line(&closed, *colour, edge.max(1.5));
                 }
             }
             Shape::Text { at: [x, y], text, colour, size, align, turn } => {
