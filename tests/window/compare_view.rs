@@ -5,7 +5,7 @@ use cfs::app::App;
 use cfs::app::backend::{ideals_shelf, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures};
+use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::jobs::Lane;
 use cfs::app::session::{Kept, Snapshot};
@@ -55,6 +55,10 @@ impl Engine for Counting {
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError> {
         self.lids.fetch_add(1, Ordering::SeqCst);
         Idle.lid(question, progress)
+    }
+
+    fn surfaces(&self, question: &Question, progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
+        Idle.surfaces(question, progress)
     }
 
     fn accuracy(&self, _question: &Question, _progress: &dyn Progress) -> Result<Accuracy, AppError> {
