@@ -26,6 +26,16 @@ impl App {
         self.ask_due();
     }
 
+    /// Is nothing being computed that is in sight, and nothing still to be asked for?
+    pub(super) fn standing(&self) -> bool {
+        const LANES: [Lane; 6] = [Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Surfaces, Lane::Year];
+        // Without a product nothing is asked for.
+        let nothing = self.state.shelf().is_none() || self.state.document.selection.product.is_empty();
+        (nothing || self.asked.as_ref().is_some_and(|asked| asked.asks_the_same(&self.state.document)))
+            && !LANES.into_iter().any(|lane| self.jobs.busy(lane))
+            && !self.due.lanes.iter().any(|lane| self.is_wanted(*lane))
+    }
+
     fn held(&self) -> bool {
         self.ctx.input(|input| input.pointer.any_down())
     }
@@ -49,7 +59,8 @@ impl App {
     /// Files may hold what no tile in sight shows: where one is about to be written all is wanted.
     fn is_wanted(&self, lane: Lane) -> bool {
         let to_file = matches!(self.state.sheet, Some(Sheet::Path(_))) && lane != Lane::Surfaces;
-        to_file || self.bench.shows(lane, self.state.maximised)
+        let lid_to_file = self.lid_to.is_some() && lane == Lane::Lid;
+        to_file || lid_to_file || self.bench.shows(lane, self.state.maximised)
     }
 
     fn ask(&mut self, lane: Lane) {

@@ -46,6 +46,11 @@ impl Exports {
         self.numbers.as_ref().is_some_and(|(wanted, _)| *wanted == tile)
     }
 
+    /// The tile that was asked has none.
+    pub fn refuse(&mut self) {
+        self.numbers = None;
+    }
+
     /// Takes the numbers of the tile that was asked.
     pub fn numbers(&mut self, ctx: &egui::Context, text: String) {
         match self.numbers.take() {

@@ -56,6 +56,8 @@ pub struct App {
     /// Some built-in products wait for their data.
     pub(super) fill_due: bool,
     pub(super) fill_failures: usize,
+    /// Where the LID is to be written as soon as it is that of the scene.
+    pub(super) lid_to: Option<PathBuf>,
     /// Additions that are being stored.
     pub(super) adding: BTreeSet<usize>,
     pub(super) undoer: Undoer<Document>,
@@ -104,6 +106,7 @@ impl App {
             pending_changes: VecDeque::new(),
             fill_due: false,
             fill_failures: 0,
+            lid_to: None,
             adding: BTreeSet::new(),
             asked: None,
             asked_year: None,
@@ -156,6 +159,6 @@ impl App {
 
     /// Is something still being read or computed?
     pub fn busy(&self) -> bool {
-        !self.jobs.views().is_empty() || !self.pending_changes.is_empty() || self.fill_due
+        !self.jobs.views().is_empty() || !self.pending_changes.is_empty() || self.fill_due || self.lid_to.is_some()
     }
 }

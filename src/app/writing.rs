@@ -100,11 +100,19 @@ impl App {
                     None => self.toasts.info("Compute the system first"),
                 }
             }
-            PathUse::ExportLid => {
-                let (engine, lid) = (self.services.engine.clone(), self.results.lid.value.clone());
-                self.start_writing(move || export_lid(&path, lid.as_deref(), &*engine));
-            }
+            PathUse::ExportLid => self.lid_to = Some(path),
         }
+    }
+
+    fn write_lid(&mut self, path: PathBuf) {
+        let shown = &self.results.lid;
+        if shown.stale && shown.value.is_some() {
+            let why = shown.error.as_deref().unwrap_or("what is shown is of before the last change");
+            self.toasts.error(format!("The LID is not written: {why}"));
+            return;
+        }
+        let (engine, lid) = (self.services.engine.clone(), shown.value.clone());
+        self.start_writing(move || export_lid(&path, lid.as_deref(), &*engine));
     }
 
     fn export_tile(&mut self, tile: Tile, path: PathBuf) {
@@ -125,6 +133,13 @@ impl App {
         self.take_numbers();
         if self.jobs.busy(Lane::Export) {
             return;
+        }
+        // What is written is of what its name says: what is being computed is waited for.
+        if self.lid_to.is_some()
+            && self.standing()
+            && let Some(path) = self.lid_to.take()
+        {
+            return self.write_lid(path);
         }
         if let Some((tile, path, text)) = self.export.next_numbers() {
             self.start_writing(move || {

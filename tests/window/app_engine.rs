@@ -263,6 +263,29 @@ fn the_lid_is_written_as_luminaire_files_that_hold_its_flux() {
 }
 
 #[test]
+fn what_is_written_waits_for_what_is_being_computed() {
+    let mut harness = window();
+    apply(&mut harness, Command::Select("clear-double".into()));
+    let before = harness.state().results.lid.value.as_ref().expect("a LID").flux.value;
+    let folder = tempfile::tempdir().unwrap();
+    let (lid, table) = (folder.path().join("opal.ldt"), folder.path().join("opal.csv"));
+    let room = TILES.iter().find(|entry| entry.tile.title == "Room").unwrap().tile;
+    // All in one frame: nothing of the other product is there yet.
+    harness.state_mut().apply(Command::Select("opal-light".into()));
+    harness.state_mut().apply(Command::Write(PathUse::ExportLid, lid.clone()));
+    harness.state_mut().apply(Command::Write(PathUse::ExportTile(room), table.clone()));
+    settle(&mut harness);
+    let flux = harness.state().results.lid.value.as_ref().unwrap().flux.value;
+    assert!((flux / before - 1.0).abs() > 0.1, "{flux} {before}");
+    let written = eulumdat::read(&std::fs::read(lid).unwrap()).unwrap();
+    assert!((written.flux() / flux - 1.0).abs() < 2e-3, "{} {flux} {before}", written.flux());
+    let total = harness.state().results.room.value.as_ref().unwrap().total(0).value;
+    let text = std::fs::read_to_string(table).unwrap();
+    let first: f64 = text.lines().nth(1).unwrap().split(',').nth(3).unwrap().parse().unwrap();
+    assert!((first / total - 1.0).abs() < 1e-3, "{first} {total}");
+}
+
+#[test]
 fn every_tile_is_written_as_numbers() {
     let mut harness = window();
     select_blind(&mut harness);

@@ -134,6 +134,14 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
         commands.push(fill.clone());
     }
     keys(ui, &response, &fill, commands);
+    // Numbers wait for what is being computed: what is written is of what its name says.
+    let mut numbers = app.export.wants_numbers(tile) && app.standing();
+    let (state, results) = app.compare.shown(&app.state, &app.results);
+    if numbers && app.bench.is_old(tile, state, results) {
+        numbers = false;
+        app.export.refuse();
+        app.toasts.error(format!("Not written: {} shows what was there before the last change", tile.title));
+    }
     let (state, results) = app.compare.shown(&app.state, &app.results);
     let seen = TileInput {
         state,
@@ -141,7 +149,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
         busy: &|lane| app.jobs.busy(lane),
         // The other one is drawn on the scales of the first: equal colours stay equal values.
         held: app.state.compare.swapped.is_some() || ui.input(|input| input.pointer.any_down()),
-        numbers: app.export.wants_numbers(tile),
+        numbers,
         scale: None,
     };
     let builder = UiBuilder::new().max_rect(rect.shrink(2.0)).id_salt(tile.title);

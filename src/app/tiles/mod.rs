@@ -20,7 +20,7 @@ pub use presets::layout as preset;
 use super::command::Command;
 use super::jobs::Lane;
 use super::paint::tile::waiting;
-use super::state::Tile;
+use super::state::{Results, State, Tile};
 use egui::{Rect, Ui};
 use egui_tiles::Tree;
 
@@ -107,6 +107,20 @@ impl Bench {
     pub fn shows(&self, lane: Lane, maximised: Option<Tile>) -> bool {
         let in_sight = self.in_sight(maximised);
         self.drawn.iter().any(|(tile, drawn)| in_sight.contains(tile) && drawn.lanes().contains(&lane))
+    }
+
+    /// Is what a tile shows of before the last change?
+    pub fn is_old(&self, tile: Tile, state: &State, results: &Results) -> bool {
+        let lanes = self.drawn.iter().find(|(one, _)| *one == tile).map_or(&[][..], |(_, drawn)| drawn.lanes());
+        let old = |lane: &Lane| match lane {
+            Lane::Lid => results.lid.stale,
+            Lane::Room => results.room.stale,
+            Lane::Surfaces => results.surfaces.stale,
+            // What does not move has none.
+            Lane::Year => results.year.value.is_some() && results.year.stale,
+            _ => false,
+        };
+        state.dataset.stale || state.daylight.stale || lanes.iter().any(old)
     }
 
     /// Draws a tile; its numbers where they are asked for.
