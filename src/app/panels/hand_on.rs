@@ -172,7 +172,12 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let state = &app.state;
     let mut text = state.path.clone();
     let name = ui.label("Write to");
-    let field = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY)).labelled_by(name.id);
+    // On as many lines as the name needs: its end, which says what it is, stays in sight.
+    let field = TextEdit::multiline(&mut text)
+        .desired_rows(1)
+        .return_key(None::<egui::KeyboardShortcut>)
+        .desired_width(f32::INFINITY);
+    let field = ui.add(field).labelled_by(name.id);
     if text != state.path {
         commands.push(Command::EditPath(text.clone()));
     }
@@ -208,7 +213,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         return;
     }
     ui.horizontal(|ui| {
-        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let entered = field.has_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let write =
             ui.add_enabled(ready, Button::new("Write")).on_hover_text("Write it; a file that exists is asked about");
         if ready && (write.clicked() || entered) {
@@ -273,18 +278,17 @@ fn preview(ui: &mut Ui, app: &App) {
         Some(Ok(Preview::Text(text, length))) => {
             ui.weak(bytes(*length));
             let shown = RichText::new(text).monospace().size(13.0);
-            ScrollArea::horizontal().id_salt("first lines").show(ui, |ui| ui.add(Label::new(shown).extend()));
+            ui.add(Label::new(shown).wrap());
         }
         Some(Ok(Preview::Files(files))) => {
             let count = files.len();
             ui.weak(if count == 1 { "One file".to_owned() } else { format!("{count} files") });
-            egui::Grid::new("files").num_columns(2).striped(true).show(ui, |ui| {
-                for (name, words) in files {
+            for (name, words) in files {
+                ui.horizontal_wrapped(|ui| {
                     ui.label(name);
                     ui.weak(words);
-                    ui.end_row();
-                }
-            });
+                });
+            }
         }
     }
 }
