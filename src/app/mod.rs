@@ -5,7 +5,6 @@
 
 pub mod apply;
 pub mod arrange;
-mod arranging;
 mod asking;
 pub mod at_work;
 pub mod autosave;
@@ -19,6 +18,7 @@ pub mod comparing;
 pub mod control;
 pub mod dialogs;
 pub mod disk;
+mod docking;
 mod due;
 pub mod editing;
 pub mod engine;
