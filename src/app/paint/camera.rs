@@ -119,7 +119,8 @@ impl View {
     /// The direction in which a point of the screen is seen.
     pub fn ray(&self, at: Pos2) -> DVec3 {
         let [x, y] = [at.x - self.middle.x, self.middle.y - at.y].map(|v| f64::from(v) / self.focal);
-        (self.forward + x * self.right + y * self.up).normalize()
+        // The three stand on each other: the sum is at least as long as the first.
+        (self.forward + x * self.right + y * self.up).normalize_or_zero()
     }
 
     /// Does a plane through a point, with a normal, show this side to the eye?

@@ -28,6 +28,9 @@ pub enum Place<T> {
     Column(Vec<(f32, Place<T>)>),
 }
 
+/// Places with their shares of a length.
+type Shares<T> = Vec<(f32, Place<T>)>;
+
 /// The bench's arrangement.
 pub type Layout = Place<Tile>;
 
@@ -44,8 +47,7 @@ impl<T> Place<T> {
         let mut list = |children: Vec<(f32, Self)>| -> Vec<(f32, Place<U>)> {
             children.into_iter().filter_map(|(share, child)| Some((share, child.filter_map(of)?))).collect()
         };
-        let only = |mut children: Vec<(f32, Place<U>)>, make: fn(Vec<(f32, Place<U>)>) -> Place<U>| match children.len()
-        {
+        let only = |mut children: Shares<U>, make: fn(Shares<U>) -> Place<U>| match children.len() {
             0 => None,
             1 => children.pop().map(|(_, child)| child),
             _ => Some(make(children)),

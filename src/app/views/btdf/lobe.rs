@@ -21,11 +21,14 @@ const FIRST: Camera = Camera::from(-0.45, 0.3);
 /// A node so near to the cursor is meant. \[points\]
 const REACH: f32 = 14.0;
 
+/// Data and incidence, times the cosine, scale.
+type BodyKey = ((u64, [u64; 3]), bool, ColourScale);
+
 /// What only this picture knows.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
-    body: Cache<((u64, [u64; 3]), bool, ColourScale), Body>,
+    body: Cache<BodyKey, Body>,
 }
 
 impl Default for State {

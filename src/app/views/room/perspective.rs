@@ -27,12 +27,15 @@ const KEY: f64 = 0.28;
 /// Names of the walls in their order.
 const WALLS: [&str; 6] = ["floor", "ceiling", "wall at x = 0", "wall at the far x", "façade", "rear wall"];
 
+/// Colours of a piece's corners.
+type Corners = [Color32; 4];
+
 /// What is kept from frame to frame.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
     pieces: Cache<u64, Arc<Vec<Piece>>>,
-    colours: Cache<(u64, Option<ColourScale>), Arc<Vec<[Color32; 4]>>>,
+    colours: Cache<(u64, Option<ColourScale>), Arc<Vec<Corners>>>,
     scale: Option<ColourScale>,
 }
 
