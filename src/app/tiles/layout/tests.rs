@@ -1,3 +1,5 @@
+//! Layouts as values: read, joined, split, resized.
+
 use super::*;
 
 fn tiles() -> [Tile; 4] {

@@ -1,3 +1,5 @@
+//! Planes, diffusers and units of the LID picture.
+
 use super::*;
 use crate::compute::lid::EmergentLuminance;
 use crate::compute::lid::c_gamma::{Peak, Step};
