@@ -66,13 +66,21 @@ impl Axis {
 
     /// Name and unit; units that stand at the ticks are not repeated.
     pub fn title(&self) -> String {
-        let unit = match self.unit {
+        format!("{}{}", self.name, self.unit_part())
+    }
+
+    /// The unit alone, where there is no room for the name.
+    pub fn short_title(&self) -> String {
+        self.unit_part().trim_start_matches(" / ").to_owned()
+    }
+
+    fn unit_part(&self) -> String {
+        match self.unit {
             Unit::Named(unit) if unit.contains('/') => format!(" / ({unit})"),
             Unit::Named(unit) if !unit.is_empty() => format!(" / {unit}"),
             Unit::Degrees => " / °".to_owned(),
             _ => String::new(),
-        };
-        format!("{}{unit}", self.name)
+        }
     }
 
     /// Where a value lies, `None` for what is no number. What a logarithm cannot take lies at the end of the range.

@@ -118,7 +118,10 @@ fn daylight_factors_are_told_of_overcast_skies_alone() {
     let look = RoomLook { daylight_factor: true, ..RoomLook::default() };
     apply(&mut harness, Command::RoomLook(look));
     let clear = value(&harness, "Room plan");
-    assert!(clear.contains("no daylight factor: it needs an overcast CIE sky") && clear.contains("klx"), "{clear}");
+    assert!(
+        clear.contains("no daylight factor: it needs an overcast CIE sky") && clear.contains("mean 1000 lx"),
+        "{clear}"
+    );
     let sky = &mut harness.state_mut().state.document.scene.sky;
     (sky.cie_type, sky.illuminance) = (Some(16), IlluminanceKey::Stated);
     (sky.diffuse_horizontal, sky.sun.direct_normal) = (Some(20_000.0), Some(0.0));

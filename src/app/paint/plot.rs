@@ -142,14 +142,22 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
     let words =
         |point: &PlotPoint| format!("{} · {}", plot.x.text(plot.x.value(point.x)), plot.y.text(plot.y.value(point.y)));
     let sense = if look.focusable { Sense::click_and_drag() } else { Sense::CLICK | Sense::DRAG };
-    let titled = !plot.x.title().is_empty();
+    // A name that does not fit under the plot would run into its neighbours.
+    let middle = 0.5 * (body.left() + look.left + body.right());
+    let reach = (rect.right() - middle).min(middle - rect.left());
+    let x_title = Some(plot.x.title()).filter(|title| {
+        let galley = ui.painter().layout_no_wrap(title.clone(), FontId::proportional(TICKS), palette.weak);
+        0.5 * galley.size().x <= reach
+    });
+    let x_title = x_title.unwrap_or_else(|| plot.x.short_title());
+    let titled = !x_title.is_empty();
     let mut chart = egui_plot::Plot::new("plot")
         .id(look.id)
         .default_x_bounds(left, right)
         .default_y_bounds(low, high)
         .custom_x_axes(vec![
             hints(AxisHints::new_x(), &plot.x, &palette, BELOW[usize::from(titled)])
-                .label(RichText::new(plot.x.title()).size(13.0).color(palette.weak)),
+                .label(RichText::new(x_title).size(13.0).color(palette.weak)),
         ])
         .custom_y_axes(vec![hints(AxisHints::new_y(), &plot.y, &palette, look.left).formatter(|mark, range| {
             let text = plot.y.tick(mark.value, mark.step_size);

@@ -75,6 +75,11 @@ impl Behavior<Tile> for Docking<'_> {
         26.0
     }
 
+    /// Little, so that six names fit into the least window.
+    fn tab_title_spacing(&self, _visuals: &Visuals) -> f32 {
+        2.0
+    }
+
     fn resize_stroke(&self, style: &egui::Style, state: ResizeState) -> Stroke {
         let palette = theme::palette_of(&style.visuals);
         match state {
@@ -122,7 +127,9 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     response
         .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Tile {}", tile.title)));
     response.context_menu(|ui| menu(ui, tile, commands));
-    if response.clicked() || response.secondary_clicked() || response.drag_started() || response.has_focus() {
+    // The head that has the keyboard is not asked while another one is about to get it.
+    let focused = response.has_focus() && !app.bench.to_focus;
+    if response.clicked() || response.secondary_clicked() || response.drag_started() || focused {
         app.bench.in_hand = tile;
     }
     if app.bench.to_focus && app.bench.in_hand == tile {

@@ -157,7 +157,7 @@ fn picture(
 ) -> Foot {
     let palette = Palette::of(ui.visuals());
     let lines = f32::from(figure_lines(rect.width()));
-    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 3.0 + FIGURE_LINE * lines));
+    let figures = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 4.0 + FIGURE_LINE * lines));
     figures_ui(ui, figures, input, &palette);
     let rest = Rect::from_min_max(pos2(rect.left(), figures.bottom()), rect.max);
     let beside = rest.width() > 1.05 * rest.height() && rest.width() > 380.0;

@@ -41,11 +41,15 @@ pub(super) fn value_text(v: &CellValue, quantity: Quantity) -> Foot {
     ])
 }
 
+fn dark() -> Foot {
+    Foot::from(["no light at the sensors", "no light"].map(str::to_owned))
+}
+
 /// All sensors together.
 pub(super) fn summary(input: &Input<'_>) -> Foot {
     let told = |value| input.quantity.told(value);
     let totals = || input.cells.iter().map(|c| c.total);
-    let Some((mean, ratio)) = uniformity(input.cells) else { return Foot::from("no light at the sensors") };
+    let Some((mean, ratio)) = uniformity(input.cells) else { return dark() };
     let (min, max) = (totals().fold(f64::INFINITY, f64::min), totals().fold(0.0, f64::max));
     let error = error_words(input.cells.iter().map(|c| Estimate::new(c.total, c.error)));
     let [mean_told, u0] = [told(mean.value), number(ratio.value, 2)];
