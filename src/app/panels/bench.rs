@@ -60,7 +60,7 @@ impl Behavior<Tile> for Docking<'_> {
     }
 
     fn tab_title_for_pane(&mut self, tile: &Tile) -> egui::WidgetText {
-        tile.title.into()
+        egui::RichText::new(tile.title).size(13.0).into()
     }
 
     fn gap_width(&self, _style: &egui::Style) -> f32 {

@@ -284,10 +284,8 @@ fn preview(ui: &mut Ui, app: &App) {
             let count = files.len();
             ui.weak(if count == 1 { "One file".to_owned() } else { format!("{count} files") });
             for (name, words) in files {
-                ui.horizontal_wrapped(|ui| {
-                    ui.label(name);
-                    ui.weak(words);
-                });
+                ui.add(Label::new(name).wrap());
+                ui.add(Label::new(RichText::new(words).weak()).wrap());
             }
         }
     }

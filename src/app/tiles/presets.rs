@@ -11,7 +11,7 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
     match preset {
         Preset::All => Layout::even(all),
         Preset::Designer => Layout::Row(vec![
-            one(1.6, room::TILE),
+            one(1.45, room::TILE),
             (
                 1.0,
                 Layout::Column(vec![

@@ -100,7 +100,7 @@ const WIDE_FIGURES: f32 = 460.0;
 /// Below it each has a line of its own. \[points\]
 const NARROW_FIGURES: f32 = 190.0;
 /// Height of a line of them. \[points\]
-const FIGURE_LINE: f32 = 17.0;
+const FIGURE_LINE: f32 = 16.5;
 
 /// Lines that the illuminances take.
 fn figure_lines(width: f32) -> u8 {
