@@ -1,6 +1,6 @@
 //! What is set beside each other: candidates of a scene, their figures with errors, and which is the better one.
 //!
-//! A candidate is the scene with another product, state, sky or room ([`candidate`]). [`Facts`] are what was computed of
+//! A candidate is the scene with another product, state, sky or room ([`candidate()`]). [`Facts`] are what was computed of
 //! it, [`FIGURES`] what is told of the facts, [`compare`] sets figures of several side by side. Window and command line
 //! show the same [`Row`]s. What joins later (a year, a rank) is a part of [`Facts`] and figures that read it.
 
