@@ -188,12 +188,22 @@ def one_error(given):
     expect(len(told) == 1, f"{told}")
 
 
+def hand_on_lid(given):
+    """The sheet for handing on, with a luminaire file chosen."""
+    given.desk.key("ctrl+k")
+    time.sleep(0.6)
+    given.desk.type("export lid")
+    time.sleep(0.4)
+    given.desk.key("Return")
+    time.sleep(0.6)
+
+
 @check("the LID tile's peak is that of the file it exports")
 def peak(given):
     given.desk.start()
     given.desk.quiet()
-    given.desk.key("ctrl+e")
-    given.desk.field("Path", f"{given.home}/lid.ldt", "entry")
+    hand_on_lid(given)
+    given.desk.field("^Write to$", f"{given.home}/lid.ldt", "entry")
     expect(given.desk.until(lambda: os.path.exists(f"{given.home}/lid.ldt"), 8), "no file")
     told = given.desk.command("info", f"{given.home}/lid.ldt").stdout
     given.picture()
@@ -444,14 +454,14 @@ def states(given):
 def exports(given):
     given.desk.start()
     given.desk.quiet()
-    given.desk.key("ctrl+e")
-    offered = given.desk.need("^Path$", "entry").text
+    hand_on_lid(given)
+    offered = given.desk.need("^Write to$", "entry").text
     print(f"    {offered}")
     expect("venetian" in offered.lower() and "2026-03-21" in offered, f"offers {offered!r}")
     path = f"{given.home}/mine.ldt"
     with open(path, "w") as file:
         file.write("mine")
-    given.desk.field("^Path$", path, "entry")
+    given.desk.field("^Write to$", path, "entry")
     given.desk.need("exists already")
     given.picture()
     expect(open(path).read() == "mine", "replaced without asking")

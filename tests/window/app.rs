@@ -2,9 +2,11 @@
 
 use crate::driven::{frames, settle};
 use cfs::app::App;
+use cfs::app::command::Command;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::state::Sheet;
+use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
 use cfs::compute::estimate::{Cancelled, Estimate, Progress};
 use cfs::study::accuracy::Accuracy;
@@ -366,4 +368,17 @@ fn measured_states_come_in_together_and_a_click_chooses_a_measured_incidence() {
     let chosen = harness.get_by_label("Incident hemisphere").value().unwrap();
     // 0.3/sr into π of projected solid angle.
     assert!(chosen.contains("θ 35°, φ 0°") && chosen.contains("0.942"), "{chosen}");
+}
+
+#[test]
+fn a_command_that_is_typed_and_entered_at_once_closes_the_palette() {
+    let (mut harness, _) = window();
+    harness.state_mut().apply(Command::Palette);
+    harness.run_steps(3);
+    // A slow frame takes in both.
+    harness.event(egui::Event::Text("theme light".to_owned()));
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state.palette, None);
+    assert_eq!(harness.state().state.settings.theme, ThemeChoice::Light);
 }

@@ -17,7 +17,8 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let inner = area.show(ui.ctx(), |ui| {
         egui::Frame::popup(ui.style()).show(ui, |ui| list(ui, &mut text, commands));
     });
-    if text != *words {
+    // A command that was entered in the same frame has closed it already.
+    if text != *words && !commands.contains(&Command::Palette) {
         commands.push(Command::EditPalette(text));
     }
     // The command opens what is closed: sent twice in a frame, the palette would stay.

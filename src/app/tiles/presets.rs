@@ -11,12 +11,12 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
     match preset {
         Preset::All => Layout::even(all),
         Preset::Designer => Layout::Row(vec![
-            one(1.45, room::TILE),
+            (1.6, Layout::tabs(&[room::TILE, btdf::TILE])),
             (
                 1.0,
                 Layout::Column(vec![
                     one(1.0, sky::TILE),
-                    (1.0, Layout::tabs(&[transmittance::TILE, control::TILE, lid::TILE, btdf::TILE])),
+                    (1.0, Layout::tabs(&[transmittance::TILE, control::TILE, lid::TILE])),
                 ]),
             ),
         ]),
