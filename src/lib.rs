@@ -25,12 +25,13 @@
 //!
 //! # Layers
 //!
-//! Imports go one way: [`compute`] ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← [`report`] ←
+//! Imports go one way: ([`texts`], [`compute`]) ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← [`report`] ←
 //! {[`cli`], [`app`]} ← `main`.
 //! `tests/tidy` enforces it.
 //!
 //! | module | owns | must not touch |
 //! | --- | --- | --- |
+//! | [`texts`] | words in English and German | figures, data |
 //! | [`compute`] | physics and numerics: numbers in, numbers out | files, clocks, serde, SQL, egui, output |
 //! | [`drawing`] | pictures without a window: plots as data, line drawings as SVG and PNG | files and paths, serde, egui |
 //! | [`formats`] | every byte layout of data, as `&[u8]` ↔ values | files and paths, SQL, egui |
@@ -69,6 +70,7 @@
 //! | change an angle convention | [`compute::direction`], nowhere else |
 //! | add a scene key | [`study::scene_file`], then [`study::scene`]; describe it in `examples/office.toml` |
 //! | skip work that a scene does not need | [`study::plan`] |
+//! | say something in the window, or say it better | a line in [`texts`], in both languages |
 //! | add a subcommand | a file in [`cli`] named like it |
 //! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
 //! | change what belongs to a product when files come in | [`catalogue::Grouping`] and its file |
@@ -89,3 +91,4 @@ pub mod drawing;
 pub mod formats;
 pub mod report;
 pub mod study;
+pub mod texts;

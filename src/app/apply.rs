@@ -72,6 +72,7 @@ impl App {
                 state.settings.theme = choice;
                 choice.apply(&self.ctx);
             }
+            Command::Language(choice) => state.settings.language = choice,
             Command::ResetScene => {
                 // The first scene names no product: the one that is chosen stays.
                 let compare = std::mem::take(&mut state.document.scene.compare);

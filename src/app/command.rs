@@ -8,6 +8,7 @@ use super::hand_on::Choices;
 use super::import::{ImportFields, StateWords};
 use super::import_steps::Step;
 use super::jobs::Lane;
+use super::language::LanguageChoice;
 use super::room_look::{RoomLook, RoomView};
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
@@ -76,6 +77,8 @@ pub enum Command {
     ToggleScene,
     /// Light, dark, or as the desktop.
     Theme(ThemeChoice),
+    /// Sets the language.
+    Language(LanguageChoice),
     /// Back to the scene of a first start.
     ResetScene,
     /// Open or close a sheet.

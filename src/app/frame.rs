@@ -6,7 +6,7 @@ use super::dialogs::NativeDialogs;
 use super::offer::pressed;
 use super::restoring::sessions_folder;
 use super::window::{App, Services};
-use super::{panels, theme, title};
+use super::{language, panels, theme, title};
 use crate::catalogue::SourceFile;
 use crate::study::Library;
 use std::path::{Path, PathBuf};
@@ -15,6 +15,7 @@ use std::sync::Arc;
 impl App {
     /// Everything before drawing: results, keys, dropped files, requests. Never waits.
     pub fn logic(&mut self, ctx: &egui::Context) {
+        let _speaking = self.speak();
         if !self.installed {
             self.installed = true;
             self.ctx = ctx.clone();
@@ -47,6 +48,7 @@ impl App {
 
     /// Draws one frame and does what was asked in it.
     pub fn draw(&mut self, ui: &mut egui::Ui) {
+        let _speaking = self.speak();
         let commands = panels::show(ui, self);
         for command in commands {
             self.apply(command);
@@ -110,6 +112,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
             };
             let mut app = App::new(services, settings);
             app.library = library;
+            app.desktop_language = language::of_desktop();
             app.begin_session(sessions.as_deref(), open.is_empty());
             app.logic(&cc.egui_ctx);
             app.apply(Command::OpenPaths(open));

@@ -9,6 +9,7 @@
 
 use super::error::JobError;
 use crate::compute::estimate::Progress;
+use crate::texts;
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -258,7 +259,10 @@ impl<M: Send + 'static> Jobs<M> {
         let state = Arc::new(JobState { gives_way, ..JobState::default() });
         self.running.insert(lane, Running { generation, state: state.clone() });
         let sender = self.sender.clone();
+        // What is said there is read here.
+        let language = texts::language();
         let job = move || {
+            let _speaking = texts::speak(language);
             state.rest();
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&state))).map_err(|panic| fault(&*panic));
             // The window may be gone by now; nobody is left to tell.

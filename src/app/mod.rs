@@ -39,6 +39,7 @@ pub mod importing;
 pub mod incidence;
 pub mod jobs;
 pub mod keeping;
+pub mod language;
 pub mod measuring;
 pub mod messages;
 pub mod moment;

@@ -6,11 +6,13 @@ use super::command::{Command, SYSTEM_EDITOR};
 use super::compare::{Act, Look};
 use super::control;
 use super::examples::EXAMPLES;
+use super::language::LanguageChoice;
 use super::room_look::RoomView;
 use super::state::{self, PathUse};
 use super::theme::ThemeChoice;
 use super::tiles::TILES;
 use crate::study::scene_file::ControlMode;
+use crate::texts::{self, language, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
@@ -206,6 +208,9 @@ fn table() -> Vec<Offer> {
     list.extend(ThemeChoice::ALL.map(|choice| {
         offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(VIEW, 30)
     }));
+    list.extend(LanguageChoice::ALL.map(|choice| {
+        offer(Language(choice), shell::language_is(choice.word()), shell::LANGUAGE_TIP.get()).menu(VIEW, 31)
+    }));
     let act = |act: Act| Compare(act);
     list.extend([
         offer(act(Act::Add), "Add to compare", "What is shown into the tray: product and state, or rule")
@@ -292,10 +297,19 @@ fn table() -> Vec<Offer> {
     list
 }
 
-/// All that is offered.
+fn table_in(language: texts::Language) -> Vec<Offer> {
+    let _speaking = speak(language);
+    table()
+}
+
+/// All that is offered, in the language that is spoken.
 pub fn offers() -> &'static [Offer] {
-    static TABLE: LazyLock<Vec<Offer>> = LazyLock::new(table);
-    &TABLE
+    static ENGLISH: LazyLock<Vec<Offer>> = LazyLock::new(|| table_in(texts::Language::English));
+    static GERMAN: LazyLock<Vec<Offer>> = LazyLock::new(|| table_in(texts::Language::German));
+    match language() {
+        texts::Language::English => &ENGLISH,
+        texts::Language::German => &GERMAN,
+    }
 }
 
 /// What palette and keys sheet list.

@@ -8,6 +8,7 @@ use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::hand_on::{Choices, HandOn};
 use super::import::{Import, KeptImport};
+use super::language::LanguageChoice;
 use super::room_look::RoomLook;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
@@ -72,6 +73,8 @@ pub struct Added {
 pub struct Settings {
     /// Light, dark or as the desktop.
     pub theme: ThemeChoice,
+    /// In which language the window speaks.
+    pub language: LanguageChoice,
     /// Catalogue panel open?
     pub catalogue_open: bool,
     /// Scene panel open?
@@ -92,6 +95,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             theme: ThemeChoice::System,
+            language: LanguageChoice::System,
             catalogue_open: true,
             scene_open: true,
             last_scene: None,

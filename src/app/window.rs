@@ -19,6 +19,7 @@ use super::views::{accuracy, section, states};
 use super::work::{Outcome, ReadDataset};
 use crate::catalogue::{Grouping, SourceFile};
 use crate::study::Library;
+use crate::texts::{Language, Speaking, speak};
 use egui::util::undoer::Undoer;
 use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
@@ -83,6 +84,8 @@ pub struct App {
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
+    /// What the desktop speaks.
+    pub(super) desktop_language: Language,
 }
 
 /// A history that begins here.
@@ -125,6 +128,7 @@ impl App {
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),
+            desktop_language: Language::default(),
         }
     }
 
@@ -139,6 +143,11 @@ impl App {
             Services { open_catalogue: Arc::new(open), read: SourceFile::read, dialogs: Arc::new(NoDialogs), engine },
             Settings::default(),
         )
+    }
+
+    /// Speaks the window's language on this thread until the answer is dropped.
+    pub(super) fn speak(&self) -> Speaking {
+        speak(self.state.settings.language.language(self.desktop_language))
     }
 
     /// Starts a job that wakes the window when it ends.

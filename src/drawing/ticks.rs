@@ -1,5 +1,7 @@
 //! Round numbers for axes, and numbers as text with their unit.
 
+use crate::texts;
+
 /// The next of 1, 2, 5 · 10ⁿ that is at least `value`; 1 for what is not positive and finite.
 pub fn nice_ceil(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
@@ -63,7 +65,7 @@ pub fn number(value: f64, digits: usize) -> String {
     }
     let magnitude = value.abs().log10().floor() as i32;
     if !(-4..7).contains(&magnitude) {
-        return format!("{value:.*e}", digits.saturating_sub(1));
+        return texts::decimal(format!("{value:.*e}", digits.saturating_sub(1)));
     }
     let decimals = (digits as i32 - 1 - magnitude).max(0) as usize;
     let keep = 10_f64.powi((magnitude + 1 - digits as i32).max(0));
@@ -93,7 +95,7 @@ fn group(text: &str) -> String {
         out.push(digit);
     }
     if !fraction.is_empty() {
-        out.push('.');
+        out.push(texts::decimal_sign());
         out.push_str(fraction);
     }
     out
@@ -126,8 +128,9 @@ pub fn fine_tick(value: f64, step: f64) -> String {
     };
     let digits = (1.0 + (size / step.abs()).log10().ceil()).clamp(0.0, 12.0) as usize;
     let text = number(value * scale, digits.max(least));
-    let plain = text.contains('.') && !text.contains('e');
-    format!("{}{unit}", if plain { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
+    let sign = texts::decimal_sign();
+    let plain = text.contains(sign) && !text.contains('e');
+    format!("{}{unit}", if plain { text.trim_end_matches('0').trim_end_matches(sign) } else { &text })
 }
 
 /// An angle in radians as whole degrees: "40°".

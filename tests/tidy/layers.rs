@@ -10,7 +10,23 @@ struct Layer {
     silent: bool,
 }
 
-const LAYERS: [Layer; 8] = [
+const LAYERS: [Layer; 9] = [
+    Layer {
+        name: "texts",
+        below: &[],
+        forbidden: &[
+            "std::fs",
+            "std::net",
+            "std::env",
+            "std::time",
+            "std::path",
+            "std::process",
+            "std::io",
+            "serde",
+            "egui",
+        ],
+        silent: true,
+    },
     Layer {
         name: "compute",
         below: &[],
@@ -40,7 +56,7 @@ const LAYERS: [Layer; 8] = [
     },
     Layer {
         name: "drawing",
-        below: &["compute"],
+        below: &["texts", "compute"],
         forbidden: &[
             "std::fs",
             "std::net",
@@ -64,7 +80,7 @@ const LAYERS: [Layer; 8] = [
     },
     Layer {
         name: "formats",
-        below: &["compute", "drawing"],
+        below: &["texts", "compute", "drawing"],
         forbidden: &[
             "std::fs",
             "std::net",
@@ -83,19 +99,19 @@ const LAYERS: [Layer; 8] = [
     },
     Layer {
         name: "catalogue",
-        below: &["compute", "drawing", "formats"],
+        below: &["texts", "compute", "drawing", "formats"],
         forbidden: &["std::net", "std::process", "toml", "egui", "eframe", "egui_plot", "clap", "anyhow", "roxmltree"],
         silent: true,
     },
     Layer {
         name: "study",
-        below: &["compute", "drawing", "formats", "catalogue"],
+        below: &["texts", "compute", "drawing", "formats", "catalogue"],
         forbidden: &["std::net", "std::process", "rusqlite", "egui", "eframe", "egui_plot", "clap", "roxmltree"],
         silent: true,
     },
     Layer {
         name: "report",
-        below: &["compute", "drawing", "formats", "catalogue", "study"],
+        below: &["texts", "compute", "drawing", "formats", "catalogue", "study"],
         forbidden: &[
             "std::fs",
             "std::net",
@@ -113,13 +129,13 @@ const LAYERS: [Layer; 8] = [
     },
     Layer {
         name: "cli",
-        below: &["compute", "drawing", "formats", "catalogue", "study", "report"],
+        below: &["texts", "compute", "drawing", "formats", "catalogue", "study", "report"],
         forbidden: &["rusqlite", "egui", "eframe", "egui_plot", "rfd", "roxmltree", "quick_xml"],
         silent: false,
     },
     Layer {
         name: "app",
-        below: &["compute", "drawing", "formats", "catalogue", "study", "report"],
+        below: &["texts", "compute", "drawing", "formats", "catalogue", "study", "report"],
         forbidden: &["rusqlite", "clap", "roxmltree", "quick_xml", "csv", "zip", "zstd"],
         silent: true,
     },

@@ -1,0 +1,5 @@
+//! Comparing products, states, moments and rooms.
+
+texts! {
+    const COMPARE = "Compare" | "Vergleichen";
+}

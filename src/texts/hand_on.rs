@@ -1,0 +1,5 @@
+//! Handing on: luminaire files, pictures, reports.
+
+texts! {
+    const HAND_ON = "Hand on" | "Weitergeben";
+}

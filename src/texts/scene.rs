@@ -1,0 +1,5 @@
+//! The scene: place, time, sky, apertures, room.
+
+texts! {
+    const SCENE = "Scene" | "Szene";
+}

@@ -1,0 +1,5 @@
+//! The tiles of the bench and what stands in them.
+
+texts! {
+    const SKY = "Sky" | "Himmel";
+}
