@@ -81,16 +81,21 @@ impl eframe::App for App {
     }
 }
 
+/// The window's icon, as desktops show it that have no desktop file of ours.
+const ICON: &[u8] = include_bytes!("../../assets/desktop/cfs-256.png");
+
 /// Opens the window and returns when it is closed. `catalogue`: its file, else the user's own; `open`: files to read
 /// at once.
 pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     let catalogue = catalogue.map(Path::to_path_buf);
     let sessions = sessions_folder();
+    let icon = eframe::icon_data::from_png_bytes(ICON).map_err(|error| anyhow::anyhow!("the window's icon: {error}"))?;
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_inner_size([1280.0, 720.0])
             .with_min_inner_size([960.0, 600.0])
             .with_title("cfs")
+            .with_icon(icon)
             .with_app_id("cfs"),
         ..Default::default()
     };
