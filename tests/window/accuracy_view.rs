@@ -1,6 +1,7 @@
 //! The window's view of error against run time: reached by key and menu, run and stopped, drawn from a made-up ladder.
 
 use crate::common::compares_pictures;
+use crate::driven::Idle;
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
@@ -8,7 +9,7 @@ use cfs::app::error::AppError;
 use cfs::app::jobs::Lane;
 use cfs::app::state::Sheet;
 use cfs::app::views::accuracy as view;
-use cfs::compute::estimate::{Cancelled, Estimate, Progress};
+use cfs::compute::estimate::{Cancelled, Progress};
 use cfs::study::accuracy::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series};
 use egui::{Key, Theme};
 use egui_kittest::kittest::Queryable;
@@ -53,24 +54,16 @@ struct Scripted {
 }
 
 impl Engine for Scripted {
-    fn room(&self, _question: &Question, _progress: &dyn Progress) -> Result<RoomFigures, AppError> {
-        let estimate = vec![Estimate::new(500.0, 2.0)];
-        Ok(RoomFigures {
-            positions: vec![[2.0, 3.0, 0.85]],
-            direct: estimate.clone(),
-            interreflected: estimate,
-            grid: Some([1, 1]),
-            seconds: 0.001,
-            ..RoomFigures::default()
-        })
+    fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError> {
+        Idle.room(question, progress)
     }
 
-    fn surfaces(&self, _question: &Question, _progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
-        Err(AppError::NoAperture)
+    fn surfaces(&self, question: &Question, progress: &dyn Progress) -> Result<SurfaceFigures, AppError> {
+        Idle.surfaces(question, progress)
     }
 
-    fn lid(&self, _question: &Question, _progress: &dyn Progress) -> Result<LidFigures, AppError> {
-        Err(AppError::NoLid)
+    fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError> {
+        Idle.lid(question, progress)
     }
 
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {
