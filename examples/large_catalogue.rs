@@ -37,11 +37,11 @@ fn main() -> anyhow::Result<()> {
     let opened = start.elapsed();
     let all = catalogue.find(&Query::default())?;
     println!("opened in {:.0} ms, first list after {:.0} ms", milliseconds(opened), milliseconds(start.elapsed()));
-    println!("{} products", all.total);
+    println!("{} products", all.entries.len());
     for words in ["v", "ve", "ven", "venetian", "venetian sil", "venetian silver 4", "nothing like it"] {
         let query = Query { text: words.to_owned(), ..Query::default() };
         let start = Instant::now();
-        let found = catalogue.find(&query)?.total;
+        let found = catalogue.find(&query)?.entries.len();
         println!("{words:?}: {found} found in {:.1} ms", milliseconds(start.elapsed()));
     }
     Ok(())
