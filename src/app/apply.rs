@@ -12,6 +12,7 @@ use crate::catalogue::{FirstRule, Product};
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
+use crate::texts::shell;
 
 /// Puts a product into a document as it is first shown: by its own rule, else in the state that is named.
 pub(super) fn first_choice(document: &mut Document, product: String, rule: FirstRule, state: Option<&str>) {
@@ -23,8 +24,18 @@ pub(super) fn first_choice(document: &mut Document, product: String, rule: First
 }
 
 impl App {
-    /// Does what a command says.
+    /// Does what a command says. What it changes in the document is a step of its own, however soon it follows on the one
+    /// before it; only what is dragged or stepped through is one step when it has come to rest.
     pub fn apply(&mut self, command: Command) {
+        let before = command.is_step().then(|| self.state.document.clone());
+        self.act_on(command);
+        if let Some(before) = before.filter(|before| *before != self.state.document) {
+            self.undoer.add_undo(&before);
+            self.undoer.add_undo(&self.state.document);
+        }
+    }
+
+    fn act_on(&mut self, command: Command) {
         let state = &mut self.state;
         match command {
             Command::Open => self.ask_paths(),
@@ -49,11 +60,12 @@ impl App {
                 // The field to type in may be hidden with its panel.
                 state.settings.catalogue_open = true;
                 state.focus_search = true;
+                state.wants_keyboard = false;
             }
-            Command::Palette => {
-                state.palette = if state.palette.is_some() { None } else { Some(String::new()) };
-            }
-            Command::EditPalette(text) => state.palette = Some(text),
+            Command::KeyboardTaken => state.wants_keyboard = false,
+            Command::Palette => self.toggle_palette(),
+            Command::EditPalette(text) => self.edit_palette(text),
+            Command::PaletteRow(row) => state.palette_row = row,
             Command::Maximise(tile) => state.maximised = tile,
             Command::Arrange(what) => self.arrange(what),
             Command::RoomLook(look) => state.settings.room = look,
@@ -73,6 +85,8 @@ impl App {
                 choice.apply(&self.ctx);
             }
             Command::Language(choice) => state.settings.language = choice,
+            Command::TextSize(change) => self.change_text_size(change),
+            Command::Tour(act) => self.tour(act),
             Command::ResetScene => {
                 // The first scene names no product: the one that is chosen stays.
                 let compare = std::mem::take(&mut state.document.scene.compare);
@@ -107,14 +121,12 @@ impl App {
                     self.stop_computing();
                 }
                 let told = match lane {
-                    Lane::Goniophotometer => {
-                        "Stopped; finished states are kept, and Compute goes on after them".to_owned()
-                    }
-                    Lane::Builtin => "Stopped; the others are computed when they are chosen".to_owned(),
-                    Lane::Product => "Stopped; choose another state or product".to_owned(),
-                    Lane::Lid if !self.results.lid.stale => "Stopped; the LID's peak is not computed".to_owned(),
-                    Lane::Import | Lane::Mend | Lane::Dialog | Lane::Export => format!("{} stopped", lane.word()),
-                    _ => format!("{} stopped; what is shown is older than the scene", lane.word()),
+                    Lane::Goniophotometer => shell::STOPPED_STATES.into(),
+                    Lane::Builtin => shell::STOPPED_BUILTIN.into(),
+                    Lane::Product => shell::STOPPED_PRODUCT.into(),
+                    Lane::Lid if !self.results.lid.stale => shell::STOPPED_PEAK.into(),
+                    Lane::Import | Lane::Mend | Lane::Dialog | Lane::Export => shell::stopped(lane.word()),
+                    _ => shell::stopped_older(lane.word()),
                 };
                 // The job may have ended between the picture and the click: then nothing was lost, and nothing is said.
                 if stopped {
@@ -269,7 +281,7 @@ impl App {
     fn set_control(&mut self, keys: ControlKeys) {
         if let Some(known) = self.state.product.as_deref() {
             let problem = if known.states.len() < 2 {
-                Some("This product does not move: it has one state".to_owned())
+                Some(shell::ONE_STATE_ONLY.into())
             } else {
                 let device = Device::of(known);
                 device.and_then(|device| settings(&keys, &device, &self.state.base())).err().map(|e| e.to_string())
@@ -321,7 +333,7 @@ impl App {
         let document = &self.state.document;
         let other = if forth { self.undoer.redo(document) } else { self.undoer.undo(document) };
         let Some(other) = other.cloned() else {
-            self.toasts.info(if forth { "Nothing to redo" } else { "Nothing to undo" });
+            self.toasts.info(if forth { shell::NOTHING_TO_REDO } else { shell::NOTHING_TO_UNDO });
             return;
         };
         let before = std::mem::replace(&mut self.state.document, other);

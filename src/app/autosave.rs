@@ -7,6 +7,7 @@
 use super::clock;
 use super::disk::{ends_in, read_bytes};
 use super::session::{Kept, Snapshot};
+use super::session_error::SessionError;
 use crate::study::files::write_at_once;
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
@@ -32,8 +33,8 @@ pub struct Found {
     pub kept: Option<Kept>,
     /// Its window did not close.
     pub lost: bool,
-    /// What could not be read, in a sentence each.
-    pub problems: Vec<String>,
+    /// What could not be read.
+    pub problems: Vec<SessionError>,
 }
 
 enum Order {
@@ -49,7 +50,7 @@ pub struct Autosave {
     /// Held as long as the window lives.
     lock: Option<File>,
     orders: Sender<Order>,
-    problems: Receiver<String>,
+    problems: Receiver<SessionError>,
     writer: Option<JoinHandle<()>>,
     last: Option<Snapshot>,
 }
@@ -178,8 +179,8 @@ impl Autosave {
         drop(self.orders.send(Order::Write(Box::new(snapshot))));
     }
 
-    /// What could not be written, in a sentence, once.
-    pub fn problem(&self) -> Option<String> {
+    /// What could not be written, once.
+    pub fn problem(&self) -> Option<SessionError> {
         self.problems.try_recv().ok()
     }
 
@@ -211,9 +212,9 @@ fn tidy(folder: &Path) {
     }
 }
 
-fn read(file: &Path) -> Result<Kept, String> {
-    let bytes = read_bytes(file).map_err(|error| error.to_string())?;
-    Kept::read(&bytes).map_err(|problem| format!("{}: not a session that can be taken up: {problem}", file.display()))
+fn read(file: &Path) -> Result<Kept, SessionError> {
+    let bytes = read_bytes(file).map_err(SessionError::File)?;
+    Kept::read(&bytes).map_err(|problem| SessionError::Unreadable(file.to_owned(), Box::new(problem)))
 }
 
 /// Away with a file that nobody needs; one that is gone already is as good.
@@ -223,14 +224,14 @@ fn remove(file: &Path) {
 
 /// Writes what it is told until told to close; of several changes at once the last. What is written is safe from the end
 /// of the program at once; a second thread waits for the disk, which takes seconds when it is busy.
-fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<String>) {
+fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<SessionError>) {
     let (written, waiting) = channel::<File>();
     std::thread::scope(|scope| {
         scope.spawn(move || {
             while let Ok(file) = waiting.recv() {
                 // Of several the last: the others are no longer there under any name.
                 if let Err(error) = waiting.try_iter().last().unwrap_or(file).sync_all() {
-                    drop(told.send(format!("The session is not safe from a power cut: {error}")));
+                    drop(told.send(SessionError::NotSafe(error.to_string())));
                 }
             }
         });
@@ -238,7 +239,7 @@ fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<String>) {
     });
 }
 
-fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<String>, written: Sender<File>) {
+fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<SessionError>, written: Sender<File>) {
     let mut failing = false;
     let mut closing = false;
     while !closing {
@@ -265,7 +266,7 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Strin
                 }
                 // Told once; nobody may listen any more.
                 Err(error) if !failing => {
-                    drop(told.send(format!("The session is not kept: {error}")));
+                    drop(told.send(SessionError::NotKept(error)));
                     failing = true;
                 }
                 Err(_) => {}
@@ -378,7 +379,7 @@ mod tests {
         std::fs::write(folder.path().join("session-0.json"), "{\"version\": 1, \"sc").unwrap();
         let (_keeper, found) = Autosave::begin(folder.path(), true).unwrap();
         assert!(found.kept.is_none() && found.problems.len() == 1, "{:?}", found.problems);
-        assert!(found.problems[0].contains("session-0.json"));
+        assert!(found.problems[0].to_string().contains("session-0.json"));
         let (_keeper, found) = Autosave::begin(folder.path(), true).unwrap();
         assert!(found.problems.is_empty(), "told once");
     }

@@ -1,6 +1,31 @@
 //! The time of day where the user is.
 
+use crate::texts::{Text, scene as texts};
+use jiff::civil::Date;
 use jiff::{Timestamp, Zoned};
+
+/// Months, shortened where that is usual.
+const MONTHS: [Text; 12] = [
+    texts::JANUARY,
+    texts::FEBRUARY,
+    texts::MARCH,
+    texts::APRIL,
+    texts::MAY,
+    texts::JUNE,
+    texts::JULY,
+    texts::AUGUST,
+    texts::SEPTEMBER,
+    texts::OCTOBER,
+    texts::NOVEMBER,
+    texts::DECEMBER,
+];
+
+/// A day: `21 Mar 2026`.
+pub fn date(day: Date) -> String {
+    // Months count from 1.
+    let month = MONTHS[usize::from(day.month().unsigned_abs()) - 1];
+    texts::day_month_year(day.day(), month, day.year())
+}
 
 /// Hours and minutes now, e.g. `14:03`.
 pub fn now() -> String {
@@ -17,8 +42,8 @@ pub fn words(stamp: &str) -> String {
     let Ok(time) = stamp.parse::<Timestamp>() else { return stamp.to_owned() };
     let now = Zoned::now();
     let then = time.to_zoned(now.time_zone().clone());
-    let format = if then.date() == now.date() { "%H:%M" } else { "%-d %b %Y, %H:%M" };
-    then.strftime(format).to_string()
+    let clock = then.strftime("%H:%M");
+    if then.date() == now.date() { clock.to_string() } else { format!("{}, {clock}", date(then.date())) }
 }
 
 #[cfg(test)]

@@ -12,7 +12,9 @@ use super::language::LanguageChoice;
 use super::room_look::{RoomLook, RoomView};
 use super::shelf::Query;
 use super::state::{PathUse, Sheet, Tile};
+use super::text_size::TextSize;
 use super::theme::ThemeChoice;
+use super::tour::TourAct;
 use crate::catalogue::Grouping;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Repair;
@@ -55,6 +57,8 @@ pub enum Command {
     Redo,
     /// Put the cursor into the search field.
     Search,
+    /// The field of the sheet that was opened has the keyboard.
+    KeyboardTaken,
     /// Open or close the command palette.
     Palette,
     /// Fill the bench with a tile, or show all.
@@ -77,6 +81,10 @@ pub enum Command {
     ToggleScene,
     /// Light, dark, or as the desktop.
     Theme(ThemeChoice),
+    /// Larger or smaller text.
+    TextSize(TextSize),
+    /// Begin or leave the tour.
+    Tour(TourAct),
     /// Sets the language.
     Language(LanguageChoice),
     /// Back to the scene of a first start.
@@ -109,6 +117,8 @@ pub enum Command {
     EditPath(String),
     /// Words of the palette.
     EditPalette(String),
+    /// The row of the palette that Enter takes.
+    PaletteRow(usize),
     /// Fill in what a product of an import lacks (its number from 0).
     EditImport(usize, Box<ImportFields>),
     /// Take the files that were read for other products.
@@ -179,4 +189,11 @@ pub enum Command {
     Compare(Act),
     /// List products like this one by what they do to light; like the selected one where it is `None`.
     Like(Option<String>),
+}
+
+impl Command {
+    /// Is what this changes in the document a step of its own for undo? Not what is dragged, or repeated by a key that is held.
+    pub const fn is_step(&self) -> bool {
+        matches!(self, Self::ResetScene | Self::Compare(_))
+    }
 }

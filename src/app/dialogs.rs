@@ -2,6 +2,7 @@
 
 use super::error::AppError;
 use super::state::PathUse;
+use crate::texts::shell;
 use std::path::{Path, PathBuf};
 
 /// Asks the user for paths.
@@ -21,13 +22,12 @@ pub struct NativeDialogs;
 
 impl FileDialogs for NativeDialogs {
     fn open(&self) -> Result<Vec<PathBuf>, AppError> {
-        let dialog =
-            rfd::FileDialog::new().set_title("Open datasets, a system or a scene").add_filter("All files", &["*"]);
+        let dialog = rfd::FileDialog::new().set_title(shell::DIALOG_OPEN).add_filter(shell::ALL_FILES, &["*"]);
         Ok(dialog.pick_files().unwrap_or_default())
     }
 
     fn open_folder(&self) -> Result<Vec<PathBuf>, AppError> {
-        Ok(rfd::FileDialog::new().set_title("Open a folder of datasets").pick_folders().unwrap_or_default())
+        Ok(rfd::FileDialog::new().set_title(shell::DIALOG_FOLDER).pick_folders().unwrap_or_default())
     }
 
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError> {
@@ -38,20 +38,20 @@ impl FileDialogs for NativeDialogs {
         }
         let dialog = match what {
             PathUse::ExportLid => dialog
-                .add_filter("Luminaire files", &["ldt", "ies"])
-                .add_filter("Table or diagram", &["csv", "svg", "png"]),
+                .add_filter(shell::LUMINAIRE_FILES, &["ldt", "ies"])
+                .add_filter(shell::TABLE_OR_DIAGRAM, &["csv", "svg", "png"]),
             PathUse::ExportTile(tile) => {
-                dialog.set_title(format!("Export {}", tile.title)).add_filter("Numbers", &["csv"])
+                dialog.set_title(shell::export_titled(tile.title)).add_filter(shell::NUMBERS, &["csv"])
             }
             PathUse::ExportMeasured => dialog
-                .add_filter("Package of all states", &["cfsp"])
-                .add_filter("BSDF", &["xml"])
-                .add_filter("BTDF text", &["btdf.txt"]),
+                .add_filter(shell::PACKAGE_OF_ALL, &["cfsp"])
+                .add_filter(shell::BSDF, &["xml"])
+                .add_filter(shell::BTDF_TEXT, &["btdf.txt"]),
             PathUse::HandOn => match start.extension() {
-                Some(ending) => dialog.add_filter("What is handed on", &[ending.to_string_lossy()]),
+                Some(ending) => dialog.add_filter(shell::WHAT_IS_HANDED_ON, &[ending.to_string_lossy()]),
                 None => dialog,
             },
-            PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState => dialog.add_filter("Scene", &["toml"]),
+            PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState => dialog.add_filter(shell::SCENE, &["toml"]),
         };
         Ok(dialog.save_file())
     }

@@ -1,9 +1,11 @@
 //! System files to start from.
 
+use crate::texts::{Text, goniophotometer as texts};
+
 /// A named text.
 pub struct Example {
     /// What its button says.
-    pub name: &'static str,
+    pub name: Text,
     /// The system file.
     pub text: &'static str,
 }
@@ -11,7 +13,7 @@ pub struct Example {
 /// One of every kind that the goniophotometer knows.
 pub const EXAMPLES: [Example; 12] = [
     Example {
-        name: "Venetian",
+        name: texts::VENETIAN,
         text: r#"name = "Venetian blind, 80 mm, curved"
 kind = "venetian"
 
@@ -25,7 +27,7 @@ lower = { reflectance = 0.50 }
 "#,
     },
     Example {
-        name: "Louvres upright",
+        name: texts::LOUVRES,
         text: r#"name = "Vertical louvres, 127 mm"
 kind = "venetian"
 upright = true        # what was up points to the right, seen from outside
@@ -39,7 +41,7 @@ lower = { reflectance = 0.60 }
 "#,
     },
     Example {
-        name: "Laser-cut panel",
+        name: texts::LASER_CUT,
         text: r#"name = "Laser-cut panel, 6 mm acrylic"
 kind = "laser-cut-panel"
 
@@ -51,7 +53,7 @@ cut_loss = 0.02       # share lost at every reflection at a cut
 "#,
     },
     Example {
-        name: "Prismatic",
+        name: texts::PRISMATIC,
         text: r#"name = "Prismatic panel 45/90"
 kind = "prismatic"
 
@@ -63,7 +65,7 @@ base = 0.002          # of the sheet under the prisms
 "#,
     },
     Example {
-        name: "Redirecting glass",
+        name: texts::REDIRECTING,
         text: r#"name = "Acrylic bars between panes"
 kind = "redirecting-glass"
 
@@ -76,7 +78,7 @@ inner = { index = 1.52, thickness = 0.004, absorption = 5 }
 "#,
     },
     Example {
-        name: "Panes",
+        name: texts::PANES,
         text: r#"name = "Double glazing, clear"
 kind = "pane"
 
@@ -88,7 +90,7 @@ panes = 2
 "#,
     },
     Example {
-        name: "Coated pane",
+        name: texts::COATED,
         text: r#"name = "Solar control pane"
 kind = "pane"
 
@@ -101,7 +103,7 @@ reflectance_normal_back = 0.12
 "#,
     },
     Example {
-        name: "Diffuser",
+        name: texts::DIFFUSER,
         text: r#"name = "Opal acrylic"
 kind = "diffuser"
 
@@ -113,7 +115,7 @@ reflectance = 0.40
 "#,
     },
     Example {
-        name: "Woven",
+        name: texts::WOVEN,
         text: r#"name = "Woven screen, 5 % open"
 kind = "woven"
 
@@ -124,7 +126,7 @@ transmittance = 0.05
 "#,
     },
     Example {
-        name: "Perforated",
+        name: texts::PERFORATED,
         text: r#"name = "Perforated sheet, 23 % open"
 kind = "perforated"
 
@@ -138,7 +140,7 @@ reflectance = 0.50
 "#,
     },
     Example {
-        name: "Expanded metal",
+        name: texts::EXPANDED,
         text: r#"name = "Expanded metal"
 kind = "perforated"
 
@@ -154,7 +156,7 @@ reflectance = 0.50
 "#,
     },
     Example {
-        name: "Stack",
+        name: texts::STACK,
         text: r#"name = "Clear pane before an opal sheet"
 kind = "stack"
 

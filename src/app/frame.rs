@@ -21,8 +21,11 @@ impl App {
             self.ctx = ctx.clone();
             theme::install(ctx);
             self.state.settings.theme.apply(ctx);
+            // The window's own keys do it, within bounds.
+            ctx.options_mut(|options| options.zoom_with_keyboard = false);
             self.open_catalogue();
         }
+        self.follow_text_size(ctx);
         self.poll();
         self.write_exports();
         for command in pressed(ctx) {
@@ -33,6 +36,7 @@ impl App {
         if !dropped.is_empty() {
             self.apply(Command::OpenPaths(dropped));
         }
+        self.follow_tour();
         self.refresh();
         self.ask_due();
         self.ask_peaks();
@@ -49,6 +53,10 @@ impl App {
     /// Draws one frame and does what was asked in it.
     pub fn draw(&mut self, ui: &mut egui::Ui) {
         let _speaking = self.speak();
+        if self.opened.take(&self.state, ui.ctx().cumulative_frame_nr()) {
+            // However it was opened, who opens a sheet wants to type.
+            self.state.wants_keyboard = self.state.sheet.is_some();
+        }
         let commands = panels::show(ui, self);
         for command in commands {
             self.apply(command);

@@ -14,6 +14,7 @@ use crate::formats::{Format, write_dataset};
 use crate::study::Library;
 use crate::study::compact::stored_by_default;
 use crate::study::goniophotometer::{Base, Described, Request};
+use crate::texts::{Text, goniophotometer as texts};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -45,10 +46,10 @@ impl Incidence {
     pub const ALL: [Self; 2] = [Self::Klems, Self::Tregenza];
 
     /// As listed.
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::Klems => "Klems 145",
-            Self::Tregenza => "Tregenza 145",
+            Self::Klems => texts::KLEMS,
+            Self::Tregenza => texts::TREGENZA,
         }
     }
 }
@@ -60,8 +61,8 @@ impl Emergence {
     /// As listed.
     pub fn word(self) -> String {
         match self {
-            Self::Klems => "Klems 145".to_owned(),
-            Self::Even(degrees) => format!("{degrees}° cells"),
+            Self::Klems => texts::KLEMS.into(),
+            Self::Even(degrees) => texts::cells(degrees),
         }
     }
 }

@@ -9,7 +9,7 @@
 
 use super::error::JobError;
 use crate::compute::estimate::Progress;
-use crate::texts;
+use crate::texts::{self, Text, shell};
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,6 +22,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 pub enum Lane {
     /// Opening the catalogue and searching in it.
     Catalogue,
+    /// Searching for what the palette's words fit.
+    Palette,
     /// Reading files that the user opened.
     Import,
     /// Repairs of what was read.
@@ -60,26 +62,27 @@ pub enum Lane {
 
 impl Lane {
     /// What the status line calls it.
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::Catalogue => "catalogue",
-            Self::Import => "reading files",
-            Self::Mend => "repairing",
-            Self::Dialog => "file dialog",
-            Self::Store => "storing",
-            Self::Subscribed => "subscribed folders",
-            Self::Scene => "sky and system",
-            Self::Lid => "LID",
-            Self::Room => "room",
-            Self::Surfaces => "surfaces of the room",
-            Self::Year => "year of control",
-            Self::Accuracy => "error against time",
-            Self::Product => "product data",
-            Self::Builtin => "built-in products",
-            Self::Compare => "comparison",
-            Self::Goniophotometer => "goniophotometer",
-            Self::Preview => "preview",
-            Self::Export => "writing file",
+            Self::Catalogue => shell::LANE_CATALOGUE,
+            Self::Palette => shell::LANE_PALETTE,
+            Self::Import => shell::LANE_IMPORT,
+            Self::Mend => shell::LANE_MEND,
+            Self::Dialog => shell::LANE_DIALOG,
+            Self::Store => shell::LANE_STORE,
+            Self::Subscribed => shell::LANE_SUBSCRIBED,
+            Self::Scene => shell::LANE_SCENE,
+            Self::Lid => shell::LANE_LID,
+            Self::Room => shell::LANE_ROOM,
+            Self::Surfaces => shell::LANE_SURFACES,
+            Self::Year => shell::LANE_YEAR,
+            Self::Accuracy => shell::LANE_ACCURACY,
+            Self::Product => shell::LANE_PRODUCT,
+            Self::Builtin => shell::LANE_BUILTIN,
+            Self::Compare => shell::LANE_COMPARE,
+            Self::Goniophotometer => shell::LANE_GONIOPHOTOMETER,
+            Self::Preview => shell::LANE_PREVIEW,
+            Self::Export => shell::LANE_EXPORT,
         }
     }
 
@@ -270,7 +273,7 @@ impl<M: Send + 'static> Jobs<M> {
                 wake();
             }
         };
-        if let Err(error) = std::thread::Builder::new().name(format!("cfs {}", lane.word())).spawn(job) {
+        if let Err(error) = std::thread::Builder::new().name(format!("cfs {}", lane.word().english())).spawn(job) {
             let error = JobError::NoThread(error.to_string());
             // Sent to ourselves: the receiver lives as long as we do.
             if self.sender.send((generation, Finished { lane, outcome: Err(error), _awaited: None })).is_err() {
@@ -320,7 +323,7 @@ impl<M> Drop for Jobs<M> {
 fn fault(panic: &(dyn Any + Send)) -> JobError {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
-    JobError::Panic(text.unwrap_or_else(|| "no message".to_owned()))
+    JobError::Panic(text.unwrap_or_else(|| shell::NO_PANIC_MESSAGE.into()))
 }
 
 #[cfg(test)]

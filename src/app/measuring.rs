@@ -8,6 +8,7 @@ use super::shelf::Addition;
 use super::state::Sheet;
 use super::window::App;
 use super::work::Outcome;
+use crate::texts::goniophotometer as texts;
 use std::path::PathBuf;
 
 impl App {
@@ -36,7 +37,7 @@ impl App {
         }
         let bench = &mut self.state.goniophotometer;
         let Some(described) = bench.valid().cloned() else {
-            self.toasts.info("Describe a system first: an example, a file, or a text");
+            self.toasts.info(texts::DESCRIBE_FIRST_HOW);
             return;
         };
         bench.failure = None;
@@ -71,7 +72,7 @@ impl App {
     /// Stores all states as a product; undo takes it out again.
     pub(super) fn add_measured(&mut self) {
         let Some(run) = self.state.goniophotometer.run.as_ref().filter(|run| run.complete()) else {
-            self.toasts.info("Compute the system first");
+            self.toasts.info(texts::COMPUTE_FIRST);
             return;
         };
         let datasets = run.finished.iter().map(|one| one.dataset.clone()).collect();

@@ -1,6 +1,7 @@
 //! What the window says: shown for as long as it takes to read, then kept in a list.
 
 use super::clock;
+use crate::texts::{Text, shell};
 use std::collections::VecDeque;
 
 /// Messages kept.
@@ -28,12 +29,12 @@ pub enum Weight {
 
 impl Weight {
     /// In words.
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::Info => "note",
-            Self::Success => "done",
-            Self::Warning => "warning",
-            Self::Error => "error",
+            Self::Info => shell::NOTE,
+            Self::Success => shell::DONE,
+            Self::Warning => shell::WARNING,
+            Self::Error => shell::ERROR,
         }
     }
 }

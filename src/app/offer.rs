@@ -9,26 +9,24 @@ use super::examples::EXAMPLES;
 use super::language::LanguageChoice;
 use super::room_look::RoomView;
 use super::state::{self, PathUse};
+use super::text_size::TextSize as Size;
 use super::theme::ThemeChoice;
 use super::tiles::TILES;
+use super::tour::TourAct;
 use crate::study::scene_file::ControlMode;
-use crate::texts::{self, language, shell, speak};
+use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
+use crate::texts::{self, Language::English, Text, language, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
-const FILE: &str = "File";
-const EDIT: &str = "Edit";
-const VIEW: &str = "View";
-const COMPARE: &str = "Compare";
-const HELP: &str = "Help";
 /// The menus, in the order of the bar.
-pub const MENUS: [&str; 5] = [FILE, EDIT, VIEW, COMPARE, HELP];
+pub const MENUS: [Text; 5] = [FILE, EDIT, VIEW, COMPARE, HELP];
 
 /// Where the menus have a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// Which of [`MENUS`].
-    pub menu: &'static str,
+    pub menu: Text,
     /// Order in the menu; a line separates one ten from the next.
     pub rank: u8,
     /// Name of the menu in the menu that gathers it with its like.
@@ -52,8 +50,8 @@ pub struct Offer {
     pub listed: bool,
 }
 
-fn offer(command: Command, text: impl Into<String>, tip: &'static str) -> Offer {
-    Offer { command, text: text.into(), tip, keys: None, place: None, listed: true }
+fn offer(command: Command, text: impl Into<String>, tip: impl Into<&'static str>) -> Offer {
+    Offer { command, text: text.into(), tip: tip.into(), keys: None, place: None, listed: true }
 }
 
 impl Offer {
@@ -61,11 +59,12 @@ impl Offer {
         Self { keys: Some(KeyboardShortcut::new(modifiers, key)), ..self }
     }
 
-    fn menu(self, menu: &'static str, rank: u8) -> Self {
+    fn menu(self, menu: Text, rank: u8) -> Self {
         Self { place: Some(Place { menu, rank, within: None }), ..self }
     }
 
-    fn within(self, name: &'static str) -> Self {
+    fn within(self, name: impl Into<&'static str>) -> Self {
+        let name = name.into();
         Self { place: self.place.map(|place| Place { within: Some(name), ..place }), ..self }
     }
 
@@ -77,37 +76,47 @@ impl Offer {
 const CTRL: Modifiers = Modifiers::COMMAND;
 const PLAIN: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
-/// Numbers of tiles in words.
-const COUNTS: [&str; 10] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
+// What is offered says their number.
+const _: () = assert!(TILES.len() == 6);
+
+/// A word as it stands behind a colon: English ones begin small there, German ones as they are.
+fn behind_colon(word: impl std::fmt::Display) -> String {
+    let word = word.to_string();
+    if language() == English { word.to_lowercase() } else { word }
+}
 
 /// What arranges the tiles. Arrow keys do the same at a tile's head, see the bench.
 fn arrangement() -> Vec<Offer> {
     use arrange::Arrange::*;
-    let plain = |what, text: &str, tip| offer(Command::Arrange(what), text, tip).menu(VIEW, 3).within("Arrange tiles");
+    let plain = |what, text: String, tip: Text| {
+        offer(Command::Arrange(what), text, tip).menu(VIEW, 3).within(words::ARRANGE_TILES)
+    };
     let mut list: Vec<Offer> = arrange::Preset::ALL
-        .map(|ready| offer(Command::Arrange(Preset(ready)), ready.word(), ready.tip()).menu(VIEW, 2).within("Layout"))
+        .map(|ready| {
+            offer(Command::Arrange(Preset(ready)), ready.word(), ready.tip()).menu(VIEW, 2).within(words::LAYOUT)
+        })
         .into();
     list.extend([
-        plain(Focus(1), "Next tile", "The keyboard goes to the next tile in sight").keys(PLAIN, Key::F6),
-        plain(Focus(-1), "Previous tile", "The keyboard goes to the tile before").keys(SHIFT, Key::F6),
-        plain(Tab(1), "Next tab", "The next of the tabs that the tile in hand is one of").keys(CTRL, Key::PageDown),
-        plain(Tab(-1), "Previous tab", "The tab before").keys(CTRL, Key::PageUp),
+        plain(Focus(1), words::NEXT_TILE.into(), words::NEXT_TILE_TIP).keys(PLAIN, Key::F6),
+        plain(Focus(-1), words::PREVIOUS_TILE.into(), words::PREVIOUS_TILE_TIP).keys(SHIFT, Key::F6),
+        plain(Tab(1), words::NEXT_TAB.into(), words::NEXT_TAB_TIP).keys(CTRL, Key::PageDown),
+        plain(Tab(-1), words::PREVIOUS_TAB.into(), words::PREVIOUS_TAB_TIP).keys(CTRL, Key::PageUp),
     ]);
     list.extend(RoomView::ALL.map(|view| {
-        let text = format!("Room: {}", view.word().to_lowercase());
-        offer(Command::RoomView(view), text, view.tip()).menu(VIEW, 4).within("Room")
+        let text = words::room_view(behind_colon(view.word()));
+        offer(Command::RoomView(view), text, view.tip()).menu(VIEW, 4).within(words::ROOM)
     }));
     list.extend(Way::ALL.map(|way| {
-        let text = format!("Move tile {}", way.word());
-        plain(Move(way), &text, "The tile in hand changes places with the one on that side")
+        let text = words::move_tile(way.word());
+        plain(Move(way), text, words::MOVE_TILE_TIP)
     }));
     list.extend([
-        plain(Join, "Join tabs", "The tile in hand becomes a tab of the next one"),
-        plain(Split, "Split from tabs", "The tile in hand leaves its tabs and stands beside them"),
-        plain(Width(true), "Wider tile", "More width for the tile in hand"),
-        plain(Width(false), "Narrower tile", "Less width for the tile in hand"),
-        plain(Height(true), "Higher tile", "More height for the tile in hand"),
-        plain(Height(false), "Lower tile", "Less height for the tile in hand"),
+        plain(Join, words::JOIN_TABS.into(), words::JOIN_TABS_TIP),
+        plain(Split, words::SPLIT.into(), words::SPLIT_TIP),
+        plain(Width(true), words::WIDER.into(), words::WIDER_TIP),
+        plain(Width(false), words::NARROWER.into(), words::NARROWER_TIP),
+        plain(Height(true), words::HIGHER.into(), words::HIGHER_TIP),
+        plain(Height(false), words::LOWER.into(), words::LOWER_TIP),
     ]);
     list
 }
@@ -118,181 +127,120 @@ fn table() -> Vec<Offer> {
     let sheet = |sheet| Command::Sheet(Some(sheet));
     let tiles = || TILES.iter().map(|entry| entry.tile);
     let mut list = vec![
-        offer(Open, "Open…", "Read datasets, a system or a scene; or drop files on the window")
-            .keys(CTRL, Key::O)
-            .menu(FILE, 0),
-        offer(sheet(state::Sheet::Path(PathUse::Open)), "Type a path", "Give a path instead of choosing a file")
+        offer(Open, words::OPEN, words::OPEN_TIP).keys(CTRL, Key::O).menu(FILE, 0),
+        offer(sheet(state::Sheet::Path(PathUse::Open)), words::TYPE_PATH, words::TYPE_PATH_TIP)
             .menu(FILE, 1)
             .unlisted(),
-        offer(OpenFolder, "Open folder…", "Read all datasets of a folder, with those in it")
-            .keys(CTRL.plus(SHIFT), Key::O)
-            .menu(FILE, 0),
-        offer(
-            SyncSubscribed,
-            "Read subscribed folders",
-            "Folders of packages that the catalogue is subscribed to, where they have changed",
-        )
-        .menu(FILE, 3),
-        offer(
-            sheet(state::Sheet::Import),
-            "Import",
-            "What was read and is not stored yet, and drafts of earlier imports",
-        )
-        .keys(PLAIN, Key::I)
-        .menu(FILE, 2),
-        offer(PutAside, "Keep the import as a draft", "Leave what was read for later; the import sheet lists it"),
-        offer(SaveScene, "Save scene…", "Write everything this study needs as a text file")
-            .keys(CTRL, Key::S)
-            .menu(FILE, 10),
-        offer(
-            sheet(state::Sheet::HandOn),
-            "Hand on…",
-            "Pictures, reports (PDF), luminaire files, tables, datasets, packages, with a preview",
-        )
-        .keys(CTRL, Key::E)
-        .menu(FILE, 11),
-        offer(ExportLid, "Export LID…", "Write the window as a luminaire (.ldt, .ies) for other programs")
-            .menu(FILE, 12),
-        offer(Undo, "Undo", "Take the last change back").keys(CTRL, Key::Z).menu(EDIT, 0),
-        offer(Redo, "Redo", "Make the change again").keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
-        offer(EditProduct(None), "Edit product…", "Words, states, files and history of the selected product")
-            .keys(PLAIN, Key::F2)
-            .menu(EDIT, 10),
-        offer(DeleteProduct(None), "Delete product", "Take the selected product out of sight; undo brings it back")
-            .menu(EDIT, 11),
-        offer(sheet(state::Sheet::Deleted), "Recently deleted", "Products out of sight, and back").menu(EDIT, 12),
-        offer(AddImport, "Add what was read to the catalogue", "Store the products of the import sheet"),
-        offer(sheet(state::Sheet::Messages), "Messages", "What the window said, also what is gone from sight")
-            .menu(HELP, 3),
-        offer(Search, "Search the catalogue", "Put the cursor into the search field").keys(CTRL, Key::F),
-        offer(Palette, "Command palette", "Find a command by its words").keys(CTRL, Key::K).menu(HELP, 0),
+        offer(OpenFolder, words::OPEN_FOLDER, words::OPEN_FOLDER_TIP).keys(CTRL.plus(SHIFT), Key::O).menu(FILE, 0),
+        offer(SyncSubscribed, words::READ_SUBSCRIBED, words::READ_SUBSCRIBED_TIP).menu(FILE, 3),
+        offer(sheet(state::Sheet::Import), words::IMPORT, words::IMPORT_TIP).keys(PLAIN, Key::I).menu(FILE, 2),
+        offer(PutAside, words::PUT_ASIDE, words::PUT_ASIDE_TIP),
+        offer(SaveScene, words::SAVE_SCENE, words::SAVE_SCENE_TIP).keys(CTRL, Key::S).menu(FILE, 10),
+        offer(sheet(state::Sheet::HandOn), words::HAND_ON, words::HAND_ON_TIP).keys(CTRL, Key::E).menu(FILE, 11),
+        offer(ExportLid, words::EXPORT_LID, words::EXPORT_LID_TIP).menu(FILE, 12),
+        offer(Undo, words::UNDO, words::UNDO_TIP).keys(CTRL, Key::Z).menu(EDIT, 0),
+        offer(Redo, words::REDO, words::REDO_TIP).keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
+        offer(EditProduct(None), words::EDIT_PRODUCT, words::EDIT_PRODUCT_TIP).keys(PLAIN, Key::F2).menu(EDIT, 10),
+        offer(DeleteProduct(None), words::DELETE_PRODUCT, words::DELETE_PRODUCT_TIP).menu(EDIT, 11),
+        offer(sheet(state::Sheet::Deleted), words::DELETED, words::DELETED_TIP).menu(EDIT, 12),
+        offer(AddImport, words::ADD_IMPORT, words::ADD_IMPORT_TIP),
+        offer(sheet(state::Sheet::Messages), words::MESSAGES, words::MESSAGES_TIP).menu(HELP, 3),
+        offer(Search, words::SEARCH, words::SEARCH_TIP).keys(CTRL, Key::F),
+        offer(Palette, words::PALETTE, words::PALETTE_TIP).keys(CTRL, Key::K).menu(HELP, 0),
     ];
     for (number, tile) in tiles().enumerate() {
-        let one = offer(Maximise(Some(tile)), format!("Maximise {}", tile.title), tile.help).menu(VIEW, 0);
+        let one = offer(Maximise(Some(tile)), words::maximise(tile.title), tile.help).menu(VIEW, 0);
         // The first nine by their number.
         let key = Key::from_name(&(number + 1).to_string());
         list.push(Offer { keys: key.map(|key| KeyboardShortcut::new(PLAIN, key)), ..one });
     }
-    let all = format!("All {} tiles", COUNTS.get(TILES.len()).unwrap_or(&"the"));
     list.extend(arrangement());
     list.extend([
-        offer(Maximise(None), all, "Back from one tile to all").keys(PLAIN, Key::Num0).menu(VIEW, 1),
-        offer(Hour(1), "One hour later", "Move the clock").keys(PLAIN, Key::ArrowRight),
-        offer(Hour(-1), "One hour earlier", "Move the clock").keys(PLAIN, Key::ArrowLeft),
-        offer(Hour(3), "Three hours later", "Move the clock").keys(SHIFT, Key::ArrowRight),
-        offer(Hour(-3), "Three hours earlier", "Move the clock").keys(SHIFT, Key::ArrowLeft),
-        offer(Day(1), "One day later", "Move the date").keys(PLAIN, Key::ArrowUp),
-        offer(Day(-1), "One day earlier", "Move the date").keys(PLAIN, Key::ArrowDown),
-        offer(Day(30), "30 days later", "Move the date").keys(SHIFT, Key::ArrowUp),
-        offer(Day(-30), "30 days earlier", "Move the date").keys(SHIFT, Key::ArrowDown),
-        offer(NextState(1), "Next state", "The next state of the product").keys(PLAIN, Key::CloseBracket),
-        offer(NextState(-1), "Previous state", "The previous state of the product").keys(PLAIN, Key::OpenBracket),
+        offer(Maximise(None), words::ALL_TILES, words::ALL_TILES_TIP).keys(PLAIN, Key::Num0).menu(VIEW, 1),
+        offer(Hour(1), words::HOUR_LATER, words::CLOCK_TIP).keys(PLAIN, Key::ArrowRight),
+        offer(Hour(-1), words::HOUR_EARLIER, words::CLOCK_TIP).keys(PLAIN, Key::ArrowLeft),
+        offer(Hour(3), words::HOURS_LATER, words::CLOCK_TIP).keys(SHIFT, Key::ArrowRight),
+        offer(Hour(-3), words::HOURS_EARLIER, words::CLOCK_TIP).keys(SHIFT, Key::ArrowLeft),
+        offer(Day(1), words::DAY_LATER, words::DATE_TIP).keys(PLAIN, Key::ArrowUp),
+        offer(Day(-1), words::DAY_EARLIER, words::DATE_TIP).keys(PLAIN, Key::ArrowDown),
+        offer(Day(30), words::DAYS_LATER, words::DATE_TIP).keys(SHIFT, Key::ArrowUp),
+        offer(Day(-30), words::DAYS_EARLIER, words::DATE_TIP).keys(SHIFT, Key::ArrowDown),
+        offer(NextState(1), words::NEXT_STATE, words::NEXT_STATE_TIP).keys(PLAIN, Key::CloseBracket),
+        offer(NextState(-1), words::PREVIOUS_STATE, words::PREVIOUS_STATE_TIP).keys(PLAIN, Key::OpenBracket),
     ]);
     list.extend(ControlMode::ALL.map(|mode| {
-        let words = control::words(mode);
-        offer(Control(mode), format!("State: {}", words.order), words.tip)
+        let rule = control::words(mode);
+        offer(Control(mode), words::state_is(rule.order), rule.tip)
     }));
     list.extend([
-        offer(ToggleCatalogue, "Catalogue panel", "Show or hide the list of products")
-            .keys(CTRL, Key::B)
-            .menu(VIEW, 20),
-        offer(ToggleScene, "Scene panel", "Show or hide place, time, sky and room").keys(CTRL, Key::J).menu(VIEW, 21),
+        offer(ToggleCatalogue, words::CATALOGUE_PANEL, words::CATALOGUE_PANEL_TIP).keys(CTRL, Key::B).menu(VIEW, 20),
+        offer(ToggleScene, words::SCENE_PANEL, words::SCENE_PANEL_TIP).keys(CTRL, Key::J).menu(VIEW, 21),
     ]);
     list.extend(tiles().map(|tile| {
-        let tip = "Hand this tile on as a picture (.svg, .png) or as numbers (.csv)";
-        offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(FILE, 12).within("Export tile")
+        offer(ExportTile(tile), words::export_tile(tile.title), words::EXPORT_TILE_TIP)
+            .menu(FILE, 12)
+            .within(words::EXPORT_TILE)
     }));
-    list.extend(tiles().map(|tile| {
-        offer(CopyTile(tile), format!("Copy tile {} as CSV", tile.title), "This tile's numbers into the clipboard")
-    }));
-    list.extend(ThemeChoice::ALL.map(|choice| {
-        offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(VIEW, 30)
-    }));
-    list.extend(LanguageChoice::ALL.map(|choice| {
-        offer(Language(choice), shell::language_is(choice.word()), shell::LANGUAGE_TIP.get()).menu(VIEW, 31)
-    }));
+    list.extend(tiles().map(|tile| offer(CopyTile(tile), words::copy_tile(tile.title), words::COPY_TILE_TIP)));
+    list.extend(
+        ThemeChoice::ALL
+            .map(|choice| offer(Theme(choice), words::theme_is(choice.word()), words::THEME_TIP).menu(VIEW, 30)),
+    );
+    list.extend(
+        LanguageChoice::ALL.map(|choice| {
+            offer(Language(choice), shell::language_is(choice.word()), shell::LANGUAGE_TIP).menu(VIEW, 31)
+        }),
+    );
+    list.extend([
+        offer(TextSize(Size::Larger), words::LARGER, words::LARGER_TIP)
+            .keys(CTRL, Key::Plus)
+            .menu(VIEW, 32)
+            .within(words::TEXT_SIZE),
+        offer(TextSize(Size::Smaller), words::SMALLER, words::SMALLER_TIP)
+            .keys(CTRL, Key::Minus)
+            .menu(VIEW, 32)
+            .within(words::TEXT_SIZE),
+        offer(TextSize(Size::Normal), words::NORMAL, words::NORMAL_TIP)
+            .keys(CTRL, Key::Num0)
+            .menu(VIEW, 32)
+            .within(words::TEXT_SIZE),
+        offer(Tour(TourAct::Start), words::TOUR, words::TOUR_TIP).menu(HELP, 4),
+    ]);
     let act = |act: Act| Compare(act);
     list.extend([
-        offer(act(Act::Add), "Add to compare", "What is shown into the tray: product and state, or rule")
-            .keys(PLAIN, Key::C)
-            .menu(COMPARE, 0),
-        offer(
-            act(Act::AddMoment),
-            "Add to compare with this moment",
-            "The same under the sky and sun of now, for good",
-        )
-        .keys(SHIFT, Key::C)
-        .menu(COMPARE, 1),
-        offer(act(Act::AddScene), "Add the whole scene to compare", "Room, apertures, sensors, place and sky with it")
-            .menu(COMPARE, 2),
-        offer(act(Act::Show), "Compare the tray", "All of the tray in the tiles' place, or back to the tiles")
-            .keys(SHIFT, Key::X)
-            .menu(COMPARE, 10),
-        offer(act(Act::Swap), "Swap with the other one", "All tiles show the other one of the tray, and go back")
-            .keys(PLAIN, Key::X)
-            .menu(COMPARE, 11),
+        offer(act(Act::Add), words::ADD_COMPARE, words::ADD_COMPARE_TIP).keys(PLAIN, Key::C).menu(COMPARE, 0),
+        offer(act(Act::AddMoment), words::ADD_MOMENT, words::ADD_MOMENT_TIP).keys(SHIFT, Key::C).menu(COMPARE, 1),
+        offer(act(Act::AddScene), words::ADD_SCENE, words::ADD_SCENE_TIP).menu(COMPARE, 2),
+        offer(act(Act::Show), words::SHOW_COMPARE, words::SHOW_COMPARE_TIP).keys(SHIFT, Key::X).menu(COMPARE, 10),
+        offer(act(Act::Swap), words::SWAP, words::SWAP_TIP).keys(PLAIN, Key::X).menu(COMPARE, 11),
     ]);
     list.extend(Look::ALL.map(|look| {
-        offer(act(Act::Look(look)), format!("Compare: {}", look.words().to_lowercase()), look.tip()).menu(COMPARE, 20)
+        offer(act(Act::Look(look)), words::compare_look(behind_colon(look.words())), look.tip()).menu(COMPARE, 20)
     }));
     list.extend([
-        offer(act(Act::Copy), "Copy the compared figures", "The table with errors as CSV into the clipboard")
-            .menu(COMPARE, 30),
-        offer(act(Act::Clear), "Empty the tray", "Nothing is compared any more; undo brings it back").menu(COMPARE, 31),
-        offer(Like(None), "Products like this one", "By what they do to light, not by name: nearest first")
-            .menu(COMPARE, 40),
+        offer(act(Act::Copy), words::COPY_COMPARED, words::COPY_COMPARED_TIP).menu(COMPARE, 30),
+        offer(act(Act::Clear), words::CLEAR_TRAY, words::CLEAR_TRAY_TIP).menu(COMPARE, 31),
+        offer(Like(None), words::LIKE, words::LIKE_TIP).menu(COMPARE, 40),
     ]);
     list.extend([
-        offer(ResetScene, "Reset the scene", "Stuttgart, south, 21 March 12:00, clear sky").menu(EDIT, 2),
-        offer(
-            sheet(state::Sheet::Findings),
-            "Findings of the dataset",
-            "What the checks say about the selected dataset",
-        )
-        .menu(HELP, 2),
-        offer(
-            sheet(state::Sheet::Accuracy),
-            "Accuracy",
-            "Error against run time of every method for this scene, and what stated errors are worth",
-        )
-        .keys(PLAIN, Key::A)
-        .menu(VIEW, 11),
-        offer(
-            MeasureAccuracy,
-            "Measure error against run time",
-            "Compute the scene with rising effort by every method: some seconds to a minute",
-        ),
-        offer(
-            sheet(state::Sheet::Goniophotometer),
-            "Goniophotometer",
-            "Compute a system's data from its geometry and material, with a drawing of its section",
-        )
-        .keys(PLAIN, Key::G)
-        .menu(VIEW, 10),
-        offer(
-            MeasureSystem,
-            "Compute the described system",
-            "All states, on as many threads as there are; a run that was stopped goes on",
-        )
-        .keys(CTRL, Key::Enter),
-        offer(
-            AddMeasured,
-            "Add the computed system to the catalogue",
-            "Store all its states as a product; undo takes it out again",
-        ),
-        offer(
-            ExportMeasured,
-            "Export the computed system…",
-            "All states as a package (.cfsp), or a file a state (.xml, .btdf.txt)",
-        ),
+        offer(ResetScene, words::RESET_SCENE, words::RESET_SCENE_TIP).menu(EDIT, 2),
+        offer(sheet(state::Sheet::Findings), words::FINDINGS, words::FINDINGS_TIP).menu(HELP, 2),
+        offer(sheet(state::Sheet::Accuracy), words::ACCURACY, words::ACCURACY_TIP).keys(PLAIN, Key::A).menu(VIEW, 11),
+        offer(MeasureAccuracy, words::MEASURE, words::MEASURE_TIP),
+        offer(sheet(state::Sheet::Goniophotometer), words::GONIOPHOTOMETER, words::GONIOPHOTOMETER_TIP)
+            .keys(PLAIN, Key::G)
+            .menu(VIEW, 10),
+        offer(MeasureSystem, words::COMPUTE_SYSTEM, words::COMPUTE_SYSTEM_TIP).keys(CTRL, Key::Enter),
+        offer(AddMeasured, words::ADD_SYSTEM, words::ADD_SYSTEM_TIP),
+        offer(ExportMeasured, words::EXPORT_SYSTEM, words::EXPORT_SYSTEM_TIP),
     ]);
     list.extend(EXAMPLES.iter().enumerate().map(|(number, example)| {
-        let text = format!("System example: {}", example.name);
-        offer(SystemExample(number), text, "Fill the goniophotometer's sheet with this system")
+        let text = words::system_example(example.name);
+        offer(SystemExample(number), text, words::SYSTEM_EXAMPLE_TIP)
     }));
     list.extend([
-        offer(sheet(state::Sheet::Keys), "Keys", "All keyboard shortcuts").keys(PLAIN, Key::Questionmark).menu(HELP, 1),
-        offer(Quit, "Quit", "Close the window").keys(CTRL, Key::Q).menu(FILE, 20),
+        offer(sheet(state::Sheet::Keys), words::KEYS, words::KEYS_TIP).keys(PLAIN, Key::Questionmark).menu(HELP, 1),
+        offer(Quit, words::QUIT, words::QUIT_TIP).keys(CTRL, Key::Q).menu(FILE, 20),
     ]);
     list
 }
@@ -324,11 +272,20 @@ pub fn key_words(keys: &KeyboardShortcut) -> String {
         Key::ArrowRight => "→",
         Key::ArrowUp => "↑",
         Key::ArrowDown => "↓",
+        Key::Enter => words::KEY_ENTER.get(),
+        Key::Escape => words::KEY_ESCAPE.get(),
+        Key::Delete => words::KEY_DELETE.get(),
+        Key::PageUp => words::KEY_PAGE_UP.get(),
+        Key::PageDown => words::KEY_PAGE_DOWN.get(),
         key => key.symbol_or_name(),
     };
     let modifiers = keys.modifiers;
-    let held = [(modifiers.command || modifiers.ctrl, "Ctrl+"), (modifiers.alt, "Alt+"), (modifiers.shift, "Shift+")];
-    let held: String = held.into_iter().filter(|(held, _)| *held).map(|(_, word)| word).collect();
+    let held = [
+        (modifiers.command || modifiers.ctrl, words::CTRL),
+        (modifiers.alt, words::ALT),
+        (modifiers.shift, words::SHIFT),
+    ];
+    let held: String = held.into_iter().filter(|(held, _)| *held).map(|(_, word)| word.get()).collect();
     format!("{held}{key}")
 }
 
@@ -352,7 +309,13 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     // Egui matches Ctrl+Z also while Shift is down: ask for the longer combination first.
     list.sort_by_key(|(keys, _)| std::cmp::Reverse((keys.modifiers.command, keys.modifiers.shift)));
     ctx.input_mut(|input| {
-        list.into_iter().filter(|(keys, _)| input.consume_shortcut(keys)).map(|(_, command)| command.clone()).collect()
+        let pressed = list.into_iter().filter(|(keys, _)| input.consume_shortcut(keys));
+        let mut commands: Vec<Command> = pressed.map(|(_, command)| command.clone()).collect();
+        // Where the plus is above the equals sign, nobody holds Shift for it.
+        if input.consume_key(CTRL, Key::Equals) {
+            commands.push(Command::TextSize(Size::Larger));
+        }
+        commands
     })
 }
 
@@ -372,7 +335,7 @@ mod tests {
         // No name of a key that is a sign on the keyboard.
         for keys in offers().iter().filter_map(|offer| offer.keys) {
             let last = key_words(&keys);
-            let last = last.rsplit('+').next().unwrap();
+            let last = if last.ends_with('+') { "+" } else { last.rsplit('+').next().unwrap() };
             let printed = |key: &str| ["Enter", "Escape", "Delete", "F2", "F6", "PageUp", "PageDown"].contains(&key);
             assert!(last.chars().count() == 1 || printed(last), "{last}");
         }
@@ -380,16 +343,27 @@ mod tests {
 
     #[test]
     fn no_two_commands_share_their_keys_or_words() {
-        let mut keys = Vec::new();
-        let mut texts = Vec::new();
-        for offer in offers() {
-            assert!(!offer.text.is_empty() && !offer.tip.is_empty());
-            assert!(!texts.contains(&&offer.text), "{}", offer.text);
-            texts.push(&offer.text);
-            if let Some(shortcut) = offer.keys {
-                assert!(!keys.contains(&shortcut), "{shortcut:?}");
-                keys.push(shortcut);
+        for spoken in texts::Language::ALL {
+            let _speaking = speak(spoken);
+            let mut keys = Vec::new();
+            let mut texts = Vec::new();
+            for offer in offers() {
+                assert!(!offer.text.is_empty() && !offer.tip.is_empty());
+                assert!(!texts.contains(&&offer.text), "{}", offer.text);
+                texts.push(&offer.text);
+                if let Some(shortcut) = offer.keys {
+                    assert!(!keys.contains(&shortcut), "{shortcut:?}");
+                    keys.push(shortcut);
+                }
             }
         }
+    }
+
+    #[test]
+    fn keys_are_named_as_on_a_german_keyboard() {
+        let _german = speak(texts::Language::German);
+        let words = |command: Command| key_words(&of(&command).unwrap().keys.unwrap());
+        assert_eq!(words(Command::Redo), "Strg+Umschalt+Z");
+        assert_eq!(words(Command::MeasureSystem), "Strg+Eingabe");
     }
 }

@@ -15,6 +15,7 @@ use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
+use crate::texts::shell;
 use std::sync::Arc;
 
 /// After so many failures built-in products are no longer computed before they are asked for.
@@ -53,8 +54,8 @@ impl App {
     fn compute_state(&mut self, product: &Product, state: String) {
         let Some(shelf) = self.state.shelf() else { return };
         let label = product.states.iter().find(|one| one.key == state).map_or("", |one| one.label.as_str());
-        let what = if label.is_empty() { "its data" } else { label };
-        self.state.computing = Some(format!("computing {what}…"));
+        let what = if label.is_empty() { shell::ITS_DATA.get() } else { label };
+        self.state.computing = Some(shell::computing(what));
         let key = product.key.clone();
         self.start(Lane::Product, move |job| Outcome::Provided(shelf.provide(&key, Some(&state), job)));
     }
@@ -156,7 +157,7 @@ impl App {
                 self.state.dataset.error = Some(error.to_string());
             }
             Outcome::Builtin(Err(error)) => {
-                self.toasts.warning(format!("Built-in products: {error}"));
+                self.toasts.warning(shell::builtin_failed(error));
                 // What failed is left out from now on; a catalogue that cannot be written to fails for good.
                 self.fill_failures += 1;
                 self.fill_due = self.fill_failures < FILL_FAILURES;
@@ -168,6 +169,7 @@ impl App {
                 self.select_something();
             }
             Outcome::Found(Err(error)) => self.state.search_error = Some(error.to_string()),
+            Outcome::Hits(found) => self.take_hits(found),
             Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
             Outcome::Year(result) => self.results.year.take(result),
             Outcome::Accuracy(result) => self.results.accuracy.take(result),
@@ -230,7 +232,7 @@ impl App {
             Outcome::There(what, path, there) => self.take_there(what, path, there),
             Outcome::Written(what, Ok(path)) => {
                 self.remember_folder(&path);
-                self.toasts.success(format!("Written: {}", path.display()));
+                self.toasts.success(shell::written(path.display()));
                 if what == PathUse::SaveScene {
                     self.state.scene_path = Some(path);
                 }
@@ -284,10 +286,10 @@ impl App {
         self.asked = None;
         if let Some(first) = added.first() {
             let what = match (added.len() - there, there) {
-                (0, _) => "Nothing new: all of it was there already".to_owned(),
-                (1, 0) => "Added to the catalogue; Ctrl+Z takes it out again".to_owned(),
-                (new, 0) => format!("Added to the catalogue: {new} products; Ctrl+Z takes them out again"),
-                (new, known) => format!("Added to the catalogue: {new} products; there already: {known}"),
+                (0, _) => shell::NOTHING_NEW.into(),
+                (1, 0) => shell::ADDED.into(),
+                (new, 0) => shell::added(new),
+                (new, known) => shell::added_some(new, known),
             };
             self.toasts.success(what);
             // The step that added it also shows it.
@@ -368,7 +370,7 @@ impl App {
     pub(super) fn measure_accuracy(&mut self) {
         self.state.sheet = Some(Sheet::Accuracy);
         let Some(shelf) = self.state.shelf() else {
-            self.toasts.info("The catalogue is not open yet");
+            self.toasts.info(shell::CATALOGUE_NOT_OPEN);
             return;
         };
         let question = Question { scene: self.state.document.scene.clone(), base: self.state.base(), shelf };

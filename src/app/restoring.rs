@@ -4,6 +4,7 @@ use super::autosave::{Autosave, Found};
 use super::clock;
 use super::jobs::Lane;
 use super::window::{App, fresh_undoer};
+use crate::texts::shell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -20,7 +21,8 @@ impl App {
     /// that did not close, which is told.
     pub fn begin_session(&mut self, folder: Option<&Path>, take_up: bool) {
         let Some(folder) = folder else {
-            self.toasts.warning("The session is not kept: the system names no folder for a user's data");
+            let _speaking = self.speak();
+            self.toasts.warning(shell::NO_FOLDER);
             return;
         };
         match Autosave::begin(folder, take_up) {
@@ -29,27 +31,33 @@ impl App {
                 self.take_up(found, folder);
             }
             Err(error) => {
-                let place = folder.display();
-                self.toasts.warning(format!("The session is not kept: {place}: {error}; expected a writable folder"));
+                let _speaking = self.speak();
+                self.toasts.warning(shell::folder_not_kept(folder.display(), error));
             }
         }
     }
 
     fn take_up(&mut self, found: Found, folder: &Path) {
-        for problem in found.problems {
-            self.toasts.warning(problem);
+        let put = found.kept.as_ref().map(|kept| kept.put_into(&mut self.state));
+        // In the language that was kept.
+        let _speaking = self.speak();
+        for problem in &found.problems {
+            self.toasts.warning(problem.to_string());
         }
-        let Some(kept) = found.kept else { return };
-        let put = kept.put_into(&mut self.state);
+        let (Some(kept), Some(put)) = (found.kept, put) else {
+            // Whoever has never had a window open is offered the tour, once.
+            self.state.tour_offered = found.problems.is_empty();
+            return;
+        };
         if let Err(error) = &put {
-            self.toasts.warning(format!("{}: the scene of the last session: {error}", folder.display()));
+            self.toasts.warning(shell::last_scene(folder.display(), error));
         }
         self.undoer = fresh_undoer(&self.state.document);
         if let Some(import) = kept.import {
             self.read_again(import.paths.clone(), import.grouping, Some(import));
         }
         if found.lost && put.is_ok() {
-            self.toasts.info(format!("Restored what was open at {}", clock::words(&kept.at)));
+            self.toasts.info(shell::restored(clock::words(&kept.at)));
         }
     }
 
@@ -58,7 +66,7 @@ impl App {
         let Some(keeper) = &mut self.autosave else { return };
         keeper.keep(&self.state);
         if let Some(problem) = keeper.problem() {
-            self.toasts.error(problem);
+            self.toasts.error(problem.to_string());
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::import::KeptImport;
 use super::scene::Selection;
+use super::session_error::SessionError;
 use super::state::{Settings, Sheet, State};
 use super::tiles::TILES;
 use crate::study::scene_file::SceneFile;
@@ -136,11 +137,11 @@ impl Kept {
     ///
     /// # Errors
     /// One clause on what is wrong.
-    pub fn read(bytes: &[u8]) -> Result<Self, String> {
-        let kept: Self = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+    pub fn read(bytes: &[u8]) -> Result<Self, SessionError> {
+        let kept: Self = serde_json::from_slice(bytes).map_err(SessionError::Text)?;
         match kept.version {
             1..=VERSION => Ok(kept),
-            other => Err(format!("written by a newer version of cfs (layout {other}; this program reads {VERSION})")),
+            other => Err(SessionError::Newer(other, VERSION)),
         }
     }
 
@@ -198,7 +199,7 @@ mod tests {
         let text = serde_json::to_string(&kept).unwrap();
         assert!(Kept::read(&text.as_bytes()[..text.len() / 2]).is_err());
         let newer = text.replace("\"version\":1", "\"version\":9");
-        assert!(Kept::read(newer.as_bytes()).unwrap_err().contains("layout 9"));
+        assert!(Kept::read(newer.as_bytes()).unwrap_err().to_string().contains("layout 9"));
         let damaged = Kept { scene: "room = 3".to_owned(), ..kept };
         assert!(damaged.put_into(&mut State::new(Settings::default())).is_err());
     }

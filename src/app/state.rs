@@ -9,10 +9,12 @@ use super::goniophotometer::Bench;
 use super::hand_on::{Choices, HandOn};
 use super::import::{Import, KeptImport};
 use super::language::LanguageChoice;
+use super::palette::Hit;
 use super::room_look::RoomLook;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::theme::ThemeChoice;
+use super::tour::Tour;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
@@ -23,6 +25,7 @@ use crate::study::comparison::same_question;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
+use crate::texts::{Text, shell};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -89,6 +92,10 @@ pub struct Settings {
     pub layout: Option<String>,
     /// How the room is drawn.
     pub room: RoomLook,
+    /// How large text is, as a share of what the desktop wants.
+    pub text_size: f32,
+    /// Steps of the tour that were done.
+    pub tour: usize,
 }
 
 impl Default for Settings {
@@ -103,6 +110,8 @@ impl Default for Settings {
             hand_on: Choices::default(),
             layout: None,
             room: RoomLook::default(),
+            text_size: 1.0,
+            tour: 0,
         }
     }
 }
@@ -234,15 +243,15 @@ pub enum PathUse {
 
 impl PathUse {
     /// Title of whatever asks for the path.
-    pub const fn title(self) -> &'static str {
+    pub const fn title(self) -> Text {
         match self {
-            Self::Open => "Open",
-            Self::SaveScene => "Save the scene",
-            Self::ExportLid => "Export the LID",
-            Self::ExportTile(_) => "Export a tile",
-            Self::ExportMeasured => "Export the computed data",
-            Self::ReplaceState => "Replace a state",
-            Self::HandOn => "Hand on",
+            Self::Open => shell::OPEN,
+            Self::SaveScene => shell::SAVE_THE_SCENE,
+            Self::ExportLid => shell::EXPORT_THE_LID,
+            Self::ExportTile(_) => shell::EXPORT_A_TILE,
+            Self::ExportMeasured => shell::EXPORT_THE_DATA,
+            Self::ReplaceState => shell::REPLACE_A_STATE,
+            Self::HandOn => shell::HAND_ON,
         }
     }
 }
@@ -295,8 +304,14 @@ pub struct State {
     pub deleted: Vec<Deleted>,
     /// Command palette: its words while open.
     pub palette: Option<String>,
-    /// Focus the search field in the next frame.
+    /// The row of the palette that Enter takes.
+    pub palette_row: usize,
+    /// Products of the catalogue that the palette's words fit.
+    pub palette_hits: Vec<Hit>,
+    /// The search field wants the keyboard, until it has it.
     pub focus_search: bool,
+    /// The sheet that was opened wants the keyboard for the field to type in, until that has it.
+    pub wants_keyboard: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
     /// What is being computed before there is a dataset of the selection, in words for the tiles' heads.
@@ -317,6 +332,10 @@ pub struct State {
     pub control_of: Option<usize>,
     /// How the comparison is looked at.
     pub compare: View,
+    /// The tour, while it is under way.
+    pub tour: Option<Tour>,
+    /// The tour is offered: the window was never open before.
+    pub tour_offered: bool,
     /// Row that the keyboard is on.
     pub row: usize,
     /// The product that the list was last scrolled to.
@@ -358,7 +377,10 @@ impl State {
             replacing: None,
             deleted: Vec::new(),
             palette: None,
+            palette_row: 0,
+            palette_hits: Vec::new(),
             focus_search: false,
+            wants_keyboard: false,
             dataset: Shown::default(),
             computing: None,
             product: None,
@@ -369,6 +391,8 @@ impl State {
             scene_path: None,
             control_of: None,
             compare: View::default(),
+            tour: None,
+            tour_offered: false,
             row: 0,
             scrolled_to: String::new(),
         }

@@ -1,7 +1,9 @@
 //! Colours, gaps, strokes and type of the window: light and dark, each designed, not one turned into the other.
 
 use crate::drawing::font::DEJAVU;
+use crate::texts::{self, Text, commands, shell};
 use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
+use egui::style::NumberFormatter;
 use egui::{Color32, Context, CornerRadius, FontData, FontFamily, FontId, Margin, Stroke, TextStyle, Theme, Vec2};
 
 /// Which theme the user wants.
@@ -21,11 +23,11 @@ impl ThemeChoice {
     pub const ALL: [Self; 3] = [Self::System, Self::Light, Self::Dark];
 
     /// In words.
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::System => "as the desktop",
-            Self::Light => "light",
-            Self::Dark => "dark",
+            Self::System => shell::AS_THE_DESKTOP,
+            Self::Light => commands::LIGHT,
+            Self::Dark => commands::DARK,
         }
     }
 
@@ -150,6 +152,10 @@ pub fn install(ctx: &Context) {
             style.spacing.indent = 12.0;
             // Room for the bar beside what is scrolled: floating over it, it would cut fields at the right edge.
             style.spacing.scroll.floating_allocated_width = 8.0;
+            // Asked for every number: the language may change.
+            style.number_formatter = NumberFormatter::new(|value, decimals| {
+                texts::decimal(egui::emath::format_with_decimals_in_range(value, decimals))
+            });
             style.animation_time = 0.09;
             // A tip is for who waits for it: not while the pointer passes, nor at once over the next thing.
             style.interaction.tooltip_delay = 0.8;

@@ -4,6 +4,7 @@ use super::state::{CatalogueState, State};
 use super::{control, moment};
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
+use crate::texts::shell;
 
 pub use crate::study::scene_words::{coordinates, place, sky, time};
 
@@ -38,8 +39,8 @@ pub fn title(state: &State) -> String {
     let product = selection(state);
     let product = match (&state.catalogue, product.is_empty()) {
         (_, false) => product,
-        (CatalogueState::Opening, true) => "opening the catalogue…".to_owned(),
-        (_, true) => "no product".to_owned(),
+        (CatalogueState::Opening, true) => shell::OPENING_CATALOGUE.into(),
+        (_, true) => shell::NO_PRODUCT_WORD.into(),
     };
     format!(
         "cfs – {product} · {}, {}, {}, {}",

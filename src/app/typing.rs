@@ -1,5 +1,6 @@
 //! Dates, times of day, coordinates and numbers as people type them; what could mean two things is refused.
 
+use crate::texts::{decimal, scene as texts};
 use jiff::civil::Date;
 
 /// Beginnings of the months' names, English and German, without accents.
@@ -29,9 +30,8 @@ fn month_of(word: &str) -> Option<i8> {
 /// # Errors
 /// What would be right.
 pub fn read_date(text: &str, year: i16) -> Result<Date, String> {
-    const RIGHT: &str = "write 21.3., 21 Mar or 2026-03-21";
     let text = text.trim();
-    let wrong = || format!("“{text}” is no date: {RIGHT}");
+    let wrong = || texts::no_date(text);
     let words: Vec<&str> = text.split(|c: char| c.is_whitespace() || ".-,".contains(c)).collect();
     let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
     let number = |word: &str| word.parse::<i16>().ok();
@@ -55,7 +55,7 @@ pub fn read_date(text: &str, year: i16) -> Result<Date, String> {
     };
     // 3/21 and 21/3 would be read differently here and there: a slash is in no form above.
     let (Some(year), Some(month), Some(day)) = (year, month, day) else { return Err(wrong()) };
-    Date::new(year, month, day).map_err(|_| format!("There is no such day, “{text}”: {RIGHT}"))
+    Date::new(year, month, day).map_err(|_| texts::no_such_day(text))
 }
 
 /// Hour and minute of a day: `12:30`, `12.5`, `9`, `930` is refused.
@@ -63,9 +63,8 @@ pub fn read_date(text: &str, year: i16) -> Result<Date, String> {
 /// # Errors
 /// What would be right.
 pub fn read_clock(text: &str) -> Result<(i8, i8), String> {
-    const RIGHT: &str = "write 12:30, 12.5 or 9, from 0:00 to 23:59";
     let text = text.trim();
-    let wrong = || format!("“{text}” is no time of day: {RIGHT}");
+    let wrong = || texts::no_clock(text);
     let plain = text.strip_suffix('h').map_or(text, str::trim_end);
     let digits = |word: &str| !word.is_empty() && word.len() <= 2 && word.bytes().all(|byte| byte.is_ascii_digit());
     let (hour, minute) = if let Some((hour, minute)) = plain.split_once(':') {
@@ -85,7 +84,7 @@ pub fn read_clock(text: &str) -> Result<(i8, i8), String> {
             && part < "60"
         {
             let minutes = (hours.fract() * 60.0).round();
-            return Err(format!("“{text}” may be {whole}:{part} or {whole}:{minutes:02}: write it with a colon"));
+            return Err(texts::two_clocks(text, format!("{whole}:{part}"), format!("{whole}:{minutes:02}")));
         }
         if !(0.0..24.0).contains(&hours) {
             return Err(wrong());
@@ -101,8 +100,17 @@ pub fn read_clock(text: &str) -> Result<(i8, i8), String> {
 /// # Errors
 /// A pair that lies nowhere on the globe: what would be right.
 pub fn read_coordinates(text: &str) -> Option<Result<(f64, f64), String>> {
-    let parts: Vec<&str> = text.split([' ', ',', ';']).map(str::trim).filter(|part| !part.is_empty()).collect();
-    let [latitude, longitude] = parts[..] else { return None };
+    let parts =
+        |signs: &[char]| -> Vec<&str> { text.split(signs).map(str::trim).filter(|part| !part.is_empty()).collect() };
+    // A comma stands between the two, or it is a decimal one in both: `48,78 9,18`.
+    let (plain, decimal_commas) = (parts(&[' ', ',', ';']), parts(&[' ', ';']));
+    let [latitude, longitude] = plain[..] else {
+        let [latitude, longitude] = decimal_commas[..] else { return None };
+        let once = |part: &str| part.matches(',').count() == 1 && !part.contains('.') && !part.ends_with(',');
+        return (once(latitude) && once(longitude))
+            .then(|| read_coordinates(&format!("{latitude} {longitude}").replace(',', ".")))
+            .flatten();
+    };
     let number = |part: &str, positive: char, negative: char| {
         let upper = part.to_uppercase();
         let (plain, sign) = match (upper.strip_suffix(positive), upper.strip_suffix(negative)) {
@@ -118,7 +126,7 @@ pub fn read_coordinates(text: &str) -> Option<Result<(f64, f64), String>> {
     Some(if on_globe {
         Ok((latitude, longitude))
     } else {
-        Err(format!("{latitude} {longitude} is no place: latitude −90 to 90, longitude −180 to 180, in degrees"))
+        Err(texts::not_on_globe(decimal(latitude.to_string()), decimal(longitude.to_string())))
     })
 }
 
@@ -209,6 +217,9 @@ mod tests {
 
     #[test]
     fn coordinates_are_told_from_names() {
+        for text in ["48,78 9,18", "48,78; 9,18", "48,78°N 9,18°E"] {
+            assert_eq!(read_coordinates(text), Some(Ok((48.78, 9.18))), "{text}");
+        }
         for text in ["48.78 9.18", "48.78, 9.18", "48.78°N 9.18°E", "48.78N;9.18e"] {
             assert_eq!(read_coordinates(text), Some(Ok((48.78, 9.18))), "{text}");
         }

@@ -13,7 +13,7 @@ use super::import::KeptImport;
 use super::jobs::{JobState, Jobs, Lane};
 use super::messages::Messages;
 use super::shelf::Shelf;
-use super::state::{Document, Results, Settings, State};
+use super::state::{Document, Results, Settings, Sheet, State};
 use super::tiles::Bench;
 use super::views::{accuracy, section, states};
 use super::work::{Outcome, ReadDataset};
@@ -84,8 +84,41 @@ pub struct App {
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
+    pub(super) opened: Opened,
     /// What the desktop speaks.
     pub(super) desktop_language: Language,
+}
+
+/// What lies over the window, and since which frame: a key that was pressed before is not meant for it.
+#[derive(Default)]
+pub(super) struct Opened {
+    sheet: (Option<Sheet>, u64),
+    palette: (bool, u64),
+}
+
+impl Opened {
+    /// Takes in what is open in a frame; true where that is another sheet than before.
+    pub(super) fn take(&mut self, state: &State, frame: u64) -> bool {
+        let palette = state.palette.is_some();
+        if self.palette.0 != palette {
+            self.palette = (palette, frame);
+        }
+        let another = self.sheet.0 != state.sheet;
+        if another {
+            self.sheet = (state.sheet, frame);
+        }
+        another
+    }
+
+    /// Was the sheet there before this frame?
+    pub(super) const fn sheet_before(&self, frame: u64) -> bool {
+        self.sheet.1 < frame
+    }
+
+    /// Was the palette there before this frame?
+    pub(super) const fn palette_before(&self, frame: u64) -> bool {
+        self.palette.1 < frame
+    }
 }
 
 /// A history that begins here.
@@ -128,6 +161,7 @@ impl App {
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),
+            opened: Opened::default(),
             desktop_language: Language::default(),
         }
     }

@@ -45,6 +45,8 @@ pub enum Outcome {
     Opened(Result<Arc<dyn Shelf>, AppError>),
     /// A list.
     Found(Result<Found, AppError>),
+    /// What the palette's words fit in the catalogue.
+    Hits(Result<Found, AppError>),
     /// Product, state and dataset of the selection, and sky and sun.
     Scene(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
     /// What control does over the year.

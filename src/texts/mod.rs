@@ -170,22 +170,28 @@ macro_rules! text {
 use text;
 
 pub mod catalogue;
+pub mod commands;
 pub mod compare;
+pub mod goniophotometer;
 pub mod hand_on;
 pub mod scene;
 pub mod shell;
+pub mod stages;
 pub mod take_in;
 pub mod tiles;
 pub mod words;
 
 /// Every text in English and in German, with the names of what is filled in, by the file that says it.
 pub fn pairs() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-    let files: [(&str, &[(&str, &str)]); 8] = [
+    let files: [(&str, &[(&str, &str)]); 11] = [
         ("catalogue", catalogue::PAIRS),
+        ("commands", commands::PAIRS),
         ("compare", compare::PAIRS),
+        ("goniophotometer", goniophotometer::PAIRS),
         ("hand_on", hand_on::PAIRS),
         ("scene", scene::PAIRS),
         ("shell", shell::PAIRS),
+        ("stages", stages::PAIRS),
         ("take_in", take_in::PAIRS),
         ("tiles", tiles::PAIRS),
         ("words", words::PAIRS),

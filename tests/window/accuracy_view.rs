@@ -148,7 +148,7 @@ fn a_ladder_can_be_stopped() {
         std::thread::sleep(Duration::from_millis(1));
     }
     assert!(engine.withdrawn.load(Ordering::Relaxed) && harness.state().results.accuracy.value.is_none());
-    assert!(!Lane::Accuracy.word().is_empty());
+    assert!(!Lane::Accuracy.word().english().is_empty());
 }
 
 fn drawn(size: [f32; 2], theme: Theme) -> Harness<'static, view::State> {

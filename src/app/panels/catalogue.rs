@@ -68,7 +68,8 @@ fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mu
     let field =
         ui.add(egui::TextEdit::singleline(&mut query.text).hint_text("Search (Ctrl+F)").desired_width(f32::INFINITY));
     field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Search"));
-    if std::mem::take(&mut state.focus_search) {
+    if state.focus_search && state.palette.is_none() {
+        state.focus_search = !field.has_focus();
         field.request_focus();
     }
     if field.has_focus() {

@@ -1,8 +1,11 @@
 //! Fields and buttons that panels share. What is typed and cannot be is told under its field and changes nothing.
 
+use crate::app::command::Command;
 use crate::app::offer::{Offer, key_words};
+use crate::app::state::State;
 use crate::app::theme;
 use crate::app::typing::read_number;
+use crate::texts::{decimal, fixed, shell};
 use egui::accesskit::Role;
 use egui::text::{CCursor, CCursorRange, LayoutJob, TextWrapping};
 use egui::text_edit::TextEditState;
@@ -27,8 +30,8 @@ fn key(ui: &Ui, label: &str) -> egui::Id {
 }
 
 /// Says under a field what its last change brought with it, until the next one.
-pub fn note(ui: &Ui, label: &str, text: String) {
-    let key = key(ui, label);
+pub fn note(ui: &Ui, label: impl Into<&'static str>, text: String) {
+    let key = key(ui, label.into());
     ui.data_mut(|data| data.insert_temp(key, Told::Note(text)));
 }
 
@@ -56,15 +59,17 @@ pub fn row(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Response) ->
 /// that is there already is left as it is.
 pub fn number(
     ui: &mut Ui,
-    label: &str,
-    unit: &str,
+    label: impl Into<&'static str>,
+    unit: impl Into<&'static str>,
     value: &mut f64,
     range: RangeInclusive<f64>,
     decimals: usize,
 ) -> bool {
+    let (label, unit) = (label.into(), unit.into());
     let (low, high) = (*range.start(), *range.end());
     let speed = ((high - low) / 400.0).max(0.1_f64.powi(decimals as i32));
-    let shown = format!("{:.decimals$}", *value);
+    let shown = fixed(*value, decimals);
+    let (least, most) = (fixed(low, decimals), format!("{}{unit}", fixed(high, decimals)));
     let refused = RefCell::new(None);
     let read = |text: &str| {
         // Looked at and left: not even rounded.
@@ -74,12 +79,11 @@ pub fn number(
         match read_number(text, unit) {
             Some(number) if range.contains(&number) => return Some(number),
             Some(number) => {
-                *refused.borrow_mut() =
-                    Some(format!("{number}{unit} is not possible here: {low:.decimals$} to {high:.decimals$}{unit}"));
+                let value = format!("{}{unit}", decimal(number.to_string()));
+                *refused.borrow_mut() = Some(shell::not_possible(value, &least, &most));
             }
             None => {
-                *refused.borrow_mut() =
-                    Some(format!("“{}” is no number: {low:.decimals$} to {high:.decimals$}{unit}", text.trim()));
+                *refused.borrow_mut() = Some(shell::no_number(text.trim(), &least, &most));
             }
         }
         None
@@ -94,7 +98,8 @@ pub fn number(
             .speed(speed)
             .fixed_decimals(decimals)
             .suffix(unit);
-        ui.add(drag).on_hover_text(format!("{low} to {high}{unit}; drag, or click and type"))
+        ui.add(drag)
+            .on_hover_text(shell::number_tip(decimal(low.to_string()), format!("{}{unit}", decimal(high.to_string()))))
     });
     // Arrow keys step on beyond the range.
     if *value != before && !range.contains(value) && range.contains(&before) {
@@ -111,13 +116,21 @@ pub fn number(
 }
 
 /// The same of a number that the scene may lack: a button then sets it to `start`.
-pub fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, start: f64, range: RangeInclusive<f64>) {
+pub fn optional(
+    ui: &mut Ui,
+    label: impl Into<&'static str>,
+    unit: impl Into<&'static str>,
+    value: &mut Option<f64>,
+    start: f64,
+    range: RangeInclusive<f64>,
+) {
+    let (label, unit) = (label.into(), unit.into());
     match value {
         Some(number_value) => {
             number(ui, label, unit, number_value, range, 2);
         }
         None => {
-            let text = format!("Missing: set {start}{unit}");
+            let text = shell::missing(format!("{}{unit}", decimal(start.to_string())));
             if row(ui, label, |ui| ui.button(text)).clicked() {
                 *value = Some(start);
             }
@@ -126,8 +139,8 @@ pub fn optional(ui: &mut Ui, label: &str, unit: &str, value: &mut Option<f64>, s
 }
 
 /// A figure that is shown and not typed.
-pub fn figure(ui: &mut Ui, label: &str, text: &str) {
-    row(ui, label, |ui| ui.label(text));
+pub fn figure(ui: &mut Ui, label: impl Into<&'static str>, text: &str) {
+    row(ui, label.into(), |ui| ui.label(text));
 }
 
 /// What somebody is typing, or has typed wrongly.
@@ -143,11 +156,12 @@ struct Draft {
 /// changes nothing. What was read comes back.
 pub fn typed<T>(
     ui: &mut Ui,
-    label: &str,
+    label: impl Into<&'static str>,
     shown: &str,
-    tip: &str,
+    tip: impl Into<&'static str>,
     read: impl FnOnce(&str) -> Result<T, String>,
 ) -> Option<T> {
+    let label = label.into();
     let key = ui.make_persistent_id((label, "draft"));
     let id = key.with("field");
     let focused = ui.memory(|memory| memory.has_focus(id));
@@ -155,7 +169,7 @@ pub fn typed<T>(
     let draft: Option<Draft> = ui.data(|data| data.get_temp(key)).filter(|draft: &Draft| focused || draft.of == shown);
     let (mut text, mut wrong) = draft.map_or_else(|| (shown.to_owned(), None), |draft| (draft.text, draft.wrong));
     let response = row(ui, label, |ui| ui.add(TextEdit::singleline(&mut text).id(id).desired_width(96.0)));
-    let response = response.on_hover_text(tip);
+    let response = response.on_hover_text(tip.into());
     if response.gained_focus() {
         select_all(ui, id, &text);
     }
@@ -189,6 +203,17 @@ pub fn typed<T>(
         }
     });
     taken
+}
+
+/// Gives the keyboard to the field that whoever opened the sheet wants to type in. It goes on asking until the field has
+/// it: another widget, or a key of the same frame, may take it away again. The palette goes first while it is open.
+pub fn take_keyboard(field: &Response, state: &State, commands: &mut Vec<Command>) {
+    if !state.wants_keyboard || state.palette.is_some() {
+    } else if field.has_focus() {
+        commands.push(Command::KeyboardTaken);
+    } else {
+        field.request_focus();
+    }
 }
 
 /// Selects the whole text of a field, so that typing replaces it.

@@ -7,8 +7,10 @@ use crate::app::goniophotometer::{Bench, Emergence, Incidence, Run};
 use crate::app::jobs::Lane;
 use crate::app::offer;
 use crate::app::theme;
+use crate::app::typing::read_number;
 use crate::app::views::section;
 use crate::app::window::App;
+use crate::texts::{decimal, fixed, goniophotometer as texts};
 use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
 
 /// Least height of editor and drawing. \[points\]
@@ -36,21 +38,18 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     match &bench.run {
         Some(run) => results(ui, bench, run, commands),
         None => {
-            ui.weak(
-                "Compute gives transmission and reflection from both sides, with balance, reciprocity and error; then \
-                 it can be added to the catalogue.",
-            );
+            ui.weak(texts::OFFER);
         }
     }
 }
 
 fn examples(ui: &mut Ui, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        let open = ui.button("Open…").on_hover_text("Read a .system.toml (Ctrl+O), or drop it on the window");
+        let open = ui.button(texts::OPEN).on_hover_text(texts::OPEN_TIP);
         if open.clicked() {
             commands.push(Command::Open);
         }
-        ui.weak("or start from");
+        ui.weak(texts::OR_START_FROM);
         for (number, example) in EXAMPLES.iter().enumerate() {
             if ui.button(example.name).clicked() {
                 commands.push(Command::SystemExample(number));
@@ -60,7 +59,7 @@ fn examples(ui: &mut Ui, commands: &mut Vec<Command>) {
 }
 
 fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) {
-    let name = ui.label("Geometry and material");
+    let name = ui.label(texts::GEOMETRY);
     let mut text = bench.text.clone();
     ScrollArea::both().id_salt("editor").max_height(height).min_scrolled_height(height).show(ui, |ui| {
         let rows = (height / ui.text_style_height(&TextStyle::Monospace)) as usize;
@@ -84,12 +83,12 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
             let system = &described.file.system;
             let states = match system.states().len() {
                 1 => String::new(),
-                many => format!(", {many} states"),
+                many => texts::and_states(many),
             };
             ui.colored_label(palette.good, format!("{} ({}){states}", system.name, system.family().word()));
         }
         None => {
-            ui.weak("Lengths in metres, angles in degrees.");
+            ui.weak(texts::UNITS);
         }
     }
 }
@@ -98,7 +97,8 @@ fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>)
     let bench = &app.state.goniophotometer;
     let system = bench.valid().map(|described| &described.file.system);
     let states = bench.states();
-    let label = ui.label(if system.is_some_and(|system| system.upright) { "Section from above" } else { "Section" });
+    let label =
+        ui.label(if system.is_some_and(|system| system.upright) { texts::SECTION_ABOVE } else { texts::SECTION });
     let sun = sun_incident(&app.state.document.scene).map(|sun| sun.0.vector());
     let input = section::Input {
         system,
@@ -111,12 +111,12 @@ fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>)
     if let Some(state) = states.get(bench.drawn).filter(|_| states.len() > 1) {
         ui.horizontal(|ui| {
             let mut drawn = bench.drawn;
-            if ui.add_enabled(drawn > 0, Button::new("◀")).on_hover_text("Previous state").clicked() {
+            if ui.add_enabled(drawn > 0, Button::new("◀")).on_hover_text(texts::PREVIOUS_STATE).clicked() {
                 drawn -= 1;
             }
             let slider = Slider::new(&mut drawn, 0..=states.len() - 1).show_value(false);
             ui.add(slider).labelled_by(label.id);
-            if ui.add_enabled(drawn + 1 < states.len(), Button::new("▶")).on_hover_text("Next state").clicked() {
+            if ui.add_enabled(drawn + 1 < states.len(), Button::new("▶")).on_hover_text(texts::NEXT_STATE).clicked() {
                 drawn += 1;
             }
             ui.label(format!("{state}°"));
@@ -131,7 +131,7 @@ fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>)
     let mut setup = bench.setup;
     ui.horizontal_wrapped(|ui| {
         ui.add_enabled_ui(!running, |ui| {
-            let label = ui.label("Incident");
+            let label = ui.label(texts::INCIDENT);
             let combo = ComboBox::from_id_salt("incident cells").selected_text(setup.incidence.word());
             let combo = combo.show_ui(ui, |ui| {
                 for one in Incidence::ALL {
@@ -141,7 +141,7 @@ fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>)
             combo.response.labelled_by(label.id);
         });
         ui.add_enabled_ui(!running, |ui| {
-            let label = ui.label("Emergent");
+            let label = ui.label(texts::EMERGENT);
             let combo = ComboBox::from_id_salt("emergent cells").selected_text(setup.emergence.word());
             let combo = combo.show_ui(ui, |ui| {
                 for one in Emergence::ALL {
@@ -151,9 +151,10 @@ fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>)
             combo.response.labelled_by(label.id);
         });
         ui.add_enabled_ui(!running, |ui| {
-            let label = ui.label("Error of τ, ρ at most");
+            let label = ui.label(texts::ERROR_AT_MOST);
             let field = DragValue::new(&mut setup.error).range(1e-5..=0.1).speed(1e-4).max_decimals(5);
-            ui.add(field).labelled_by(label.id).on_hover_text("Absolute, of every incidence; the effort follows it");
+            let field = field.custom_parser(|text| read_number(text, ""));
+            ui.add(field).labelled_by(label.id).on_hover_text(texts::ERROR_TIP);
         });
     });
     if setup != bench.setup {
@@ -164,12 +165,12 @@ fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>)
 fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         if let Some(fraction) = running {
-            if ui.button("Stop").on_hover_text("Finished states are kept; Compute goes on after them").clicked() {
+            if ui.button(texts::STOP).on_hover_text(texts::STOP_TIP).clicked() {
                 commands.push(Command::Cancel(Lane::Goniophotometer));
             }
             let finished = bench.run.as_ref().map_or(0, |run| run.finished.len());
             let states = bench.run.as_ref().and_then(|run| run.states.as_ref()).map_or(0, Vec::len);
-            let text = if states > 1 { format!("state {} of {states}", finished + 1) } else { String::new() };
+            let text = if states > 1 { texts::state_of(finished + 1, states) } else { String::new() };
             let share = if states > 0 { (finished as f32 + fraction) / states as f32 } else { fraction };
             ui.add(ProgressBar::new(share).desired_width(200.0).show_percentage());
             ui.label(text);
@@ -177,14 +178,14 @@ fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<
         }
         let compute = Command::MeasureSystem;
         let keys = offer::of(&compute).and_then(|offer| offer.keys);
-        let keys = keys.map(|keys| ui.ctx().format_shortcut(&keys)).unwrap_or_default();
-        let button = ui.add_enabled(bench.valid().is_some(), Button::new("Compute").shortcut_text(keys));
-        let button = button.on_disabled_hover_text("Describe a system first");
-        if button.on_hover_text("All states, both sides, transmission and reflection").clicked() {
+        let keys = keys.as_ref().map(offer::key_words).unwrap_or_default();
+        let button = ui.add_enabled(bench.valid().is_some(), Button::new(texts::COMPUTE).shortcut_text(keys));
+        let button = button.on_disabled_hover_text(texts::DESCRIBE_FIRST);
+        if button.on_hover_text(texts::COMPUTE_TIP).clicked() {
             commands.push(compute);
         }
         if let Some(run) = bench.run.as_ref().filter(|run| bench.is_current(run) && !run.complete()) {
-            ui.weak(format!("stopped after {} states; goes on after them", run.finished.len()));
+            ui.weak(texts::stopped_after(run.finished.len()));
         }
     });
 }
@@ -195,27 +196,27 @@ fn results(ui: &mut Ui, bench: &Bench, run: &Run, commands: &mut Vec<Command>) {
     }
     if !bench.is_current(run) {
         let name = &run.described.file.system.name;
-        ui.weak(format!("\"{name}\" as it was computed; the text or the cells have changed since."));
+        ui.weak(texts::changed_since(name));
     }
     ui.horizontal(|ui| {
-        let add = ui.add_enabled(run.complete(), Button::new("Add to catalogue"));
-        let add = add.on_disabled_hover_text("When all states are finished");
-        if add.on_hover_text("All states as one product; Ctrl+Z takes it out again").clicked() {
+        let add = ui.add_enabled(run.complete(), Button::new(texts::ADD));
+        let add = add.on_disabled_hover_text(texts::WHEN_FINISHED);
+        if add.on_hover_text(texts::ADD_TIP).clicked() {
             commands.push(Command::AddMeasured);
         }
-        let export = ui.add_enabled(run.complete(), Button::new("Export…"));
+        let export = ui.add_enabled(run.complete(), Button::new(texts::EXPORT));
         if export.on_hover_text(offer::of(&Command::ExportMeasured).map_or("", |offer| offer.tip)).clicked() {
             commands.push(Command::ExportMeasured);
         }
     });
     egui::Grid::new("measured").num_columns(6).striped(true).show(ui, |ui| {
         for (head, tip) in [
-            ("State", "Key of the state"),
-            ("τ normal", "Transmittance at normal incidence, all light that passes"),
-            ("τ+ρ+α−1", "Energy balance, at the worst incidence"),
-            ("Reciprocity", "Flux that reciprocity would place elsewhere, a share of all"),
-            ("Error", "Estimated error of τ and ρ, at the worst incidence"),
-            ("Time", "Wall-clock time"),
+            (texts::STATE, texts::STATE_TIP),
+            (texts::TAU_NORMAL, texts::TAU_NORMAL_TIP),
+            (texts::BALANCE, texts::BALANCE_TIP),
+            (texts::RECIPROCITY, texts::RECIPROCITY_TIP),
+            (texts::ERROR, texts::ERRORS_TIP),
+            (texts::TIME, texts::TIME_TIP),
         ] {
             ui.strong(head).on_hover_text(tip);
         }
@@ -223,16 +224,18 @@ fn results(ui: &mut Ui, bench: &Bench, run: &Run, commands: &mut Vec<Command>) {
         for one in &run.finished {
             let state = &one.dataset.state;
             ui.label(if state.is_empty() { "–" } else { state });
-            ui.label(format!("{:.4}", one.tau_normal));
+            ui.label(fixed(one.tau_normal, 4));
             match one.quality {
                 Some(quality) => {
-                    ui.label(format!("{:.1e}", quality.balance));
-                    ui.label(quality.reciprocity.map_or_else(|| "–".to_owned(), |e| format!("{:.3} %", 100.0 * e)));
-                    ui.label(format!("{:.1e}", quality.error));
+                    ui.label(decimal(format!("{:.1e}", quality.balance)));
+                    ui.label(
+                        quality.reciprocity.map_or_else(|| "–".to_owned(), |e| format!("{} %", fixed(100.0 * e, 3))),
+                    );
+                    ui.label(decimal(format!("{:.1e}", quality.error)));
                 }
                 None => (0..3).for_each(|_| drop(ui.label("–"))),
             }
-            ui.label(format!("{:.2} s", one.seconds));
+            ui.label(format!("{} s", fixed(one.seconds, 2)));
             ui.end_row();
         }
     });

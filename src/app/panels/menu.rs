@@ -4,7 +4,8 @@ use super::fields::button;
 use crate::app::command::Command;
 use crate::app::offer::{MENUS, Offer, Place, offers};
 use crate::app::state::State;
-use egui::{MenuBar, Ui};
+use crate::texts::Text;
+use egui::{MenuBar, Rect, Ui};
 
 /// One entry with its keys and tip.
 fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
@@ -15,7 +16,7 @@ fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
 }
 
 /// What a menu holds, in order.
-fn entries(menu: &str) -> Vec<(Place, &'static Offer)> {
+fn entries(menu: Text) -> Vec<(Place, &'static Offer)> {
     let placed = offers().iter().filter_map(|offer| Some((offer.place?, offer)));
     let mut list: Vec<_> = placed.filter(|(place, _)| place.menu == menu).collect();
     list.sort_by_key(|(place, _)| place.rank);
@@ -23,7 +24,7 @@ fn entries(menu: &str) -> Vec<(Place, &'static Offer)> {
 }
 
 /// One menu; entries of one rank that belong within another menu are gathered there.
-fn show_menu(ui: &mut Ui, menu: &str, commands: &mut Vec<Command>) {
+fn show_menu(ui: &mut Ui, menu: Text, commands: &mut Vec<Command>) {
     let list = entries(menu);
     let mut section = 0;
     for group in list.chunk_by(|a, b| a.0 == b.0) {
@@ -40,15 +41,15 @@ fn show_menu(ui: &mut Ui, menu: &str, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws the bar.
-pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    MenuBar::new().ui(ui, |ui| {
-        for menu in MENUS {
-            ui.menu_button(menu, |ui| show_menu(ui, menu, commands));
-        }
+/// Draws the bar; where each menu's word stands.
+pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Vec<(Text, Rect)> {
+    let bar = MenuBar::new().ui(ui, |ui| {
+        let menus = MENUS.map(|menu| (menu, ui.menu_button(menu, |ui| show_menu(ui, menu, commands)).response.rect));
         ui.separator();
         // The selection in words: also where the window has no title bar.
         let words = crate::app::title::title(state);
         ui.add(egui::Label::new(words.trim_start_matches("cfs – ")).truncate());
+        menus.to_vec()
     });
+    bar.inner
 }

@@ -3,6 +3,7 @@
 use crate::app::command::Command;
 use crate::app::messages::{Message, Messages, Weight};
 use crate::app::theme::{self, Palette};
+use crate::texts::shell;
 use egui::{Align2, Area, Color32, Id, Label, Order, Pos2, RichText, Sense, Ui};
 use std::time::Duration;
 
@@ -40,7 +41,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
                 });
             });
             let response = ui.interact(frame.response.rect, Id::unique(("message", message.id)), Sense::click());
-            let label = format!("Dismiss: {}", message.text);
+            let label = shell::dismiss(&message.text);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
             if response.hovered() {
                 held = Some(message.id);
@@ -58,17 +59,17 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
 pub(super) fn list(ui: &mut Ui, messages: &Messages, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     if messages.is_empty() {
-        ui.label("Nothing was said yet.");
+        ui.label(shell::NOTHING_SAID);
         return;
     }
-    if ui.button("Forget all").on_hover_text("Empty this list").clicked() {
+    if ui.button(shell::FORGET_ALL).on_hover_text(shell::FORGET_ALL_TIP).clicked() {
         commands.push(Command::ForgetMessages);
     }
     for message in messages.all().rev() {
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             ui.weak(&message.at);
-            ui.label(RichText::new(message.weight.word()).color(colour(palette, message.weight)));
+            ui.label(RichText::new(message.weight.word().get()).color(colour(palette, message.weight)));
         });
         ui.add(Label::new(&message.text).wrap().selectable(true));
     }

@@ -14,6 +14,7 @@ mod product;
 mod scene;
 mod sheets;
 mod status;
+mod tour;
 
 use super::command::Command;
 use super::state::Sheet;
@@ -35,7 +36,11 @@ fn widths(ui: &egui::Ui, least: f32) -> std::ops::RangeInclusive<f32> {
 pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let mut commands = Vec::new();
     let bar = theme::bar_frame(ui);
-    egui::Panel::top("menu").frame(bar).show(ui, |ui| menu::show(ui, &app.state, &mut commands));
+    let menus = egui::Panel::top("menu").frame(bar).show(ui, |ui| menu::show(ui, &app.state, &mut commands)).inner;
+    let mut places = tour::Places { menus, ..tour::Places::default() };
+    if tour::speaks(&app.state) {
+        egui::Panel::top("tour").frame(bar).show(ui, |ui| tour::show(ui, app, &mut commands));
+    }
     if !app.state.document.scene.compare.is_empty() {
         egui::Panel::top("tray").frame(bar).show(ui, |ui| compare::tray(ui, &app.state, &mut commands));
     }
@@ -50,12 +55,13 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         commands.push(Command::Sheet(None));
     }
     if app.state.settings.catalogue_open && !tight {
-        egui::Panel::left("catalogue")
+        let catalogue = egui::Panel::left("catalogue")
             .frame(side)
             .resizable(true)
             .default_size(250.0)
             .size_range(widths(ui, 240.0))
             .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut app.states_view, &mut commands));
+        places.catalogue = Some(catalogue.response.rect);
     }
     // The goniophotometer needs the bench's room; the scene's sun goes on shining on its drawing.
     // So does the table of what was read.
@@ -90,7 +96,8 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             app.retarget(place, from, &mut commands);
         }
     }
-    palette::show(ui, &app.state, &mut commands);
+    tour::ring(ui, app, &places);
+    palette::show(ui, app, &mut commands);
     messages::show(ui, &mut app.toasts, corner, &mut commands);
     commands
 }

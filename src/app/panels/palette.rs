@@ -1,58 +1,74 @@
-//! The command palette: words narrow the list, Enter takes the first.
+//! The command palette: words narrow the list, arrow keys walk it, Enter takes a row.
 
-use super::fields::button;
 use crate::app::command::Command;
-use crate::app::offer::{Offer, listed};
-use crate::app::state::State;
-use egui::{Align2, Area, Id, Key, Order, Ui};
+use crate::app::palette::{Row, rows};
+use crate::app::window::App;
+use crate::texts::shell;
+use egui::{Align2, Area, Button, Id, Key, Modifiers, Order, Ui};
 
-/// Rows shown at most.
-const ROWS: usize = 12;
+/// Its width. \[points\]
+const WIDTH: f32 = 420.0;
 
 /// Draws it when it is open.
-pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let Some(words) = &state.palette else { return };
+pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
+    let Some(words) = &app.state.palette else { return };
     let mut text = words.clone();
     let area = Area::new(Id::unique("palette")).order(Order::Foreground).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
     let inner = area.show(ui.ctx(), |ui| {
-        egui::Frame::popup(ui.style()).show(ui, |ui| list(ui, &mut text, commands));
+        egui::Frame::popup(ui.style()).show(ui, |ui| list(ui, app, &mut text, commands));
     });
     // A command that was entered in the same frame has closed it already.
     if text != *words && !commands.contains(&Command::Palette) {
         commands.push(Command::EditPalette(text));
     }
-    // The command opens what is closed: sent twice in a frame, the palette would stay.
+    // The command opens what is closed: sent twice in a frame, the palette would stay. A key or a click of the frame that
+    // opened it was meant for something else.
+    let before = app.opened.palette_before(ui.ctx().cumulative_frame_nr());
     let escaped = ui.input(|input| input.key_pressed(Key::Escape));
-    if (escaped || inner.response.clicked_elsewhere()) && !commands.contains(&Command::Palette) {
+    if before && (escaped || inner.response.clicked_elsewhere()) && !commands.contains(&Command::Palette) {
         commands.push(Command::Palette);
     }
 }
 
-/// The field and the commands that have its words.
-fn list(ui: &mut Ui, text: &mut String, commands: &mut Vec<Command>) {
-    ui.set_width(420.0);
-    let field = ui.add(egui::TextEdit::singleline(text).hint_text("Type a command").desired_width(420.0));
-    field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Command"));
+/// The field and what has its words.
+fn list(ui: &mut Ui, app: &App, text: &mut String, commands: &mut Vec<Command>) {
+    ui.set_width(WIDTH);
+    // Up and down belong to the list; the field would take them.
+    let step = ui.input_mut(|input| {
+        let mut count = |key| input.count_and_consume_key(Modifiers::NONE, key) as isize;
+        count(Key::ArrowDown) - count(Key::ArrowUp)
+    });
+    let field = ui.add(egui::TextEdit::singleline(text).hint_text(shell::TYPE_A_COMMAND).desired_width(WIDTH));
+    field.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, shell::COMMAND.get());
+        info.current_text_value = Some(text.clone());
+        info
+    });
     // The words go on wherever the pointer is; but where Enter has just given the focus up, that must be seen below.
     if !field.has_focus() && !field.lost_focus() {
         field.request_focus();
     }
-    let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
-    // The palette itself is left out: it would only close.
-    let fits = |offer: &&Offer| {
-        let name = offer.text.to_lowercase();
-        offer.command != Command::Palette && wanted.iter().all(|word| name.contains(word))
-    };
-    let list: Vec<&Offer> = listed().filter(fits).take(ROWS).collect();
+    // Typed in this frame and entered in it: what the words fit now counts.
+    let list = rows(&app.state, text);
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    if list.is_empty() {
-        ui.weak("No command has these words");
+    let changed = field.changed();
+    let row = if changed { 0 } else { app.state.palette_row.saturating_add_signed(step) };
+    let row = row.min(list.len().saturating_sub(1));
+    if row != app.state.palette_row && !changed {
+        commands.push(Command::PaletteRow(row));
     }
-    for (row, offer) in list.into_iter().enumerate() {
-        let button = button(offer).selected(row == 0).min_size(egui::vec2(420.0, 22.0));
-        if ui.add(button).on_hover_text(offer.tip).clicked() || (row == 0 && entered) {
+    if list.is_empty() {
+        ui.weak(shell::NO_COMMAND);
+    }
+    for (number, one) in list.into_iter().enumerate() {
+        let Row { command, text, tip, keys } = one;
+        let button = Button::new(&text).truncate().selected(number == row).min_size(egui::vec2(WIDTH, 22.0));
+        let button = if let Some(keys) = keys { button.shortcut_text(keys) } else { button };
+        let response = ui.add(button);
+        let response = if tip.is_empty() { response } else { response.on_hover_text(tip) };
+        if response.clicked() || (number == row && entered) {
             commands.push(Command::Palette);
-            commands.push(offer.command.clone());
+            commands.push(command);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
 
+use super::fields::take_keyboard;
 use super::{import, messages, product};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
@@ -8,28 +9,30 @@ use crate::app::state::{CatalogueState, PathUse, Sheet, State};
 use crate::app::theme;
 use crate::app::views::accuracy;
 use crate::app::window::App;
+use crate::texts::shell;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 use std::path::PathBuf;
 
 /// Draws the sheet that is open.
 pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command>) {
     let title = match sheet {
-        Sheet::Import => "Import",
-        Sheet::Findings => "Findings of the dataset",
-        Sheet::Keys => "Keys",
-        Sheet::Accuracy => "Accuracy",
-        Sheet::Goniophotometer => "Goniophotometer",
-        Sheet::Product => "Product",
-        Sheet::Deleted => "Recently deleted",
-        Sheet::Messages => "Messages",
-        Sheet::HandOn => "Hand on",
+        Sheet::Import => shell::IMPORT,
+        Sheet::Findings => shell::FINDINGS,
+        Sheet::Keys => shell::KEYS,
+        Sheet::Accuracy => shell::ACCURACY,
+        Sheet::Goniophotometer => shell::GONIOPHOTOMETER,
+        Sheet::Product => shell::PRODUCT,
+        Sheet::Deleted => shell::DELETED,
+        Sheet::Messages => shell::MESSAGES,
+        Sheet::HandOn => shell::HAND_ON,
         Sheet::Path(what) => what.title(),
     };
     ui.horizontal(|ui| {
         ui.heading(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let escaped = ui.input(|input| input.key_pressed(Key::Escape));
-            if ui.button("Close").on_hover_text("Close this sheet (Escape)").clicked() || escaped {
+            let before = app.opened.sheet_before(ui.ctx().cumulative_frame_nr());
+            let escaped = before && app.state.palette.is_none() && ui.input(|input| input.key_pressed(Key::Escape));
+            if ui.button(shell::CLOSE).on_hover_text(shell::CLOSE_TIP).clicked() || escaped {
                 commands.push(Command::Sheet(None));
             }
         });
@@ -38,7 +41,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         // Its table scrolls by itself.
         return import::show(ui, &app.state, commands);
     }
-    ScrollArea::vertical().id_salt(title).auto_shrink([false, false]).show(ui, |ui| match sheet {
+    ScrollArea::vertical().id_salt(title.english()).auto_shrink([false, false]).show(ui, |ui| match sheet {
         Sheet::Import => {}
         Sheet::Findings => match app.state.dataset.value.as_ref() {
             Some(dataset) => {
@@ -47,9 +50,9 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
             }
             None => {
                 let words = match &app.state.catalogue {
-                    CatalogueState::Opening => "Opening the catalogue…",
-                    CatalogueState::Failed(error) => error,
-                    CatalogueState::Ready(_) => "No product chosen: choose one in the catalogue.",
+                    CatalogueState::Opening => shell::OPENING_THE_CATALOGUE.get(),
+                    CatalogueState::Failed(error) => error.as_str(),
+                    CatalogueState::Ready(_) => shell::NO_PRODUCT_CHOSEN.get(),
                 };
                 ui.label(words);
             }
@@ -95,34 +98,20 @@ fn keys(ui: &mut Ui) {
 
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
-        PathUse::Open => (
-            "Dataset (.xml, .btdf.txt), folder or archive of datasets (.zip), package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop files on the window.",
-            "Open",
-        ),
-        PathUse::ReplaceState => (
-            "Dataset of one state (.xml, .btdf.txt, .cfsd): its data take the place of those that are stored.",
-            "Replace",
-        ),
-        PathUse::SaveScene => ("Everything this study needs, as a text file (.toml).", "Save"),
-        PathUse::ExportLid => (
-            "Luminaire file (.ldt EULUMDAT, .ies LM-63), table (.csv) or diagram (.svg, .png); the ending decides.",
-            "Export",
-        ),
-        PathUse::ExportMeasured => ("All states in a package (.cfsp), or a file a state (.xml, .btdf.txt).", "Export"),
-        PathUse::ExportTile(_) => ("Numbers (.csv).", "Export"),
+        PathUse::Open => (shell::OPEN_HINT, shell::OPEN),
+        PathUse::ReplaceState => (shell::REPLACE_HINT, shell::REPLACE),
+        PathUse::SaveScene => (shell::SAVE_HINT, shell::SAVE),
+        PathUse::ExportLid => (shell::LID_HINT, shell::EXPORT),
+        PathUse::ExportMeasured => (shell::MEASURED_HINT, shell::EXPORT),
+        PathUse::ExportTile(_) => (shell::TILE_HINT, shell::EXPORT),
         // It has a sheet of its own.
-        PathUse::HandOn => ("Folder and name of what is handed on.", "Write"),
+        PathUse::HandOn => (shell::HAND_ON_HINT, shell::WRITE),
     };
-    ui.add(egui::Label::new(hint).wrap());
+    ui.add(egui::Label::new(hint.get()).wrap());
     let mut text = state.path.clone();
-    let name = ui.label("Path");
+    let name = ui.label(shell::PATH);
     let field = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY)).labelled_by(name.id);
-    // Whoever opens the sheet wants to type: once, when it was not there in the pass before.
-    let pass = ui.ctx().cumulative_pass_nr();
-    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(field.id.with("pass"), 0), pass));
-    if before + 1 < pass {
-        field.request_focus();
-    }
+    take_keyboard(&field, state, commands);
     if text != state.path {
         commands.push(Command::EditPath(text.clone()));
     }
@@ -130,12 +119,12 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     let ready = !text.trim().is_empty();
     let path = PathBuf::from(text.trim());
     if state.replace.as_ref() == Some(&path) {
-        ui.colored_label(theme::palette(ui).warning, "A file of this name exists already.");
+        ui.colored_label(theme::palette(ui).warning, shell::EXISTS);
         ui.horizontal(|ui| {
-            if ui.button("Replace").on_hover_text("Write over it").clicked() {
+            if ui.button(shell::REPLACE).on_hover_text(shell::WRITE_OVER).clicked() {
                 commands.push(Command::Write(what, path.clone()));
             }
-            if ui.button("Other name").on_hover_text("Keep the file; give another name").clicked() {
+            if ui.button(shell::OTHER_NAME).on_hover_text(shell::OTHER_NAME_TIP).clicked() {
                 commands.push(Command::KeepFile);
                 field.request_focus();
             }

@@ -7,30 +7,31 @@ use crate::app::theme;
 use crate::app::views::room::error_words;
 use crate::app::window::App;
 use crate::compute::btdf::Severity;
+use crate::texts::{Text, fixed, shell, stages};
 use egui::{Color32, FontId, ProgressBar, RichText, Ui};
 
 /// A duration in words.
 fn duration(seconds: f64) -> String {
-    if seconds < 1.0 { format!("{:.1} ms", 1000.0 * seconds) } else { format!("{seconds:.1} s") }
+    if seconds < 1.0 { format!("{} ms", fixed(1000.0 * seconds, 1)) } else { format!("{} s", fixed(seconds, 1)) }
 }
 
 /// An error in percent, honest about what two decimals cannot say.
 fn percent(error: f64) -> String {
-    if error < 0.005 { "< 0.01 %".to_owned() } else { format!("±{error:.2} %") }
+    if error < 0.005 { format!("< {} %", fixed(0.01, 2)) } else { format!("±{} %", fixed(error, 2)) }
 }
 
 /// A result in words, from the fullest to the shortest, and what they mean.
 struct Figure {
     words: [String; 2],
-    tip: &'static str,
+    tip: Text,
 }
 
 /// What is said of a result that the scene has left behind.
 fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'static str {
     match (shown.stale, app.jobs.busy(lane)) {
         (false, _) => "",
-        (true, true) => ", updating",
-        (true, false) => ", of an earlier scene",
+        (true, true) => shell::UPDATING.get(),
+        (true, false) => shell::EARLIER_SCENE.get(),
     }
 }
 
@@ -42,9 +43,11 @@ fn figures(app: &App) -> Vec<Figure> {
         let age = age(app, &app.results.room, Lane::Room);
         let error = error_words(room.totals());
         list.push(Figure {
-            words: [format!("room: {error}, {}{age}", duration(room.seconds)), format!("room: {error}{age}")],
-            tip: "The largest stated error among the sensors, each relative to its own illuminance (sensors in the dark, \
-                  below 1 % of the mean, left out), and the time it took",
+            words: [
+                shell::room_line(&error, format!(", {}{age}", duration(room.seconds))),
+                shell::room_line(&error, age),
+            ],
+            tip: shell::ROOM_LINE_TIP,
         });
     }
     if let Some(lid) = app.results.lid.value.as_ref().filter(|_| in_sight(Lane::Lid)) {
@@ -52,8 +55,8 @@ fn figures(app: &App) -> Vec<Figure> {
         let age = age(app, &app.results.lid, Lane::Lid);
         let error = percent(relative);
         list.push(Figure {
-            words: [format!("LID: flux {error}, {}{age}", duration(lid.seconds)), format!("LID: flux {error}{age}")],
-            tip: "Stated error of the flux, relative to it, and the time it took",
+            words: [shell::lid_line(&error, format!(", {}{age}", duration(lid.seconds))), shell::lid_line(&error, age)],
+            tip: shell::LID_LINE_TIP,
         });
     }
     list
@@ -66,21 +69,22 @@ fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
     let awaited = app.state.computing.is_some() || app.state.dataset.error.is_some();
     let Some(dataset) = app.state.dataset.value.as_ref().filter(|_| !awaited) else {
         let words = match (&app.state.catalogue, app.busy()) {
-            (CatalogueState::Opening, _) => "opening the catalogue…",
-            (_, true) => "no dataset yet",
-            (_, false) => "no dataset",
+            (CatalogueState::Opening, _) => shell::OPENING_CATALOGUE,
+            (_, true) => shell::NO_DATASET_YET,
+            (_, false) => shell::NO_DATASET,
         };
-        return (words.to_owned(), palette.weak, false);
+        return (words.into(), palette.weak, false);
     };
     let product = app.state.product.as_ref().map_or(&[][..], |product| &product.findings);
     let findings = product.iter().filter(|finding| finding.state == dataset.state);
     let count = |severity| findings.clone().filter(|finding| finding.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-    let plural = |n: usize| if n == 1 { "" } else { "s" };
     match (errors, warnings) {
-        (0, 0) => ("dataset: no warnings".to_owned(), palette.weak, true),
-        (0, n) => (format!("dataset: {n} warning{}", plural(n)), palette.warning, true),
-        (n, _) => (format!("dataset: {n} error{}", plural(n)), palette.error, true),
+        (0, 0) => (shell::NO_WARNINGS.into(), palette.weak, true),
+        (0, 1) => (shell::ONE_WARNING.into(), palette.warning, true),
+        (0, n) => (shell::warnings(n), palette.warning, true),
+        (1, _) => (shell::ONE_ERROR.into(), palette.error, true),
+        (n, _) => (shell::errors(n), palette.error, true),
     }
 }
 
@@ -104,15 +108,15 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         let words = RichText::new(text).color(colour);
         if !known {
             ui.label(words);
-        } else if ui.button(words).on_hover_text("What the checks say").clicked() {
+        } else if ui.button(words).on_hover_text(shell::CHECKS_TIP).clicked() {
             commands.push(Command::Sheet(Some(Sheet::Findings)));
         }
         if !app.toasts.is_empty() {
             let text = match app.toasts.len() {
-                1 => "1 message".to_owned(),
-                count => format!("{count} messages"),
+                1 => shell::ONE_MESSAGE.into(),
+                count => shell::messages(count),
             };
-            if ui.button(text).on_hover_text("What the window said").clicked() {
+            if ui.button(text).on_hover_text(shell::MESSAGES_TIP).clicked() {
                 commands.push(Command::Sheet(Some(Sheet::Messages)));
             }
         }
@@ -148,13 +152,18 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
     let count = jobs.len();
     for (number, job) in jobs.into_iter().enumerate() {
-        let (stage, word) = (job.state.stage(), job.lane.word());
+        let (stage, word) = (stages::word(job.state.stage()), job.lane.word());
         let fraction = job.state.fraction();
         let more = count - number;
-        let more = if more == 1 { "1 job".to_owned() } else { format!("{more} jobs") };
+        let more = match (more, number) {
+            (1, 0) => shell::ONE_JOB.into(),
+            (more, 0) => shell::jobs(more),
+            (1, _) => shell::ONE_JOB_MORE.into(),
+            (more, _) => shell::jobs_more(more),
+        };
         let bar = if fraction.is_some() { BAR } else { 0.0 } + STOP + GAP;
         // Room is kept for the count of those that have none.
-        let kept = if number + 1 < count { width(ui, "9 jobs more") + GAP } else { 0.0 };
+        let kept = if number + 1 < count { width(ui, &shell::jobs_more(9)) + GAP } else { 0.0 };
         let dots = if fraction.is_some() { "" } else { "…" };
         let texts = [format!("{word}: {stage}{dots}"), format!("{word}{dots}")];
         let fitting = texts.iter().skip(usize::from(stage.is_empty()));
@@ -165,7 +174,7 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         first = false;
         let Some(text) = fitting else {
             if width(ui, &more) + GAP <= left {
-                ui.label(if number == 0 { more } else { format!("{more} more") });
+                ui.label(more);
             }
             return;
         };
@@ -174,7 +183,7 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         if let Some(fraction) = fraction {
             ui.add(ProgressBar::new(fraction).desired_width(70.0).desired_height(10.0));
         }
-        if ui.small_button("×").on_hover_text(format!("Cancel {word}")).clicked() {
+        if ui.small_button("×").on_hover_text(shell::cancel(word)).clicked() {
             commands.push(Command::Cancel(job.lane));
         }
     }

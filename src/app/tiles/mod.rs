@@ -16,6 +16,8 @@ pub use drawn::{Drawn, TileInput};
 pub use layout::Layout;
 pub use lid::TILE as LID;
 pub use presets::layout as preset;
+pub use room::TILE as ROOM;
+pub use sky::TILE as SKY;
 
 use super::command::Command;
 use super::jobs::Lane;

@@ -2,6 +2,7 @@
 
 use crate::app::panels::fields::{note, number};
 use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, SceneFile, SurfaceKey};
+use crate::texts::{Text, fixed, scene as texts};
 use egui::{Button, Ui};
 
 /// Smallest edge of an aperture. \[m\]
@@ -16,7 +17,7 @@ fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
 }
 
 /// Names of the fields of an aperture's size.
-const SIZES: [&str; 2] = ["Width", "Height"];
+const SIZES: [Text; 2] = [texts::WIDTH, texts::HEIGHT];
 
 /// Where an edge has to move so that a size fits from it; `None` where it may stay.
 fn pushed(origin: f64, size: f64, extent: f64) -> Option<f64> {
@@ -25,10 +26,10 @@ fn pushed(origin: f64, size: f64, extent: f64) -> Option<f64> {
     (origin > extent - size + 1e-9).then_some(most.max(0.0))
 }
 
-const fn word(surface: SurfaceKey) -> &'static str {
+const fn word(surface: SurfaceKey) -> Text {
     match surface {
-        SurfaceKey::Facade => "façade",
-        SurfaceKey::Roof => "roof",
+        SurfaceKey::Facade => texts::ON_FACADE,
+        SurfaceKey::Roof => texts::ON_ROOF,
     }
 }
 
@@ -45,13 +46,11 @@ pub fn beyond(scene: &SceneFile) -> Option<String> {
     scene.aperture.iter().enumerate().find_map(|(i, a)| {
         let extent = extent(&scene.room, a.surface);
         (0..2).any(|k| a.origin[k] < 0.0 || a.origin[k] + a.size[k] > extent[k] + 1e-6).then(|| {
-            format!(
-                "Aperture {} reaches beyond the {}, {:.2} × {:.2} m: move it or make it smaller.",
-                i + 1,
-                word(a.surface),
-                extent[0],
-                extent[1]
-            )
+            let [width, height] = extent.map(|length| fixed(length, 2));
+            match a.surface {
+                SurfaceKey::Facade => texts::beyond_facade(i + 1, width, height),
+                SurfaceKey::Roof => texts::beyond_roof(i + 1, width, height),
+            }
         })
     })
 }
@@ -63,7 +62,7 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     }
     for (i, a) in scene.aperture.iter().enumerate() {
         if let Some(j) = scene.aperture.iter().skip(i + 1).position(|b| overlap(a, b)) {
-            return Some(format!("Apertures {} and {} overlap: move one of them.", i + 1, i + j + 2));
+            return Some(texts::overlap(i + 1, i + j + 2));
         }
     }
     None
@@ -98,18 +97,18 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
         ui.push_id(index, |ui| {
             let mut moved = false;
             ui.horizontal(|ui| {
-                ui.label(format!("{} in the", index + 1));
+                ui.label(texts::numbered_in(index + 1));
                 for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
-                    if ui.selectable_label(aperture.surface == surface, word(surface)).clicked() {
+                    if ui.selectable_label(aperture.surface == surface, word(surface).get()).clicked() {
                         moved = move_to(aperture, surface, &room);
                     }
                 }
-                if several && ui.small_button("×").on_hover_text("Take this aperture out").clicked() {
+                if several && ui.small_button("×").on_hover_text(texts::TAKE_OUT).clicked() {
                     gone = Some(index);
                 }
             });
             if moved {
-                note(ui, SIZES[1], "Made smaller, so that it fits there.".to_owned());
+                note(ui, SIZES[1], texts::MADE_SMALLER.into());
             }
             one(ui, aperture, &room);
         });
@@ -118,8 +117,8 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
         scene.aperture.remove(index);
     }
     let next = addition(scene);
-    let add = ui.add_enabled(next.is_some(), Button::new("Add an aperture"));
-    if add.on_disabled_hover_text("Neither façade nor roof has a free square metre").clicked() {
+    let add = ui.add_enabled(next.is_some(), Button::new(texts::ADD_APERTURE));
+    if add.on_disabled_hover_text(texts::NO_FREE_PLACE).clicked() {
         scene.aperture.extend(next);
     }
 }
@@ -138,11 +137,11 @@ fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) ->
 
 fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
     let low = match aperture.surface {
-        SurfaceKey::Facade => "Sill",
-        SurfaceKey::Roof => "From the façade",
+        SurfaceKey::Facade => texts::SILL,
+        SurfaceKey::Roof => texts::FROM_FACADE,
     };
     let extent = extent(room, aperture.surface);
-    let origins = ["From the left", low];
+    let origins = [texts::FROM_LEFT, low];
     for (k, label) in origins.into_iter().enumerate() {
         let most = (extent[k] - aperture.size[k]).max(0.0);
         number(ui, label, " m", &mut aperture.origin[k], 0.0..=most, 2);
@@ -152,16 +151,16 @@ fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
             && let Some(origin) = pushed(aperture.origin[k], aperture.size[k], extent[k])
         {
             aperture.origin[k] = origin;
-            note(ui, label, format!("“{}” is {origin:.2} m now, so that it fits.", origins[k]));
+            note(ui, label, texts::pushed(origins[k], fixed(origin, 2)));
         }
     }
     let mut own = aperture.reflectance == ApertureReflectance::Dataset;
-    let tip = "The dataset's back reflection where it has one, 0 for ideal systems; off: type a diffuse reflectance";
-    if ui.checkbox(&mut own, "Room side as in the dataset").on_hover_text(tip).changed() {
+    let tip = texts::AS_IN_DATASET_TIP;
+    if ui.checkbox(&mut own, texts::AS_IN_DATASET).on_hover_text(tip).changed() {
         aperture.reflectance = if own { ApertureReflectance::Dataset } else { ApertureReflectance::Value(0.1) };
     }
     if let ApertureReflectance::Value(value) = &mut aperture.reflectance {
-        number(ui, "Room-side reflectance", "", value, 0.0..=0.99, 2);
+        number(ui, texts::ROOM_SIDE, "", value, 0.0..=0.99, 2);
     }
 }
 

@@ -7,6 +7,7 @@ use crate::app::typing::read_coordinates;
 use crate::study::places::{City, city_at, nearest, search};
 use crate::study::scene_file::SceneFile;
 use crate::study::sky::{HIGHEST, LOWEST};
+use crate::texts::{decimal, fixed, scene as texts};
 use egui::accesskit::Role;
 use egui::{Align, Button, Key, Label, Layout, Modifiers, RichText, TextEdit, Ui, WidgetInfo};
 
@@ -33,7 +34,7 @@ struct Choice {
 
 /// Hours ahead of UTC in words: `UTC+5.75`.
 fn clock_words(utc_offset: f64) -> String {
-    if utc_offset == 0.0 { "UTC".to_owned() } else { format!("UTC{utc_offset:+}") }
+    if utc_offset == 0.0 { "UTC".to_owned() } else { decimal(format!("UTC{utc_offset:+}")) }
 }
 
 fn city_words(city: &City) -> String {
@@ -42,11 +43,12 @@ fn city_words(city: &City) -> String {
 }
 
 fn of_city(city: &City) -> Choice {
-    let height =
-        city.elevation.map_or_else(|| "elevation unknown".to_owned(), |height| format!("{height} m above the sea"));
+    let height = city
+        .elevation
+        .map_or_else(|| texts::ELEVATION_UNKNOWN.into(), |height| texts::elevation_at(decimal(height.to_string())));
     Choice {
         words: city_words(city),
-        where_: format!("{:.1} {:.1}", city.latitude, city.longitude),
+        where_: format!("{} {}", fixed(city.latitude, 1), fixed(city.longitude, 1)),
         tip: format!("{}, {height}, {}", coordinates(city.latitude, city.longitude), clock_words(city.utc_offset)),
         latitude: city.latitude,
         longitude: city.longitude,
@@ -59,15 +61,14 @@ fn of_city(city: &City) -> Choice {
 fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
     let (city, distance) = nearest(latitude, longitude)?;
     let elevation = city_at(latitude, longitude).and_then(|city| city.elevation);
-    let height = elevation.map_or_else(|| "elevation unknown: 0 m".to_owned(), |height| format!("{height} m as there"));
+    let height = elevation.map_or_else(
+        || texts::ELEVATION_UNKNOWN_ZERO.into(),
+        |height| texts::elevation_as_there(decimal(height.to_string())),
+    );
     Some(Choice {
         words: coordinates(latitude, longitude),
         where_: clock_words(city.utc_offset),
-        tip: format!(
-            "Clock of {}, {distance:.0} km away: {}; {height}. Both can be changed below",
-            city.name,
-            clock_words(city.utc_offset)
-        ),
+        tip: texts::clock_of(&city.name, fixed(distance, 0), clock_words(city.utc_offset), height),
         latitude,
         longitude,
         utc_offset: city.utc_offset,
@@ -85,10 +86,7 @@ fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
         Some(Err(told)) => (Vec::new(), 0, Some(told)),
         None => {
             let (list, count) = search(text, MOST);
-            let none = (count == 0).then(|| {
-                "No city of this name above 50 000 inhabitants: try one nearby, or coordinates such as 48.78 9.18."
-                    .to_owned()
-            });
+            let none = (count == 0).then(|| texts::NO_CITY.into());
             (list.into_iter().map(of_city).collect(), count, none)
         }
     }
@@ -105,13 +103,13 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
         scene.site.elevation = choice.elevation.unwrap_or(0.0);
     }
     if scene.sky.time.is_none() && scene.site.latitude.is_none() {
-        ui.weak("Not needed while the sun is given by angles.");
+        ui.weak(texts::NO_PLACE_NEEDED);
         return;
     }
-    optional(ui, "Latitude", "° N", &mut scene.site.latitude, 48.78, -90.0..=90.0);
-    optional(ui, "Longitude", "° E", &mut scene.site.longitude, 9.18, -180.0..=180.0);
-    optional(ui, "Ahead of UTC", " h", &mut scene.site.utc_offset, 1.0, -14.0..=14.0);
-    number(ui, "Elevation", " m", &mut scene.site.elevation, LOWEST..=HIGHEST, 0);
+    optional(ui, texts::LATITUDE, texts::DEGREES_NORTH, &mut scene.site.latitude, 48.78, -90.0..=90.0);
+    optional(ui, texts::LONGITUDE, texts::DEGREES_EAST, &mut scene.site.longitude, 9.18, -180.0..=180.0);
+    optional(ui, texts::AHEAD_OF_UTC, " h", &mut scene.site.utc_offset, 1.0, -14.0..=14.0);
+    number(ui, texts::ELEVATION, " m", &mut scene.site.elevation, LOWEST..=HIGHEST, 0);
 }
 
 /// The search field with its list; what was chosen.
@@ -126,14 +124,13 @@ fn find(ui: &mut Ui) -> Option<Choice> {
         count(Key::ArrowDown) - count(Key::ArrowUp)
     });
     let field = TextEdit::singleline(&mut typed.text).id(id).desired_width(f32::INFINITY);
-    let response = ui.add(field.hint_text("Find a city, or 48.78 9.18"));
+    let response = ui.add(field.hint_text(texts::FIND_HINT));
     response.widget_info(|| {
-        let mut info = WidgetInfo::labeled(Role::TextInput, true, "Find a place");
+        let mut info = WidgetInfo::labeled(Role::TextInput, true, texts::FIND_A_PLACE.get());
         info.current_text_value = Some(typed.text.clone());
         info
     });
-    let response =
-        response.on_hover_text("A city, also with its country: Valencia, Spain; or latitude and longitude in degrees");
+    let response = response.on_hover_text(texts::FIND_TIP);
     if response.gained_focus() {
         select_all(ui, id, &typed.text);
     }
@@ -158,7 +155,7 @@ fn find(ui: &mut Ui) -> Option<Choice> {
             }
         }
         if count > list.len() {
-            ui.weak(format!("{} more: type on, or add a country", count - list.len()));
+            ui.weak(texts::more_places(count - list.len()));
         }
         if let Some(row) = picked {
             chosen = Some(list.swap_remove(row));

@@ -7,59 +7,65 @@ use crate::app::theme;
 use crate::compute::sky::availability::Cover;
 use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};
+use crate::texts::{Text, fixed, scene as texts};
 use egui::{ComboBox, TextEdit, Ui};
 
 /// CIE general sky types in the standard's order. ISO 15469, table 1.
-const CIE: [&str; 16] = [
-    "1 overcast, steep, brighter to the sun",
-    "2 overcast, steep, azimuthally even",
-    "3 overcast, moderate, brighter to the sun",
-    "4 overcast, moderate, azimuthally even",
-    "5 uniform",
-    "6 partly cloudy, no gradation, brighter to the sun",
-    "7 partly cloudy, no gradation, brighter round the sun",
-    "8 partly cloudy, no gradation, clear corona",
-    "9 partly cloudy, sun obscured",
-    "10 partly cloudy, brighter round the sun",
-    "11 white-blue, clear corona",
-    "12 clear, low turbidity",
-    "13 clear, polluted air",
-    "14 cloudless, turbid, broad corona",
-    "15 white-blue, turbid, broad corona",
-    "16 traditional overcast",
+const CIE: [Text; 16] = [
+    texts::CIE_1,
+    texts::CIE_2,
+    texts::CIE_3,
+    texts::CIE_4,
+    texts::CIE_5,
+    texts::CIE_6,
+    texts::CIE_7,
+    texts::CIE_8,
+    texts::CIE_9,
+    texts::CIE_10,
+    texts::CIE_11,
+    texts::CIE_12,
+    texts::CIE_13,
+    texts::CIE_14,
+    texts::CIE_15,
+    texts::CIE_16,
 ];
 
 /// What an entry of the list is called, and what it means.
-const fn words(by: IlluminanceKey) -> (&'static str, &'static str) {
+const fn words(by: IlluminanceKey) -> (Text, Text) {
     match by {
-        IlluminanceKey::ClearSky => (
-            "Follow the sun, turbidity",
-            "Clear skies by turbidity and elevation (Ineichen and Perez 2002), others typical ones (IES RP-21, 1984)",
-        ),
-        IlluminanceKey::Rp21 => {
-            ("Follow the sun, RP-21", "Typical values of clear, partly cloudy or overcast skies (IES RP-21, 1984)")
-        }
-        IlluminanceKey::Stated => ("Typed", "The figures below, wherever the sun is"),
+        IlluminanceKey::ClearSky => (texts::FOLLOW_TURBIDITY, texts::FOLLOW_TURBIDITY_TIP),
+        IlluminanceKey::Rp21 => (texts::FOLLOW_RP21, texts::FOLLOW_RP21_TIP),
+        IlluminanceKey::Stated => (texts::TYPED, texts::TYPED_TIP),
+    }
+}
+
+/// What a model is called in the list.
+const fn model_word(model: SkyModelKey) -> Text {
+    match model {
+        SkyModelKey::Cie => texts::MODEL_CIE,
+        SkyModelKey::Uniform => texts::MODEL_UNIFORM,
+        SkyModelKey::Perez => texts::MODEL_PEREZ,
+        SkyModelKey::Scan => texts::MODEL_SCAN,
     }
 }
 
 /// Why the figures of a sky cannot be with a sun that stands as low as it does; `None` where they can.
-pub fn low_sun(scene: &SceneFile) -> Option<&'static str> {
+pub fn low_sun(scene: &SceneFile) -> Option<Text> {
     let (altitude, _) = moment::sun(scene)?;
     let sky = &scene.sky;
     match sky.model {
-        SkyModelKey::Cie if sky.illuminance == IlluminanceKey::Stated => (altitude < TWILIGHT
-            && sky.diffuse_horizontal.is_some_and(|lux| lux > 0.0))
-        .then_some("No such sky with the sun below −6°: type 0 klx, or follow the sun."),
+        SkyModelKey::Cie if sky.illuminance == IlluminanceKey::Stated => {
+            (altitude < TWILIGHT && sky.diffuse_horizontal.is_some_and(|lux| lux > 0.0)).then_some(texts::TWILIGHT)
+        }
         SkyModelKey::Perez => {
             let [direct, diffuse] =
                 [sky.direct_horizontal_irradiance, sky.diffuse_horizontal_irradiance].map(|value| value.unwrap_or(0.0));
             if direct + diffuse == 0.0 {
                 None
             } else if altitude <= 0.0 {
-                Some("The sun is below the horizon: both have to be 0 W/m² then.")
+                Some(texts::BOTH_ZERO)
             } else if direct / altitude.sin() > 1500.0 {
-                Some("So low a sun cannot send as much direct light: type less.")
+                Some(texts::TOO_MUCH_DIRECT)
             } else {
                 None
             }
@@ -69,19 +75,19 @@ pub fn low_sun(scene: &SceneFile) -> Option<&'static str> {
 }
 
 /// Draws the section. `low_sun`: what [`low_sun`] says.
-pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<&str>) {
+pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<Text>) {
     let width = ui.available_width() - 8.0;
     model(ui, &mut scene.sky, width);
     let palette = theme::palette(ui);
     if !scene.sky.model.takes_illuminances() {
         if scene.sky.model == SkyModelKey::Perez {
-            lines(ui, low_sun.unwrap_or_default(), palette.error, 2);
+            lines(ui, low_sun.map_or("", Text::get), palette.error, 2);
         }
         return;
     }
     let before = scene.sky.illuminance;
     let mut by = before;
-    let name = ui.label("Illuminances");
+    let name = ui.label(texts::ILLUMINANCES);
     let combo = ComboBox::from_id_salt("illuminance").selected_text(words(by).0).width(width).truncate();
     let combo = combo.show_ui(ui, |ui| {
         for key in IlluminanceKey::ALL {
@@ -94,19 +100,20 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<&str>) {
         follow(scene, by);
     }
     if by == IlluminanceKey::ClearSky && clear(&scene.sky) {
-        number(ui, "Turbidity (Linke)", "", &mut scene.sky.turbidity, CLEANEST..=HAZIEST, 1);
+        number(ui, texts::TURBIDITY, "", &mut scene.sky.turbidity, CLEANEST..=HAZIEST, 1);
     }
     let light = illuminances(&scene.sky, &scene.site).ok().flatten();
     if by == IlluminanceKey::Stated {
-        kilolux(ui, "Diffuse horizontal", &mut scene.sky.diffuse_horizontal, 100.0);
-        kilolux(ui, "Direct normal", &mut scene.sky.sun.direct_normal, 130.0);
+        kilolux(ui, texts::DIFFUSE_HORIZONTAL, &mut scene.sky.diffuse_horizontal, 100.0);
+        kilolux(ui, texts::DIRECT_NORMAL, &mut scene.sky.sun.direct_normal, 130.0);
     } else {
-        let klx = |lux: Option<f64>| lux.map_or_else(|| "–".to_owned(), |lux| format!("{:.2} klx", lux / 1000.0));
-        figure(ui, "Diffuse horizontal", &klx(light.map(|light| light.diffuse_horizontal)));
-        figure(ui, "Direct normal", &klx(light.map(|light| light.direct_normal)));
+        let klx =
+            |lux: Option<f64>| lux.map_or_else(|| "–".to_owned(), |lux| format!("{} klx", fixed(lux / 1000.0, 2)));
+        figure(ui, texts::DIFFUSE_HORIZONTAL, &klx(light.map(|light| light.diffuse_horizontal)));
+        figure(ui, texts::DIRECT_NORMAL, &klx(light.map(|light| light.direct_normal)));
     }
     match low_sun {
-        Some(told) => lines(ui, told, palette.error, 2),
+        Some(told) => lines(ui, told.get(), palette.error, 2),
         None => lines(ui, &light.map_or_else(String::new, |light| origin(&light)), palette.weak, 2),
     }
 }
@@ -119,29 +126,29 @@ fn clear(sky: &SkyKeys) -> bool {
 /// Where the figures come from, in words.
 fn origin(light: &Illuminances) -> String {
     if light.is_night() {
-        return "No daylight: the sun is below the horizon.".to_owned();
+        return texts::NIGHT.into();
     }
     match light.source {
-        Source::Stated if light.altitude.is_some_and(|altitude| altitude <= 0.0) => {
-            "As typed; no direct light while the sun is below the horizon.".to_owned()
-        }
-        Source::Stated => "They stay as typed, wherever the sun is.".to_owned(),
-        Source::ClearSky { elevation, .. } => format!("Clear sky at {elevation:.0} m (Ineichen, Perez 2002)"),
-        Source::Cover(cover) => format!("Typical of a sky that is {} (IES RP-21)", cover.word()),
+        Source::Stated if light.altitude.is_some_and(|altitude| altitude <= 0.0) => texts::TYPED_NIGHT.into(),
+        Source::Stated => texts::TYPED_STAYS.into(),
+        Source::ClearSky { elevation, .. } => texts::clear_sky_at(fixed(elevation, 0)),
+        Source::Cover(Cover::Clear) => texts::TYPICAL_CLEAR.into(),
+        Source::Cover(Cover::Partly) => texts::TYPICAL_PARTLY.into(),
+        Source::Cover(Cover::Overcast) => texts::TYPICAL_OVERCAST.into(),
     }
 }
 
 fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
-    let shown = sky.model.words()[0];
+    let shown = model_word(sky.model);
     let combo = ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
         for model in SkyModelKey::ALL {
             // Choosing the model that is there already must not reset its numbers.
-            if ui.selectable_label(sky.model == model, model.words()[0]).clicked() && sky.model != model {
+            if ui.selectable_label(sky.model == model, model_word(model).get()).clicked() && sky.model != model {
                 choose_model(sky, model);
             }
         }
     });
-    combo.response.accessible_name("Sky model");
+    combo.response.accessible_name(texts::SKY_MODEL.get());
     match sky.model {
         SkyModelKey::Cie => {
             // A scene without a type, or with one that no sky has, is refused; the list still needs an entry to show.
@@ -149,20 +156,27 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
             let combo =
                 ComboBox::from_id_salt("cie").selected_text(CIE[kind - 1]).width(width).truncate().show_ui(ui, |ui| {
                     for (i, word) in CIE.iter().enumerate() {
-                        if ui.selectable_label(i + 1 == kind, *word).clicked() {
+                        if ui.selectable_label(i + 1 == kind, word.get()).clicked() {
                             sky.cie_type = Some(i as u8 + 1);
                         }
                     }
                 });
-            combo.response.accessible_name("CIE sky type");
+            combo.response.accessible_name(texts::CIE_TYPE.get());
         }
         SkyModelKey::Perez => {
-            optional(ui, "Direct horizontal", " W/m²", &mut sky.direct_horizontal_irradiance, 300.0, 0.0..=1100.0);
-            optional(ui, "Diffuse horizontal", " W/m²", &mut sky.diffuse_horizontal_irradiance, 120.0, 0.0..=600.0);
+            optional(ui, texts::DIRECT_HORIZONTAL, " W/m²", &mut sky.direct_horizontal_irradiance, 300.0, 0.0..=1100.0);
+            optional(
+                ui,
+                texts::DIFFUSE_HORIZONTAL,
+                " W/m²",
+                &mut sky.diffuse_horizontal_irradiance,
+                120.0,
+                0.0..=600.0,
+            );
         }
         SkyModelKey::Scan => {
             let mut path = sky.file.as_ref().map_or_else(String::new, |file| file.display().to_string());
-            let name = ui.label("File of 145 luminances");
+            let name = ui.label(texts::SCAN_FILE);
             let field = ui.add(TextEdit::singleline(&mut path).desired_width(f32::INFINITY)).labelled_by(name.id);
             if field.changed() {
                 sky.file = Some(path.into());
@@ -194,7 +208,7 @@ fn choose_model(sky: &mut SkyKeys, model: SkyModelKey) {
     }
 }
 
-fn kilolux(ui: &mut Ui, label: &str, value: &mut Option<f64>, most: f64) {
+fn kilolux(ui: &mut Ui, label: Text, value: &mut Option<f64>, most: f64) {
     let mut klx = value.unwrap_or(0.0) / 1000.0;
     if number(ui, label, " klx", &mut klx, 0.0..=most, 2) {
         *value = Some(klx * 1000.0);

@@ -1,10 +1,12 @@
 //! Date and time: typed, by sliders, or the sun by its angles. Every line stands where it stood, wherever the sun is.
 
+use crate::app::clock;
 use crate::app::moment;
 use crate::app::panels::fields::{lines, number, typed};
 use crate::app::theme;
 use crate::app::typing::{read_clock, read_date};
 use crate::study::scene_file::SceneFile;
+use crate::texts::scene as texts;
 use egui::{Slider, Stroke, Ui, WidgetInfo};
 use std::cmp::Ordering;
 
@@ -14,8 +16,8 @@ const STEP: i32 = 5;
 /// Draws the section.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     let Some(time) = moment::of(scene) else { return angles(ui, scene) };
-    let shown = time.strftime("%-d %b %Y").to_string();
-    let date = typed(ui, "Date", &shown, "21.3., 21 Mar or 2026-03-21", |text| read_date(text, time.year()));
+    let shown = clock::date(time.date());
+    let date = typed(ui, texts::DATE, &shown, texts::DATE_TIP, |text| read_date(text, time.year()));
     if let Some(date) = date {
         moment::set_date(scene, date);
     }
@@ -23,24 +25,18 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     let before = i32::from(time.day_of_year());
     let mut day = before;
     let slider = ui.add(Slider::new(&mut day, 1..=i32::from(time.days_in_year())).show_value(false));
-    slider.widget_info(|| WidgetInfo::slider(true, f64::from(day), "Day of the year"));
+    slider.widget_info(|| WidgetInfo::slider(true, f64::from(day), texts::DAY_OF_YEAR.get()));
     if day != before {
         moment::step(scene, day - before, 0);
     }
-    let clock = typed(
-        ui,
-        "Time",
-        &time.strftime("%H:%M").to_string(),
-        "12:30, 12.5 or 9; standard time, no summer time",
-        read_clock,
-    );
+    let clock = typed(ui, texts::TIME, &time.strftime("%H:%M").to_string(), texts::TIME_TIP, read_clock);
     if let Some((hour, minute)) = clock {
         moment::set_clock(scene, hour, minute);
     }
     let before = i32::from(time.hour()) * 60 + i32::from(time.minute());
     let mut minutes = before;
     let slider = ui.add(Slider::new(&mut minutes, 0..=1440 - STEP).show_value(false).smart_aim(false));
-    slider.widget_info(|| WidgetInfo::slider(true, f64::from(minutes) / 60.0, "Time of day"));
+    slider.widget_info(|| WidgetInfo::slider(true, f64::from(minutes) / 60.0, texts::TIME_OF_DAY.get()));
     sun_marks(ui, scene, slider.rect);
     // A time that was typed to the minute stays until the slider is moved. The slider ends before midnight does.
     if minutes != before && before <= 1440 - STEP || slider.dragged() {
@@ -61,11 +57,11 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
 /// When the sun rises and sets, and where it stands.
 fn sun(ui: &mut Ui, scene: &SceneFile) {
     let day = match moment::sun_hours(scene).map(|hours| (hours.rise, hours.set)) {
-        Some((Some(rise), Some(set))) => format!("Sunrise {}, sunset {}", moment::clock(rise), moment::clock(set)),
-        Some((Some(rise), None)) => format!("Sunrise {}, no sunset", moment::clock(rise)),
-        Some((None, Some(set))) => format!("No sunrise, sunset {}", moment::clock(set)),
-        Some((None, None)) => "No sunrise or sunset on this day".to_owned(),
-        None => "No place: the sun is not known".to_owned(),
+        Some((Some(rise), Some(set))) => texts::rise_and_set(moment::clock(rise), moment::clock(set)),
+        Some((Some(rise), None)) => texts::no_set(moment::clock(rise)),
+        Some((None, Some(set))) => texts::no_rise(moment::clock(set)),
+        Some((None, None)) => texts::NO_RISE_OR_SET.into(),
+        None => texts::NO_PLACE_NO_SUN.into(),
     };
     let weak = theme::palette(ui).weak;
     lines(ui, &day, weak, 1);
@@ -77,28 +73,28 @@ fn position(scene: &SceneFile) -> String {
     let Some((altitude, bearing)) = moment::sun(scene) else { return String::new() };
     let words = moment::height_words(altitude.to_degrees(), 0);
     if altitude <= 0.0 {
-        format!("Sun {words}")
+        texts::sun_at(words)
     } else if moment::before_facade((altitude, bearing), scene.site.azimuth) {
-        format!("Sun {words}, before the façade")
+        texts::sun_before(words)
     } else {
-        format!("Sun {words}, behind the façade")
+        texts::sun_behind(words)
     }
 }
 
 fn angles(ui: &mut Ui, scene: &mut SceneFile) {
-    ui.weak("The sun is given by angles.");
+    ui.weak(texts::BY_ANGLES);
     let sun = &mut scene.sky.sun;
     let mut altitude = sun.altitude.unwrap_or(40.0);
     let mut azimuth = sun.azimuth.unwrap_or(180.0);
-    let changed = number(ui, "Sun altitude", "°", &mut altitude, -90.0..=90.0, 1)
-        | number(ui, "Sun bearing", "°", &mut azimuth, 0.0..=360.0, 1);
+    let changed = number(ui, texts::SUN_ALTITUDE, "°", &mut altitude, -90.0..=90.0, 1)
+        | number(ui, texts::SUN_BEARING, "°", &mut azimuth, 0.0..=360.0, 1);
     if changed {
         sun.altitude = Some(altitude);
         sun.azimuth = Some(azimuth);
     }
     let weak = theme::palette(ui).weak;
     lines(ui, &position(scene), weak, 1);
-    if ui.button("By date and time").clicked() {
+    if ui.button(texts::BY_DATE).clicked() {
         moment::set(scene, jiff::civil::date(2026, 3, 21).at(12, 0, 0, 0));
         scene.site.latitude.get_or_insert(48.78);
         scene.site.longitude.get_or_insert(9.18);

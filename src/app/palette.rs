@@ -1,0 +1,205 @@
+//! What the palette lists for its words: commands, states of the chosen product, products of the catalogue, best first.
+
+use super::command::Command;
+use super::control::state_words;
+use super::jobs::Lane;
+use super::offer::{key_words, listed};
+use super::shelf::{Found, Query};
+use super::state::State;
+use super::title;
+use super::window::App;
+use super::work::Outcome;
+use crate::texts::shell;
+
+/// Rows shown at most.
+pub const ROWS: usize = 12;
+
+/// Products looked through at most.
+const PRODUCTS: usize = 50;
+
+/// A product of the catalogue that the words fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Hit {
+    /// Its key.
+    pub key: String,
+    /// Its name.
+    pub name: String,
+    /// What else is said about it: maker and kind.
+    pub about: String,
+}
+
+/// A row of the palette.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What is done.
+    pub command: Command,
+    /// What it is called.
+    pub text: String,
+    /// One sentence more; may be empty.
+    pub tip: String,
+    /// Its keys in words, where it has some.
+    pub keys: Option<String>,
+}
+
+/// How well a name (or what is said about it) has all of some words, all in lower case: the less the better; `None` where
+/// one is missing. A whole word goes before the beginning of one, that before a part, and the tip comes last.
+fn misfit(name: &str, about: &str, wanted: &[String]) -> Option<usize> {
+    let name = name.to_lowercase();
+    let about = about.to_lowercase();
+    let words = || name.split(|c: char| !c.is_alphanumeric());
+    let one = |wanted: &String| {
+        if words().any(|word| word == wanted) {
+            Some(0)
+        } else if words().any(|word| word.starts_with(wanted.as_str())) {
+            Some(1)
+        } else if name.contains(wanted.as_str()) {
+            Some(3)
+        } else {
+            about.contains(wanted.as_str()).then_some(20)
+        }
+    };
+    let sum: Option<usize> = wanted.iter().map(one).sum();
+    let begins = wanted.first().is_some_and(|word| name.starts_with(word.as_str()));
+    sum.map(|sum| 2 * sum + usize::from(!begins))
+}
+
+/// What the palette lists, the best first; among equals commands before states before products.
+pub fn rows(state: &State, text: &str) -> Vec<Row> {
+    let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
+    // The palette itself is left out: it would only close.
+    let commands = listed().filter(|offer| offer.command != Command::Palette).map(|offer| {
+        let keys = offer.keys.as_ref().map(key_words);
+        (Row { command: offer.command.clone(), text: offer.text.clone(), tip: offer.tip.to_owned(), keys }, "")
+    });
+    let product = title::selected(state).filter(|product| !wanted.is_empty() && product.states.len() > 1);
+    let states = product.into_iter().flat_map(|product| {
+        product.states.iter().map(|one| {
+            let text = shell::state_of(&product.name, state_words(one));
+            let command = Command::SelectState(one.key.clone());
+            (Row { command, text, tip: shell::SHOW_STATE.into(), keys: None }, "")
+        })
+    });
+    let hits = state.palette_hits.iter().filter(|_| !wanted.is_empty()).map(|hit| {
+        let row = Row {
+            command: Command::Select(hit.key.clone()),
+            text: shell::product_named(&hit.name),
+            tip: hit.about.clone(),
+            keys: None,
+        };
+        (row, hit.name.as_str())
+    });
+    let mut list: Vec<(usize, Row)> = commands
+        .chain(states)
+        .chain(hits)
+        .filter_map(|(row, name)| {
+            // A product is known by its name, not by what stands before it.
+            let fit = if name.is_empty() {
+                misfit(&row.text, &row.tip, &wanted)
+            } else {
+                // The catalogue knows more words than are shown, and has looked: what it found fits in any case.
+                misfit(name, &row.tip, &wanted).or(Some(100))
+            };
+            Some((fit?, row))
+        })
+        .collect();
+    if !wanted.is_empty() {
+        list.sort_by_key(|(fit, _)| *fit);
+    }
+    list.truncate(ROWS);
+    list.into_iter().map(|(_, row)| row).collect()
+}
+
+/// What was found in the catalogue, as far as it is what was asked for: words that it had to read as others are none.
+fn hits(found: Found) -> Vec<Hit> {
+    if !found.read_as.is_empty() {
+        return Vec::new();
+    }
+    let hit = |entry: &std::sync::Arc<super::shelf::Entry>| {
+        let about: Vec<&str> =
+            [entry.manufacturer.as_str(), entry.kind.as_str()].into_iter().filter(|words| !words.is_empty()).collect();
+        Hit { key: entry.key.clone(), name: entry.name.clone(), about: about.join(", ") }
+    };
+    found.entries.iter().take(PRODUCTS).map(hit).collect()
+}
+
+impl App {
+    /// Opens or closes the palette.
+    pub(super) fn toggle_palette(&mut self) {
+        let state = &mut self.state;
+        state.palette = if state.palette.is_some() { None } else { Some(String::new()) };
+        state.palette_row = 0;
+        state.palette_hits.clear();
+        self.jobs.cancel(Lane::Palette);
+    }
+
+    /// Takes other words in, and looks in the catalogue what they fit.
+    pub(super) fn edit_palette(&mut self, text: String) {
+        let words = text.trim().to_owned();
+        self.state.palette = Some(text);
+        self.state.palette_row = 0;
+        if words.is_empty() {
+            self.state.palette_hits.clear();
+            self.jobs.cancel(Lane::Palette);
+        } else if let Some(shelf) = self.state.shelf() {
+            let query = Query { text: words, ..Query::default() };
+            self.start(Lane::Palette, move |_| Outcome::Hits(shelf.search(&query)));
+        }
+    }
+
+    /// Products for the palette have come.
+    pub(super) fn take_hits(&mut self, found: Result<Found, super::error::AppError>) {
+        match found {
+            Ok(found) => self.state.palette_hits = hits(found),
+            Err(error) => {
+                self.state.palette_hits.clear();
+                self.tell(&error);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::state::Settings;
+    use crate::texts::{Language, speak};
+
+    fn texts(words: &str, hits: &[&str]) -> Vec<String> {
+        let mut state = State::new(Settings::default());
+        let hit =
+            |name: &&str| Hit { key: (*name).to_owned(), name: (*name).to_owned(), about: "Maker, blind".to_owned() };
+        state.palette_hits = hits.iter().map(hit).collect();
+        rows(&state, words).into_iter().map(|row| row.text).collect()
+    }
+
+    #[test]
+    fn whole_words_go_before_beginnings_and_names_before_tips() {
+        let wanted = |words: &str| words.split(' ').map(str::to_owned).collect::<Vec<_>>();
+        let fit = |name: &str, words: &str| misfit(name, "what it does", &wanted(words));
+        assert!(fit("Undo", "undo") < fit("Undone things", "undo"));
+        assert!(fit("The undone", "undo") < fit("Fundous", "undo"));
+        assert!(fit("Fundous", "undo") < misfit("Delete", "undo brings it back", &wanted("undo")));
+        assert_eq!(fit("Undo", "undo twice"), None);
+        assert_eq!(texts("undo", &[])[0], "Undo");
+        assert_eq!(texts("maximise lid", &[])[0], "Maximise LID");
+    }
+
+    #[test]
+    fn products_stand_between_commands_by_how_well_they_fit() {
+        let list = texts("room", &["Roomy blind", "Bath room panel"]);
+        assert!(list[0].starts_with("Room"), "{list:?}");
+        let panel = list.iter().position(|text| text.contains("Bath room panel"));
+        let roomy = list.iter().position(|text| text.contains("Roomy blind"));
+        assert!(panel.is_some() && roomy.is_none_or(|roomy| panel < Some(roomy)), "{list:?}");
+        // What only the catalogue's own words fit is listed too.
+        assert!(texts("xyz", &["Blind 80"]).iter().any(|text| text.contains("Blind 80")));
+        assert!(texts("", &["Blind 80"]).iter().all(|text| !text.contains("Blind 80")));
+    }
+
+    #[test]
+    fn words_are_those_of_the_language() {
+        let _german = speak(Language::German);
+        assert_eq!(texts("rückgängig", &[])[0], "Rückgängig");
+        assert!(texts("undo", &[]).is_empty());
+    }
+}

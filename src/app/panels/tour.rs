@@ -1,0 +1,77 @@
+//! The tour: a line under the menus that says what to do, and a ring round where. It is never in the way.
+
+use crate::app::command::Command;
+use crate::app::state::{State, Tile};
+use crate::app::theme;
+use crate::app::tiles::{LID, ROOM, SKY};
+use crate::app::tour::{Stop, TourAct};
+use crate::app::window::App;
+use crate::texts::commands::{COMPARE, FILE};
+use crate::texts::{Text, shell};
+use egui::{Id, Key, LayerId, Order, Rect, Stroke, StrokeKind, Ui};
+
+/// Where things stand in this frame.
+#[derive(Default)]
+pub struct Places {
+    /// The catalogue.
+    pub catalogue: Option<Rect>,
+    /// The menus' words in the bar.
+    pub menus: Vec<(Text, Rect)>,
+}
+
+/// Is there anything to say?
+pub const fn speaks(state: &State) -> bool {
+    state.tour.is_some() || state.tour_offered
+}
+
+/// Draws the line.
+pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
+    let Some(tour) = &app.state.tour else {
+        ui.horizontal_wrapped(|ui| {
+            ui.weak(shell::TOUR_OFFER);
+            if ui.button(shell::TOUR_START).clicked() {
+                commands.push(Command::Tour(TourAct::Start));
+            }
+            if ui.button(shell::TOUR_DECLINE).on_hover_text(shell::TOUR_DECLINE_TIP).clicked() {
+                commands.push(Command::Tour(TourAct::Decline));
+            }
+        });
+        return;
+    };
+    let number = Stop::ALL.iter().position(|stop| *stop == tour.stop).unwrap_or(0) + 1;
+    ui.horizontal_wrapped(|ui| {
+        ui.strong(shell::tour_step(number, Stop::ALL.len()));
+        ui.label(tour.stop.words());
+        if ui.button(shell::TOUR_LEAVE).on_hover_text(shell::TOUR_LEAVE_TIP).clicked() {
+            commands.push(Command::Tour(TourAct::Leave));
+        }
+    });
+    // What lies over the window takes the key first.
+    let free = app.state.sheet.is_none() && app.state.palette.is_none() && !egui::Popup::is_any_open(ui.ctx());
+    if free && ui.input(|input| input.key_pressed(Key::Escape)) {
+        commands.push(Command::Tour(TourAct::Leave));
+    }
+}
+
+/// Where a tile stands, if it is in sight.
+fn place_of(app: &App, tile: Tile) -> Option<Rect> {
+    app.bench.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
+}
+
+/// Draws the ring over everything that was drawn.
+pub fn ring(ui: &Ui, app: &App, places: &Places) {
+    let Some(tour) = &app.state.tour else { return };
+    let menu = |menu: Text| places.menus.iter().find(|(one, _)| *one == menu).map(|(_, rect)| *rect);
+    let list: Vec<Rect> = match tour.stop {
+        Stop::Product => places.catalogue.into_iter().collect(),
+        Stop::Sun => place_of(app, SKY).into_iter().collect(),
+        Stop::Light => [LID, ROOM].into_iter().filter_map(|tile| place_of(app, tile)).collect(),
+        Stop::Compare => menu(COMPARE).into_iter().collect(),
+        Stop::HandOn => menu(FILE).into_iter().collect(),
+    };
+    let painter = ui.ctx().layer_painter(LayerId::new(Order::Middle, Id::unique("tour")));
+    for rect in list {
+        let stroke = Stroke::new(3.0, theme::palette(ui).accent);
+        painter.rect_stroke(rect, 4.0, stroke, StrokeKind::Inside);
+    }
+}

@@ -1,0 +1,99 @@
+//! How large the text is, and everything with it: in steps, and never so large that the window has no room for what it
+//! shows at its least size.
+
+use super::window::App;
+use crate::texts::shell;
+use egui::Vec2;
+
+/// The sizes there are, as shares of the desktop's.
+pub const SIZES: [f32; 8] = [0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0];
+
+/// The least window in which everything can be read at the desktop's own size. \[points\]
+pub const LEAST_WINDOW: Vec2 = Vec2::new(960.0, 600.0);
+
+/// Another text size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextSize {
+    /// One step larger.
+    Larger,
+    /// One step smaller.
+    Smaller,
+    /// The desktop's.
+    Normal,
+}
+
+impl TextSize {
+    /// The size after this step.
+    pub fn after(self, size: f32) -> f32 {
+        match self {
+            Self::Larger => SIZES.into_iter().find(|one| *one > size + 1e-3).unwrap_or(size),
+            Self::Smaller => SIZES.into_iter().rev().find(|one| *one < size - 1e-3).unwrap_or(size),
+            Self::Normal => 1.0,
+        }
+    }
+}
+
+/// The largest of the sizes up to the wanted one for which a window of this size \[points of the desktop\] has room; the
+/// desktop's own, or a smaller one that is wanted, has it always.
+pub fn fitting(wanted: f32, window: Vec2) -> f32 {
+    let most = (window / LEAST_WINDOW).min_elem();
+    let fits = |size: &f32| *size <= wanted + 1e-3 && (*size <= 1.0 || *size <= most + 1e-3);
+    SIZES.into_iter().rev().find(fits).unwrap_or(SIZES[0])
+}
+
+/// The window's size without regard to the size of its text. \[points of the desktop\]
+fn window(ctx: &egui::Context) -> Vec2 {
+    ctx.content_rect().size() * ctx.zoom_factor()
+}
+
+impl App {
+    /// Another size of the text, where the window has room for it.
+    pub(super) fn change_text_size(&mut self, change: TextSize) {
+        // From what is shown: the window may have become too small for what was wanted once.
+        let room = window(&self.ctx);
+        let shown = fitting(self.state.settings.text_size, room);
+        let wanted = change.after(shown);
+        if change == TextSize::Larger && fitting(wanted, room) <= shown {
+            self.toasts.info(shell::NO_LARGER);
+        } else {
+            self.state.settings.text_size = wanted;
+        }
+    }
+
+    /// Shows text as large as is wanted and the window has room for.
+    pub(super) fn follow_text_size(&self, ctx: &egui::Context) {
+        let size = fitting(self.state.settings.text_size, window(ctx));
+        if (size - ctx.zoom_factor()).abs() > 1e-3 {
+            ctx.set_zoom_factor(size);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::vec2;
+
+    #[test]
+    fn steps_go_to_the_next_size_and_end_at_the_last() {
+        assert_eq!(TextSize::Larger.after(1.0), 1.1);
+        assert_eq!(TextSize::Smaller.after(1.0), 0.9);
+        // Of an earlier program's, or typed into the file.
+        assert_eq!((TextSize::Larger.after(1.2), TextSize::Smaller.after(1.2)), (1.25, 1.1));
+        assert_eq!((TextSize::Larger.after(2.0), TextSize::Smaller.after(0.8)), (2.0, 0.8));
+        assert_eq!(TextSize::Normal.after(1.75), 1.0);
+    }
+
+    #[test]
+    fn text_is_no_larger_than_the_window_has_room_for() {
+        assert_eq!(fitting(2.0, LEAST_WINDOW), 1.0);
+        assert_eq!(fitting(2.0, vec2(1280.0, 720.0)), 1.1);
+        assert_eq!(fitting(2.0, vec2(1920.0, 1200.0)), 2.0);
+        assert_eq!(fitting(1.25, vec2(1920.0, 1200.0)), 1.25);
+        assert_eq!(fitting(0.8, vec2(1920.0, 1200.0)), 0.8);
+        // A window of a tiny screen, and a file that says nonsense.
+        assert_eq!(fitting(1.5, vec2(640.0, 480.0)), 1.0);
+        assert_eq!(fitting(0.0, LEAST_WINDOW), 0.8);
+        assert_eq!(fitting(f32::NAN, LEAST_WINDOW), 0.8);
+    }
+}

@@ -1,0 +1,36 @@
+//! Stages of what is being computed, as they are shown; the layers below name them in English.
+
+texts! {
+    const ACCURACY = "accuracy" | "Genauigkeit";
+    const CHECKS = "checks" | "Prüfungen";
+    const COEFFICIENTS = "coefficients" | "Koeffizienten";
+    const COMPUTING = "computing" | "rechnen";
+    const CONTROL = "control" | "Regelung";
+    const DAYS = "days" | "Tage";
+    const DIRECT_LIGHT = "direct light" | "direktes Licht";
+    const DIRECT = "direct" | "direkt";
+    const FIGURES = "figures" | "Kennwerte";
+    const FILES = "files" | "Dateien";
+    const GONIOPHOTOMETER = "goniophotometer" | "Goniophotometer";
+    const HOLES = "holes" | "Löcher";
+    const INTERREFLECTION = "interreflection" | "Interreflexion";
+    const LAYERS = "layers" | "Schichten";
+    const INTENSITIES = "luminous intensities" | "Lichtstärken";
+    const MOMENTS = "moments" | "Zeitpunkte";
+    const PACKAGES = "packages" | "Pakete";
+    const ROOM = "room" | "Raum";
+    const SCENE = "scene" | "Szene";
+    const STATES = "states" | "Stellungen";
+    const SURFACES = "surfaces" | "Flächen";
+    const WAITING = "waiting for the product's data" | "auf Produktdaten warten";
+}
+
+/// The word for a stage in the language that is spoken; one that is not known here as it is.
+pub fn word(stage: &'static str) -> &'static str {
+    match super::language() {
+        super::Language::English => stage,
+        super::Language::German => {
+            PAIRS.iter().find(|(english, _)| *english == stage).map_or(stage, |(_, german)| german)
+        }
+    }
+}
