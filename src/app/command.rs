@@ -16,6 +16,7 @@ use super::theme::ThemeChoice;
 use crate::catalogue::Grouping;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Repair;
+use crate::study::data_form::DataForm;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use std::path::PathBuf;
 
@@ -41,6 +42,10 @@ pub enum Command {
     CopyTile(Tile),
     /// The incidence that tiles draw for; the sun's while `None`.
     Incidence(Option<Incident>),
+    /// In which form the BTDF tile shows the data.
+    DataForm(DataForm),
+    /// Shows or hides how light is interpolated between the directions of the data.
+    SchemeMap,
     /// The rule that picks the state.
     Control(ControlMode),
     /// The rule with all its keys.

@@ -36,6 +36,7 @@ impl App {
         self.refresh();
         self.ask_due();
         self.ask_peaks();
+        self.ask_data_looks();
         self.ask_compared();
         self.ask_preview();
         self.fill_catalogue();

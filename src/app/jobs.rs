@@ -42,6 +42,10 @@ pub enum Lane {
     Surfaces,
     /// What control chooses over the year.
     Year,
+    /// The data of one incidence in another form.
+    DataForm,
+    /// How light is interpolated between the directions of the data.
+    Schemes,
     /// Error against run time.
     Accuracy,
     /// Computing the data of the chosen state, which the catalogue does not hold yet.
@@ -73,6 +77,8 @@ impl Lane {
             Self::Room => "room",
             Self::Surfaces => "surfaces of the room",
             Self::Year => "year of control",
+            Self::DataForm => "form of the data",
+            Self::Schemes => "scheme map",
             Self::Accuracy => "error against time",
             Self::Product => "product data",
             Self::Builtin => "built-in products",

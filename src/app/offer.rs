@@ -11,7 +11,10 @@ use super::room_look::RoomView;
 use super::state::{self, PathUse};
 use super::theme::ThemeChoice;
 use super::tiles::TILES;
+use super::views::btdf::form_words;
+use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
+use crate::texts::tiles as btdf_say;
 use crate::texts::{self, language, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
@@ -198,6 +201,11 @@ fn table() -> Vec<Offer> {
             .menu(VIEW, 20),
         offer(ToggleScene, "Scene panel", "Show or hide place, time, sky and room").keys(CTRL, Key::J).menu(VIEW, 21),
     ]);
+    list.extend(Form::ALL.map(|form| {
+        let [word, tip] = form_words(form);
+        offer(Command::DataForm(form), btdf_say::data_offer(word), tip.get()).menu(VIEW, 4).within("BTDF")
+    }));
+    list.push(offer(SchemeMap, btdf_say::SCHEMES_OFFER, btdf_say::SCHEMES_TIP.get()).menu(VIEW, 4).within("BTDF"));
     list.extend(tiles().map(|tile| {
         let tip = "Hand this tile on as a picture (.svg, .png) or as numbers (.csv)";
         offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(FILE, 12).within("Export tile")

@@ -3,6 +3,7 @@
 use super::changes::{Change, Looked, Reread};
 use super::compare::Part;
 use super::control::Year;
+use super::data_looks::{FormResult, SchemesResult};
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
@@ -59,6 +60,10 @@ pub enum Outcome {
     Compared(u64, Box<Compared>),
     /// The room's surfaces.
     Surfaces(Result<SurfaceFigures, AppError>),
+    /// The data of one incidence in another form.
+    DataForm(FormResult),
+    /// How light is interpolated between the directions of the data.
+    Schemes(SchemesResult),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
     /// Files that the user chose.

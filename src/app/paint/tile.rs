@@ -2,6 +2,7 @@
 //! (empty, coarse, stale, wrong).
 
 use super::palette::Palette;
+use crate::texts::Text;
 use egui::{Align, Align2, Color32, FontId, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
 
 /// How far the content is to be trusted.
@@ -81,6 +82,12 @@ impl From<String> for Foot {
 impl From<&str> for Foot {
     fn from(text: &str) -> Self {
         Self(vec![text.to_owned()])
+    }
+}
+
+impl From<Text> for Foot {
+    fn from(text: Text) -> Self {
+        Self(vec![text.into()])
     }
 }
 
@@ -237,8 +244,9 @@ pub fn caption(ui: &Ui, at: egui::Pos2, align: Align2, text: &str) -> Rect {
 }
 
 /// Gives a painted thing its name and value for screen readers, and for tests.
-pub fn name(ui: &Ui, response: &egui::Response, name: &str, value: &str) {
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
+pub fn name(ui: &Ui, response: &egui::Response, name: impl Into<String>, value: &str) {
+    let name: String = name.into();
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name.as_str()));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(value));
 }
 

@@ -12,6 +12,7 @@ mod room;
 mod sky;
 mod transmittance;
 
+pub use btdf::TILE as BTDF;
 pub use drawn::{Drawn, TileInput};
 pub use layout::Layout;
 pub use lid::TILE as LID;
