@@ -40,6 +40,10 @@ pub enum Command {
     BrowseHandOn,
     /// A tile's numbers into the clipboard.
     CopyTile(Tile),
+    /// A tile as a picture into the clipboard.
+    CopyPicture(Tile),
+    /// What the line under the tile says that the pointer was on last, into the clipboard.
+    CopyValue,
     /// The incidence that tiles draw for; the sun's while `None`.
     Incidence(Option<Incident>),
     /// In which form the BTDF tile shows the data.

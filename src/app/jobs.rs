@@ -58,6 +58,8 @@ pub enum Lane {
     Goniophotometer,
     /// What would be handed on.
     Preview,
+    /// A picture for the clipboard.
+    Copy,
     /// Writing files.
     Export,
 }
@@ -85,6 +87,7 @@ impl Lane {
             Self::Compare => "comparison",
             Self::Goniophotometer => "goniophotometer",
             Self::Preview => "preview",
+            Self::Copy => "picture for the clipboard",
             Self::Export => "writing file",
         }
     }

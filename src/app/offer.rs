@@ -14,7 +14,7 @@ use super::tiles::TILES;
 use super::views::btdf::form_words;
 use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
-use crate::texts::tiles as btdf_say;
+use crate::texts::tiles as tiles_say;
 use crate::texts::{self, language, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
@@ -88,7 +88,9 @@ fn arrangement() -> Vec<Offer> {
     use arrange::Arrange::*;
     let plain = |what, text: &str, tip| offer(Command::Arrange(what), text, tip).menu(VIEW, 3).within("Arrange tiles");
     let mut list: Vec<Offer> = arrange::Preset::ALL
-        .map(|ready| offer(Command::Arrange(Preset(ready)), ready.word(), ready.tip()).menu(VIEW, 2).within("Layout"))
+        .map(|ready| {
+            offer(Command::Arrange(Preset(ready)), ready.word(), ready.tip().get()).menu(VIEW, 2).within("Layout")
+        })
         .into();
     list.extend([
         plain(Focus(1), "Next tile", "The keyboard goes to the next tile in sight").keys(PLAIN, Key::F6),
@@ -97,8 +99,8 @@ fn arrangement() -> Vec<Offer> {
         plain(Tab(-1), "Previous tab", "The tab before").keys(CTRL, Key::PageUp),
     ]);
     list.extend(RoomView::ALL.map(|view| {
-        let text = format!("Room: {}", view.word().to_lowercase());
-        offer(Command::RoomView(view), text, view.tip()).menu(VIEW, 4).within("Room")
+        let text = format!("Room: {}", view.word().get().to_lowercase());
+        offer(Command::RoomView(view), text, view.tip().get()).menu(VIEW, 4).within("Room")
     }));
     list.extend(Way::ALL.map(|way| {
         let text = format!("Move tile {}", way.word());
@@ -171,7 +173,7 @@ fn table() -> Vec<Offer> {
         offer(Palette, "Command palette", "Find a command by its words").keys(CTRL, Key::K).menu(HELP, 0),
     ];
     for (number, tile) in tiles().enumerate() {
-        let one = offer(Maximise(Some(tile)), format!("Maximise {}", tile.title), tile.help).menu(VIEW, 0);
+        let one = offer(Maximise(Some(tile)), format!("Maximise {}", tile.name), tile.help.get()).menu(VIEW, 0);
         // The first nine by their number.
         let key = Key::from_name(&(number + 1).to_string());
         list.push(Offer { keys: key.map(|key| KeyboardShortcut::new(PLAIN, key)), ..one });
@@ -203,16 +205,27 @@ fn table() -> Vec<Offer> {
     ]);
     list.extend(Form::ALL.map(|form| {
         let [word, tip] = form_words(form);
-        offer(Command::DataForm(form), btdf_say::data_offer(word), tip.get()).menu(VIEW, 4).within("BTDF")
+        offer(Command::DataForm(form), tiles_say::data_offer(word), tip.get()).menu(VIEW, 4).within("BTDF")
     }));
-    list.push(offer(SchemeMap, btdf_say::SCHEMES_OFFER, btdf_say::SCHEMES_TIP.get()).menu(VIEW, 4).within("BTDF"));
+    list.push(offer(SchemeMap, tiles_say::SCHEMES_OFFER, tiles_say::SCHEMES_TIP.get()).menu(VIEW, 4).within("BTDF"));
     list.extend(tiles().map(|tile| {
         let tip = "Hand this tile on as a picture (.svg, .png) or as numbers (.csv)";
-        offer(ExportTile(tile), format!("Export tile {}…", tile.title), tip).menu(FILE, 12).within("Export tile")
+        offer(ExportTile(tile), format!("Export tile {}…", tile.name), tip).menu(FILE, 12).within("Export tile")
     }));
     list.extend(tiles().map(|tile| {
-        offer(CopyTile(tile), format!("Copy tile {} as CSV", tile.title), "This tile's numbers into the clipboard")
+        offer(CopyTile(tile), format!("Copy tile {} as CSV", tile.name), "This tile's numbers into the clipboard")
     }));
+    list.extend(tiles().map(|tile| {
+        let text = tiles_say::copy_picture(tile.name);
+        offer(CopyPicture(tile), text, tiles_say::COPY_PICTURE_TIP.get())
+            .menu(EDIT, 20)
+            .within(tiles_say::COPY_AS_PICTURE.get())
+    }));
+    list.push(
+        offer(CopyValue, tiles_say::COPY_VALUE, tiles_say::COPY_VALUE_TIP.get())
+            .keys(CTRL.plus(SHIFT), Key::C)
+            .menu(EDIT, 21),
+    );
     list.extend(ThemeChoice::ALL.map(|choice| {
         offer(Theme(choice), format!("Theme: {}", choice.word()), "Colours of the window").menu(VIEW, 30)
     }));

@@ -231,6 +231,7 @@ impl App {
                 self.state.hand_on.revision += 1;
                 self.state.hand_on.shown = Some(result.map_err(|error| error.to_string()));
             }
+            Outcome::Copied(tile, drawn) => self.take_copied(tile, drawn),
             Outcome::There(what, path, there) => self.take_there(what, path, there),
             Outcome::Written(what, Ok(path)) => {
                 self.remember_folder(&path);

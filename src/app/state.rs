@@ -24,6 +24,7 @@ use crate::study::comparison::same_question;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
+use crate::texts::Text;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -31,10 +32,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// A tile of the bench, by what it says of itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Tile {
-    /// Title, and its name elsewhere.
+    /// Its name in files and settings.
     pub title: &'static str,
+    /// Its name for people.
+    pub name: Text,
     /// One sentence and its source.
-    pub help: &'static str,
+    pub help: Text,
 }
 
 /// What undo and redo go over.

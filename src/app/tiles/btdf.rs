@@ -11,13 +11,11 @@ use crate::app::state::Tile;
 use crate::app::title;
 use crate::app::views::btdf::{self, FormInput, SchemesInput};
 use crate::study::data_form::DataForm;
+use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile = Tile {
-    title: "BTDF",
-    help: "Where light from one direction leaves, as luminance per illuminance (q in 1/sr). IEA SHC Task 31, eq 2.",
-};
+pub const TILE: Tile = Tile { title: "BTDF", name: say::BTDF, help: say::BTDF_HELP };
 
 /// Its drawing.
 #[derive(Default)]

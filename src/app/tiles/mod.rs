@@ -136,7 +136,7 @@ impl Bench {
         if !drawn.ready(seen)
             && let Some((words, is_error)) = seen.awaited()
         {
-            waiting(ui, tile.title, tile.help, &words, is_error);
+            waiting(ui, tile.name.get(), tile.help.get(), &words, is_error);
             return None;
         }
         drawn.show(ui, seen, commands)
