@@ -45,7 +45,11 @@ impl App {
             Command::HandOn(choices) => self.choose_hand_on(*choices),
             Command::BrowseHandOn => self.browse_hand_on(),
             Command::CopyTile(tile) => self.copy_tile(tile),
+            Command::CopyPicture(tile) => self.copy_picture(tile),
+            Command::CopyValue => self.copy_value(),
             Command::Incidence(chosen) => state.incident = chosen,
+            Command::DataForm(form) => self.look_at_data(|look| look.form = form),
+            Command::SchemeMap => self.look_at_data(|look| look.schemes ^= true),
             Command::Control(mode) => self.control(mode),
             Command::ControlKeys(keys) => self.set_control(*keys),
             Command::ControlOf(index) => {

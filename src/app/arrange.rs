@@ -1,5 +1,7 @@
 //! What can be asked of the arrangement of the tiles.
 
+use crate::texts::{Text, tiles as say};
+
 /// A ready arrangement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Preset {
@@ -18,22 +20,22 @@ impl Preset {
     pub const ALL: [Self; 4] = [Self::All, Self::Designer, Self::Maker, Self::Science];
 
     /// As menu and palette call it.
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::All => "Reset layout",
-            Self::Designer => "Layout: Designer",
-            Self::Maker => "Layout: Maker",
-            Self::Science => "Layout: Science",
+            Self::All => say::LAYOUT_ALL,
+            Self::Designer => say::LAYOUT_DESIGNER,
+            Self::Maker => say::LAYOUT_MAKER,
+            Self::Science => say::LAYOUT_SCIENCE,
         }
     }
 
     /// One sentence.
-    pub const fn tip(self) -> &'static str {
+    pub const fn tip(self) -> Text {
         match self {
-            Self::All => "All tiles side by side, as at a first start",
-            Self::Designer => "The room large, sky and transmittance beside it, the rest as tabs",
-            Self::Maker => "BTDF and transmittance large, LID beside them, the rest as tabs",
-            Self::Science => "BTDF, LID and room large, the rest as tabs under the sky",
+            Self::All => say::LAYOUT_ALL_TIP,
+            Self::Designer => say::LAYOUT_DESIGNER_TIP,
+            Self::Maker => say::LAYOUT_MAKER_TIP,
+            Self::Science => say::LAYOUT_SCIENCE_TIP,
         }
     }
 }
@@ -56,12 +58,12 @@ impl Way {
     pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Up, Self::Down];
 
     /// In words: "left".
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::Up => "up",
-            Self::Down => "down",
+            Self::Left => say::LEFT,
+            Self::Right => say::RIGHT,
+            Self::Up => say::UP,
+            Self::Down => say::DOWN,
         }
     }
 }

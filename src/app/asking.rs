@@ -28,7 +28,16 @@ impl App {
 
     /// Is nothing being computed that is in sight, and nothing still to be asked for?
     pub(super) fn standing(&self) -> bool {
-        const LANES: [Lane; 6] = [Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Surfaces, Lane::Year];
+        const LANES: [Lane; 8] = [
+            Lane::Scene,
+            Lane::Product,
+            Lane::Lid,
+            Lane::Room,
+            Lane::Surfaces,
+            Lane::Year,
+            Lane::DataForm,
+            Lane::Schemes,
+        ];
         // Without a product nothing is asked for.
         let nothing = self.state.shelf().is_none() || self.state.document.selection.product.is_empty();
         (nothing || self.asked.as_ref().is_some_and(|asked| asked.asks_the_same(&self.state.document)))

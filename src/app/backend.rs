@@ -9,9 +9,10 @@ use crate::catalogue::{
     Catalogue, Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateKey, StateName, Stored, Words,
     default_path,
 };
-use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::btdf::{Btdf, Dataset, Indicatrices};
 use crate::compute::direction::Incident;
 use crate::compute::estimate::{Progress, Silent};
+use crate::compute::lid::Interpolator;
 use crate::formats::ies::IesEdition;
 use crate::study::accuracy::{Accuracy, ladder};
 use crate::study::builtin;
@@ -305,6 +306,10 @@ impl Engine for StudyEngine {
         progress: &dyn Progress,
     ) -> Result<Subject, AppError> {
         subject(question, incident, wanted, (&self.session, &*self.files), progress)
+    }
+
+    fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
+        self.session.interpolator(data)
     }
 
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError> {

@@ -18,6 +18,7 @@ use super::tour::TourAct;
 use crate::catalogue::Grouping;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Repair;
+use crate::study::data_form::DataForm;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use std::path::PathBuf;
 
@@ -41,8 +42,16 @@ pub enum Command {
     BrowseHandOn,
     /// A tile's numbers into the clipboard.
     CopyTile(Tile),
+    /// A tile as a picture into the clipboard.
+    CopyPicture(Tile),
+    /// What the line under the tile says that the pointer was on last, into the clipboard.
+    CopyValue,
     /// The incidence that tiles draw for; the sun's while `None`.
     Incidence(Option<Incident>),
+    /// In which form the BTDF tile shows the data.
+    DataForm(DataForm),
+    /// Shows or hides how light is interpolated between the directions of the data.
+    SchemeMap,
     /// The rule that picks the state.
     Control(ControlMode),
     /// The rule with all its keys.

@@ -4,6 +4,7 @@ use super::arrange::{Arrange, Way};
 use super::state::Tile;
 use super::tiles::{Layout, all, preset};
 use super::window::App;
+use crate::texts::tiles as say;
 use egui::{Pos2, Rect};
 
 /// The nearest of some rectangles on one side of another: the one across from its middle first.
@@ -46,7 +47,7 @@ impl App {
         let own = bench.in_hand;
         let number = in_sight.iter().position(|tile| *tile == own).unwrap_or(0) as i32;
         let next = |step: i32| in_sight[(number + step).rem_euclid(in_sight.len() as i32) as usize];
-        let mut nothing = None;
+        let mut nothing: Option<String> = None;
         let changed = match what {
             Arrange::Preset(_) => None,
             Arrange::Focus(step) => {
@@ -65,31 +66,32 @@ impl App {
                     Some(layout)
                 }
                 None => {
-                    nothing = Some("is no tab: put it to others first (Join tabs)");
+                    nothing = Some(say::is_no_tab_join(own.name));
                     None
                 }
             },
             Arrange::Move(way) => {
                 let other = beside(&bench.places, own, way);
-                nothing = other.is_none().then_some("has no tile on that side");
+                nothing = other.is_none().then(|| say::none_beside(own.name));
                 other.map(|other| layout.swapped(own, other))
             }
             Arrange::Join => Some(layout.joined(own, next(1))),
             Arrange::Split => {
                 let split = layout.clone().split(own);
-                nothing = (split == layout).then_some("is no tab");
+                nothing = (split == layout).then(|| say::is_no_tab(own.name));
                 Some(split)
             }
             Arrange::Width(more) | Arrange::Height(more) => {
                 let wide = matches!(what, Arrange::Width(_));
                 let done = layout.resize(own, wide, more);
-                nothing = (!done).then_some(if wide { "shares no width" } else { "shares no height" });
+                let told = || if wide { say::shares_no_width(own.name) } else { say::shares_no_height(own.name) };
+                nothing = (!done).then(told);
                 Some(layout)
             }
         };
         bench.to_focus = true;
         if let Some(words) = nothing {
-            self.toasts.info(format!("{} {words}", own.title));
+            self.toasts.info(words);
         } else if let Some(layout) = changed {
             self.keep_layout(&layout);
         }
@@ -119,7 +121,7 @@ mod tests {
 
     #[test]
     fn the_tile_beside_is_the_one_across() {
-        let tile = |title| Tile { title, help: "" };
+        let tile = |title| Tile { title, name: say::SKY, help: say::SKY_HELP };
         let [a, b, c] = ["a", "b", "c"].map(tile);
         let at = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
         // a over the whole height at the left, b over c at the right.

@@ -3,9 +3,10 @@
 use super::error::AppError;
 use super::shelf::Shelf;
 use super::shelf_library::WindowLibrary;
+use crate::compute::btdf::Indicatrices;
 use crate::compute::direction::Incident;
 use crate::compute::estimate::{Estimate, Progress};
-use crate::compute::lid::Lid;
+use crate::compute::lid::{Interpolator, Lid};
 use crate::formats::luminaire::Description;
 use crate::study::SurfaceLight;
 use crate::study::accuracy::Accuracy;
@@ -105,6 +106,10 @@ pub trait Engine: Send + Sync {
         progress: &dyn Progress,
     ) -> Result<Subject, AppError> {
         subject(question, incident, wanted, (&Session::new(), &Library::default()), progress)
+    }
+    /// What interpolation between the directions of data needs.
+    fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
+        Arc::new(Interpolator::new(Arc::clone(data)))
     }
     /// Error against run time of every method.
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;

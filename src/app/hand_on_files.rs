@@ -53,7 +53,8 @@ impl Order {
         if self.choices.print { &Inks::PRINT } else { &Inks::LIGHT }
     }
 
-    fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
+    /// The tile that is chosen, as a drawing.
+    pub(super) fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
         let choices = &self.choices;
         // Before anything is computed: settings of another day may hold any number.
         let Size { width, height, unit } = choices.size;

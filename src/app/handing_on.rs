@@ -96,7 +96,7 @@ impl App {
     }
 
     /// What a job needs; `None` before the catalogue is open and the product is there.
-    fn order(&self) -> Option<Order> {
+    pub(super) fn order(&self) -> Option<Order> {
         let state = &self.state;
         let selected = &state.document.selection.product;
         let product = state.product.clone().filter(|product| product.key == *selected)?;

@@ -44,6 +44,10 @@ pub enum Lane {
     Surfaces,
     /// What control chooses over the year.
     Year,
+    /// The data of one incidence in another form.
+    DataForm,
+    /// How light is interpolated between the directions of the data.
+    Schemes,
     /// Error against run time.
     Accuracy,
     /// Computing the data of the chosen state, which the catalogue does not hold yet.
@@ -56,6 +60,8 @@ pub enum Lane {
     Goniophotometer,
     /// What would be handed on.
     Preview,
+    /// A picture for the clipboard.
+    Copy,
     /// Writing files.
     Export,
 }
@@ -76,12 +82,15 @@ impl Lane {
             Self::Room => shell::LANE_ROOM,
             Self::Surfaces => shell::LANE_SURFACES,
             Self::Year => shell::LANE_YEAR,
+            Self::DataForm => shell::LANE_DATA_FORM,
+            Self::Schemes => shell::LANE_SCHEMES,
             Self::Accuracy => shell::LANE_ACCURACY,
             Self::Product => shell::LANE_PRODUCT,
             Self::Builtin => shell::LANE_BUILTIN,
             Self::Compare => shell::LANE_COMPARE,
             Self::Goniophotometer => shell::LANE_GONIOPHOTOMETER,
             Self::Preview => shell::LANE_PREVIEW,
+            Self::Copy => shell::LANE_COPY,
             Self::Export => shell::LANE_EXPORT,
         }
     }

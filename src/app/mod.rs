@@ -16,6 +16,8 @@ pub mod compare;
 pub mod compare_columns;
 pub mod comparing;
 pub mod control;
+pub mod copying;
+pub mod data_looks;
 pub mod dialogs;
 pub mod disk;
 mod docking;

@@ -13,8 +13,11 @@ use super::text_size::TextSize as Size;
 use super::theme::ThemeChoice;
 use super::tiles::TILES;
 use super::tour::TourAct;
+use super::views::btdf::form_words;
+use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
+use crate::texts::tiles as tiles_say;
 use crate::texts::{self, Language::English, Text, language, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
@@ -149,7 +152,7 @@ fn table() -> Vec<Offer> {
         offer(Palette, words::PALETTE, words::PALETTE_TIP).keys(CTRL, Key::K).menu(HELP, 0),
     ];
     for (number, tile) in tiles().enumerate() {
-        let one = offer(Maximise(Some(tile)), words::maximise(tile.title), tile.help).menu(VIEW, 0);
+        let one = offer(Maximise(Some(tile)), words::maximise(tile.name), tile.help).menu(VIEW, 0);
         // The first nine by their number.
         let key = Key::from_name(&(number + 1).to_string());
         list.push(Offer { keys: key.map(|key| KeyboardShortcut::new(PLAIN, key)), ..one });
@@ -176,12 +179,30 @@ fn table() -> Vec<Offer> {
         offer(ToggleCatalogue, words::CATALOGUE_PANEL, words::CATALOGUE_PANEL_TIP).keys(CTRL, Key::B).menu(VIEW, 20),
         offer(ToggleScene, words::SCENE_PANEL, words::SCENE_PANEL_TIP).keys(CTRL, Key::J).menu(VIEW, 21),
     ]);
+    list.extend(Form::ALL.map(|form| {
+        let [word, tip] = form_words(form);
+        offer(Command::DataForm(form), tiles_say::data_offer(word), tip).menu(VIEW, 4).within(Text::new("BTDF", "BTDF"))
+    }));
+    list.push(
+        offer(SchemeMap, tiles_say::SCHEMES_OFFER, tiles_say::SCHEMES_TIP)
+            .menu(VIEW, 4)
+            .within(Text::new("BTDF", "BTDF")),
+    );
     list.extend(tiles().map(|tile| {
-        offer(ExportTile(tile), words::export_tile(tile.title), words::EXPORT_TILE_TIP)
+        offer(ExportTile(tile), words::export_tile(tile.name), words::EXPORT_TILE_TIP)
             .menu(FILE, 12)
             .within(words::EXPORT_TILE)
     }));
-    list.extend(tiles().map(|tile| offer(CopyTile(tile), words::copy_tile(tile.title), words::COPY_TILE_TIP)));
+    list.extend(tiles().map(|tile| {
+        let text = tiles_say::copy_picture(tile.name);
+        offer(CopyPicture(tile), text, tiles_say::COPY_PICTURE_TIP).menu(EDIT, 20).within(tiles_say::COPY_AS_PICTURE)
+    }));
+    list.push(
+        offer(CopyValue, tiles_say::COPY_VALUE, tiles_say::COPY_VALUE_TIP)
+            .keys(CTRL.plus(SHIFT), Key::C)
+            .menu(EDIT, 21),
+    );
+    list.extend(tiles().map(|tile| offer(CopyTile(tile), words::copy_tile(tile.name), words::COPY_TILE_TIP)));
     list.extend(
         ThemeChoice::ALL
             .map(|choice| offer(Theme(choice), words::theme_is(choice.word()), words::THEME_TIP).menu(VIEW, 30)),

@@ -119,6 +119,8 @@ impl App {
                         Lane::Lid => self.results.lid.error = Some(text),
                         Lane::Room => self.results.room.error = Some(text),
                         Lane::Surfaces => self.results.surfaces.error = Some(text),
+                        Lane::DataForm => self.results.form.error = Some(text),
+                        Lane::Schemes => self.results.schemes.error = Some(text),
                         Lane::Accuracy => self.results.accuracy.error = Some(text),
                         Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
                         Lane::Year => self.results.year.error = Some(text),
@@ -172,6 +174,8 @@ impl App {
             Outcome::Hits(found) => self.take_hits(found),
             Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
             Outcome::Year(result) => self.results.year.take(result),
+            Outcome::DataForm(made) => self.results.form.put(Arc::new(made)),
+            Outcome::Schemes(made) => self.results.schemes.put(Arc::new(made)),
             Outcome::Accuracy(result) => self.results.accuracy.take(result),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
@@ -229,6 +233,7 @@ impl App {
                 self.state.hand_on.revision += 1;
                 self.state.hand_on.shown = Some(result.map_err(|error| error.to_string()));
             }
+            Outcome::Copied(tile, drawn) => self.take_copied(tile, drawn),
             Outcome::There(what, path, there) => self.take_there(what, path, there),
             Outcome::Written(what, Ok(path)) => {
                 self.remember_folder(&path);

@@ -1,5 +1,6 @@
 //! How the room is drawn: kept from one start to the next.
 
+use crate::texts::{Text, tiles as say};
 use serde::{Deserialize, Serialize};
 
 /// From where one looks at the room.
@@ -20,20 +21,20 @@ impl RoomView {
     pub const ALL: [Self; 3] = [Self::Plan, Self::Section, Self::Perspective];
 
     /// In words, as on the toggle.
-    pub const fn word(self) -> &'static str {
+    pub const fn word(self) -> Text {
         match self {
-            Self::Plan => "Plan",
-            Self::Section => "Section",
-            Self::Perspective => "Perspective",
+            Self::Plan => say::PLAN,
+            Self::Section => say::SECTION,
+            Self::Perspective => say::PERSPECTIVE,
         }
     }
 
     /// One sentence.
-    pub const fn tip(self) -> &'static str {
+    pub const fn tip(self) -> Text {
         match self {
-            Self::Plan => "The sensor plane from above",
-            Self::Section => "The room from the side: windows, sensor plane",
-            Self::Perspective => "The surfaces as they are lit; drag to turn, wheel to zoom",
+            Self::Plan => say::PLAN_TIP,
+            Self::Section => say::SECTION_TIP,
+            Self::Perspective => say::PERSPECTIVE_TIP,
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::changes::{Change, Editing};
 use super::compare::View;
 use super::control::{Year, YearKey};
+use super::data_looks::{DataLook, FormResult, SchemesResult};
 use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
@@ -33,10 +34,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// A tile of the bench, by what it says of itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Tile {
-    /// Title, and its name elsewhere.
+    /// Its name in files and settings.
     pub title: &'static str,
+    /// Its name for people.
+    pub name: Text,
     /// One sentence and its source.
-    pub help: &'static str,
+    pub help: Text,
 }
 
 /// What undo and redo go over.
@@ -177,6 +180,10 @@ pub struct Results {
     pub surfaces: Shown<SurfaceFigures>,
     /// What control does over the year.
     pub year: Shown<Year>,
+    /// The data of one incidence in another form than as measured.
+    pub form: Shown<FormResult>,
+    /// How light is interpolated between the directions of the data.
+    pub schemes: Shown<SchemesResult>,
     /// Error against run time, of the scene that it was asked for.
     pub accuracy: Shown<Accuracy>,
 }
@@ -320,6 +327,8 @@ pub struct State {
     pub product: Option<Arc<Product>>,
     /// The incidence that the user chose; the sun's while `None` and the sun is before the façade.
     pub incident: Option<Incident>,
+    /// How the BTDF tile looks at the data.
+    pub data_look: DataLook,
     /// Key of the state that is shown: as set by hand, or as control picked it.
     pub shown_state: String,
     /// Sky and sun.
@@ -385,6 +394,7 @@ impl State {
             computing: None,
             product: None,
             incident: None,
+            data_look: DataLook::default(),
             shown_state: String::new(),
             daylight: Shown::default(),
             scene_error: None,

@@ -4,6 +4,7 @@ use super::autosave::Autosave;
 use super::backend;
 use super::compare_columns::Columns;
 use super::control::YearKey;
+use super::data_looks::{FormKey, SchemesKey};
 use super::dialogs::{FileDialogs, NoDialogs};
 use super::due::Due;
 use super::engine::{Engine, LidFigures};
@@ -64,6 +65,8 @@ pub struct App {
     pub(super) undoer: Undoer<Document>,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
+    pub(super) asked_form: Option<FormKey>,
+    pub(super) asked_schemes: Option<SchemesKey>,
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
     pub(super) due: Due,
     pub(super) export: Exports,
@@ -146,6 +149,8 @@ impl App {
             adding: BTreeSet::new(),
             asked: None,
             asked_year: None,
+            asked_form: None,
+            asked_schemes: None,
             asked_peaks: None,
             due: Due::default(),
             export: Exports::default(),

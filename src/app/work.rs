@@ -3,6 +3,8 @@
 use super::changes::{Change, Looked, Reread};
 use super::compare::Part;
 use super::control::Year;
+use super::copying::Pixels;
+use super::data_looks::{FormResult, SchemesResult};
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
@@ -13,7 +15,7 @@ use super::import::{Import, Proposed};
 use super::jobs::JobState;
 use super::scene::{Selection, rule};
 use super::shelf::{Found, Shelf};
-use super::state::{Daylight, PathUse};
+use super::state::{Daylight, PathUse, Tile};
 use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
@@ -61,6 +63,10 @@ pub enum Outcome {
     Compared(u64, Box<Compared>),
     /// The room's surfaces.
     Surfaces(Result<SurfaceFigures, AppError>),
+    /// The data of one incidence in another form.
+    DataForm(FormResult),
+    /// How light is interpolated between the directions of the data.
+    Schemes(SchemesResult),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
     /// Files that the user chose.
@@ -108,6 +114,8 @@ pub enum Outcome {
     There(PathUse, PathBuf, bool),
     /// What would be handed on.
     Preview(Result<Preview, AppError>),
+    /// A tile was drawn for the clipboard.
+    Copied(Tile, Result<Pixels, AppError>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
 }

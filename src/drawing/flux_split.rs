@@ -1,5 +1,7 @@
 //! Where transmitted light goes, in shares and in words.
 
+use crate::texts::{Text, fixed, tiles as say};
+
 /// Where the transmitted light goes, as shares of the light that arrives; their sum is τ of that situation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FluxSplit {
@@ -20,34 +22,46 @@ impl FluxSplit {
     }
 
     /// The zones from top to bottom with their names.
-    pub fn parts(&self) -> [(&'static str, f64); 4] {
-        [("ceiling", self.ceiling), ("eye zone", self.eye_zone), ("work zone", self.work_zone), ("floor", self.floor)]
+    pub fn parts(&self) -> [(Text, f64); 4] {
+        [
+            (say::CEILING, self.ceiling),
+            (say::EYE_ZONE, self.eye_zone),
+            (say::WORK_ZONE, self.work_zone),
+            (say::FLOOR, self.floor),
+        ]
     }
 
-    /// The zone that gets most, with its share.
-    fn greatest(&self) -> (&'static str, f64) {
-        self.parts().into_iter().fold(("", -1.0), |best, part| if part.1 > best.1 { part } else { best })
+    /// Number of the zone that gets most, from top to bottom.
+    fn greatest(&self) -> usize {
+        let parts = self.parts();
+        (0..4).fold(0, |best, zone| if parts[zone].1 > parts[best].1 { zone } else { best })
     }
 
     /// "Of 41 % transmitted, 28 goes to the ceiling."
     pub fn sentence(&self) -> String {
         if self.total() <= 0.0 {
-            return "Nothing is transmitted.".to_owned();
+            return say::NOTHING_TRANSMITTED.into();
         }
-        let (zone, share) = self.greatest();
-        format!("Of {} % transmitted, {} goes to the {zone}.", percent(self.total()), percent(share))
+        let zone = self.greatest();
+        let (all, share) = (percent(self.total()), percent(self.parts()[zone].1));
+        match zone {
+            0 => say::of_transmitted_ceiling(all, share),
+            1 => say::of_transmitted_eye(all, share),
+            2 => say::of_transmitted_work(all, share),
+            _ => say::of_transmitted_floor(all, share),
+        }
     }
 
     /// All zones in one line, in the order of the bar, and shorter.
     pub fn lines(&self) -> [String; 4] {
         let all = percent(self.total());
         let [ceiling, eye, work, floor] = self.parts().map(|(_, share)| percent(share));
-        let (zone, share) = self.greatest();
+        let (zone, share) = self.parts()[self.greatest()];
         let share = percent(share);
         [
-            format!("ceiling {ceiling} · eye zone {eye} · work zone {work} · floor {floor} %"),
-            format!("ceiling {ceiling}, eye {eye}, work {work}, floor {floor} %"),
-            format!("{share} of {all} % to the {zone}"),
+            say::split_line(&ceiling, &eye, &work, &floor),
+            say::split_line_short(ceiling, eye, work, floor),
+            say::split_most(&share, all, zone),
             format!("{zone}: {share} %"),
         ]
     }
@@ -56,7 +70,7 @@ impl FluxSplit {
 /// Whole percents; one decimal below 1 %.
 pub fn percent(share: f64) -> String {
     let value = 100.0 * share;
-    if value >= 1.0 || value <= 0.0 { format!("{value:.0}") } else { format!("{value:.1}") }
+    fixed(value, usize::from(value < 1.0 && value > 0.0))
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use super::{Align, Frame, Point, Rgb, Shape, TEXT};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrices, Scattered};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
+use crate::texts::tiles as say;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 /// How the polar angle becomes a radius.
@@ -197,11 +198,11 @@ impl Round {
         }
         shapes.push(Shape::ring(self.centre, self.radius, inks.outline, 1.5));
         let [x, y] = self.centre;
-        shapes.push(Shape::text([x, y - self.radius - 9.0], "up", inks.weak));
-        for (word, side, turn) in [("left", -1.0, -90.0), ("right", 1.0, 90.0)] {
+        shapes.push(Shape::text([x, y - self.radius - 9.0], say::UP, inks.weak));
+        for (word, side, turn) in [(say::LEFT, -1.0, -90.0), (say::RIGHT, 1.0, 90.0)] {
             shapes.push(Shape::Text {
                 at: [x + side * (self.radius + 10.0), y],
-                text: word.to_owned(),
+                text: word.into(),
                 colour: inks.weak,
                 size: TEXT,
                 align: Align::Middle,

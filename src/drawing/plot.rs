@@ -4,6 +4,7 @@
 //! draws. Both work in an axis' *coordinate*, the value itself or, on a logarithmic axis, its decimal logarithm.
 
 use super::ticks;
+use crate::texts::{Text, tiles as say};
 
 /// What the numbers of an axis are counted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,7 +172,21 @@ impl Axis {
     }
 }
 
-const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
+/// Short names of the months.
+pub const MONTHS: [Text; 12] = [
+    say::JAN,
+    say::FEB,
+    say::MAR,
+    say::APR,
+    say::MAY,
+    say::JUN,
+    say::JUL,
+    say::AUG,
+    say::SEP,
+    say::OCT,
+    say::NOV,
+    say::DEC,
+];
 /// First days of the months, from 0.
 const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
 
@@ -179,7 +194,7 @@ const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243
 fn date(day: f64) -> String {
     let Some(month) = FIRST.iter().rposition(|first| *first <= day && day < 365.0) else { return String::new() };
     let past = (day - FIRST[month]).floor();
-    if past > 0.0 { format!("{} {}", past + 1.0, MONTHS[month]) } else { MONTHS[month].to_owned() }
+    if past > 0.0 { say::day_month(past + 1.0, MONTHS[month]) } else { MONTHS[month].into() }
 }
 
 /// How the points of a series are drawn.

@@ -11,6 +11,7 @@ pub mod coefficients;
 pub mod compact;
 pub mod comparison;
 pub mod control;
+pub mod data_form;
 mod error;
 pub mod example;
 pub mod facing;

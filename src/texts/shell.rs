@@ -115,6 +115,9 @@ texts! {
     const LANE_BUILTIN = "built-in products" | "Mitgelieferte Produkte";
     const LANE_COMPARE = "comparison" | "Vergleich";
     const LANE_GONIOPHOTOMETER = "goniophotometer" | "Goniophotometer";
+    const LANE_DATA_FORM = "form of the data" | "Form der Daten";
+    const LANE_SCHEMES = "scheme map" | "Karte der Schemata";
+    const LANE_COPY = "picture for the clipboard" | "Bild für die Zwischenablage";
     const LANE_PREVIEW = "preview" | "Vorschau";
     const LANE_EXPORT = "writing file" | "Datei schreiben";
 

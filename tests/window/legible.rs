@@ -99,15 +99,15 @@ fn layouts_and_the_room_from_all_sides_can_be_read() {
     let mut problems = Problems::default();
     for ready in Preset::ALL {
         apply(&mut harness, Command::Arrange(Arrange::Preset(ready)));
-        problems.bench(&mut harness, ready.word());
+        problems.bench(&mut harness, ready.word().get());
     }
     apply(&mut harness, Command::Arrange(Arrange::Preset(Preset::All)));
     let room = TILES.iter().find(|entry| entry.tile.title == "Room").unwrap().tile;
     for view in RoomView::ALL {
         apply(&mut harness, Command::RoomView(view));
-        problems.bench(&mut harness, view.word());
+        problems.bench(&mut harness, view.word().get());
         apply(&mut harness, Command::Maximise(Some(room)));
-        problems.look(&mut harness, view.word(), SIZES[0]);
+        problems.look(&mut harness, view.word().get(), SIZES[0]);
         apply(&mut harness, Command::Maximise(None));
     }
     problems.none_left();

@@ -181,6 +181,8 @@ fn btdf_input(btdf: &Btdf, incident: Incident) -> btdf::Input<'_> {
         incidence: chosen(incident),
         sun: Some(from(42.0, 75.0)),
         range: None,
+        form: None,
+        schemes: None,
         revision: 1,
         status: FINE,
     }

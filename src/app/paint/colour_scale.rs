@@ -2,6 +2,7 @@
 
 use super::palette::Palette;
 use crate::drawing::ticks;
+use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 /// Height that a legend needs. \[points\]
@@ -19,7 +20,7 @@ impl ColourScale {
     pub fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette) {
         let font = FontId::proportional(13.0);
         // In a narrow tile the spacing of the ticks alone says that the scale is logarithmic.
-        let words = if self.log && rect.width() > 170.0 { format!("{unit} (log)") } else { unit.to_owned() };
+        let words = if self.log && rect.width() > 170.0 { say::logarithmic(unit) } else { unit.to_owned() };
         let words = painter.layout_no_wrap(words, font.clone(), palette.weak);
         let bar = Rect::from_min_max(
             pos2(rect.left() + 14.0, rect.top() + 3.0),

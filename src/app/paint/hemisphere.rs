@@ -5,6 +5,7 @@ use super::palette::Palette;
 use crate::compute::basis::{Cell, RingBasis};
 use crate::drawing::hemisphere::arc_steps;
 pub use crate::drawing::hemisphere::{Projection, Side, cell_outline, emergent_disk, incident_disk};
+use crate::texts::tiles as say;
 use egui::epaint::TextShape;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -110,7 +111,7 @@ impl Disk {
         }
         painter.circle_stroke(self.centre, self.radius, Stroke::new(1.5, palette.outline));
         let top = pos2(self.centre.x, self.centre.y - self.radius - 1.0);
-        painter.text(top, Align2::CENTER_BOTTOM, "up", FontId::proportional(13.0), palette.weak);
+        painter.text(top, Align2::CENTER_BOTTOM, say::UP, FontId::proportional(13.0), palette.weak);
     }
 
     /// [`Self::rim`], the words at the sides, and a caption under the disk.
@@ -118,9 +119,10 @@ impl Disk {
         self.rim(painter, projection, palette);
         let font = FontId::proportional(13.0);
         let (c, r) = (self.centre, self.radius);
-        for (word, x, angle) in [("left", c.x - r - 9.0, -FRAC_PI_2 as f32), ("right", c.x + r + 9.0, FRAC_PI_2 as f32)]
+        for (word, x, angle) in
+            [(say::LEFT, c.x - r - 9.0, -FRAC_PI_2 as f32), (say::RIGHT, c.x + r + 9.0, FRAC_PI_2 as f32)]
         {
-            let galley = painter.layout_no_wrap(word.to_owned(), font.clone(), palette.weak);
+            let galley = painter.layout_no_wrap(word.into(), font.clone(), palette.weak);
             let at = pos2(x, c.y) - 0.5 * galley.size();
             painter.add(TextShape::new(at, galley, palette.weak).with_angle_and_anchor(angle, Align2::CENTER_CENTER));
         }

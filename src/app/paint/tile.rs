@@ -2,7 +2,8 @@
 //! (empty, coarse, stale, wrong).
 
 use super::palette::Palette;
-use egui::{Align, Align2, Color32, FontId, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
+use crate::texts::{Language, Text, language, tiles as say};
+use egui::{Align, Align2, Color32, FontId, Id, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
 
 /// How far the content is to be trusted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -23,15 +24,15 @@ pub struct Status<'a> {
 
 impl<'a> Status<'a> {
     /// What a picture that is not the final one says of itself.
-    pub const fn tag(&self) -> Option<&'a str> {
+    pub fn tag(&self) -> Option<&'a str> {
         match (self.stale, self.coarse, self.idle) {
             (true, _, false) => match self.doing {
                 Some(doing) => Some(doing),
-                None => Some("updating…"),
+                None => Some(say::UPDATING.get()),
             },
-            (true, _, true) => Some("outdated"),
-            (false, true, false) => Some("coarse, finer to come"),
-            (false, true, true) => Some("coarse"),
+            (true, _, true) => Some(say::OUTDATED.get()),
+            (false, true, false) => Some(say::COARSE_FOR_NOW.get()),
+            (false, true, true) => Some(say::COARSE.get()),
             (false, false, _) => None,
         }
     }
@@ -81,6 +82,12 @@ impl From<String> for Foot {
 impl From<&str> for Foot {
     fn from(text: &str) -> Self {
         Self(vec![text.to_owned()])
+    }
+}
+
+impl From<Text> for Foot {
+    fn from(text: Text) -> Self {
+        Self(vec![text.into()])
     }
 }
 
@@ -149,6 +156,9 @@ pub fn show<F: Into<Foot>>(
             if let Some(tag) = status.tag().filter(|_| !tagged) {
                 text = text.after(&format!("{tag} · ")).or(tag);
             }
+            if ui.rect_contains_pointer(inner) {
+                ui.data_mut(|data| data.insert_temp(pointed_id(), text.full().to_owned()));
+            }
             let mut line = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
             let short = text.fitting(ui, foot.width());
             let shortened = short != text.full();
@@ -160,6 +170,16 @@ pub fn show<F: Into<Foot>>(
         }
     });
     ui.allocate_rect(full.expand2(egui::vec2(6.0, 2.0)), Sense::hover());
+}
+
+/// Where the line is kept of the tile that the pointer was on last.
+fn pointed_id() -> Id {
+    Id::unique("line of the tile under the pointer")
+}
+
+/// What the line says, in full, under the tile that the pointer was on last.
+pub fn pointed_foot(ctx: &egui::Context) -> Option<String> {
+    ctx.data(|data| data.get_temp(pointed_id()))
 }
 
 /// Width of a line of text.
@@ -176,14 +196,18 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
     // Where title and two buttons do not fit side by side, one menu holds all.
     let title = width(ui, words.title, TITLE);
     let narrow = with_controls && !wide && title + BUTTONS > rect.width();
-    let about = format!("About {}", words.title.to_lowercase());
+    // German nouns keep their capitals.
+    let about = match language() {
+        Language::English => say::about(words.title.to_lowercase()),
+        Language::German => say::about(words.title),
+    };
     if narrow {
         let menu = head.menu_button("…", |ui| {
             controls(ui);
             ui.separator();
             ui.add(egui::Label::new(RichText::new(words.help).size(SMALL)).wrap());
         });
-        menu.response.on_hover_text("View, and about this tile").accessible_name(about);
+        menu.response.on_hover_text(say::VIEW_AND_ABOUT).accessible_name(about);
     } else {
         head.button("?").on_hover_text(words.help).accessible_name(about);
         if with_controls && wide {
@@ -194,7 +218,7 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
                 controls,
             );
         } else if with_controls {
-            head.menu_button("View", controls);
+            head.menu_button(say::VIEW, controls);
         }
     }
     head.with_layout(Layout::left_to_right(Align::Center), |ui| {
@@ -237,8 +261,9 @@ pub fn caption(ui: &Ui, at: egui::Pos2, align: Align2, text: &str) -> Rect {
 }
 
 /// Gives a painted thing its name and value for screen readers, and for tests.
-pub fn name(ui: &Ui, response: &egui::Response, name: &str, value: &str) {
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
+pub fn name(ui: &Ui, response: &egui::Response, name: impl Into<String>, value: &str) {
+    let name: String = name.into();
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name.as_str()));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(value));
 }
 

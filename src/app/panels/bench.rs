@@ -11,6 +11,7 @@ use crate::app::state::Tile;
 use crate::app::theme::{self, TILE_GAP};
 use crate::app::tiles::{TILES, TileInput};
 use crate::app::window::App;
+use crate::texts::tiles as say;
 use egui::{Color32, EventFilter, Key, Modifiers, Rect, Response, Sense, Stroke, Ui, UiBuilder, Visuals, vec2};
 use egui_tiles::{Behavior, EditAction, ResizeState, TabState, TileId, Tiles, Tree, UiResponse};
 
@@ -21,8 +22,7 @@ const LEAST: f32 = 120.0;
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     if let Err(problem) = app.bench.follow(app.state.settings.layout.as_ref()) {
         app.state.settings.layout = None;
-        app.toasts
-            .warning(format!("The kept layout of the tiles cannot be read: {problem}; they stand as at a first start"));
+        app.toasts.warning(say::layout_unreadable(problem));
     }
     let whole = ui.available_rect_before_wrap();
     if let Some(tile) = app.state.maximised {
@@ -60,7 +60,7 @@ impl Behavior<Tile> for Docking<'_> {
     }
 
     fn tab_title_for_pane(&mut self, tile: &Tile) -> egui::WidgetText {
-        egui::RichText::new(tile.title).size(13.0).into()
+        egui::RichText::new(tile.name.get()).size(13.0).into()
     }
 
     fn gap_width(&self, _style: &egui::Style) -> f32 {
@@ -119,13 +119,8 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     let response = ui.interact(head, egui::Id::unique(("tile", tile.title)), Sense::click_and_drag());
     let line = if response.has_focus() { Stroke::new(2.0, palette.accent) } else { Stroke::new(1.0, palette.line) };
     ui.painter().rect(rect, 6, palette.surface, line, egui::StrokeKind::Inside);
-    let response = response.on_hover_text(format!(
-        "Drag: dock elsewhere or as a tab. Double click: fill the bench, or show all tiles (keys 1–{} and 0). Right click: \
-         export, copy, arrange",
-        TILES.len()
-    ));
-    response
-        .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Tile {}", tile.title)));
+    let response = response.on_hover_text(say::head_tip(TILES.len()));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, say::tile_named(tile.name)));
     response.context_menu(|ui| menu(ui, tile, commands));
     // The head that has the keyboard is not asked while another one is about to get it.
     let focused = response.has_focus() && !app.bench.to_focus;
@@ -147,7 +142,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     if numbers && app.bench.is_old(tile, state, results) {
         numbers = false;
         app.export.refuse();
-        app.toasts.error(format!("Not written: {} shows what was there before the last change", tile.title));
+        app.toasts.error(say::not_written(tile.name));
     }
     let (state, results) = app.compare.shown(&app.state, &app.results);
     let seen = TileInput {
@@ -169,7 +164,8 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
 
 /// What a tile's own menu offers.
 fn menu(ui: &mut Ui, tile: Tile, commands: &mut Vec<Command>) {
-    for command in [Command::ExportTile(tile), Command::CopyTile(tile)] {
+    let list = [Command::ExportTile(tile), Command::CopyTile(tile), Command::CopyPicture(tile), Command::CopyValue];
+    for command in list {
         let Some(offer) = offer::of(&command) else { continue };
         if ui.button(&offer.text).on_hover_text(offer.tip).clicked() {
             commands.push(command);

@@ -2,19 +2,20 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
+use crate::app::data_looks::FormKey;
 use crate::app::facing::sun_incident;
 use crate::app::incidence::Incidence;
 use crate::app::jobs::Lane;
+use crate::app::paint::tile::Status;
 use crate::app::state::Tile;
 use crate::app::title;
-use crate::app::views::btdf;
+use crate::app::views::btdf::{self, FormInput, SchemesInput};
+use crate::study::data_form::DataForm;
+use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile = Tile {
-    title: "BTDF",
-    help: "Where light from one direction leaves, as luminance per illuminance (q in 1/sr). IEA SHC Task 31, eq 2.",
-};
+pub const TILE: Tile = Tile { title: "BTDF", name: say::BTDF, help: say::BTDF_HELP };
 
 /// Its drawing.
 #[derive(Default)]
@@ -32,21 +33,45 @@ impl Drawn for Drawing {
         let sun = sun_incident(&state.document.scene);
         let dataset = &state.dataset;
         let name = title::selection(state);
+        let btdf = dataset.value.as_deref().and_then(|dataset| dataset.transmission());
+        let incidence = Incidence::shown(state.incident, &state.document.scene);
+        let status = seen.status_of(dataset, Lane::Scene);
+        // Until data of this incidence are there in the form that is looked at, those of the last one stay.
+        let (look, shown) = (state.data_look, &seen.results.form);
+        let result = shown.value.as_deref().filter(|made| made.key.form == look.form);
+        let form = (look.form != DataForm::Measured).then(|| FormInput {
+            form: look.form,
+            result,
+            error: shown.error.as_deref(),
+            revision: shown.revision,
+        });
+        let old = btdf.zip(result).filter(|_| form.is_some()).is_some_and(|(btdf, made)| {
+            let diffuse = state.document.scene.compute.diffuse_interpolation;
+            made.key != FormKey::of(btdf, dataset.revision, incidence.direction, (look.form, diffuse))
+        });
         let input = btdf::Input {
-            btdf: dataset.value.as_deref().and_then(|dataset| dataset.transmission()),
+            btdf,
             name: &name,
-            incidence: Incidence::shown(state.incident, &state.document.scene),
+            incidence,
             sun,
             range: seen.scale,
             revision: dataset.revision,
-            status: seen.status_of(dataset, Lane::Scene),
+            form,
+            schemes: state.data_look.schemes.then(|| {
+                let shown = &seen.results.schemes;
+                let result = shown.value.as_deref().filter(|made| made.key.0 == dataset.revision);
+                SchemesInput { result, error: shown.error.as_deref(), revision: shown.revision }
+            }),
+            status: Status { stale: status.stale || old, ..status },
         };
         for action in btdf::show(ui, &input, &mut self.view) {
-            commands.push(Command::Incidence(match action {
-                btdf::Action::ChooseIncidence(chosen) => Some(chosen),
-                btdf::Action::FollowSun(true) => None,
-                btdf::Action::FollowSun(false) => Some(input.incidence.direction),
-            }));
+            commands.push(match action {
+                btdf::Action::ChooseIncidence(chosen) => Command::Incidence(Some(chosen)),
+                btdf::Action::FollowSun(true) => Command::Incidence(None),
+                btdf::Action::FollowSun(false) => Command::Incidence(Some(input.incidence.direction)),
+                btdf::Action::Form(form) => Command::DataForm(form),
+                btdf::Action::Schemes => Command::SchemeMap,
+            });
         }
         seen.numbers.then(|| btdf::csv(&input))
     }

@@ -11,14 +11,12 @@ use crate::app::{moment, title};
 use crate::compute::profile_angle::profile_angle;
 use crate::study::control::DEFAULT_ELEVATION;
 use crate::study::scene_file::{ControlKeys, ControlMode};
+use crate::texts::{Text, tiles as say};
 use egui::{ComboBox, DragValue, Ui, UiBuilder};
 use std::path::PathBuf;
 
 /// The tile.
-pub const TILE: Tile = Tile {
-    title: "Control",
-    help: "Which state control chooses against the sun's profile angle, today and over the year.",
-};
+pub const TILE: Tile = Tile { title: "Control", name: say::CONTROL, help: say::CONTROL_HELP };
 
 /// Height of the strip of rules. \[points\]
 const RULES_HEIGHT: f32 = 26.0;
@@ -39,23 +37,22 @@ fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
 }
 
 /// Why nothing moves: the product has one state. What is waited for before there is a product, the bench says.
-fn still(product: Option<&crate::catalogue::Product>) -> String {
-    let Some(product) = product else { return "The product is being read.".to_owned() };
-    let what = match product.kind.as_str() {
-        "pane" => "This pane has",
-        "stack" => "This glazing has",
-        "venetian" => "These slats are fixed: they have",
-        "woven" => "This screen has",
-        "diffuser" => "This diffuser has",
-        "laser-cut-panel" | "prismatic" => "This panel has",
-        "perforated" => "This sheet has",
-        _ => "This product has",
-    };
-    format!("{what} one state. Blinds, louvres and switchable glazing are controlled here.")
+fn still(product: Option<&crate::catalogue::Product>) -> Text {
+    let Some(product) = product else { return say::PRODUCT_COMING };
+    match product.kind.as_str() {
+        "pane" => say::STILL_PANE,
+        "stack" => say::STILL_STACK,
+        "venetian" => say::STILL_SLATS,
+        "woven" => say::STILL_SCREEN,
+        "diffuser" => say::STILL_DIFFUSER,
+        "laser-cut-panel" | "prismatic" => say::STILL_PANEL,
+        "perforated" => say::STILL_SHEET,
+        _ => say::STILL_PRODUCT,
+    }
 }
 
 /// A small number with unit that is 0 where the scene says nothing.
-fn setting(ui: &mut Ui, name: &str, tip: &str, unit: &str, value: &mut Option<f64>, most: f64) {
+fn setting(ui: &mut Ui, name: Text, tip: Text, unit: &str, value: &mut Option<f64>, most: f64) {
     let mut number = value.unwrap_or(0.0);
     let drag = DragValue::new(&mut number).range(0.0..=most).speed(most / 400.0).max_decimals(1).suffix(unit);
     let label = ui.label(name);
@@ -72,7 +69,8 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         ui.add_space(6.0);
         let apertures = state.document.scene.aperture.len();
         if apertures > 1 {
-            let name = |of: Option<usize>| of.map_or("All".to_owned(), |index| format!("Aperture {}", index + 1));
+            let name =
+                |of: Option<usize>| of.map_or_else(|| say::ALL_APERTURES.into(), |index| say::aperture(index + 1));
             let chosen = state.control_of.filter(|index| *index < apertures);
             let combo = ComboBox::from_id_salt("control of").width(70.0).selected_text(name(chosen));
             let combo = combo.show_ui(ui, |ui| {
@@ -82,7 +80,7 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                     }
                 }
             });
-            combo.response.on_hover_text("Upper and lower parts of a window can follow rules of their own");
+            combo.response.on_hover_text(say::RULES_APART);
         }
         let combo =
             ComboBox::from_id_salt("rule").width(92.0).selected_text(rules::words(mode).short).show_ui(ui, |ui| {
@@ -94,7 +92,7 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                     }
                 }
             });
-        combo.response.on_hover_text("The rule that picks the state");
+        combo.response.on_hover_text(say::RULE_TIP);
         if mode == ControlMode::Fixed {
             return;
         }
@@ -112,35 +110,27 @@ fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
     let fields = |ui: &mut Ui, keys: &mut ControlKeys| {
         if keys.mode == ControlMode::Redirect {
             let mut elevation = keys.elevation.unwrap_or(DEFAULT_ELEVATION);
-            let label = ui.label("to");
+            let label = ui.label(say::REDIRECT_TO);
             let drag = DragValue::new(&mut elevation).range(-90.0..=90.0).speed(0.5).max_decimals(1).suffix("°");
             let drag = ui.add(drag).labelled_by(label.id);
-            if drag.on_hover_text("Elevation of the redirected light in the room").changed() {
+            if drag.on_hover_text(say::REDIRECT_TIP).changed() {
                 keys.elevation = Some(elevation);
             }
         }
-        let tip = "How much more open the rule must be before the device opens; it closes at once";
-        setting(ui, "Hysteresis", tip, "°", &mut keys.hysteresis, 45.0);
-        let tip = "Least time between a movement and the next opening; today and the year follow it";
-        setting(ui, "Dwell", tip, " min", &mut keys.dwell, 240.0);
+        setting(ui, say::HYSTERESIS, say::HYSTERESIS_TIP, "°", &mut keys.hysteresis, 45.0);
+        setting(ui, say::DWELL, say::DWELL_TIP, " min", &mut keys.dwell, 240.0);
     };
     let more = |ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>| {
-        let tip = "Direct sun on the façade counts above this illuminance";
-        setting(ui, "Sun above", tip, " lx", &mut keys.threshold, 100_000.0);
-        let tip = "Above this illuminance of the façade the device closes, whatever the rule; 0: never";
-        setting(ui, "Close above", tip, " lx", &mut keys.close_above, 150_000.0);
+        setting(ui, say::SUN_ABOVE, say::SUN_ABOVE_TIP, " lx", &mut keys.threshold, 100_000.0);
+        setting(ui, say::CLOSE_ABOVE, say::CLOSE_ABOVE_TIP, " lx", &mut keys.close_above, 150_000.0);
         ui.separator();
         let own = !keys.curve.is_empty() || keys.curve_file.is_some();
-        if keys.mode == ControlMode::Curve
-            && ui.add_enabled(own, egui::Button::new("The product's own curve")).clicked()
-        {
+        if keys.mode == ControlMode::Curve && ui.add_enabled(own, egui::Button::new(say::OWN_CURVE)).clicked() {
             keys.curve.clear();
             keys.curve_file = None;
             ui.close();
         }
-        for (text, command) in
-            [("Load a curve (.csv)…", Command::Open), ("Export the year (.csv)…", Command::ExportTile(TILE))]
-        {
+        for (text, command) in [(say::LOAD_CURVE, Command::Open), (say::EXPORT_YEAR, Command::ExportTile(TILE))] {
             if ui.button(text).clicked() {
                 commands.push(command);
                 ui.close();
@@ -149,7 +139,7 @@ fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
     };
     if ui.available_width() > 290.0 {
         fields(ui, keys);
-        ui.menu_button("…", |ui| more(ui, keys, commands)).response.on_hover_text("Thresholds, curve files, export");
+        ui.menu_button("…", |ui| more(ui, keys, commands)).response.on_hover_text(say::MORE_CONTROL);
     } else {
         ui.menu_button("…", |ui| {
             fields(ui, keys);
@@ -218,15 +208,15 @@ impl Drawn for Drawing {
             name.push_str(&format!(" · {}", rules::words(mode).does));
         }
         if let Some(year) = year.filter(|_| mode != ControlMode::Fixed) {
-            name.push_str(&format!(" · {} movements a year", year.movements));
+            name.push_str(&format!(" · {}", say::movements(year.movements)));
         }
         let moving = states.len() > 1;
         let sun = sun_incident(scene);
         let still = still(title::selected(state));
         let input = control::Input {
             states: &states,
-            still: &still,
-            quantity: product.as_deref().map_or("state", rules::quantity),
+            still: still.get(),
+            quantity: product.as_deref().map_or(say::STATE_WORD.get(), rules::quantity),
             curve,
             editable: mode == ControlMode::Curve,
             name: &name,

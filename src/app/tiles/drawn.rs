@@ -5,6 +5,7 @@ use crate::app::jobs::Lane;
 use crate::app::paint::tile::Status;
 use crate::app::state::{CatalogueState, Results, Shown, State};
 use crate::app::title;
+use crate::texts::tiles as say;
 use egui::Ui;
 
 /// What a tile reads.
@@ -42,7 +43,7 @@ impl<'a> TileInput<'a> {
     pub fn awaited(&self) -> Option<(String, bool)> {
         let state = self.state;
         match &state.catalogue {
-            CatalogueState::Opening => return Some(("Opening the catalogue…".to_owned(), false)),
+            CatalogueState::Opening => return Some((say::OPENING_CATALOGUE.into(), false)),
             CatalogueState::Failed(error) => return Some((error.clone(), true)),
             CatalogueState::Ready(_) => {}
         }
@@ -51,10 +52,10 @@ impl<'a> TileInput<'a> {
         match (&state.dataset.error, product.is_empty(), state.dataset.value.is_some()) {
             (_, false, true) => None,
             (Some(error), false, false) if !busy => Some((error.clone(), true)),
-            (_, false, false) => Some(("Reading the product…".to_owned(), false)),
-            (_, true, _) if busy => Some(("Reading the catalogue…".to_owned(), false)),
-            (_, true, _) if (self.busy)(Lane::Builtin) => Some(("Listing the built-in products…".to_owned(), false)),
-            (_, true, _) => Some(("No product chosen: choose one in the catalogue.".to_owned(), false)),
+            (_, false, false) => Some((say::READING_PRODUCT.into(), false)),
+            (_, true, _) if busy => Some((say::READING_CATALOGUE.into(), false)),
+            (_, true, _) if (self.busy)(Lane::Builtin) => Some((say::LISTING_BUILTIN.into(), false)),
+            (_, true, _) => Some((say::NO_PRODUCT.into(), false)),
         }
     }
 

@@ -5,11 +5,11 @@ use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::lid;
+use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile =
-    Tile { title: "LID", help: "The window as a luminaire: luminous intensity into the room. Task 31, eq 5." };
+pub const TILE: Tile = Tile { title: "LID", name: say::LID, help: say::LID_HELP };
 
 /// Its drawing.
 #[derive(Default)]

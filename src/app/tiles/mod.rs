@@ -12,6 +12,7 @@ mod room;
 mod sky;
 mod transmittance;
 
+pub use btdf::TILE as BTDF;
 pub use drawn::{Drawn, TileInput};
 pub use layout::Layout;
 pub use lid::TILE as LID;
@@ -137,7 +138,7 @@ impl Bench {
         if !drawn.ready(seen)
             && let Some((words, is_error)) = seen.awaited()
         {
-            waiting(ui, tile.title, tile.help, &words, is_error);
+            waiting(ui, tile.name.get(), tile.help.get(), &words, is_error);
             return None;
         }
         drawn.show(ui, seen, commands)

@@ -10,11 +10,11 @@ use crate::app::state::{Daylight, State, Tile};
 use crate::app::views::{Cache, room};
 use crate::compute::direction::Surface;
 use crate::study::scene_file::{SceneFile, SkyModelKey, SurfaceKey};
+use crate::texts::{Text, tiles as say};
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile =
-    Tile { title: "Room", help: "Illuminance on the sensor plane, direct and interreflected. Task 31, eq 17." };
+pub const TILE: Tile = Tile { title: "Room", name: say::ROOM, help: say::ROOM_HELP };
 
 /// Its drawing.
 #[derive(Default)]
@@ -59,17 +59,17 @@ fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
 
 /// What a daylight factor is a share of, the horizontal illuminance of the open overcast sky \[lx\]; or why there is
 /// none.
-fn outside(state: &State, daylight: Option<&Daylight>) -> Result<f64, &'static str> {
+fn outside(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
     let sky = &state.document.scene.sky;
-    let daylight = daylight.ok_or("no daylight factor without a sky")?;
+    let daylight = daylight.ok_or(say::NO_FACTOR_SKY)?;
     if sky.model != SkyModelKey::Cie || !sky.cie_type.is_some_and(|number| OVERCAST.contains(&number)) {
-        return Err("no daylight factor: it needs an overcast CIE sky, type 1 or 16");
+        return Err(say::NO_FACTOR_TYPE);
     }
     if daylight.sun.is_some() {
-        return Err("no daylight factor: it needs a sky without sun");
+        return Err(say::NO_FACTOR_SUN);
     }
     let horizontal = daylight.outside.diffuse_horizontal();
-    if horizontal > 0.0 { Ok(horizontal) } else { Err("no daylight factor: the sky is dark") }
+    if horizontal > 0.0 { Ok(horizontal) } else { Err(say::NO_FACTOR_DARK) }
 }
 
 /// The scene with what was moved.

@@ -9,11 +9,11 @@ use crate::app::views::sky;
 use crate::app::{moment, title};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, Surface};
+use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile =
-    Tile { title: "Sky", help: "Luminance of sky, sun and ground as the façade sees them. CIE S 011 / ISO 15469." };
+pub const TILE: Tile = Tile { title: "Sky", name: say::SKY, help: say::SKY_HELP };
 
 /// Its drawing.
 #[derive(Default)]

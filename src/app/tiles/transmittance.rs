@@ -12,13 +12,11 @@ use crate::app::{moment, title};
 use crate::compute::direction::{Incident, Surface};
 use crate::study::incoming::{SunPath, flux_split, sun_paths};
 use crate::study::scene_file::SceneFile;
+use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile = Tile {
-    title: "Transmittance",
-    help: "The share of the light from each direction that enters the room. Task 31, eq 1.",
-};
+pub const TILE: Tile = Tile { title: "Transmittance", name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
 
 /// Place and bearing that sun paths hang on.
 type PathKey = (i16, [u64; 4]);

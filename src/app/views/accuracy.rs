@@ -8,6 +8,7 @@ use crate::app::paint::tile;
 use crate::drawing::plot::Plot;
 use crate::study::accuracy::{Accuracy, words};
 use crate::study::accuracy_plot::{name, plots};
+use crate::texts::{fixed, tiles as say};
 use egui::{Button, Label, ProgressBar, Sense, Ui, vec2};
 
 /// What only this view knows.
@@ -45,20 +46,18 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = Vec::new();
     ui.horizontal(|ui| {
         if let Some(fraction) = input.running {
-            let stop = ui.button("Stop").on_hover_text("Withdraw this computation; the last picture stays");
+            let stop = ui.button(say::STOP).on_hover_text(say::STOP_TIP);
             if stop.clicked() {
                 actions.push(Action::Cancel);
             }
             ui.add(ProgressBar::new(fraction).desired_width(150.0).show_percentage());
         } else {
-            let run = ui.add(Button::new("Measure")).on_hover_text(
-                "Computes the present scene with rising effort by every method, on one thread: some seconds to a minute",
-            );
+            let run = ui.add(Button::new(say::MEASURE)).on_hover_text(say::MEASURE_TIP);
             if run.clicked() {
                 actions.push(Action::Run);
             }
             if input.accuracy.is_some() && input.stale {
-                ui.weak("of an earlier scene");
+                ui.weak(say::EARLIER_SCENE.get());
             }
         }
     });
@@ -67,29 +66,20 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     }
     let Some(accuracy) = input.accuracy else {
         if input.error.is_none() {
-            ui.add(
-                Label::new(
-                    "How far each method lies from the ordinary method's finest run, against the time that it takes, and \
-                     whether the errors that it states are true.",
-                )
-                .wrap(),
-            );
+            ui.add(Label::new(say::ACCURACY_EMPTY).wrap());
         }
         return actions;
     };
     let width = ui.available_width().min(900.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 1.5 * width), Sense::hover());
     let sentence = sentence(accuracy);
-    tile::name(ui, &response, "Error against run time", &sentence);
+    tile::name(ui, &response, say::ACCURACY_PLOTS, &sentence);
     let palette = Palette::of(ui.visuals());
     let id = ui.scope_id();
     // Zooming in one leaves the other, of other errors, alone; the series are the same.
     let first = Look { left: 60.0, on_page: true, ..Look::tile(id.with("front"), &palette.series, palette.weak) };
     let second = Look { id: id.with("honesty"), legend_of: Some(first.id), ..first };
-    let tips = [
-        "A square for each effort: further left is faster, further down more exact.",
-        "A dot for each sensor: above the diagonal the stated error holds.",
-    ];
+    let tips = [say::ACCURACY_FRONT_TIP, say::ACCURACY_HONESTY_TIP];
     // Half of "100 %" stands beyond the last tick.
     let (above, below) = rect.with_max_x(rect.right() - 8.0).split_top_bottom_at_fraction(0.53);
     for (((place, plot), look), tip) in [above, below]
@@ -99,7 +89,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         .zip(tips)
     {
         let shown = plot::show(ui, place, plot, &look, |_| {});
-        tile::name(ui, &shown.response, &format!("{} against {}", plot.y.name, plot.x.name), tip);
+        tile::name(ui, &shown.response, say::against(&plot.y.name, &plot.x.name), tip.get());
     }
     ui.add(Label::new(sentence).wrap());
     for one in &accuracy.leaving_out {
@@ -111,22 +101,13 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
 /// What the ladder says, in words.
 pub fn sentence(accuracy: &Accuracy) -> String {
     let coverage = accuracy.ordinary_coverage();
-    let mut said = vec![format!(
-        "The ordinary method keeps to its stated error at {:.1} % of {} sensors and efforts; {:.1} % state more than ten \
-         times the error found.",
-        100.0 * coverage.kept,
-        coverage.count,
-        100.0 * coverage.padded
-    )];
+    let mut said =
+        vec![say::accuracy_kept(fixed(100.0 * coverage.kept, 1), coverage.count, fixed(100.0 * coverage.padded, 1))];
     said.extend(accuracy.references.iter().map(words::reference));
     for series in accuracy.series.iter().filter(|series| series.is_ordinary()) {
         let untold = series.rungs.iter().filter(|rung| !rung.is_told()).count();
         if untold > 0 {
-            said.push(format!(
-                "{untold} of {} efforts of {} are left out: their reference is hardly finer.",
-                series.rungs.len(),
-                name(series)
-            ));
+            said.push(say::accuracy_left_out(untold, series.rungs.len(), name(series)));
         }
         if let Some(limit) = words::data_limit(series) {
             said.push(format!("{}: {limit}.", name(series)));

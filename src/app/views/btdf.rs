@@ -1,9 +1,14 @@
 //! The BTDF: left where light comes from, right where it goes, both seen from inside the room.
 
 mod cut;
+mod form;
 mod lobe;
 mod place;
+mod schemes;
 mod words;
+
+pub use form::{FormInput, words as form_words};
+pub use schemes::SchemesInput;
 
 use super::Cache;
 use crate::app::incidence::{Incidence, Source};
@@ -15,6 +20,8 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::number;
+use crate::study::data_form::DataForm;
+use crate::texts::{Text, tiles as say};
 use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2};
 use place::{Place, frame, places};
 use std::sync::Arc;
@@ -35,6 +42,10 @@ pub struct Input<'a> {
     pub range: Option<[f64; 2]>,
     /// Changes with `btdf`.
     pub revision: u64,
+    /// The data in another form than as measured, where that is looked at.
+    pub form: Option<FormInput<'a>>,
+    /// The map of schemes, where it is looked at.
+    pub schemes: Option<SchemesInput<'a>>,
     /// How far the content is to be trusted.
     pub status: Status<'a>,
 }
@@ -46,6 +57,10 @@ pub enum Action {
     ChooseIncidence(Incident),
     /// Couple the incidence to the sun, or not.
     FollowSun(bool),
+    /// Show the data in this form.
+    Form(DataForm),
+    /// Show or hide the map of schemes.
+    Schemes,
 }
 
 type Bits = [u64; 3];
@@ -106,10 +121,10 @@ pub enum Leaving {
 }
 
 impl Leaving {
-    const ALL: [(Self, &'static str, &'static str); 3] = [
-        (Self::Disk, "Disk", "Where light goes, in false colours"),
-        (Self::Body, "3D", "The same as a body, its radius the value; drag to turn, wheel to zoom"),
-        (Self::Cuts, "Cuts", "Curves over the angle, in the plane of incidence and across it"),
+    const ALL: [(Self, Text, Text); 3] = [
+        (Self::Disk, say::DISK, say::DISK_TIP),
+        (Self::Body, say::BODY, say::BODY_TIP),
+        (Self::Cuts, say::CUTS, say::CUTS_TIP),
     ];
 }
 
@@ -126,9 +141,12 @@ pub struct State {
     pub weighted: bool,
     /// Grey by τ on the incident side.
     pub shade_tau: bool,
+    /// The scale stays as it is.
+    pub hold: bool,
     incidences: Cache<(u64, Projection), Incidences>,
     indicatrix: Cache<(u64, Bits), Option<Indicatrix>>,
     left: Cache<(u64, Disk, Projection, bool, bool), Arc<Mesh>>,
+    triangles: Cache<(u64, Disk, Projection), Arc<Mesh>>,
     right: Cache<EmergentKey, Arc<Mesh>>,
     scale: Option<ColourScale>,
     lobe: lobe::State,
@@ -143,6 +161,8 @@ impl Default for State {
             log: true,
             weighted: false,
             shade_tau: true,
+            hold: false,
+            triangles: Cache::default(),
             incidences: Cache::default(),
             indicatrix: Cache::default(),
             left: Cache::default(),
@@ -152,51 +172,49 @@ impl Default for State {
     }
 }
 
-const HELP: &str = "For one direction of incidence (left), the luminance coefficient q = L/E in every direction in which \
-light leaves (right). Both hemispheres are seen from inside: a source is drawn where it is seen, emergent light where \
-it goes. θ is counted from the façade's normal, φ from the right seen from outside towards up. Click a cell or use the \
-arrow keys.\nSource: IEA SHC Task 31 report (2005), eq 2; data as measured or computed for the product.";
-
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
-    let mut actions = vec![];
+    let (mut actions, mut picked) = (vec![], vec![]);
     let words = Words {
-        title: "BTDF",
+        title: say::BTDF.get(),
         subtitle: input.name,
-        help: HELP,
-        empty: input.btdf.is_none().then_some("Choose a product in the catalogue to see where its light goes."),
-        controls_width: 460.0,
+        help: say::BTDF_ABOUT.get(),
+        empty: input.btdf.is_none().then_some(say::BTDF_EMPTY.get()),
+        controls_width: 700.0,
     };
     // The toggles and the picture both write: settings are copied for the head and taken back after.
     let mut settings = (state.projection, state.log, state.weighted, state.shade_tau);
     let mut leaving = state.leaving;
     let followed = input.incidence.source != Source::Chosen;
     let mut follow = followed;
+    let mut hold = state.hold;
     tile::show(
         ui,
         &words,
         &input.status,
         |ui| {
-            ui.checkbox(&mut follow, "Follow the sun");
+            ui.checkbox(&mut follow, say::FOLLOW_THE_SUN);
             for (look, word, tip) in Leaving::ALL {
                 ui.selectable_value(&mut leaving, look, word).on_hover_text(tip);
             }
-            ui.toggle_value(&mut settings.1, "log").on_hover_text("Logarithmic colours, three decades");
-            ui.toggle_value(&mut settings.2, "q·cosθ").on_hover_text("Times the cosine: what intensity is made of");
-            ui.toggle_value(&mut settings.3, "τ").on_hover_text("Grey by transmittance on the incident side");
+            form::choice(ui, input, &mut actions);
+            ui.toggle_value(&mut settings.1, say::LOG).on_hover_text(say::LOG_THREE);
+            ui.toggle_value(&mut settings.2, "q·cosθ").on_hover_text(say::WEIGHTED_TIP);
+            ui.toggle_value(&mut settings.3, "τ").on_hover_text(say::SHADE_TIP);
             let mut solid = settings.0 == Projection::SolidAngle;
-            ui.toggle_value(&mut solid, "Ω").on_hover_text(
-                "On: equal areas are equal solid angles (Lambert). Off: equal projected solid angles, r = sin θ",
-            );
+            ui.toggle_value(&mut solid, "Ω").on_hover_text(say::SOLID_TIP);
+            ui.toggle_value(&mut hold, say::HOLD).on_hover_text(say::HOLD_TIP);
             settings.0 = if solid { Projection::SolidAngle } else { Projection::ProjectedSolidAngle };
         },
         |ui, rect| match input.btdf {
-            Some(btdf) => picture(ui, rect, btdf, input, state, &mut actions),
+            Some(btdf) => picture(ui, rect, btdf, input, state, &mut picked),
             None => Foot::default(),
         },
     );
+    actions.append(&mut picked);
     (state.projection, state.log, state.weighted, state.shade_tau) = settings;
     state.leaving = leaving;
+    state.hold = hold;
     if follow != followed {
         actions.push(Action::FollowSun(follow));
     }
@@ -207,7 +225,8 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
     let [outside, inside] = places(rect, state.leaving != Leaving::Disk);
     let incident = incident_side(ui, &outside, btdf, input, state, out);
     let emergent = emergent_side(ui, &inside, btdf, input, state);
-    emergent.or(incident).unwrap_or_else(|| selection_text(btdf, &input.incidence))
+    let rest = || input.form.and_then(|form| form.foot()).unwrap_or_else(|| selection_text(btdf, &input.incidence));
+    emergent.or(incident).unwrap_or_else(rest)
 }
 
 fn disk_rect(disk: &Disk) -> Rect {
@@ -238,19 +257,33 @@ fn incident_side(
             if shade { scale.colour(cells.tau[i]) } else { palette.face }
         }))
     });
-    ui.painter().add(Shape::Mesh(mesh.clone()));
+    let map = input.schemes.and_then(|schemes| schemes.triangles());
+    if let (Some(list), Some(schemes)) = (map, &input.schemes) {
+        ui.painter().circle_filled(disk.centre, disk.radius, palette.face);
+        let key = (schemes.revision, disk, projection);
+        let mesh = state.triangles.get(key, || Arc::new(schemes::mesh(&disk, projection, list, schemes)));
+        ui.painter().add(Shape::Mesh(mesh.clone()));
+    } else {
+        ui.painter().add(Shape::Mesh(mesh.clone()));
+    }
     if cells.listed {
         for at in &cells.points {
             ui.painter().circle(disk.screen(*at), 2.0, palette.face, Stroke::new(1.0, palette.ink));
         }
-    } else {
+    } else if map.is_none() {
         outline_all(ui, &disk, projection, &cells.basis, &palette);
     }
     let from = match (place.legend, place.corner) {
-        (None, Some(_)) if shade => format!("where light comes from\ngrey: τ 0–{}", number(scale.hi, 2)),
-        _ => "where light comes from".to_owned(),
+        (None, Some(_)) if shade && map.is_none() => say::where_from_shaded(number(scale.hi, 2)),
+        _ => say::WHERE_FROM.into(),
     };
-    frame(ui, place, projection, ["outside", &from], &palette);
+    let with_key = map.is_some() && place.legend.is_none();
+    if with_key && let Some((corner, align)) = place.corner {
+        disk.rim(ui.painter(), projection, &palette);
+        schemes::legend(ui, corner, align, input, &palette);
+    } else {
+        frame(ui, place, projection, [say::OUTSIDE.get(), &from], &palette);
+    }
     // The chosen cell: light under dark, so that it is seen on every grey.
     let selected = cells.choice(btdf, input.incidence.direction.0);
     if let (true, Some(index)) = (cells.listed, selected) {
@@ -292,7 +325,14 @@ fn incident_side(
             }
         }
     }
-    tile::name(ui, &response, "Incident hemisphere", selection_text(btdf, &input.incidence).full());
+    tile::name(ui, &response, say::INCIDENT_HEMISPHERE, selection_text(btdf, &input.incidence).full());
+    if let Some(schemes) = &input.schemes {
+        let told = schemes.told(response.hover_pos(), &disk, projection);
+        if let (Some(_), Some(legend)) = (map, place.legend) {
+            schemes::legend(ui, legend, Align2::LEFT_TOP, input, &palette);
+        }
+        return told;
+    }
     let pointed = response.hover_pos().and_then(cell_at);
     let pointed = pointed.map(|i| (cells.choices[i], btdf.tau(cells.choices[i])));
     if let (true, Some(legend)) = (shade, place.legend) {
@@ -318,7 +358,8 @@ fn outline_all(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, 
 
 /// The scale of what leaves; while something is dragged it holds still.
 fn scale_of(max: f64, input: &Input<'_>, state: &State) -> ColourScale {
-    let held = state.scale.clone().filter(|s| input.status.hold_scale && s.log == state.log);
+    let hold = input.status.hold_scale || state.hold;
+    let held = state.scale.clone().filter(|s| hold && s.log == state.log);
     match input.range {
         Some([lo, hi]) => ColourScale {
             lo: if state.log { lo.max(hi * 1e-6) } else { lo },
@@ -336,7 +377,14 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     let key = bits(direction);
     // Taken for this frame: the settings beside it are written meanwhile.
     let mut kept = std::mem::take(&mut state.indicatrix);
-    let found = kept.get((input.revision, key), || btdf.indicatrix(direction));
+    let (revision, own) = match &input.form {
+        Some(form) => (form.revision, form.made().map(|made| made.indicatrix.clone())),
+        None => (input.revision, None),
+    };
+    let found = kept.get((revision, key), || match &input.form {
+        Some(_) => own,
+        None => btdf.indicatrix(direction),
+    });
     let weighted = state.weighted;
     let scale = found.as_ref().map(|Indicatrix { basis, q }| {
         let values = basis.cells().zip(q).map(|(cell, q)| drawn(*q, &cell, weighted));
@@ -347,7 +395,7 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     let legend = place.legend.unwrap_or(place.rect);
     let (text, name) = match (found, &scale, state.leaving) {
         (Some(indicatrix), Some(scale), Leaving::Body) => {
-            let body = lobe::Input { indicatrix, direction, regular, scale, weighted, key: (input.revision, key) };
+            let body = lobe::Input { indicatrix, direction, regular, scale, weighted, key: (revision, key) };
             let (text, value) = lobe::show(ui, place, &body, &mut state.lobe);
             scale.paint_legend(ui.painter(), legend, unit, value, &palette);
             (text, None)
@@ -362,10 +410,11 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
                 Some(scale) => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
                 None => {
                     let at = pos2(legend.center().x, legend.top() + 4.0);
-                    tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");
+                    let missing = input.form.map_or(say::NOTHING_SCATTERED.into(), |form| form.missing());
+                    tile::caption(ui, at, Align2::CENTER_TOP, &missing);
                 }
             }
-            frame(ui, place, state.projection, ["inside", "where light goes"], &palette);
+            frame(ui, place, state.projection, [say::INSIDE.get(), say::WHERE_TO.get()], &palette);
             if regular > 0.0 && direction.0.vector().z > 0.0 {
                 regular_dot(ui, place, state.projection, (direction, regular), &palette);
             }
@@ -375,7 +424,7 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     state.indicatrix = kept;
     state.scale = scale.or(state.scale.take());
     if let Some(response) = name {
-        tile::name(ui, &response, "Emergent hemisphere", selection_text(btdf, &input.incidence).full());
+        tile::name(ui, &response, say::EMERGENT_HEMISPHERE, selection_text(btdf, &input.incidence).full());
     }
     text
 }
@@ -394,7 +443,8 @@ fn emergent_disk_ui(
     ui.painter().circle_filled(disk.centre, disk.radius, palette.face);
     let Some((Indicatrix { basis, q }, scale)) = found else { return (None, None, response) };
     let key = bits(input.incidence.direction);
-    let mesh = state.right.get((input.revision, key, disk, projection, weighted, scale.clone()), || {
+    let revision = input.form.map_or(input.revision, |form| form.revision);
+    let mesh = state.right.get((revision, key, disk, projection, weighted, scale.clone()), || {
         Arc::new(disk.cells(projection, Side::Emergent, basis, |i| scale.colour(drawn(q[i], &basis.cell(i), weighted))))
     });
     ui.painter().add(Shape::Mesh(mesh.clone()));
@@ -415,7 +465,7 @@ fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Inc
     let rect = place.rect;
     let at = place.disk.screen(emergent_disk(projection, Emergent::from_through_name(from.0)));
     ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
-    let label = format!("regular τ {}", number(tau, 3));
+    let label = say::regular_tau(number(tau, 3));
     let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
     // Beside the dot where there is room, else over it.
     let right = Align2::LEFT_CENTER.anchor_size(at + egui::vec2(9.0, 0.0), galley.size());
@@ -442,8 +492,15 @@ pub fn csv(input: &Input<'_>) -> String {
         input.incidence.direction.0.phi().to_degrees()
     );
     let _ = writeln!(out, "# tau,{:.6},regular,{regular:.6}", btdf.tau(input.incidence.direction));
+    if let Some(form) = &input.form {
+        let _ = writeln!(out, "# data,{}", form.key());
+    }
     out.push_str("leaving_theta_deg,leaving_phi_deg,projected_solid_angle_sr,q_per_sr\n");
-    if let Some(Indicatrix { basis, q }) = btdf.indicatrix(input.incidence.direction) {
+    let shown = match &input.form {
+        Some(form) => form.made().map(|made| made.indicatrix.clone()),
+        None => btdf.indicatrix(input.incidence.direction),
+    };
+    if let Some(Indicatrix { basis, q }) = shown {
         for (cell, q) in basis.cells().zip(q) {
             let leaving = Emergent::from_through_name(cell.centre()).0;
             let (theta, phi) = (leaving.theta().to_degrees(), leaving.phi().to_degrees());

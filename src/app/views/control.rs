@@ -12,6 +12,7 @@ use crate::app::paint::plot::{self, LEFT, Look, Shown};
 use crate::app::paint::tile::{self, Words};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{number, tick};
+use crate::texts::tiles as say;
 use egui::{
     Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
@@ -51,21 +52,15 @@ pub struct State {
     editing: edit::Editing,
 }
 
-const HELP: &str = "Which state the control takes at which profile angle (the sun's angle in the vertical section \
-across the façade): the rule as a curve, the product's states as dots, today's way of the sun as a trace; under it the \
-state of every hour of the year. Click a state to set it, an hour to go there. With the rule “Curve” its points can be \
-dragged; a double click on the line adds one, a right click takes one out; keys: , and . choose a point, arrows move it, + adds one, \
-Delete takes it out.\nSource: IEA SHC Task 31 report (2005); \
-profile angle tan ψ = tan h / cos Δaz.";
 const DAYS: usize = 365;
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let words = Words {
-        title: "Control",
+        title: say::CONTROL.get(),
         subtitle: input.name,
-        help: HELP,
+        help: say::CONTROL_ABOUT.get(),
         empty: (input.states.len() < 2).then_some(input.still),
         controls_width: 0.0,
     };
@@ -86,17 +81,17 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     year.or(text).unwrap_or_else(|| {
         let now = input
             .profile_angle
-            .map_or("the sun is not before the façade".to_owned(), |psi| format!("profile angle {psi:.0}°"));
+            .map_or_else(|| say::SUN_NOT_BEFORE.into(), |psi| say::profile_angle(format!("{psi:.0}")));
         format!("{now} · {}", state_text(input, input.current))
     })
 }
 
 fn state_text(input: &Input<'_>, index: usize) -> String {
     input.states.get(index).map_or_else(
-        || "no state".to_owned(),
+        || say::NO_STATE.into(),
         |s| {
             let (quantity, unit) = input.quantity.split_once(" / ").unwrap_or((input.quantity, ""));
-            format!("state {} ({quantity} {}{unit})", s.key, tick(s.value))
+            say::state_of(&s.key, quantity, format!("{}{unit}", tick(s.value)))
         },
     )
 }
@@ -118,13 +113,13 @@ fn curve_ui(
     let unit = if unit == "°" { Unit::Degrees } else { Unit::Named("") };
     let value = |index: usize| input.states.get(index).map_or(f64::NAN, |s| s.value);
     let today = input.today.iter().map(|p| [p.profile_angle.unwrap_or(f64::NAN), value(p.state)]);
-    let mut series = vec![Series::line("rule", input.curve.iter().copied())];
+    let mut series = vec![Series::line(say::RULE, input.curve.iter().copied())];
     if !input.today.is_empty() {
-        series.push(Series::line("today", today));
+        series.push(Series::line(say::TODAY, today));
     }
     let now = input.profile_angle.filter(|psi| (0.0..=90.0).contains(psi));
     let plot = Plot {
-        x: Axis::linear([0.0, 90.0], "profile angle", Unit::Degrees),
+        x: Axis::linear([0.0, 90.0], say::PROFILE_ANGLE, Unit::Degrees),
         y: Axis::linear([lo, hi], name, unit),
         series,
         guides: now.map(|psi| Guide { name: String::new(), ends: [[psi, lo], [psi, hi]] }).into_iter().collect(),
@@ -142,7 +137,7 @@ fn curve_ui(
     });
     let (edited, taken) = if input.editable { edit::edit(ui, &shown, input, editing) } else { (None, false) };
     marks_ui(ui, &shown, input, now, editing, &palette);
-    tile::name(ui, &shown.response, "Control curve", &state_text(input, input.current));
+    tile::name(ui, &shown.response, say::CONTROL_CURVE, &state_text(input, input.current));
     let nearest = |v: f64| {
         let distance = |k: &usize| (input.states[*k].value - v).abs();
         (0..input.states.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -159,11 +154,11 @@ fn curve_ui(
     if let Some(k) = editing.chosen.filter(|_| shown.response.has_focus() && input.editable)
         && let Some([angle, value]) = input.curve.get(k)
     {
-        return Some(format!("point {} of {}: {angle:.0}°, rule {}", k + 1, input.curve.len(), number(*value, 3)));
+        return Some(say::point_of(k + 1, input.curve.len(), format!("{angle:.0}"), number(*value, 3)));
     }
     let [psi, v] = shown.pointed()?;
-    let rule = curve_at(input.curve, psi).map_or_else(String::new, |v| format!(" · rule {}", number(v, 3)));
-    Some(format!("profile angle {psi:.0}°{rule} · nearest {}", state_text(input, nearest(v)?)))
+    let rule = curve_at(input.curve, psi).map_or_else(String::new, |v| say::rule_part(number(v, 3)));
+    Some(say::nearest_state(format!("{psi:.0}"), rule, state_text(input, nearest(v)?)))
 }
 
 /// What lies on the curve: its points to be dragged, the hours of today, the states, the sun.
@@ -181,13 +176,13 @@ fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing
         painter.circle(at, radius, palette.face, Stroke::new(2.0, edge));
     }
     let mut used: Vec<Rect> = vec![];
-    let today = !shown.hidden.iter().any(|name| name == "today");
+    let today = !shown.hidden.iter().any(|name| name == say::TODAY.get());
     for p in input.today.iter().filter(|p| today && (p.hour - p.hour.round()).abs() < 1e-6) {
         let Some(at) = p.profile_angle.and_then(|psi| place([psi, value(p.state)])) else { continue };
         painter.circle(at, 3.0, palette.sun, Stroke::new(1.0, palette.ink));
         let text = Rect::from_center_size(at - vec2(0.0, 12.0), vec2(26.0, 13.0));
         if used.iter().all(|r| !r.intersects(text)) && area.contains_rect(text) {
-            used.push(on_halo(painter, text.center(), &format!("{:.0}h", p.hour), palette));
+            used.push(on_halo(painter, text.center(), &say::hour_mark(format!("{:.0}", p.hour)), palette));
         }
     }
     let spacing = area.height() / input.states.len().max(1) as f32;
@@ -236,7 +231,7 @@ fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
         let painter = ui.painter().with_clip_rect(shown.area().expand(5.0));
         painter.circle(at, 4.5, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
-    tile::name(ui, &shown.response, "Year map of states", "hour against day");
+    tile::name(ui, &shown.response, say::YEAR_MAP, say::YEAR_MAP_VALUE.get());
     let moment = |[day, hour]: [f64; 2]| ((day.max(0.0) as usize).min(days - 1), hour.clamp(0.0, 23.99).floor());
     if let Some((day, hour)) = shown.clicked().map(moment) {
         out.push(Action::ChooseMoment { day, hour });
@@ -244,9 +239,9 @@ fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     let (day, hour) = shown.pointed().map(moment)?;
     let what = match input.year.get(day * 24 + hour as usize).copied().flatten() {
         Some(index) => state_text(input, usize::from(index)),
-        None => "night".to_owned(),
+        None => say::NIGHT.into(),
     };
-    Some(format!("day {} of {days}, {hour:.0} h · {what}", day + 1))
+    Some(say::day_hour(day + 1, days, format!("{hour:.0}"), what))
 }
 
 fn states_legend(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {

@@ -8,6 +8,7 @@ use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::estimate::Estimate;
 use crate::drawing::ticks::{fine_ceil, number};
 use crate::study::comparison::difference::OnCells;
+use crate::texts::tiles as say;
 use egui::{Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
@@ -85,8 +86,6 @@ pub struct State {
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
 }
 
-const HELP: &str = "The candidate less the base: red is more, blue is less, white the same. All tiles have the same scale. \
-Δq is that of scattered light at the centres of equal cells; what goes straight on has no q.";
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
 
 /// Draws the tile into all the space of `ui`.
@@ -94,7 +93,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) {
     let words = Words {
         title: input.title,
         subtitle: input.less,
-        help: HELP,
+        help: say::DIFFERENCE_ABOUT.get(),
         empty: input.picture.is_none().then_some(input.missing),
         controls_width: 0.0,
     };
@@ -152,8 +151,8 @@ fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &m
                 Arc::new(disk.cells(PROJECTION, *side, &cells.basis, |cell| scale.colour(cells.values[cell])))
             });
             ui.painter().add(Shape::Mesh(mesh.clone()));
-            let caption = if *side == Side::Incident { "outside" } else { "inside" };
-            disk.frame(ui.painter(), PROJECTION, caption, &palette);
+            let caption = if *side == Side::Incident { say::OUTSIDE } else { say::INSIDE };
+            disk.frame(ui.painter(), PROJECTION, caption.get(), &palette);
             let response = ui.interact(area, ui.scope_id().with("difference"), Sense::hover());
             let direction = response.hover_pos().and_then(|at| side.through_name(PROJECTION, disk.disk(at)));
             let at = direction.and_then(|direction| cells.basis.index(direction));
@@ -168,12 +167,17 @@ fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &m
         &palette,
     );
     let summary = summary(picture);
-    tile::name(ui, &response, &format!("Difference of {}", input.title), summary.full());
+    tile::name(ui, &response, say::difference_of(input.title), summary.full());
     match pointed {
         Some(one) if one.error > 0.0 => {
-            let within = if one.value.abs() <= one.error { ", within the errors" } else { "" };
+            let (value, error) = (signed(one.value, ""), number(one.error, 2));
+            let within = one.value.abs() <= one.error;
             Foot::from([
-                format!("{name} {} ± {} {unit}{within}", signed(one.value, ""), number(one.error, 2)),
+                if within {
+                    say::difference_within(name, value, error, unit)
+                } else {
+                    say::difference_value(name, value, error, unit)
+                },
                 format!("{name} {}", signed(one.value, unit)),
             ])
         }
@@ -191,15 +195,15 @@ fn summary(picture: &Picture) -> Foot {
             let apart = values.iter().filter(|one| one.value.abs() > one.error).count();
             let all = values.len();
             Foot::from([
-                format!("mean {name} {mean} · more than the errors at {apart} of {all} sensors"),
-                format!("mean {name} {mean} · {apart} of {all} differ"),
-                format!("mean {name} {mean}"),
+                say::difference_mean(name, &mean, apart, all),
+                say::difference_mean_short(name, &mean, apart, all),
+                say::difference_mean_alone(name, mean),
             ])
         }
         Picture::Disk { cells, .. } => {
             let ends = cells.values.iter().fold([0.0_f64; 2], |[low, high], one| [low.min(*one), high.max(*one)]);
             let [low, high] = ends.map(|end| signed(end, unit));
-            Foot::from([format!("{name} from {low} to {high}"), format!("{low} to {high}")])
+            Foot::from([say::difference_range(name, &low, &high), say::range(low, high)])
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
 use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample, vertical_planes};
 use crate::drawing::ticks::{number, si};
+use crate::texts::tiles as say;
 use egui::{Color32, FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use scaling::{Scaling, towards};
 use std::f64::consts::{PI, TAU};
@@ -46,36 +47,32 @@ pub struct State {
     pub per_area: bool,
     /// As a body instead of curves.
     pub solid: bool,
+    /// The outermost ring stays as it is.
+    pub hold: bool,
     body: body::State,
     curves: Cache<(u64, Vec<LidPlane>), Curves>,
-    ring: Option<f64>,
+    /// The outermost ring, and whether per area.
+    ring: Option<(bool, f64)>,
 }
-
-const HELP: &str = "The aperture as a luminaire: luminous intensity in the vertical plane C 0° – C 180° (C 0° into the \
-room, to the right) and in that of the greatest scattered intensity, nadir down, and in the horizontal plane seen from \
-above. A façade radiates nothing in its own plane, C 90° – C 270°. Dashed: an ideal diffuser of the same flux. Peaks \
-are means over the steps of a luminaire file, 1° or 2.5°, as its export holds them. The unscattered sun is a narrow \
-beam: its intensity is told, its ray is not to scale.\nSource: IEA SHC Task 31 report (2005), eq 5; C-γ as in EN \
-13032-1, C 0° into the room.";
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let words = Words {
-        title: "LID",
+        title: say::LID.get(),
         subtitle: input.name,
-        help: HELP,
-        empty: input.lid.is_none().then_some("No luminous-intensity distribution: the scene has no window to shine."),
-        controls_width: 96.0,
+        help: say::LID_ABOUT.get(),
+        empty: input.lid.is_none().then_some(say::LID_EMPTY.get()),
+        controls_width: 170.0,
     };
-    let (mut per_area, mut solid) = (state.per_area, state.solid);
+    let (mut per_area, mut solid, mut hold) = (state.per_area, state.solid, state.hold);
     tile::show(
         ui,
         &words,
         &input.status,
         |ui| {
-            ui.toggle_value(&mut per_area, "per m²").on_hover_text("Candela per square metre of aperture");
-            let tip = "The body of light: its radius is the intensity; drag to turn, wheel to zoom";
-            ui.toggle_value(&mut solid, "3D").on_hover_text(tip);
+            ui.toggle_value(&mut per_area, say::PER_AREA).on_hover_text(say::PER_AREA_TIP);
+            ui.toggle_value(&mut solid, say::BODY).on_hover_text(say::LID_BODY_TIP);
+            ui.toggle_value(&mut hold, say::HOLD).on_hover_text(say::HOLD_TIP);
         },
         |ui, rect| match input.lid {
             Some(lid) if state.solid => {
@@ -87,7 +84,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
             None => Foot::default(),
         },
     );
-    (state.per_area, state.solid) = (per_area, solid);
+    (state.per_area, state.solid, state.hold) = (per_area, solid, hold);
     vec![]
 }
 
@@ -103,9 +100,10 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let planes = vertical_planes(lid.surface, input.peaks);
     let curves = state.curves.get((input.revision, planes.clone()), || sample(lid, &planes)).clone();
     let automatic = input.max.unwrap_or(curves.max) * factor;
-    let held = input.status.hold_scale && input.max.is_none();
-    let max = state.ring.filter(|_| held).unwrap_or(automatic);
-    state.ring = Some(max);
+    let held = (input.status.hold_scale || state.hold) && input.max.is_none();
+    let kept = state.ring.filter(|(per_area, _)| held && *per_area == state.per_area);
+    let max = kept.map_or(automatic, |(_, max)| max);
+    state.ring = Some((state.per_area, max));
     // As many lines for a scene with sun as for one without, so that the diagram keeps its place.
     let lines = if rect.width() < NARROW { 4.0 } else { 3.0 };
     let (body, legend) = rect.split_top_bottom_at_y((rect.bottom() - LINE * lines).max(rect.top() + 60.0));
@@ -156,7 +154,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
         let curve = axes.curve(&scaled(&curves.horizontal));
         ui.painter().add(Shape::closed_line(curve, Stroke::new(2.0, palette.first)));
         let response = ui.interact(side, ui.scope_id().with("horizontal"), Sense::hover());
-        tile::name(ui, &response, "LID horizontal section", "γ = 90°");
+        tile::name(ui, &response, say::LID_HORIZONTAL, "γ = 90°");
         if let Some(at) = response.hover_pos() {
             let (angle, _) = axes.value(at);
             let index = (angle.rem_euclid(TAU) / TAU * SAMPLES as f64).round() as usize % SAMPLES;
@@ -167,28 +165,29 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
         }
     }
     let rest = summary(lid, input, scaling);
-    tile::name(ui, &response, "LID polar diagram", rest.full());
+    tile::name(ui, &response, say::LID_POLAR, rest.full());
     legend_ui(ui, legend, lid, input, (&curves, scaling), &palette);
     text.unwrap_or(rest)
 }
 
 /// The strongest scattered light and where it goes; the beam has its words in the legend.
 fn summary(lid: &Lid, input: &Input<'_>, scaling: Scaling) -> Foot {
-    let flux = input.flux.map_or_else(String::new, |flux| format!("scattered flux {} · ", si(flux, "lm")));
+    let flux = input.flux.map_or_else(String::new, |flux| say::scattered_flux(si(flux, "lm")));
     let Some(peaks) = input.peaks else {
-        let state = if input.status.idle && !input.status.hold_scale { "not computed" } else { "computing…" };
-        return Foot::from([format!("{flux}scattered peak: {state}"), format!("peak: {state}")]);
+        let state = if input.status.idle && !input.status.hold_scale { say::NOT_COMPUTED } else { say::COMPUTING };
+        return Foot::from([format!("{flux}{}", say::scattered_peak_state(state)), say::peak_state(state)]);
     };
-    let Some(peak) = peaks.scattered else { return Foot::from("nothing is scattered") };
+    let Some(peak) = peaks.scattered else { return Foot::from(say::NOTHING_SCATTERED) };
     let value = scaling.text(peak.intensity);
     let to = towards(lid.surface, Aim::of(lid.surface).direction(peak.c, peak.gamma));
-    let size = format!("aperture {} × {} m", number(lid.size[0], 3), number(lid.size[1], 3));
+    let size = say::aperture_size(number(lid.size[0], 3), number(lid.size[1], 3));
+    let peak = say::scattered_peak(&value, &to);
     Foot::from([
-        format!("scattered peak {value} to {to} · {flux}{size}"),
-        format!("scattered peak {value} to {to} · {}", flux.trim_end_matches(" · ")),
-        format!("scattered peak {value} to {to}"),
-        format!("peak {value} to {to}"),
-        format!("peak {value}"),
+        format!("{peak} · {flux}{size}"),
+        format!("{peak} · {}", flux.trim_end_matches(" · ")),
+        peak,
+        say::peak_to(&value, to),
+        say::peak_alone(value),
     ])
 }
 
@@ -225,25 +224,22 @@ const NARROW: f32 = 300.0;
 fn beam_words(lid: &Lid, peaks: Option<&Peaks>, scaling: Scaling) -> Vec<String> {
     let Some(strongest) = lid.beams.iter().max_by(|a, b| a.flux.total_cmp(&b.flux)).filter(|beam| beam.flux > 0.0)
     else {
-        return vec!["no unscattered sun".to_owned(), "no sun's beam".to_owned()];
+        return vec![say::NO_BEAM.into(), say::NO_BEAM_SHORT.into()];
     };
-    let more = if lid.beams.len() > 1 { "most " } else { "" };
+    let many = lid.beams.len() > 1;
     let to = towards(lid.surface, strongest.direction);
     let flux = si(lid.beam_flux(), "lm");
     let Some(peak) = peaks.and_then(|peaks| peaks.beam) else {
-        return vec![
-            format!("sun's beam, {more}to {to}, {flux} (not to scale)"),
-            format!("sun's beam {flux}"),
-            format!("beam {flux}"),
-        ];
+        let full = if many { say::beam_flux_most(&to, &flux) } else { say::beam_flux_to(&to, &flux) };
+        return vec![full, say::beam_value(&flux), say::beam_short(flux)];
     };
     let value = scaling.text(peak.intensity);
-    vec![
-        format!("sun's beam {value}, {more}to {to}, {flux} (not to scale)"),
-        format!("sun's beam {value}, {more}to {to}"),
-        format!("sun's beam {value}"),
-        format!("beam {value}"),
-    ]
+    let [full, middle] = if many {
+        [say::beam_value_flux_most(&value, &to, &flux), say::beam_value_most(&value, &to)]
+    } else {
+        [say::beam_value_flux(&value, &to, &flux), say::beam_value_to(&value, &to)]
+    };
+    vec![full, middle, say::beam_value(&value), say::beam_short(value)]
 }
 
 fn legend_ui(
@@ -285,22 +281,19 @@ fn legend_ui(
         let name = plane.label();
         // The unit once, with the first plane.
         let texts = match k {
-            0 => vec![
-                format!("{name}, {}", scaling.unit()),
-                format!("{name}, {}", scaling.unit().replace(" of aperture", "")),
-            ],
+            0 => vec![format!("{name}, {}", scaling.unit()), format!("{name}, {}", scaling.short_unit())],
             _ if *plane == LidPlane::Vertical(90) && lid.surface == Surface::Facade => {
-                vec![format!("{name} (0: façade's plane)"), name]
+                vec![say::facade_plane(&name), name]
             }
             _ if *plane == LidPlane::Vertical(90) => vec![name],
-            _ => vec![format!("{name} (plane of the peak)"), name],
+            _ => vec![say::peak_plane(&name), name],
         };
         entry(texts, colour, None);
     }
     // Before the diffuser, which a low legend can do without.
     entry(beam_words(lid, input.peaks, scaling), palette.beam, Some(2.0));
     if input.flux.is_some() {
-        entry(vec!["ideal diffuser, same flux".to_owned(), "ideal diffuser".to_owned()], palette.weak, Some(4.0));
+        entry(vec![say::DIFFUSER_SAME.into(), say::DIFFUSER.into()], palette.weak, Some(4.0));
     }
 }
 

@@ -20,6 +20,7 @@ use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{LEFT, RIGHT};
 use crate::app::paint::tile::{self, Foot, Words};
 use crate::app::room_look::{RoomLook, RoomView};
+use crate::texts::tiles as say;
 use egui::{Rect, Sense, Ui, pos2, vec2};
 use input::Frame;
 use words::{summary, value_text};
@@ -29,6 +30,8 @@ use words::{summary, value_text};
 pub struct State {
     /// Logarithmic colours and section.
     pub log: bool,
+    /// The scale stays as it is.
+    pub hold: bool,
     /// Row of sensors in the section, counted along x; the middle one while `None`.
     pub row: Option<usize>,
     scale: Option<(Quantity, ColourScale)>,
@@ -37,41 +40,37 @@ pub struct State {
     perspective: perspective::State,
 }
 
-const HELP: &str = "Illuminance on the sensor plane from above, façade at the left, with iso-lux lines; under it a \
-section along the depth through the row of the cursor (click to keep a row), with lines at 300 and 500 lx and the band \
-between the darkest and the brightest row. Windows, sensor plane and listed sensors can be dragged (5 cm steps, Shift \
-1 cm; or arrow keys). Perspective: the surfaces by their illuminance, or as luminances as seen; the sun's patches may \
-be beyond the scale. Daylight factor: of an overcast CIE sky without sun.\nSource: direct part IEA SHC Task 31 report \
-(2005), eq 17; interreflection by radiosity; 300 and 500 lx as in EN 17037.";
-
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let (mut asked, mut moved) = (vec![], vec![]);
     let solid = input.look.view == RoomView::Perspective;
     let missing = match (input.status.stale, input.status.idle) {
-        (true, false) => "Computing the illuminances…",
-        _ => "No illuminances yet: choose a product and a plane of sensors.",
+        (true, false) => say::ROOM_COMPUTING.get(),
+        _ => say::ROOM_EMPTY.get(),
     };
     let there = solid || input.complete() || !input.points.is_empty();
     let words = Words {
-        title: "Room",
+        title: say::ROOM.get(),
         subtitle: input.name,
-        help: HELP,
+        help: say::ROOM_ABOUT.get(),
         empty: (!there).then_some(missing),
-        controls_width: 400.0,
+        controls_width: 460.0,
     };
-    let (mut log, mut look) = (state.log, input.look);
+    let (mut log, mut hold, mut look) = (state.log, state.hold, input.look);
     tile::show(
         ui,
         &words,
         &input.status,
-        |ui| controls(ui, input, (&mut log, &mut look), &mut asked),
+        |ui| {
+            controls(ui, input, (&mut log, &mut look), &mut asked);
+            ui.toggle_value(&mut hold, say::HOLD).on_hover_text(say::HOLD_TIP);
+        },
         |ui, rect| match solid {
-            true => perspective::show(ui, rect, input, state.log, &mut state.perspective),
+            true => perspective::show(ui, rect, input, (state.log, state.hold), &mut state.perspective),
             false => picture(ui, rect, input, state, &mut moved),
         },
     );
-    state.log = log;
+    (state.log, state.hold) = (log, hold);
     if look != input.look {
         asked.push(Action::Look(look));
     }
@@ -88,22 +87,22 @@ fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLo
     }
     ui.separator();
     if look.view == RoomView::Perspective {
-        let seen = ui.toggle_value(&mut look.as_seen, "as seen");
-        seen.on_hover_text("Luminances ρE/π as the eye would see them, instead of illuminances in false colour");
+        let seen = ui.toggle_value(&mut look.as_seen, say::AS_SEEN);
+        seen.on_hover_text(say::AS_SEEN_TIP);
         ui.add_enabled_ui(!look.as_seen, |ui| {
-            ui.toggle_value(log, "log").on_hover_text("Logarithmic colours");
+            ui.toggle_value(log, say::LOG).on_hover_text(say::LOG_COLOURS);
         });
         return;
     }
-    ui.toggle_value(log, "log").on_hover_text("Logarithmic colours and section");
+    ui.toggle_value(log, say::LOG).on_hover_text(say::LOG_SECTION);
     let factor = ui.add_enabled_ui(input.no_factor.is_none() || look.daylight_factor, |ui| {
-        ui.toggle_value(&mut look.daylight_factor, "DF")
+        ui.toggle_value(&mut look.daylight_factor, say::DAYLIGHT_FACTOR)
     });
-    let tip = input.no_factor.unwrap_or("Daylight factor: share of the horizontal illuminance outside");
+    let tip = input.no_factor.unwrap_or(say::DAYLIGHT_FACTOR_TIP);
     factor.inner.on_hover_text(tip).on_disabled_hover_text(tip);
     if let Some(mut z) = input.plane_z {
         let drag = egui::DragValue::new(&mut z).range(0.0..=input.room[2]).speed(0.01).suffix(" m").max_decimals(2);
-        let label = ui.label("plane at");
+        let label = ui.label(say::PLANE_AT);
         if ui.add(drag).labelled_by(label.id).changed() {
             actions.push(Action::PlaneMoved(z));
         }
@@ -121,7 +120,9 @@ fn scale_of(input: &Input<'_>, state: &State) -> ColourScale {
             let lo = if state.log { lo.max(hi * 1e-4) } else { lo };
             ColourScale { lo, hi, log: state.log, map: ColourMap::Sequential }
         }
-        (None, Some((of, held))) if input.status.hold_scale && held.log == state.log && *of == input.quantity => {
+        (None, Some((of, held)))
+            if (input.status.hold_scale || state.hold) && held.log == state.log && *of == input.quantity =>
+        {
             held.clone()
         }
         _ => ColourScale::up_to(max, state.log, 2, ColourMap::Sequential),
@@ -142,8 +143,8 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
         pos2(rect.right() - RIGHT, rect.bottom() - profile_height - LEGEND_HEIGHT - 6.0),
     );
     let frame = Frame::within(frame_rect, input.room, side);
-    let name = if side { "Room section" } else { "Room plan" };
-    let response = ui.interact(frame.area, ui.scope_id().with(name), Sense::click());
+    let name = if side { say::ROOM_SECTION } else { say::ROOM_PLAN };
+    let response = ui.interact(frame.area, ui.scope_id().with(name.english()), Sense::click());
     let cell = response.hover_pos().filter(|_| input.complete()).map(|at| {
         let (y, across) = frame.room(at);
         // The far walls belong to the last cells.

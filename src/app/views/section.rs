@@ -4,6 +4,7 @@ use super::Cache;
 use crate::app::paint::polygon::fill;
 use crate::app::theme;
 use crate::compute::system::{SystemDescription, SystemKind};
+use crate::texts::{Text, decimal, tiles as say};
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Periods drawn.
@@ -54,11 +55,11 @@ fn scale_bar(most: f64) -> f64 {
 }
 
 /// Words instead of a drawing.
-fn nothing_drawn(system: Option<&SystemDescription>) -> &'static str {
+fn nothing_drawn(system: Option<&SystemDescription>) -> Text {
     match system.map(|system| &system.kind) {
-        None => "Choose an example, open a .system.toml, or type: the section shows here at once.",
-        Some(SystemKind::Stack(_)) => "A stack of layers, from outside to inside; each has a section of its own.",
-        Some(_) => "This state has no section.",
+        None => say::SECTION_EMPTY,
+        Some(SystemKind::Stack(_)) => say::SECTION_STACK,
+        Some(_) => say::SECTION_NONE,
     }
 }
 
@@ -76,14 +77,13 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, size: Vec2, state: &mut State) {
         (Some(system), Some(bounds)) => draw(&painter, rect, palette, (system, outlines, bounds), input.sun),
         (system, _) => {
             let words = nothing_drawn(system);
-            let wrapped =
-                painter.layout(words.to_owned(), FontId::proportional(13.5), palette.weak, rect.width() - 24.0);
+            let wrapped = painter.layout(words.into(), FontId::proportional(13.5), palette.weak, rect.width() - 24.0);
             painter.galley(rect.center() - 0.5 * wrapped.size(), wrapped, palette.weak);
-            words.to_owned()
+            words.into()
         }
     };
     response.widget_info(|| {
-        let mut info = egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "Section");
+        let mut info = egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, say::SECTION.get());
         info.current_text_value = Some(words.clone());
         info
     });
@@ -124,12 +124,12 @@ fn draw(
     }
     let font = FontId::proportional(13.0);
     let write = |at: Pos2, align: Align2, text: &str| painter.text(at, align, text, font.clone(), palette.weak);
-    write(rect.left_top() + vec2(7.0, 5.0), Align2::LEFT_TOP, "outside");
-    write(rect.right_top() + vec2(-7.0, 5.0), Align2::RIGHT_TOP, "inside");
+    write(rect.left_top() + vec2(7.0, 5.0), Align2::LEFT_TOP, say::OUTSIDE.get());
+    write(rect.right_top() + vec2(-7.0, 5.0), Align2::RIGHT_TOP, say::INSIDE.get());
     let view = match (system.upright, system.family().is_schematic()) {
-        (true, true) => "seen from above, schematic",
-        (true, false) => "seen from above",
-        (false, true) => "schematic",
+        (true, true) => say::SECTION_ABOVE_SCHEMATIC.get(),
+        (true, false) => say::SECTION_ABOVE.get(),
+        (false, true) => say::SECTION_SCHEMATIC.get(),
         (false, false) => "",
     };
     write(rect.right_bottom() + vec2(-7.0, -5.0), Align2::RIGHT_BOTTOM, view);
@@ -141,9 +141,9 @@ fn draw(
     for tick in [start, end] {
         painter.line_segment([tick - vec2(0.0, 4.0), tick + vec2(0.0, 4.0)], stroke);
     }
-    let length = format!("{} mm", (1e6 * bar).round() / 1e6);
+    let length = format!("{} mm", decimal(((1e6 * bar).round() / 1e6).to_string()));
     write(end + vec2(6.0, 0.0), Align2::LEFT_CENTER, &length);
-    let mut words = format!("{} outlines, scale bar {length}", outlines.len());
+    let mut words = say::section_words(outlines.len(), &length);
     if !view.is_empty() {
         words.push_str(&format!(", {view}"));
     }
@@ -151,7 +151,7 @@ fn draw(
         let tip = place([high[0], middle[1]]) - vec2(6.0, 0.0);
         let back = RAY * vec2(-angle.cos() as f32, -angle.sin() as f32);
         painter.arrow(tip + back, -back, Stroke::new(2.0, palette.sun));
-        words.push_str(&format!(", sun at {:.0}°", angle.to_degrees()));
+        words.push_str(&say::section_sun(format!("{:.0}", angle.to_degrees())));
     }
     words
 }

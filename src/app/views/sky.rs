@@ -11,6 +11,7 @@ use crate::compute::angle::wrap_two_pi;
 use crate::drawing::hemisphere::dome_point;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
+use crate::texts::{Text, fixed, tiles as say};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
@@ -83,17 +84,16 @@ pub enum Action {
 /// The tile's own settings and pictures.
 #[derive(Debug, Clone, Default)]
 pub struct State {
+    /// Linear colours instead of logarithmic ones.
+    pub linear: bool,
+    /// The scale stays as it is.
+    pub hold: bool,
     scale: Option<ColourScale>,
     extent: Cache<u64, [f64; 2]>,
     dome: Cache<(u64, Disk, ColourScale, u64, bool), Arc<Mesh>>,
     section: Cache<(u64, u64), Vec<[f64; 2]>>,
     dragging: bool,
 }
-
-const HELP: &str = "The sky as seen lying on one's back: north up, so east is left. Zenith in the middle, equal steps of \
-altitude. The half before the façade is bright. Drag the sun along its path of the day: the time follows; with Shift \
-the date too; with Alt its angles are free. Under it the luminance along the sun's vertical circle.\nSource: ISO 15469/CIE S 011 or Perez et al. 1993, as chosen in the \
-scene.";
 
 /// Width from which the three illuminances stand in one line. \[points\]
 const WIDE_FIGURES: f32 = 460.0;
@@ -128,22 +128,27 @@ fn place_of([right, up]: [f64; 2]) -> Place {
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let words = Words {
-        title: "Sky",
+        title: say::SKY.get(),
         subtitle: input.name,
-        help: HELP,
-        empty: input.luminance.is_none().then_some("No sky: see what the scene says under Sky."),
-        controls_width: 0.0,
+        help: say::SKY_ABOUT.get(),
+        empty: input.luminance.is_none().then_some(say::SKY_EMPTY.get()),
+        controls_width: 104.0,
     };
+    let (mut log, mut hold) = (!state.linear, state.hold);
     tile::show(
         ui,
         &words,
         &input.status,
-        |_| {},
+        |ui| {
+            ui.toggle_value(&mut log, say::LOG).on_hover_text(say::LOG_COLOURS);
+            ui.toggle_value(&mut hold, say::HOLD).on_hover_text(say::HOLD_TIP);
+        },
         |ui, rect| match input.luminance {
             Some(luminance) => picture(ui, rect, luminance, input, state, &mut actions),
             None => Foot::default(),
         },
     );
+    (state.linear, state.hold) = (!log, hold);
     actions
 }
 
@@ -173,9 +178,14 @@ fn picture(
     };
     let [min, max] = *state.extent.get(input.revision, || extent(luminance));
     let moving = input.status.hold_scale || state.dragging;
-    let held = state.scale.clone().filter(|_| moving);
-    let own = || ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential);
-    let forced = input.range.map(|[lo, hi]| ColourScale { lo, hi, log: true, map: ColourMap::Sequential });
+    let log = !state.linear;
+    let held = state.scale.clone().filter(|scale| (moving || state.hold) && scale.log == log);
+    let own = || match log {
+        true => ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential),
+        false => ColourScale::up_to(max.max(1e-2), false, 3, ColourMap::Sequential),
+    };
+    let least = |lo: f64| if log { lo } else { 0.0 };
+    let forced = input.range.map(|[lo, hi]| ColourScale { lo: least(lo), hi, log, map: ColourMap::Sequential });
     let scale = forced.or(held).unwrap_or_else(own);
     state.scale = Some(scale.clone());
     let text = dome(ui, map, luminance, input, state, &scale, out);
@@ -198,17 +208,17 @@ pub fn extent(luminance: Luminance<'_>) -> [f64; 2] {
 
 fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     let figures = [
-        ("E_h diffuse", input.diffuse_horizontal),
-        ("E_h direct", input.direct_horizontal),
-        ("E_v façade", input.facade_vertical),
+        (say::E_DIFFUSE, input.diffuse_horizontal),
+        (say::E_DIRECT, input.direct_horizontal),
+        (say::E_FACADE, input.facade_vertical),
     ];
     // Name over value in three columns, or a line for each, where they do not fit side by side.
-    let short = ["diffuse", "direct", "façade"];
+    let short = [say::DIFFUSE, say::DIRECT, say::FACADE];
     let lines = figure_lines(rect.width());
     let width = rect.width() / 3.0;
     let font = FontId::proportional(13.0);
     for (k, (label, value)) in figures.into_iter().enumerate() {
-        let value = value.map_or_else(|| "–".to_owned(), |v| format!("{:.1} klx", v / 1000.0));
+        let value = value.map_or_else(|| "–".to_owned(), |v| format!("{} klx", fixed(v / 1000.0, 1)));
         let at = rect.left_top() + vec2(2.0, 9.0);
         let at = at + if lines == 3 { vec2(0.0, FIGURE_LINE * k as f32) } else { vec2(k as f32 * width, 0.0) };
         let name = if lines == 2 { short[k] } else { label };
@@ -271,15 +281,15 @@ fn dome(
     let value = place.map(|p| luminance(p.altitude, p.bearing));
     scale.paint_legend(ui.painter(), legend, "cd/m²", value, &palette);
     let sun_text = match input.sun {
-        Some(sun) => Foot::from(place_text("sun", sun)),
-        None => Foot::from("no sun"),
+        Some(sun) => Foot::from(place_text(say::SUN, sun)),
+        None => Foot::from(say::NO_SUN),
     };
-    tile::name(ui, &response, "Sky dome", sun_text.full());
+    tile::name(ui, &response, say::SKY_DOME, sun_text.full());
     match (place, value) {
-        _ if at_sun => Foot::from("Drag: along the day's path · Shift: the date too · Alt: free angles"),
+        _ if at_sun => Foot::from(say::DRAG_SUN),
         (Some(p), Some(v)) => {
             let luminance = si(v, "cd/m²");
-            let [full, short, _] = place_text("sky", p);
+            let [full, short, _] = place_text(say::SKY_PLACE, p);
             Foot::from([format!("{full} · {luminance}"), format!("{short} · {luminance}"), luminance])
         }
         _ => sun_text,
@@ -287,13 +297,14 @@ fn dome(
 }
 
 /// "sun 41.0° high, bearing 171°", and shorter; "15.0° below the horizon".
-fn place_text(what: &str, place: Place) -> [String; 3] {
+fn place_text(what: Text, place: Place) -> [String; 3] {
     let degrees = place.altitude.to_degrees();
     let height = height_words(degrees, 1);
     // Just under a whole turn is north again.
     let bearing = place.bearing.to_degrees().round().rem_euclid(360.0);
-    let short = if degrees < 0.0 { format!("{what} below horizon") } else { format!("{what} {height}") };
-    [format!("{what} {height}, bearing {bearing:.0}°"), format!("{what} {height}"), short]
+    let short = if degrees < 0.0 { say::below_horizon(what) } else { format!("{what} {height}") };
+    let place = format!("{what} {height}");
+    [say::with_bearing(&place, format!("{bearing:.0}")), place, short]
 }
 
 fn dome_mesh(disk: &Disk, luminance: Luminance<'_>, scale: &ColourScale, facade: f64, palette: &Palette) -> Mesh {
@@ -351,7 +362,7 @@ fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     let along = [-1.0, 1.0]
         .map(|side| disk.screen(disk_point(Place { altitude: 0.0, bearing: input.facade_bearing + side * FRAC_PI_2 })));
     painter.line_segment(along, Stroke::new(2.0, palette.ink));
-    for (word, deg) in [("N", 0.0_f64), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
+    for (word, deg) in [(say::NORTH, 0.0_f64), (say::EAST, 90.0), (say::SOUTH, 180.0), (say::WEST, 270.0)] {
         let [x, y] = disk_point(Place { altitude: 0.0, bearing: deg.to_radians() });
         let at = disk.centre + vec2(x as f32, -y as f32) * (disk.radius + 9.0);
         painter.text(at, Align2::CENTER_CENTER, word, FontId::proportional(13.0), palette.ink);
@@ -380,23 +391,23 @@ fn section_ui(
     });
     let sun = input.sun.filter(|sun| sun.altitude >= 0.0).map(|sun| 90.0 - sun.altitude.to_degrees());
     let plot = Plot {
-        x: Axis::linear([-90.0, 90.0], "zenith angle", Unit::Degrees),
-        y: Axis::log([scale.lo, scale.hi], "L", Unit::Named("cd/m²")),
-        series: vec![Series::line("sky", points.iter().copied())],
+        x: Axis::linear([-90.0, 90.0], say::ZENITH_ANGLE, Unit::Degrees),
+        y: if scale.log { Axis::log } else { Axis::linear }([scale.lo, scale.hi], "L", Unit::Named("cd/m²")),
+        series: vec![Series::line(say::SKY_PLACE, points.iter().copied())],
         guides: sun
-            .map(|x| Guide { name: "sun".to_owned(), ends: [[x, scale.lo], [x, scale.hi]] })
+            .map(|x| Guide { name: say::SUN.into(), ends: [[x, scale.lo], [x, scale.hi]] })
             .into_iter()
             .collect(),
     };
     let colours = [palette.first];
     let look = Look::tile(ui.scope_id().with("section"), &colours, palette.sun);
     let shown = plot::show(ui, rect.shrink2(vec2(12.0, 0.0)), &plot, &look, |_| {});
-    tile::name(ui, &shown.response, "Sky section", "luminance along the sun's vertical circle");
+    tile::name(ui, &shown.response, say::SKY_SECTION, say::SKY_SECTION_VALUE.get());
     let [angle, _] = shown.pointed()?;
     let [x, value] = points[(angle.round() as i64 + 90).clamp(0, 180) as usize];
     ui.painter().circle_filled(shown.screen(plot.place([x, value])?), 3.5, palette.first);
     let luminance = si(value, "cd/m²");
-    Some(Foot::from([format!("{x:.0}° from the zenith · {luminance}"), luminance]))
+    Some(Foot::from([say::from_zenith(format!("{x:.0}"), &luminance), luminance]))
 }
 
 /// The dome every 5° of altitude and 10° of bearing.
@@ -421,7 +432,7 @@ mod tests {
     fn a_sun_under_the_horizon_is_said_to_be_there() {
         let text = |degrees: f64, bearing: f64| {
             let place = Place { altitude: degrees.to_radians(), bearing: bearing.to_radians() };
-            place_text("sun", place)[0].clone()
+            place_text(say::SUN, place)[0].clone()
         };
         assert_eq!(text(-15.0, 290.0), "sun 15.0° below the horizon, bearing 290°");
         assert_eq!(text(41.2, 359.8), "sun 41.2° high, bearing 0°");

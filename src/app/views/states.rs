@@ -4,6 +4,7 @@ use super::Cache;
 use crate::app::paint::polygon::fill;
 use crate::app::theme;
 use crate::compute::system::SystemDescription;
+use crate::texts::{fixed, tiles as say};
 use egui::{FontId, Painter, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
 /// Periods in a picture: one slat alone does not show how they overlap.
@@ -149,10 +150,13 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<usize> 
 fn cell(ui: &mut Ui, mark: &Mark, picture: &Picture, chosen: bool) -> egui::Response {
     let palette = theme::palette(ui);
     let (rect, response) = ui.allocate_exact_size(CELL, Sense::click());
-    let tau = mark.tau.map_or_else(String::new, |tau| format!("\nτ under uniform light {tau:.2}"));
-    let response = response.on_hover_text(format!("State {}{tau}", mark.words));
+    let tip = match mark.tau {
+        Some(tau) => say::state_tau(&mark.words, fixed(tau, 2)),
+        None => say::state_named(&mark.words),
+    };
+    let response = response.on_hover_text(tip);
     response.widget_info(|| {
-        let label = format!("State {}", mark.words);
+        let label = say::state_named(&mark.words);
         egui::WidgetInfo::selected(egui::accesskit::Role::RadioButton, true, chosen, label)
     });
     if !ui.is_rect_visible(rect) {

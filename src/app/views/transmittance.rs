@@ -11,14 +11,12 @@ use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::Incident;
 pub use crate::drawing::flux_split::FluxSplit;
 use crate::drawing::flux_split::percent;
+use crate::drawing::plot::MONTHS;
 use crate::drawing::ticks::number;
+use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// The zones by the elevation at which light leaves, in words.
-const ZONES: &str = "Shares of the light that arrives, by the elevation at which it leaves: ceiling above +10°, \
-eye zone −10…+10°, work zone −45…−10°, floor below −45°.";
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
@@ -56,44 +54,43 @@ pub enum Action {
 pub struct State {
     /// Leave the sun's paths out.
     pub hide_paths: bool,
+    /// Logarithmic colours.
+    pub log: bool,
+    /// The scale stays as it is.
+    pub hold: bool,
     scale: Option<ColourScale>,
     max: Cache<u64, f64>,
     mesh: Cache<(u64, Disk, ColourScale), Arc<Mesh>>,
 }
 
-const HELP: &str = "Directional-hemispherical transmittance τ for every direction of incidence, seen from inside, with \
-the sun's paths on the 21st of each month; beside it where the transmitted light goes.\nSource: IEA SHC Task 31 report \
-(2005), eq 1.";
-const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let words = Words {
-        title: "Transmittance",
+        title: say::TRANSMITTANCE.get(),
         subtitle: input.name,
-        help: HELP,
-        empty: input
-            .btdf
-            .is_none()
-            .then_some("Choose a product in the catalogue to see how much light it lets through."),
-        controls_width: 90.0,
+        help: say::TRANSMITTANCE_ABOUT.get(),
+        empty: input.btdf.is_none().then_some(say::TRANSMITTANCE_EMPTY.get()),
+        controls_width: 200.0,
     };
-    let mut paths = !state.hide_paths;
+    let (mut paths, mut log, mut hold) = (!state.hide_paths, state.log, state.hold);
     tile::show(
         ui,
         &words,
         &input.status,
         |ui| {
-            ui.checkbox(&mut paths, "Sun paths");
+            ui.checkbox(&mut paths, say::SUN_PATHS);
+            ui.toggle_value(&mut log, say::LOG).on_hover_text(say::LOG_COLOURS);
+            ui.toggle_value(&mut hold, say::HOLD).on_hover_text(say::HOLD_TIP);
         },
         |ui, rect| match input.btdf {
             Some(btdf) => picture(ui, rect, btdf, input, state, &mut actions),
             None => Foot::default(),
         },
     );
-    state.hide_paths = !paths;
+    (state.hide_paths, state.log, state.hold) = (!paths, log, hold);
     actions
 }
 
@@ -122,15 +119,17 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
     // Up to the data's own maximum: dense products would be one dark blot on a scale up to 1. Opaque ones still
     // need an extent.
-    let own = || ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
-    let forced = |[lo, hi]: [f64; 2]| ColourScale { lo, hi, log: false, map: ColourMap::Sequential };
-    let held = state.scale.clone().filter(|_| input.status.hold_scale);
+    let own = || ColourScale::up_to(max.max(1e-3), state.log, 2, ColourMap::Sequential);
+    let log = state.log;
+    let least = |lo: f64, hi: f64| if log { lo.max(1e-2 * hi) } else { lo };
+    let forced = |[lo, hi]: [f64; 2]| ColourScale { lo: least(lo, hi), hi, log, map: ColourMap::Sequential };
+    let held = state.scale.clone().filter(|scale| (input.status.hold_scale || state.hold) && scale.log == log);
     let scale = input.range.map(forced).or(held).unwrap_or_else(own);
     state.scale = Some(scale.clone());
     let mesh =
         state.mesh.get((input.revision, disk, scale.clone()), || Arc::new(map_mesh(&disk, btdf, &basis, &scale)));
     ui.painter().add(Shape::Mesh(mesh.clone()));
-    disk.frame(ui.painter(), PROJECTION, "outside", &palette);
+    disk.frame(ui.painter(), PROJECTION, say::OUTSIDE.get(), &palette);
     if !state.hide_paths {
         let sun =
             input.moment.filter(|sun| sun.0.vector().z > 0.0).map(|sun| disk.screen(incident_disk(PROJECTION, sun)));
@@ -165,10 +164,10 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         format!("{short} · {own}"),
         format!("{} {own}", short.replace(',', "")),
     ]);
-    tile::name(ui, &response, "Transmittance map", rest.full());
+    tile::name(ui, &response, say::TRANSMITTANCE_MAP, rest.full());
     pointed.map_or(rest, |d| {
         let (angles, tau) = (direction_text(d.0), tau(d));
-        Foot::from([format!("from {angles} · {tau}"), format!("{angles} · {tau}"), tau])
+        Foot::from([say::from_angles(&angles, &tau), format!("{angles} · {tau}"), tau])
     })
 }
 
@@ -250,12 +249,12 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
             let inside = above.distance(disk.centre) < disk.radius - 8.0;
             let place = if month == 5 && inside { above } else { at + vec2(0.0, 9.0) };
             if labelled {
-                name(place, format!("{hour:.0}h"));
+                name(place, say::hour_mark(format!("{hour:.0}")));
             }
         }
         let middle = runs.iter().max_by_key(|run| run.len()).filter(|run| run.len() > 3);
         if let (Some(run), true) = (middle, [2, 5, 11].contains(&month) && disk.radius > 55.0) {
-            name(run[run.len() / 4], MONTHS[month].to_owned());
+            name(run[run.len() / 4], MONTHS[month].into());
         }
     }
     for (_, place, text) in &names {
@@ -278,9 +277,9 @@ fn zone_colour(zone: usize) -> Color32 {
 }
 
 fn name_split(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence) {
-    let response = ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(ZONES);
+    let response = ui.interact(rect, ui.scope_id().with("split"), Sense::hover()).on_hover_text(say::ZONES);
     let [full, ..] = incidence.texts();
-    tile::name(ui, &response, "Flux split", &format!("{full}: {}", split.sentence()));
+    tile::name(ui, &response, say::FLUX_SPLIT, &format!("{full}: {}", split.sentence()));
 }
 
 /// The split as an upright bar with a name to each zone, beside the map.
@@ -296,7 +295,7 @@ fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, 
     ui.painter().galley(pos2(rect.left() + 4.0, column.bottom() + 6.0), sentence, palette.ink);
     let title = split_title(ui, incidence, rect.width() - 6.0);
     tile::caption(ui, pos2(rect.left() + 4.0, rect.top()), Align2::LEFT_TOP, &title);
-    tile::caption(ui, pos2(rect.left() + 4.0, rect.top() + 16.0), Align2::LEFT_TOP, "leaving to / %");
+    tile::caption(ui, pos2(rect.left() + 4.0, rect.top() + 16.0), Align2::LEFT_TOP, say::LEAVING_TO.get());
     ui.painter().rect_filled(column, 0, palette.face);
     let mut top = column.top();
     let mut text_floor = column.top();

@@ -20,6 +20,7 @@
 //! | `schemes` | the report's ways between the directions beside it |
 //! | `judge` | how far two indicatrices are apart |
 //! | `left_out` | what each way is worth, by leaving directions out |
+//! | `ways` | what becomes of the lobes between three directions |
 
 pub mod filter;
 pub mod flux;
@@ -40,3 +41,4 @@ pub mod superpose;
 mod synthetic;
 #[cfg(test)]
 mod tests;
+pub mod ways;

@@ -107,7 +107,7 @@ impl Session {
     }
 
     /// What interpolation between the directions of a dataset needs.
-    pub(in crate::study) fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
+    pub fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
         // The interpolator keeps the data alive, so that no others can have their address.
         match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {

@@ -1,9 +1,10 @@
 //! Layouts as values: read, joined, split, resized.
 
 use super::*;
+use crate::texts::Text;
 
 fn tiles() -> [Tile; 4] {
-    ["a", "b", "c", "d"].map(|title| Tile { title, help: "" })
+    ["a", "b", "c", "d"].map(|title| Tile { title, name: Text::new(title, title), help: Text::new("", "") })
 }
 
 fn sample() -> Layout {

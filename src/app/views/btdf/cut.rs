@@ -9,6 +9,7 @@ use crate::compute::btdf::Indicatrix;
 use crate::compute::direction::{Dir, Incident};
 use crate::drawing::plot::{Axis, Plot, Series, Unit};
 use crate::drawing::ticks::number;
+use crate::texts::{Text, tiles as say};
 use egui::{Rect, Ui};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -27,8 +28,8 @@ fn value(indicatrix: &Indicatrix, phi: f64, angle: f64, weighted: bool) -> f64 {
 fn curves(indicatrix: &Indicatrix, direction: Incident, scale: &ColourScale, weighted: bool) -> Plot {
     let oblique = direction.0.theta() > 0.01;
     let phi = if oblique { direction.0.phi() } else { FRAC_PI_2 };
-    let names = if oblique { ["in the plane of incidence", "across it"] } else { ["upright plane", "level plane"] };
-    let line = |(name, phi): (&str, f64)| {
+    let names = if oblique { [say::CUT_IN, say::CUT_ACROSS] } else { [say::CUT_UPRIGHT, say::CUT_LEVEL] };
+    let line = |(name, phi): (Text, f64)| {
         let point = |k: i32| {
             let angle = f64::from(k) / f64::from(STEPS) * (FRAC_PI_2 - 1e-9);
             [angle.to_degrees(), value(indicatrix, phi, angle, weighted)]
@@ -38,7 +39,7 @@ fn curves(indicatrix: &Indicatrix, direction: Incident, scale: &ColourScale, wei
     let axis = if scale.log { Axis::log } else { Axis::linear };
     let what = if weighted { "q·cosθ" } else { "q" };
     Plot {
-        x: Axis::linear([-90.0, 90.0], "angle off the normal, straight on > 0", Unit::Degrees),
+        x: Axis::linear([-90.0, 90.0], say::CUT_AXIS, Unit::Degrees),
         y: axis([scale.lo, scale.hi], what, Unit::Named("1/sr")),
         series: names.into_iter().zip([phi, phi + FRAC_PI_2]).map(line).collect(),
         guides: vec![],
@@ -60,7 +61,7 @@ pub(super) fn show(
     let look = Look::tile(ui.scope_id().with("cuts"), &colours, palette.weak);
     let shown = plot::show(ui, rect, &plot, &look, |_| {});
     let largest = plot.series.iter().flat_map(|series| &series.points).map(|[_, y]| *y).fold(0.0, f64::max);
-    tile::name(ui, &shown.response, "Emergent cuts", &format!("largest {} 1/sr", number(largest, 3)));
+    tile::name(ui, &shown.response, say::EMERGENT_CUTS, &say::largest(number(largest, 3)));
 }
 
 #[cfg(test)]

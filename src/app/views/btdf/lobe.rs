@@ -10,6 +10,7 @@ use crate::app::paint::tile::{self, Foot};
 use crate::app::views::Cache;
 use crate::compute::btdf::Indicatrix;
 use crate::compute::direction::{Dir, Facade, Incident, Surface};
+use crate::texts::tiles as say;
 use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -91,10 +92,10 @@ fn axes(painter: &Painter, view: &View, palette: &Palette) {
     arc(painter, view, |a| DVec3::new(a.cos(), 0.0, a.sin()), [0.0, TAU], stroke);
     arc(painter, view, |a| DVec3::new(a.cos(), a.sin(), 0.0), [0.0, std::f64::consts::PI], stroke);
     arc(painter, view, |a| DVec3::new(0.0, a.cos(), a.sin()), [-FRAC_PI_2, FRAC_PI_2], stroke);
-    for (end, word) in [(DVec3::Z, "up"), (DVec3::Y, "into the room")] {
+    for (end, word) in [(DVec3::Z, say::UP), (DVec3::Y, say::INTO_THE_ROOM)] {
         if let (Some((from, _)), Some((to, _))) = (view.screen(DVec3::ZERO), view.screen(1.12 * end)) {
             painter.line_segment([from, to], Stroke::new(1.0, palette.weak));
-            words(painter, painter.clip_rect(), to, word, [palette.weak, egui::Color32::TRANSPARENT]);
+            words(painter, painter.clip_rect(), to, word.get(), [palette.weak, egui::Color32::TRANSPARENT]);
         }
     }
 }
@@ -128,8 +129,8 @@ pub(super) fn show(ui: &mut Ui, place: &Place, input: &Input<'_>, state: &mut St
     let largest = input.indicatrix.basis.cells().zip(&input.indicatrix.q);
     let largest = largest.map(|(cell, q)| drawn(*q, &cell, input.weighted)).fold(0.0, f64::max);
     let what = if input.weighted { "q·cosθ" } else { "q" };
-    let told = format!("largest {what} {} 1/sr", crate::drawing::ticks::number(largest, 3));
-    tile::name(ui, &response, "Emergent body", &told);
+    let told = say::largest_q(what, crate::drawing::ticks::number(largest, 3));
+    tile::name(ui, &response, say::EMERGENT_BODY, &told);
     let hovered = response.hover_pos().filter(|_| !response.dragged());
     let Some(index) = hovered.and_then(|at| body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)) else {
         return (None, None);

@@ -3,6 +3,7 @@
 use crate::app::paint::colour_scale::LEGEND_HEIGHT;
 use crate::app::paint::hemisphere::{Disk, Projection};
 use crate::app::paint::palette::Palette;
+use crate::texts::tiles as say;
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
 /// Where one of the two hemispheres is drawn.
@@ -74,14 +75,14 @@ pub(super) fn places(rect: Rect, stacked: bool) -> [Place; 2] {
 /// Rim and caption: the long one where it fits.
 pub(super) fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2], palette: &Palette) {
     let Some((corner, align)) = place.corner else {
-        let long = format!("{side}: {what}");
+        let long = say::side_and(side, what);
         let caption = if place.rect.width() > 195.0 { &long } else { side };
         place.disk.frame(ui.painter(), projection, caption, palette);
         return;
     };
     place.disk.rim(ui.painter(), projection, palette);
     let text =
-        if corner.width() > 76.0 && corner.height() > 44.0 { format!("{side}:\n{what}") } else { side.to_owned() };
+        if corner.width() > 76.0 && corner.height() > 44.0 { say::side_over(side, what) } else { side.to_owned() };
     let mut job =
         egui::text::LayoutJob::simple(text, egui::FontId::proportional(13.0), palette.weak, corner.width().max(50.0));
     job.halign = align.x();

@@ -6,11 +6,12 @@ use crate::compute::basis::Cell;
 use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::{degrees, number};
+use crate::texts::tiles as say;
 
 /// The incidence under the pointer, which a click would choose.
 pub(super) fn pointed_text(d: Incident, tau: f64) -> Foot {
     let (angles, tau) = (direction_text(d.0), number(tau, 3));
-    Foot::from([format!("incidence {angles} · τ {tau}"), format!("{angles} · τ {tau}"), format!("τ {tau}")])
+    Foot::from([say::incidence_tau(&angles, &tau), format!("{angles} · τ {tau}"), format!("τ {tau}")])
 }
 
 /// "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)", and shorter.
@@ -19,7 +20,7 @@ pub(super) fn selection_text(btdf: &Btdf, incidence: &Incidence) -> Foot {
     let tau = btdf.tau(incident);
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(incident.0.theta()));
     let parts = if regular > 0.0 && btdf.scattered.is_some() {
-        format!(" (scattered {}, regular {})", number(tau - regular, 3), number(regular, 3))
+        say::scattered_regular(number(tau - regular, 3), number(regular, 3))
     } else {
         String::new()
     };
@@ -42,7 +43,7 @@ fn measured_at(btdf: &Btdf, incident: Incident) -> String {
     if own.dot(incident.0) > 0.5_f64.to_radians().cos() {
         return String::new();
     }
-    format!(" · data of {}", direction_text(own))
+    say::data_of(direction_text(own))
 }
 
 /// Value drawn for a cell: q, or q times the cell's mean cosine.
@@ -57,8 +58,8 @@ pub(super) fn leaving_text(through: Dir<Facade>, value: f64, weighted: bool) -> 
     let value = number(value, 3);
     let what = if weighted { "q·cosθ" } else { "q" };
     Foot::from([
-        format!("leaving {theta} off the normal, φ {phi} · {what} {value} 1/sr"),
-        format!("{theta} off normal, φ {phi} · {what} {value} 1/sr"),
+        say::leaving(&theta, &phi, what, &value),
+        say::leaving_short(&theta, &phi, what, &value),
         format!("{what} {value} 1/sr"),
     ])
 }

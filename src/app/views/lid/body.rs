@@ -10,6 +10,7 @@ use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
 use crate::drawing::lid_curves::intensity;
+use crate::texts::tiles as say;
 use egui::{Rect, Sense, Shape, Stroke, Ui};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -101,8 +102,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
     };
     painter.add(Shape::closed_line((0..64).filter_map(ring).collect(), Stroke::new(1.0, palette.outline)));
     let thin = Stroke::new(1.0, palette.weak);
-    ray(DVec3::Y, thin, "into the room", palette.weak);
-    ray(-DVec3::Z, thin, "down", palette.weak);
+    ray(DVec3::Y, thin, say::INTO_THE_ROOM.get(), palette.weak);
+    ray(-DVec3::Z, thin, say::DOWN.get(), palette.weak);
     body.paint(&painter, &view, DVec3::ZERO, 1.0);
     for beam in &lid.beams {
         let to = into_room(lid.surface, beam.direction);
@@ -111,16 +112,17 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
         }
     }
     let aim = Aim::of(lid.surface);
-    let mut said = format!("largest intensity drawn {}", input.scaling.text(*largest));
+    let mut said = say::largest_drawn(input.scaling.text(*largest));
     if let Some(peak) = input.peaks.and_then(|peaks| peaks.scattered).filter(|_| *largest > 0.0) {
         let to = aim.direction(peak.c, peak.gamma);
-        let told = format!("peak {}", input.scaling.text(peak.intensity));
-        said = format!("{told} to {}", towards(lid.surface, to));
+        let value = input.scaling.text(peak.intensity);
+        let told = say::peak_alone(&value);
+        said = say::peak_to(value, towards(lid.surface, to));
         // The file's mean over its step may be less than the largest value drawn.
         let length = 1.05 * (peak.intensity / *largest).clamp(1.0, 1.1);
         ray(length * into_room(lid.surface, to), Stroke::new(2.0, palette.second), &told, palette.ink);
     }
-    tile::name(ui, &response, "LID body", &said);
+    tile::name(ui, &response, say::LID_BODY, &said);
     let at = response.hover_pos().filter(|_| !response.dragged())?;
     let node = body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)?;
     let (place, _) = view.screen(body.point(node)?)?;

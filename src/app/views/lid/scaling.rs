@@ -4,6 +4,7 @@ use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::Aim;
 use crate::drawing::ticks::si;
+use crate::texts::tiles as say;
 
 /// In what intensities are told: the whole aperture's, or those of a square metre of it.
 #[derive(Debug, Clone, Copy)]
@@ -21,13 +22,19 @@ impl Scaling {
     }
 
     /// Their unit.
-    pub const fn unit(self) -> &'static str {
-        if self.per_area { "cd per m² of aperture" } else { "cd" }
+    pub fn unit(self) -> &'static str {
+        if self.per_area { say::CANDELA_PER_AREA.get() } else { "cd" }
+    }
+
+    /// The same in few letters.
+    pub fn short_unit(self) -> &'static str {
+        if self.per_area { say::CANDELA_PER_AREA_SHORT.get() } else { "cd" }
     }
 
     /// "11.5 Mcd", "2.1 kcd per m²".
     pub fn text(self, intensity: f64) -> String {
-        format!("{}{}", si(intensity * self.factor, "cd"), if self.per_area { " per m²" } else { "" })
+        let value = si(intensity * self.factor, "cd");
+        if self.per_area { say::per_square_metre(value) } else { value }
     }
 }
 

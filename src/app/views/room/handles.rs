@@ -4,6 +4,7 @@ use super::input::{Action, Frame, Input, Opening};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::tile;
 use crate::compute::direction::Surface;
+use crate::texts::{Text, fixed, tiles as say};
 use egui::{
     Align2, CursorIcon, EventFilter, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2,
 };
@@ -16,7 +17,7 @@ const LEAST: f64 = 0.05;
 const REACH: f32 = 6.0;
 
 /// What moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Part {
     /// An edge of an aperture along one of its axes; the far one?
     Edge { opening: usize, axis: usize, far: bool },
@@ -61,14 +62,14 @@ const fn extent(surface: Surface, room: [f64; 3]) -> [f64; 2] {
     }
 }
 
-const fn edge_word(surface: Surface, axis: usize, far: bool) -> &'static str {
+const fn edge_word(surface: Surface, axis: usize, far: bool) -> Text {
     match (surface, axis, far) {
-        (_, 0, false) => "left edge",
-        (_, 0, true) => "right edge",
-        (Surface::Facade, _, false) => "sill",
-        (Surface::Facade, _, true) => "head",
-        (Surface::Roof, _, false) => "near edge",
-        (Surface::Roof, _, true) => "far edge",
+        (_, 0, false) => say::LEFT_EDGE,
+        (_, 0, true) => say::RIGHT_EDGE,
+        (Surface::Facade, _, false) => say::SILL,
+        (Surface::Facade, _, true) => say::HEAD,
+        (Surface::Roof, _, false) => say::NEAR_EDGE,
+        (Surface::Roof, _, true) => say::FAR_EDGE,
     }
 }
 
@@ -113,20 +114,19 @@ fn handles(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
     let mut list = Vec::new();
     if let Some(z) = input.plane_z.filter(|_| frame.side) {
         let place = Rect::from_two_pos(frame.screen(0.0, z), frame.screen(input.room[1], z)).expand2(vec2(0.0, REACH));
-        list.push(Handle { part: Part::Plane, place, name: "Sensor plane".to_owned() });
+        list.push(Handle { part: Part::Plane, place, name: say::SENSOR_PLANE.into() });
     }
     for (number, point) in input.points.iter().enumerate() {
         let at = frame.screen(point[1], if frame.side { point[2] } else { point[0] });
         let place = Rect::from_center_size(at, vec2(2.0, 2.0) * REACH);
-        list.push(Handle { part: Part::Point(number), place, name: format!("Sensor {}", number + 1) });
+        list.push(Handle { part: Part::Point(number), place, name: say::sensor(number + 1) });
     }
     for (number, opening) in input.apertures.iter().enumerate() {
         let rect = frame.opening(opening, input.room);
-        let name = format!("Aperture {}", number + 1);
         list.push(Handle {
             part: Part::Opening(number),
             place: rect.expand(REACH),
-            name: format!("Move aperture {}", number + 1),
+            name: say::move_aperture(number + 1),
         });
         let [along, across] = axes(opening.surface, frame.side);
         // Where a larger number of the room lies: depth to the right, x down, z up.
@@ -140,7 +140,7 @@ fn handles(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
             let Some(axis) = axis else { continue };
             for (far, at) in [false, true].into_iter().zip(places) {
                 let place = Rect::from_center_size(at, vec2(2.0, 2.0) * REACH);
-                let name = format!("{name}, {}", edge_word(opening.surface, axis, far));
+                let name = say::aperture_edge(number + 1, edge_word(opening.surface, axis, far));
                 list.push(Handle { part: Part::Edge { opening: number, axis, far }, place, name });
             }
         }
@@ -192,14 +192,17 @@ fn metres(part: Part, at: Action) -> String {
     match (part, at) {
         (Part::Edge { axis, .. }, Action::OpeningMoved(_, one)) => {
             let [low, size] = [one.origin[axis], one.size[axis]];
-            format!("{low:.2} to {:.2} m, {size:.2} m", low + size)
+            say::from_to_metres(fixed(low, 2), fixed(low + size, 2), fixed(size, 2))
         }
         (_, Action::OpeningMoved(_, one)) => {
             let up = if one.surface == Surface::Facade { "z" } else { "y" };
-            format!("x {:.2} m, {up} {:.2} m", one.origin[0], one.origin[1])
+            format!("x {} m, {up} {} m", fixed(one.origin[0], 2), fixed(one.origin[1], 2))
         }
-        (_, Action::PlaneMoved(z)) => format!("z {z:.2} m"),
-        (_, Action::PointMoved(_, [x, y, z])) => format!("x {x:.2} m, y {y:.2} m, z {z:.2} m"),
+        (_, Action::PlaneMoved(z)) => format!("z {} m", fixed(z, 2)),
+        (_, Action::PointMoved(_, point)) => {
+            let [x, y, z] = point.map(|way| fixed(way, 2));
+            format!("x {x} m, y {y} m, z {z} m")
+        }
         (_, Action::Look(_)) => String::new(),
     }
 }
@@ -220,7 +223,7 @@ fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
 pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Option<Held>, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
     for Handle { part, place, name } in handles(input, frame) {
-        let id = ui.scope_id().with(("handle", name.as_str(), frame.side));
+        let id = ui.scope_id().with(("handle", part, frame.side));
         let response = ui.interact(place, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(match part {
             Part::Edge { axis, opening, .. } => {

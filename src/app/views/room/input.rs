@@ -5,6 +5,7 @@ use crate::app::room_look::{RoomLook, RoomView};
 use crate::compute::direction::Surface;
 use crate::drawing::ticks::{number, si};
 use crate::study::SurfaceLight;
+use crate::texts::Text;
 use egui::{Pos2, Rect, pos2, vec2};
 
 /// Result at one sensor, in the unit of the input.
@@ -91,7 +92,7 @@ pub struct Input<'a> {
     /// In what `cells` are.
     pub quantity: Quantity,
     /// Why there is no daylight factor, where there is none.
-    pub no_factor: Option<&'a str>,
+    pub no_factor: Option<Text>,
     /// How it is drawn.
     pub look: RoomLook,
     /// Light on the surfaces, for the perspective, with a number that changes with it.

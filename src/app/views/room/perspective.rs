@@ -13,6 +13,7 @@ use crate::app::views::Cache;
 use crate::compute::direction::Surface;
 use crate::drawing::ticks::{number, si};
 use crate::study::SurfaceLight;
+use crate::texts::{Text, fixed, tiles as say};
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -25,7 +26,8 @@ const PERSON: f64 = 1.7;
 /// What the mean luminance becomes of the brightest that can be shown (Reinhard et al. 2002, key).
 const KEY: f64 = 0.28;
 /// Names of the walls in their order.
-const WALLS: [&str; 6] = ["floor", "ceiling", "wall at x = 0", "wall at the far x", "façade", "rear wall"];
+const WALLS: [Text; 6] =
+    [say::WALL_FLOOR, say::WALL_CEILING, say::WALL_NEAR_X, say::WALL_FAR_X, say::FACADE, say::WALL_REAR];
 
 /// Colours of a piece's corners.
 type Corners = [Color32; 4];
@@ -246,7 +248,7 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
             painter,
             painter.clip_rect(),
             top - vec2(0.0, 2.0),
-            &format!("{PERSON:.2} m"),
+            &format!("{} m", fixed(PERSON, 2)),
             [Color32::WHITE, Color32::from_black_alpha(170)],
         );
     }
@@ -256,15 +258,16 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
 fn value(light: &SurfaceLight, wall: usize, place: DVec3) -> Foot {
     let Some((patch, diffuse, beam)) = lit::at(light, wall, place) else { return Foot::default() };
     if patch.patch.aperture.is_some() {
-        return Foot::from(format!("window: {} from the room on its inner face", si(diffuse, "lx")));
+        return Foot::from(say::window_inner(si(diffuse, "lx")));
     }
     let total = diffuse + beam;
     let relative = if patch.diffuse.value > 0.0 { patch.diffuse.error / patch.diffuse.value } else { 0.0 };
     let error = if relative > 0.0 { format!(" ± {}", number(diffuse * relative, 2)) } else { String::new() };
-    let sun = if beam > 0.0 { format!(" (sun's beam {})", si(beam, "lx")) } else { String::new() };
+    let sun = if beam > 0.0 { say::sun_beam(si(beam, "lx")) } else { String::new() };
     let name = WALLS[wall];
     let luminance = si(patch.patch.reflectance * total / PI, "cd/m²");
-    let where_ = format!("x {:.2}, y {:.2}, z {:.2} m", place.x, place.y, place.z);
+    let [x, y, z] = place.to_array().map(|way| fixed(way, 2));
+    let where_ = format!("x {x}, y {y}, z {z} m");
     Foot::from([
         format!("{name}: {}{error} lx{sun} · {luminance} · {where_}", number(total, 4)),
         format!("{name}: {}{error} lx{sun} · {luminance}", number(total, 4)),
@@ -283,16 +286,14 @@ fn summary(light: &SurfaceLight) -> Foot {
     let [floor, ceiling, rear] = [0, 1, 5].map(|wall| si(mean(wall), "lx"));
     let flux = si(light.flux.value, "lm");
     Foot::from([
-        format!(
-            "{flux} come in · means: floor {floor}, ceiling {ceiling}, rear wall {rear} · drag to turn, wheel to zoom"
-        ),
-        format!("{flux} come in · floor {floor}, ceiling {ceiling}"),
-        format!("floor {floor}"),
+        say::surfaces_summary(&flux, &floor, &ceiling, rear),
+        say::surfaces_summary_short(flux, &floor, ceiling),
+        say::floor_mean(floor),
     ])
 }
 
 /// Draws it; the value under the cursor.
-pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, log: bool, state: &mut State) -> Foot {
+pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (bool, bool), state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
     let legend_height = if input.look.as_seen { 0.0 } else { LEGEND_HEIGHT };
     let area = rect.with_max_y((rect.bottom() - legend_height).max(rect.top() + 40.0));
@@ -306,10 +307,10 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, log: bool, state:
     let size = DVec3::from_array(input.room);
     let view = state.camera.view(0.5 * size, 0.5 * size.length().max(1e-3), area);
     let painter = ui.painter_at(area);
-    let mut foot = Foot::from("the surfaces are being computed…");
+    let mut foot = Foot::from(say::SURFACES_COMING);
     let mut pointed = None;
     if let Some((light, revision)) = input.surfaces {
-        let held = state.scale.take().filter(|held| input.status.hold_scale && held.log == log);
+        let held = state.scale.take().filter(|held| (input.status.hold_scale || hold) && held.log == log);
         let scale = held.unwrap_or_else(|| scale_of(light, log));
         state.scale = Some(scale.clone());
         let by = (!input.look.as_seen).then_some(scale.clone());
@@ -327,9 +328,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, log: bool, state:
             let legend = Rect::from_min_max(pos2(rect.left(), rect.bottom() - LEGEND_HEIGHT + 2.0), rect.max);
             scale.paint_legend(ui.painter(), legend, "lx", pointed, &palette);
         }
-        tile::name(ui, &response, "Room perspective", summary(light).full());
+        tile::name(ui, &response, say::ROOM_PERSPECTIVE, summary(light).full());
     } else {
-        tile::name(ui, &response, "Room perspective", "being computed");
+        tile::name(ui, &response, say::ROOM_PERSPECTIVE, say::BEING_COMPUTED.get());
     }
     openings(&painter, &view, input, &palette);
     edges(&painter, &view, size, &palette);
@@ -352,7 +353,7 @@ mod tests {
             .into_iter()
             .zip(WALLS)
             .filter(|((point, normal), _)| view.faces(*point, *normal))
-            .map(|(_, name)| name)
+            .map(|(_, name)| name.english())
             .collect();
         assert_eq!(seen, ["floor", "wall at x = 0", "rear wall"]);
         let place = DVec3::new(1.0, 2.0, 0.0);

@@ -8,6 +8,7 @@ use crate::app::paint::palette::{Palette, contrast};
 use crate::app::views::Cache;
 use crate::compute::direction::Surface;
 use crate::drawing::ticks::tick;
+use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
@@ -111,7 +112,7 @@ pub(super) fn outline(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palet
             }
         }
     }
-    let galley = painter.layout_no_wrap("façade".to_owned(), FontId::proportional(13.0), palette.weak);
+    let galley = painter.layout_no_wrap(say::FACADE.into(), FontId::proportional(13.0), palette.weak);
     let at = pos2(frame.area.left() - 18.0, frame.area.center().y) - 0.5 * galley.size();
     painter.add(
         egui::epaint::TextShape::new(at, galley, palette.weak)

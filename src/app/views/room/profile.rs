@@ -8,6 +8,7 @@ use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile::{self, Foot};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::number;
+use crate::texts::{Text, tiles as say};
 use egui::{Rect, Ui};
 
 /// Draws it; the value under the cursor.
@@ -29,18 +30,18 @@ pub(super) fn show(
         [of_rows().fold(f64::INFINITY, f64::min), of_rows().fold(0.0, f64::max)]
     };
     let line =
-        |name: &str, of: fn(CellValue) -> f64| Series::line(name, (0..ny).map(|j| [at_depth(j), of(value(row, j))]));
+        |name: Text, of: fn(CellValue) -> f64| Series::line(name, (0..ny).map(|j| [at_depth(j), of(value(row, j))]));
     let axis = if scale.log { Axis::log } else { Axis::linear };
     let plot = Plot {
-        x: Axis::linear([0.0, depth], "distance from the façade", Unit::Named("m")),
+        x: Axis::linear([0.0, depth], say::DISTANCE, Unit::Named("m")),
         y: axis(
             [scale.lo, scale.hi],
-            format!("{} in row {} of {nx}", input.quantity.sign(), row + 1),
+            say::in_row(input.quantity.sign(), row + 1, nx),
             Unit::Named(input.quantity.unit()),
         ),
         series: vec![
-            Series { band: (0..ny).map(band).collect(), ..line("total", |v| v.total) },
-            line("direct", |v| v.direct),
+            Series { band: (0..ny).map(band).collect(), ..line(say::TOTAL, |v| v.total) },
+            line(say::DIRECT, |v| v.direct),
         ],
         guides: match input.quantity {
             Quantity::Illuminance => [300.0, 500.0]
@@ -52,12 +53,12 @@ pub(super) fn show(
     let colours = [palette.first, palette.weak];
     let look = Look::tile(ui.scope_id().with("section"), &colours, palette.second);
     let shown = plot::show(ui, rect, &plot, &look, |_| {});
-    tile::name(ui, &shown.response, "Room profile", "illuminance against depth");
+    tile::name(ui, &shown.response, say::ROOM_PROFILE, say::ROOM_PROFILE_VALUE.get());
     let hovered = shown.pointed().map(|[y, _]| ((y / depth * ny as f64).max(0.0) as usize).min(ny - 1));
     let j = hovered.or(pointed)?;
     let v = value(row, j);
     let at = shown.screen(plot.place([at_depth(j), v.total])?);
     ui.painter().with_clip_rect(shown.area()).circle_filled(at, 4.0, palette.first);
-    let words = value_text(&v, input.quantity).after(&format!("{} m deep · ", number(at_depth(j), 3)));
+    let words = value_text(&v, input.quantity).after(&say::metres_deep(number(at_depth(j), 3)));
     Some(words.or(&input.quantity.told(v.total)))
 }

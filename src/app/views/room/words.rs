@@ -5,6 +5,7 @@ use crate::app::paint::tile::Foot;
 use crate::compute::estimate::Estimate;
 use crate::drawing::ticks::number;
 pub use crate::study::scene_words::error_words;
+use crate::texts::tiles as say;
 
 /// Mean of all values, and least over mean, with how far both may be off: every value by its own error at once.
 pub fn uniformity(cells: &[CellValue]) -> Option<(Estimate, Estimate)> {
@@ -24,25 +25,23 @@ pub(super) fn value_text(v: &CellValue, quantity: Quantity) -> Foot {
     let error = match (v.error, v.data_error) {
         (0.0, _) => String::new(),
         (all, 0.0) => format!(" ± {}", number(all, 2)),
-        (all, data) => {
-            format!(" ± {} ({} computed, {} data)", number(all, 2), number((all - data).max(0.0), 2), number(data, 2))
-        }
+        (all, data) => say::error_parts(number(all, 2), number((all - data).max(0.0), 2), number(data, 2)),
     };
-    let sun = if v.beam > 0.0 { format!(" (sun's beam {})", quantity.told(v.beam)) } else { String::new() };
+    let sun = if v.beam > 0.0 { say::sun_beam(quantity.told(v.beam)) } else { String::new() };
     let (direct, inter) = (quantity.told(v.direct), quantity.told(v.inter));
     let total = number(v.total, 4);
     let short =
         if v.error > 0.0 { format!("{total} ± {} {unit}", number(v.error, 2)) } else { format!("{total} {unit}") };
     Foot::from([
-        format!("{total}{error} {unit} · direct {direct}{sun} · interreflected {inter}"),
-        format!("{total}{error} {unit} · direct {direct}"),
+        say::room_value(format!("{total}{error} {unit}"), &direct, sun, inter),
+        say::room_value_direct(format!("{total}{error} {unit}"), direct),
         short,
         format!("{total} {unit}"),
     ])
 }
 
 fn dark() -> Foot {
-    Foot::from(["no light at the sensors", "no light"].map(str::to_owned))
+    Foot::from([say::NO_LIGHT_AT_SENSORS, say::NO_LIGHT].map(String::from))
 }
 
 /// All sensors together.
@@ -58,15 +57,18 @@ pub(super) fn summary(input: &Input<'_>) -> Foot {
     let why = if input.look.daylight_factor { input.no_factor } else { None };
     let why = why.map_or_else(String::new, |why| format!("{why} · "));
     Foot::from([
-        format!(
-            "{why}mean {mean_told}{mean_error} · min/mean {u0}{ratio_error} · min {} · max {} · {error}",
+        say::room_summary(
+            &why,
+            format!("{mean_told}{mean_error}"),
+            format!("{u0}{ratio_error}"),
             told(min),
-            told(max)
+            told(max),
+            error,
         ),
-        format!("{why}mean {mean_told} · min/mean {u0} · {} to {}", number(min, 3), told(max)),
-        format!("mean {mean_told} · min/mean {u0}"),
-        format!("{} to {}", number(min, 3), told(max)),
-        format!("mean {mean_told}"),
+        say::room_summary_range(why, &mean_told, &u0, number(min, 3), told(max)),
+        say::room_summary_ratio(&mean_told, u0),
+        say::range(number(min, 3), told(max)),
+        say::mean(mean_told),
     ])
 }
 

@@ -1,0 +1,55 @@
+//! Tiles into the clipboard: as pictures, and the value under the cursor. Their numbers go by way of [`super::export`].
+
+use super::error::AppError;
+use super::hand_on::{Choices, What};
+use super::hand_on_files::Order;
+use super::jobs::Lane;
+use super::paint::tile::pointed_foot;
+use super::state::Tile;
+use super::window::App;
+use super::work::Outcome;
+use crate::report::{Size, TileKind};
+use crate::texts::tiles as say;
+
+/// A picture on its way into the clipboard: width, height, and red, green and blue of its pixels row by row.
+pub type Pixels = (usize, usize, Vec<u8>);
+
+/// Longest sentence that is said of what was copied. \[letters\]
+const SAID: usize = 80;
+
+impl App {
+    /// Draws a tile as it is handed on, for the clipboard.
+    pub(super) fn copy_picture(&mut self, tile: Tile) {
+        let Some(kind) = TileKind::titled(tile.title) else { return };
+        let Some(order) = self.order() else { return self.tell(&AppError::NoProduct) };
+        let size = Size::default();
+        let choices = Choices { what: What::Picture, tile: kind, size, caption: true, print: false, ..order.choices };
+        let order = Order { choices, ..order };
+        self.start(Lane::Copy, move |progress| {
+            let drawn = order.picture(progress);
+            Outcome::Copied(tile, drawn.map(|drawing| drawing.to_pixels(size.pixels()[0] / drawing.width)))
+        });
+    }
+
+    /// Puts a picture into the clipboard.
+    pub(super) fn take_copied(&mut self, tile: Tile, drawn: Result<Pixels, AppError>) {
+        match drawn {
+            Ok((width, height, pixels)) => {
+                self.ctx.copy_image(egui::ColorImage::from_rgb([width, height], &pixels));
+                self.toasts.success(say::picture_copied(tile.name));
+            }
+            Err(error) => self.tell(&error),
+        }
+    }
+
+    /// Copies what the line under the tile says that the pointer was on last.
+    pub(super) fn copy_value(&mut self) {
+        let Some(text) = pointed_foot(&self.ctx).filter(|text| !text.is_empty()) else {
+            return self.toasts.info(say::NO_VALUE);
+        };
+        let short: String = text.chars().take(SAID).collect();
+        let more = if short.len() < text.len() { "…" } else { "" };
+        self.ctx.copy_text(text);
+        self.toasts.success(say::copied(format!("{short}{more}")));
+    }
+}

@@ -1,0 +1,106 @@
+//! The data in another form: the choice, and what is told of it.
+
+use super::{Action, Input};
+use crate::app::data_looks::FormResult;
+use crate::app::paint::tile::Foot;
+use crate::drawing::ticks::number;
+use crate::study::data_form::{DataForm, Formed, How, NoForm};
+use crate::texts::{Text, fixed, tiles as say};
+use egui::{ComboBox, Ui};
+
+/// Another form of the data than as measured.
+#[derive(Debug, Clone, Copy)]
+pub struct FormInput<'a> {
+    /// Which.
+    pub form: DataForm,
+    /// The data in it; `None` until they are computed.
+    pub result: Option<&'a FormResult>,
+    /// A fault of the program.
+    pub error: Option<&'a str>,
+    /// Changes with `result`.
+    pub revision: u64,
+}
+
+/// What a form is called, and one sentence.
+pub const fn words(form: DataForm) -> [Text; 2] {
+    match form {
+        DataForm::Measured => [say::MEASURED, say::MEASURED_TIP],
+        DataForm::Filtered => [say::FILTERED, say::FILTERED_TIP],
+        DataForm::Compact => [say::COMPACT, say::COMPACT_TIP],
+    }
+}
+
+/// The choice of the form and of the map of schemes, in the tile's head.
+pub(super) fn choice(ui: &mut Ui, input: &Input<'_>, actions: &mut Vec<Action>) {
+    let now = input.form.map_or(DataForm::Measured, |form| form.form);
+    let combo = ComboBox::from_id_salt("form").width(96.0).selected_text(words(now)[0]).show_ui(ui, |ui| {
+        for form in DataForm::ALL {
+            let [word, tip] = words(form);
+            if ui.selectable_label(form == now, word).on_hover_text(tip).clicked() && form != now {
+                actions.push(Action::Form(form));
+            }
+        }
+    });
+    combo.response.on_hover_text(say::FORM_TIP);
+    let mut schemes = input.schemes.is_some();
+    if ui.toggle_value(&mut schemes, say::SCHEMES).on_hover_text(say::SCHEMES_TIP).changed() {
+        actions.push(Action::Schemes);
+    }
+}
+
+impl<'a> FormInput<'a> {
+    /// The data, once they are there.
+    pub(super) fn made(&self) -> Option<&'a Formed> {
+        self.result?.made.as_ref().ok()
+    }
+
+    /// Its name in tables.
+    pub(super) const fn key(&self) -> &'static str {
+        match self.form {
+            DataForm::Measured => "measured",
+            DataForm::Filtered => "filtered",
+            DataForm::Compact => "compact",
+        }
+    }
+
+    /// Why nothing is shown.
+    pub(super) fn missing(&self) -> String {
+        if let Some(error) = self.error {
+            return error.to_owned();
+        }
+        match self.result.map(|result| &result.made) {
+            Some(Err(NoForm::NoValues)) => say::NO_FORM_VALUES.into(),
+            Some(Err(NoForm::Means)) => say::NO_FORM_MEANS.into(),
+            Some(Err(NoForm::NoLattice)) => say::NO_FORM_LATTICE.into(),
+            Some(Err(NoForm::Values(why))) => say::no_form_values(why),
+            _ => say::FORM_COMING.into(),
+        }
+    }
+
+    /// What was done to the data and how far they are from what was measured.
+    pub(super) fn foot(&self) -> Option<Foot> {
+        let Some(made) = self.made() else { return Some(Foot::from(self.missing())) };
+        let percent = |share: f64| fixed(100.0 * share, 1);
+        let far = made.apart.map(|apart| (number(apart.largest, 3), percent(apart.misplaced)));
+        Some(match (made.how, far) {
+            (How::Filter { scheme, in_force }, Some((largest, moved))) => {
+                let why = if in_force { say::FILTER_IN_FORCE } else { say::FILTER_NOT_IN_FORCE };
+                Foot::from([
+                    say::foot_filtered(scheme.key(), why, &largest, &moved),
+                    say::foot_filtered_short(largest, moved),
+                    say::FILTERED.into(),
+                ])
+            }
+            (How::Wavelets { kept, cells, allowed, .. }, Some((largest, moved))) => Foot::from([
+                say::foot_compact(kept, cells, &largest, &moved, percent(allowed)),
+                say::foot_compact_middle(kept, cells, largest, moved, percent(allowed)),
+                say::foot_compact_short(kept, cells),
+            ]),
+            (How::Wavelets { kept, cells, allowed, .. }, None) => Foot::from([
+                say::foot_kept_compact(kept, cells, percent(allowed)),
+                say::foot_compact_short(kept, cells),
+            ]),
+            (How::Filter { .. }, None) => return None,
+        })
+    }
+}

@@ -1,0 +1,235 @@
+//! The map of schemes on the incident side: what is done within each triangle of the data's directions, and why.
+
+use super::Input;
+use crate::app::data_looks::{NoSchemes, SchemesResult};
+use crate::app::paint::hemisphere::{Disk, Projection, Side};
+use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::tile::Foot;
+use crate::compute::direction::Dir;
+use crate::compute::incidence::schemes::SunScheme;
+use crate::compute::incidence::ways::{Triangle, Way};
+use crate::drawing::ticks::{degrees, number};
+use crate::texts::{Text, tiles as say};
+use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use glam::DVec3;
+
+/// Parts of a triangle's edge: its sides are great circles.
+const PARTS: usize = 4;
+/// Share of a triangle that is drawn: between them the ground is seen as a line.
+const DRAWN: f64 = 0.94;
+/// Height of a line of the legend. \[points\]
+const LINE: f32 = 16.0;
+
+/// The map of schemes.
+#[derive(Debug, Clone, Copy)]
+pub struct SchemesInput<'a> {
+    /// The triangles; `None` until they are there.
+    pub result: Option<&'a SchemesResult>,
+    /// A fault of the program.
+    pub error: Option<&'a str>,
+    /// Changes with `result`.
+    pub revision: u64,
+}
+
+const fn word(way: Way) -> Text {
+    match way {
+        Way::Moved => say::WAY_MOVED,
+        Way::Faded => say::WAY_FADED,
+        Way::Blended => say::WAY_BLENDED,
+        Way::Dark => say::WAY_DARK,
+    }
+}
+
+fn colour(way: Way) -> Color32 {
+    match way {
+        Way::Moved => ColourMap::Sequential.at(0.35),
+        Way::Faded => ColourMap::Sequential.at(0.92),
+        Way::Blended => ColourMap::Sequential.at(0.68),
+        Way::Dark => Color32::from_gray(70),
+    }
+}
+
+impl<'a> SchemesInput<'a> {
+    /// The triangles, once they are there.
+    pub(super) fn triangles(&self) -> Option<&'a [Triangle]> {
+        self.result?.made.as_deref().ok()
+    }
+
+    fn asked(&self) -> SunScheme {
+        self.result.map_or(SunScheme::default(), |result| result.key.1)
+    }
+
+    fn missing(&self) -> String {
+        if let Some(error) = self.error {
+            return error.to_owned();
+        }
+        match self.result.map(|result| &result.made) {
+            Some(Err(NoSchemes::NoDirections)) => say::NO_SCHEMES_DIRECTIONS.into(),
+            Some(Err(NoSchemes::Patches)) => say::NO_SCHEMES_PATCHES.into(),
+            Some(Err(NoSchemes::NoTriangles)) => say::NO_SCHEMES_TRIANGLES.into(),
+            _ => say::SCHEMES_COMING.into(),
+        }
+    }
+
+    /// Why the triangle under the pointer is what it is; without a pointer nothing, or why there is no map.
+    pub(super) fn told(&self, at: Option<Pos2>, disk: &Disk, projection: Projection) -> Option<Foot> {
+        let Some(list) = self.triangles() else { return Some(Foot::from(self.missing())) };
+        let d = Side::Incident.through_name(projection, disk.disk(at?))?;
+        Some(self.why(list.iter().find(|one| holds(one, d.vector()))?))
+    }
+
+    /// One sentence with the figures that decide.
+    fn why(&self, one: &Triangle) -> Foot {
+        let percent = |share: f64| number(100.0 * share, 2);
+        let own = self.asked();
+        let way = match one.way {
+            _ if own != SunScheme::Responses => say::why_asked(own.key()),
+            Way::Moved => say::why_moved(percent(one.in_lobes), degrees(one.travel)),
+            Way::Faded => say::why_faded(percent(1.0 - one.followed), percent(one.in_lobes)),
+            Way::Blended => say::WHY_BLENDED.into(),
+            Way::Dark => return Foot::from([say::WHY_DARK.into(), say::WAY_DARK.into()]),
+        };
+        let of = |scheme: &SunScheme| format!("{} {} %", scheme.key(), percent(one.stated[*scheme as usize]));
+        let others: Vec<String> = SunScheme::ALL.iter().filter(|scheme| **scheme != own).map(of).collect();
+        let stated = say::stated(percent(one.stated[own as usize]), others.join(", "));
+        Foot::from([format!("{way} · {stated}"), way, word(one.way).into()])
+    }
+}
+
+/// Is a direction in a triangle of great circles?
+fn holds(one: &Triangle, d: DVec3) -> bool {
+    let [a, b, c] = one.corners;
+    let sides = [a.cross(b).dot(d), b.cross(c).dot(d), c.cross(a).dot(d)];
+    (sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)) && (a + b + c).dot(d) > 0.0
+}
+
+/// All triangles in the colours of what is done in them.
+pub(super) fn mesh(disk: &Disk, projection: Projection, list: &[Triangle], input: &SchemesInput<'_>) -> Mesh {
+    let mut mesh = Mesh::default();
+    for one in list {
+        let asked = input.asked() != SunScheme::Responses;
+        let fill = colour(if asked && one.way != Way::Dark { Way::Moved } else { one.way });
+        let middle = one.corners.iter().sum::<DVec3>() / 3.0;
+        let [a, b, c] = one.corners.map(|corner| middle + DRAWN.sqrt() * (corner - middle));
+        let first = mesh.vertices.len() as u32;
+        for i in 0..=PARTS {
+            for j in 0..=PARTS - i {
+                let (s, t) = (i as f64 / PARTS as f64, j as f64 / PARTS as f64);
+                let d = Dir::from_unit((a + s * (b - a) + t * (c - a)).normalize_or(DVec3::Z));
+                mesh.colored_vertex(disk.screen(Side::Incident.disk(projection, d)), fill);
+            }
+        }
+        // Row i has PARTS − i + 1 points.
+        let at = |i: usize, j: usize| first + (i * (PARTS + 1) - i * i.saturating_sub(1) / 2 + j) as u32;
+        for i in 0..PARTS {
+            for j in 0..PARTS - i {
+                mesh.add_triangle(at(i, j), at(i + 1, j), at(i, j + 1));
+                if j + 1 < PARTS - i {
+                    mesh.add_triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                }
+            }
+        }
+    }
+    mesh
+}
+
+/// The names of the colours that occur, in as many lines as they need.
+pub(super) fn legend(ui: &Ui, rect: Rect, align: Align2, input: &Input<'_>, palette: &Palette) {
+    let Some(schemes) = &input.schemes else { return };
+    let Some(list) = schemes.triangles() else { return };
+    let asked = schemes.asked();
+    let entries: Vec<(Way, String)> = if asked == SunScheme::Responses {
+        let there = Way::ALL.into_iter().filter(|way| list.iter().any(|one| one.way == *way));
+        there.map(|way| (way, word(way).into())).collect()
+    } else {
+        vec![(Way::Moved, asked.key().to_owned())]
+    };
+    let font = FontId::proportional(13.0);
+    let bottom = align == Align2::LEFT_BOTTOM || align == Align2::RIGHT_BOTTOM;
+    let galleys: Vec<_> = entries
+        .into_iter()
+        .map(|(way, text)| (way, ui.painter().layout_no_wrap(text, font.clone(), palette.ink)))
+        .collect();
+    // Lines that hold as many names as fit.
+    let mut lines: Vec<Vec<(Way, std::sync::Arc<egui::Galley>)>> = vec![vec![]];
+    let mut used = 0.0;
+    for (way, galley) in galleys {
+        let need = galley.size().x + 26.0;
+        if used + need > rect.width() + 10.0 && used > 0.0 {
+            lines.push(vec![]);
+            used = 0.0;
+        }
+        used += need;
+        if let Some(line) = lines.last_mut() {
+            line.push((way, galley));
+        }
+    }
+    let mut y = if bottom { rect.bottom() - LINE * lines.len() as f32 } else { rect.top() };
+    for line in lines {
+        let width: f32 = line.iter().map(|(_, galley)| galley.size().x + 26.0).sum::<f32>() - 10.0;
+        let mut x = if align == Align2::RIGHT_TOP { rect.right() - width } else { rect.left() };
+        for (way, galley) in line {
+            let swatch = Rect::from_min_size(pos2(x, y + 0.5 * LINE - 5.0), vec2(10.0, 10.0));
+            ui.painter().rect(swatch, 1, colour(way), Stroke::new(1.0, palette.outline), StrokeKind::Middle);
+            let step = galley.size().x + 26.0;
+            ui.painter().galley(pos2(x + 14.0, y + 0.5 * (LINE - galley.size().y)), galley, palette.ink);
+            x += step;
+        }
+        y += LINE;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::incidence::left_out::Errors;
+
+    fn triangle(way: Way) -> Triangle {
+        let corner =
+            |theta: f64, phi: f64| Dir::<crate::compute::direction::Facade>::from_theta_phi(theta, phi).vector();
+        Triangle {
+            corners: [corner(0.3, 0.0), corner(0.5, 0.6), corner(0.3, 1.1)],
+            way,
+            lobes: [2, 2, 1],
+            in_lobes: 0.62,
+            followed: 0.75,
+            travel: 0.2,
+            stated: [0.021, 0.12, 0.034, 0.05] as Errors,
+        }
+    }
+
+    #[test]
+    fn a_triangle_tells_the_figures_that_decide_and_what_other_schemes_misplace() {
+        let list = SchemesResult { key: (1, SunScheme::Responses, Default::default()), made: Ok(vec![]) };
+        let input = SchemesInput { result: Some(&list), error: None, revision: 1 };
+        let full = input.why(&triangle(Way::Faded));
+        assert!(full.full().contains("25 % of the flux in lobes is missing at a corner"), "{}", full.full());
+        assert!(full.full().contains("about 2.1 % here") && full.full().contains("nearest 12 %"), "{}", full.full());
+        let asked = SchemesResult { key: (1, SunScheme::Nearest, Default::default()), made: Ok(vec![]) };
+        let input = SchemesInput { result: Some(&asked), ..input };
+        assert!(
+            input.why(&triangle(Way::Moved)).full().contains("“nearest”, as the scene asks · misplaces about 12 %")
+        );
+    }
+
+    #[test]
+    fn the_triangle_under_the_pointer_is_the_one_drawn_there() {
+        let disk = Disk { centre: pos2(100.0, 100.0), radius: 90.0 };
+        let one = triangle(Way::Blended);
+        let middle = Dir::from_unit(one.corners.iter().sum::<DVec3>().normalize());
+        let at = disk.screen(Side::Incident.disk(Projection::default(), middle));
+        let list = SchemesResult { key: (1, SunScheme::Responses, Default::default()), made: Ok(vec![one.clone()]) };
+        let input = SchemesInput { result: Some(&list), error: None, revision: 1 };
+        assert!(input.told(Some(at), &disk, Projection::default()).is_some());
+        assert!(input.told(Some(pos2(100.0, 185.0)), &disk, Projection::default()).is_none());
+        let drawn = mesh(&disk, Projection::default(), &[one], &input);
+        assert_eq!(drawn.indices.len(), 3 * PARTS * PARTS);
+        let covered = drawn.indices.chunks_exact(3).any(|t| {
+            let [a, b, c] = [t[0], t[1], t[2]].map(|k| drawn.vertices[k as usize].pos);
+            let side = |p: Pos2, q: Pos2| (q - p).x * (at - p).y - (q - p).y * (at - p).x;
+            let sides = [side(a, b), side(b, c), side(c, a)];
+            sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
+        });
+        assert!(covered);
+    }
+}

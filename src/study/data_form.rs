@@ -1,0 +1,256 @@
+//! The data of one incidence in the forms in which they are used: as measured, filtered for diffuse light, compressed by
+//! wavelets.
+
+use super::compact::LOSSLESS_BELOW;
+use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
+use crate::compute::direction::Incident;
+use crate::compute::incidence::filter::{Filter, Kernel, Spreader};
+use crate::compute::incidence::schemes::DiffuseScheme;
+use crate::compute::lid::Interpolator;
+use crate::compute::wavelet::{CompactError, CompactRows, Criterion};
+use std::sync::Arc;
+
+/// In which form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum DataForm {
+    /// As measured or computed.
+    #[default]
+    Measured,
+    /// Spread over the patch that the incident direction stands for.
+    Filtered,
+    /// Compressed by wavelets.
+    Compact,
+}
+
+impl DataForm {
+    /// All, in the order in which they are offered.
+    pub const ALL: [Self; 3] = [Self::Measured, Self::Filtered, Self::Compact];
+}
+
+/// What was done to the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum How {
+    /// Filtered as this scheme of diffuse light does it.
+    Filter {
+        /// Which.
+        scheme: DiffuseScheme,
+        /// The scene asks for it; else it computes with finer patches of the sky instead.
+        in_force: bool,
+    },
+    /// Compressed by wavelets.
+    Wavelets {
+        /// Numbers that are kept of this indicatrix, τ among them.
+        kept: usize,
+        /// Values that it had.
+        cells: usize,
+        /// Flux that may be misplaced, as a share of τ.
+        allowed: f64,
+        /// The catalogue keeps the data so; else they are small enough to be kept without loss.
+        in_force: bool,
+    },
+}
+
+/// How far a form is from what was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Apart {
+    /// Largest difference of any cell, either way. \[1/sr\]
+    pub largest: f64,
+    /// Flux that lies elsewhere, ½∫|Δq| cosθ dω, as a share of τ.
+    pub misplaced: f64,
+}
+
+/// Data of one incidence in a form.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formed {
+    /// The data.
+    pub indicatrix: Indicatrix,
+    /// What was done to them.
+    pub how: How,
+    /// How far they are from what was measured; `None` where this is no longer known.
+    pub apart: Option<Apart>,
+}
+
+/// Why data have no such form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoForm {
+    /// Nothing is scattered, or by a closed form.
+    NoValues,
+    /// They are means over incident cells, which are no wider than the light they stand for.
+    Means,
+    /// Their directions are no lattice of patches.
+    NoLattice,
+    /// Values that cannot be compressed.
+    Values(CompactError),
+}
+
+/// Which of the data stand for an incidence; `None` outside the hemisphere and for closed forms.
+pub fn row_of(btdf: &Btdf, incident: Incident) -> Option<usize> {
+    match btdf.scattered.as_ref()? {
+        Scattered::Cells(matrix) => matrix.incident().index(incident.0),
+        Scattered::Directions(data) => data.standing_for(incident.0),
+        _ => None,
+    }
+}
+
+/// The filter that a scheme of diffuse light uses, and which scheme that is: the patch's own where the scene filters
+/// nothing.
+fn filter_of(scheme: DiffuseScheme) -> (DiffuseScheme, Filter) {
+    let own = |kernel| Filter { kernel, sharp_only: false };
+    match scheme {
+        DiffuseScheme::FilterNarrow => (scheme, own(Kernel::NARROW)),
+        DiffuseScheme::FilterMatched => (scheme, own(Kernel::MATCHED)),
+        DiffuseScheme::FilterWide => (scheme, own(Kernel::WIDE)),
+        _ => (DiffuseScheme::FilterPatch, Filter { kernel: Kernel::Patch, sharp_only: true }),
+    }
+}
+
+/// The data that stand for an incidence, filtered for diffuse light as a scene's scheme does it.
+///
+/// # Errors
+/// Why they have no such form.
+pub fn filtered(
+    btdf: &Btdf,
+    incident: Incident,
+    scheme: DiffuseScheme,
+    interpolator: impl FnOnce() -> Option<Arc<Interpolator>>,
+) -> Result<Formed, NoForm> {
+    let data = match &btdf.scattered {
+        Some(Scattered::Directions(data)) => data,
+        Some(Scattered::Cells(_) | Scattered::Tree(_)) => return Err(NoForm::Means),
+        _ => return Err(NoForm::NoValues),
+    };
+    if data.lattice().is_none() {
+        return Err(NoForm::NoLattice);
+    }
+    let row = row_of(btdf, incident).ok_or(NoForm::NoValues)?;
+    let interpolator = interpolator().ok_or(NoForm::NoLattice)?;
+    let model = interpolator.model();
+    let (used, filter) = filter_of(scheme);
+    let q = Spreader::new(model, filter, model.grid()).ok_or(NoForm::NoLattice)?.indicatrix(row);
+    let apart = apart(&data.emergent().projected_solid_angles(), &data.row(row), &q);
+    Ok(Formed {
+        indicatrix: Indicatrix { basis: data.emergent().clone(), q },
+        how: How::Filter { scheme: used, in_force: used == scheme },
+        apart: Some(apart),
+    })
+}
+
+/// The data that stand for an incidence, compressed as the catalogue does it with data of more than
+/// [`LOSSLESS_BELOW`] bytes.
+///
+/// # Errors
+/// Why they have no such form.
+pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
+    let row = row_of(btdf, incident).ok_or(NoForm::NoValues)?;
+    let (basis, rows, values) = match &btdf.scattered {
+        Some(Scattered::Cells(matrix)) => (matrix.emergent(), matrix.compact_rows(), matrix.row(row)),
+        Some(Scattered::Directions(data)) => (data.emergent(), data.compact_rows(), data.row(row)),
+        _ => return Err(NoForm::NoValues),
+    };
+    let criterion = Criterion::ARCHIVE;
+    let how = |kept, in_force| How::Wavelets { kept, cells: basis.len(), allowed: criterion.threshold(), in_force };
+    if let Some(rows) = rows {
+        let q = values.into_owned();
+        let kept = rows.quantised(row).1.count();
+        return Ok(Formed { indicatrix: Indicatrix { basis: basis.clone(), q }, how: how(kept, true), apart: None });
+    }
+    let made = CompactRows::compress(basis, 1, |_| values.to_vec(), criterion).map_err(NoForm::Values)?;
+    let q = made.row(0);
+    let apart = apart(&basis.projected_solid_angles(), &values, &q);
+    Ok(Formed {
+        indicatrix: Indicatrix { basis: basis.clone(), q },
+        how: how(made.numbers(), false),
+        apart: Some(apart),
+    })
+}
+
+fn apart(weights: &[f64], given: &[f64], made: &[f64]) -> Apart {
+    let tau: f64 = given.iter().zip(weights).map(|(q, w)| q * w).sum();
+    let differences = || given.iter().zip(made).map(|(a, b)| (a - b).abs());
+    let moved: f64 = differences().zip(weights).map(|(d, w)| d * w).sum();
+    Apart { largest: differences().fold(0.0, f64::max), misplaced: if tau > 0.0 { 0.5 * moved / tau } else { 0.0 } }
+}
+
+/// Data of less bytes are kept without loss. \[MB\]
+pub const LOSSLESS_MEGABYTES: f64 = LOSSLESS_BELOW as f64 / (1 << 20) as f64;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::RingBasis;
+    use crate::compute::btdf::{CellMatrix, Indicatrices};
+    use crate::compute::direction::Dir;
+
+    /// A lobe that follows the light, on Tregenza's directions.
+    fn btdf() -> Btdf {
+        let (patches, cells) = (RingBasis::tregenza(), RingBasis::equal_area(40));
+        let incident: Vec<Incident> = patches.cells().map(|cell| Incident(cell.centre())).collect();
+        let lobe = |a: Dir<_>, b: Dir<_>| 30.0 * (-(a.vector().angle_between(b.vector()) / 0.06_f64).powi(2)).exp();
+        let values =
+            incident.iter().flat_map(|d| cells.cells().map(|cell| 0.02 + lobe(d.0, cell.centre())).collect::<Vec<_>>());
+        let data = Indicatrices::new(incident.clone(), cells.clone(), values.collect()).unwrap();
+        Btdf { regular: None, scattered: Some(Scattered::Directions(Arc::new(data))) }
+    }
+
+    fn interpolator(btdf: &Btdf) -> Option<Arc<Interpolator>> {
+        match &btdf.scattered {
+            Some(Scattered::Directions(data)) => Some(Arc::new(Interpolator::new(data.clone()))),
+            _ => None,
+        }
+    }
+
+    fn flux(one: &Indicatrix) -> f64 {
+        one.q.iter().zip(one.basis.projected_solid_angles()).map(|(q, w)| q * w).sum()
+    }
+
+    #[test]
+    fn the_filter_spreads_a_lobe_over_its_patch_and_keeps_its_flux() {
+        let btdf = btdf();
+        let d = Incident(Dir::from_theta_phi(0.6, 1.2));
+        let raw = btdf.indicatrix(d).unwrap();
+        let made = filtered(&btdf, d, DiffuseScheme::Auto, || interpolator(&btdf)).unwrap();
+        assert_eq!(made.how, How::Filter { scheme: DiffuseScheme::FilterPatch, in_force: false });
+        assert!((flux(&made.indicatrix) - btdf.tau(d)).abs() < 1e-6);
+        let most = |q: &[f64]| q.iter().copied().fold(0.0, f64::max);
+        assert!(most(&made.indicatrix.q) < 0.8 * most(&raw.q));
+        let apart = made.apart.unwrap();
+        assert!(apart.largest > 0.2 * most(&raw.q) && apart.misplaced > 0.1 && apart.misplaced < 1.0, "{apart:?}");
+        let wide = filtered(&btdf, d, DiffuseScheme::FilterWide, || interpolator(&btdf)).unwrap();
+        assert_eq!(wide.how, How::Filter { scheme: DiffuseScheme::FilterWide, in_force: true });
+        assert!(most(&wide.indicatrix.q) < most(&made.indicatrix.q));
+    }
+
+    #[test]
+    fn wavelets_keep_few_numbers_within_what_is_allowed() {
+        let btdf = btdf();
+        let d = Incident(Dir::from_theta_phi(0.6, 1.2));
+        let made = compressed(&btdf, d).unwrap();
+        let How::Wavelets { kept, cells, allowed, in_force } = made.how else { panic!("{:?}", made.how) };
+        assert!(!in_force && kept > 1 && kept < cells / 2, "{kept} of {cells}");
+        let apart = made.apart.unwrap();
+        assert!(apart.misplaced > 0.0 && apart.misplaced <= allowed + 1e-9 && apart.largest > 0.0, "{apart:?}");
+        assert!((flux(&made.indicatrix) / btdf.tau(d) - 1.0).abs() < 1e-6);
+        // What is held so already is shown as it is held.
+        let Some(Scattered::Directions(data)) = &btdf.scattered else { unreachable!() };
+        let held = Arc::new(data.compacted(Criterion::ARCHIVE).unwrap());
+        let held = Btdf { regular: None, scattered: Some(Scattered::Directions(held)) };
+        let shown = compressed(&held, d).unwrap();
+        assert_eq!(shown.indicatrix, held.indicatrix(d).unwrap());
+        assert!(matches!(shown.how, How::Wavelets { kept: own, in_force: true, .. } if own == kept), "{:?}", shown.how);
+        assert_eq!(shown.apart, None);
+    }
+
+    #[test]
+    fn means_over_cells_are_not_filtered_and_closed_forms_have_no_values() {
+        let d = Incident(Dir::from_theta_phi(0.6, 1.2));
+        let cells = RingBasis::tregenza();
+        let matrix = CellMatrix::new(cells.clone(), cells, vec![0.1; 145 * 145]).unwrap();
+        let means = Btdf::from_cells(matrix);
+        let none = || None;
+        assert_eq!(filtered(&means, d, DiffuseScheme::Auto, none), Err(NoForm::Means));
+        assert!(compressed(&means, d).is_ok());
+        let lambert = Btdf::ideal_diffuse(0.5);
+        assert_eq!(filtered(&lambert, d, DiffuseScheme::Auto, none), Err(NoForm::NoValues));
+        assert_eq!(compressed(&lambert, d), Err(NoForm::NoValues));
+    }
+}
