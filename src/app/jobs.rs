@@ -176,13 +176,29 @@ pub struct JobState {
 impl JobState {
     /// Share done of the present stage, 0 … 1; `None` before the first report.
     pub fn fraction(&self) -> Option<f32> {
-        let total = self.total.load(Ordering::Relaxed);
-        (total > 0).then(|| (self.done.load(Ordering::Relaxed) as f32 / total as f32).clamp(0.0, 1.0))
+        let total = self.total();
+        (total > 0).then(|| (self.done() as f32 / total as f32).clamp(0.0, 1.0))
     }
 
     /// The present stage; empty before the first report.
     pub fn stage(&self) -> &'static str {
         self.stage.lock().map_or("", |stage| *stage)
+    }
+
+    fn done(&self) -> usize {
+        self.done.load(Ordering::Relaxed)
+    }
+
+    fn total(&self) -> usize {
+        self.total.load(Ordering::Relaxed)
+    }
+
+    fn report(&self, stage: &'static str, done: usize, total: usize) {
+        self.done.store(done, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
+        if let Ok(mut place) = self.stage.lock() {
+            *place = stage;
+        }
     }
 
     fn rest(&self) {
@@ -201,11 +217,7 @@ impl JobState {
 
 impl Progress for JobState {
     fn advance(&self, stage: &'static str, done: usize, total: usize) {
-        self.done.store(done, Ordering::Relaxed);
-        self.total.store(total, Ordering::Relaxed);
-        if let Ok(mut place) = self.stage.lock() {
-            *place = stage;
-        }
+        self.report(stage, done, total);
         self.rest();
     }
 
@@ -242,6 +254,8 @@ pub struct JobView {
 /// All lanes. `M`: what jobs return.
 pub struct Jobs<M> {
     running: BTreeMap<Lane, Running>,
+    /// What the background reported last: it works in short jobs, and its bar does not start anew with each.
+    background: Arc<JobState>,
     next: u64,
     sight: Arc<Sight>,
     sender: Sender<(u64, Finished<M>)>,
@@ -251,7 +265,7 @@ pub struct Jobs<M> {
 impl<M: Send + 'static> Default for Jobs<M> {
     fn default() -> Self {
         let (sender, receiver) = channel();
-        Self { running: BTreeMap::new(), next: 0, sight: Arc::default(), sender, receiver }
+        Self { running: BTreeMap::new(), background: Arc::default(), next: 0, sight: Arc::default(), sender, receiver }
     }
 }
 
@@ -268,7 +282,14 @@ impl<M: Send + 'static> Jobs<M> {
         let generation = self.next;
         let gives_way = (lane.priority() == Priority::Background).then(|| self.sight.clone());
         let awaited = (lane.priority() == Priority::InSight).then(|| Awaited::new(&self.sight));
-        let state = Arc::new(JobState { gives_way, ..JobState::default() });
+        let state = JobState::default();
+        if gives_way.is_some() {
+            state.report(self.background.stage(), self.background.done(), self.background.total());
+        }
+        let state = Arc::new(JobState { gives_way, ..state });
+        if state.gives_way.is_some() {
+            self.background = state.clone();
+        }
         self.running.insert(lane, Running { generation, state: state.clone() });
         let sender = self.sender.clone();
         // What is said there is read here.
@@ -381,6 +402,21 @@ mod tests {
         assert_eq!(list[0].outcome, Err(JobError::Panic("seven".to_owned())));
         jobs.start(Lane::Lid, || {}, |_| 3);
         assert_eq!(wait(&mut jobs)[0].outcome, Ok(3));
+    }
+
+    #[test]
+    fn the_background_goes_on_from_where_it_was_and_others_begin_anew() {
+        let mut jobs = Jobs::default();
+        for lane in [Lane::Builtin, Lane::Room] {
+            jobs.start(lane, || {}, |state| state.advance("computing", 3, 12));
+            wait(&mut jobs);
+            let (go, gate) = channel::<()>();
+            jobs.start(lane, || {}, move |_| gate.recv().unwrap());
+            let fraction = jobs.views()[0].state.fraction();
+            assert_eq!(fraction, (lane == Lane::Builtin).then_some(0.25), "{lane:?}");
+            go.send(()).unwrap();
+            wait(&mut jobs);
+        }
     }
 
     #[test]
