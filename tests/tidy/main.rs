@@ -5,6 +5,7 @@ mod arrows;
 mod layers;
 mod licences;
 mod scan;
+mod words;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -345,4 +346,19 @@ fn data_of_others_are_named_with_their_licence() {
     }
     let size = std::fs::metadata(root().join("assets/places/places.tsv.zst")).unwrap().len();
     assert!(size < 400_000, "{size} bytes of places");
+}
+
+/// Literals of the window that are not for people, or the same in every language, with the reason.
+const NO_WORDS: [(&str, &str, &str); 0] = [];
+
+#[test]
+fn what_people_read_stands_in_the_texts() {
+    let excused = |name: &str, text: &str| NO_WORDS.iter().any(|(file, own, _)| name == *file && text == *own);
+    let mut wrong = vec![];
+    for (name, text) in sources(&["src/app", "src/report", "src/drawing"]) {
+        for literal in words::said(&text).into_iter().filter(|literal| !excused(&name, &literal.text)) {
+            wrong.push(format!("{name}:{}: {:?} belongs into src/texts, in both languages", literal.line, literal.text));
+        }
+    }
+    none(&wrong);
 }

@@ -183,26 +183,71 @@ pub fn attributes(source: &str) -> Vec<(usize, String)> {
     pairs.map(|three| three[2].clone()).collect()
 }
 
-/// The source with everything under `#[cfg(test)]` turned into blanks, besides comments and literals.
-pub fn tests_blanked(source: &str) -> String {
+/// The source with everything under `#[cfg(test)]` turned into blanks, line for line.
+pub fn without_tests(source: &str) -> String {
     const MARK: &str = "#[cfg(test)]";
-    let mut text = blank(source);
-    while let Some(start) = text.find(MARK) {
-        let rest = &text[start + MARK.len()..];
+    let mut code: Vec<char> = blank(source).chars().collect();
+    let mut text: Vec<char> = source.chars().collect();
+    let mark: Vec<char> = MARK.chars().collect();
+    while let Some(start) = code.windows(mark.len()).position(|part| part == mark) {
         let mut depth = 0_usize;
-        let end = rest.char_indices().find_map(|(at, c)| {
+        let end = code[start + mark.len()..].iter().position(|&c| {
             match c {
                 '{' => depth += 1,
                 '}' => depth = depth.saturating_sub(1),
                 _ => {}
             }
-            ((c == ';' || c == '}') && depth == 0).then_some(at + 1)
+            (c == ';' || c == '}') && depth == 0
         });
-        let end = start + MARK.len() + end.unwrap_or(rest.len());
-        let blanks: String = text[start..end].chars().map(|c| if c == '\n' { '\n' } else { ' ' }).collect();
-        text.replace_range(start..end, &blanks);
+        let end = end.map_or(code.len(), |at| start + mark.len() + at + 1);
+        for at in start..end {
+            if code[at] != '\n' {
+                code[at] = ' ';
+            }
+            if text[at] != '\n' {
+                text[at] = ' ';
+            }
+        }
     }
-    text
+    text.into_iter().collect()
+}
+
+/// The same, besides comments and literals.
+pub fn tests_blanked(source: &str) -> String {
+    blank(&without_tests(source))
+}
+
+/// A string literal.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Literal {
+    /// Line, from 1.
+    pub line: usize,
+    /// What stands between its quotes.
+    pub text: String,
+    /// The code before it, comments and literals blanked.
+    pub before: String,
+}
+
+/// String literals outside of tests.
+pub fn literals(source: &str) -> Vec<Literal> {
+    let text: Vec<char> = without_tests(source).chars().collect();
+    let code: Vec<char> = blank(&text.iter().collect::<String>()).chars().collect();
+    let (mut at, mut line, mut list) = (0, 1, vec![]);
+    while at < text.len() {
+        let end = if is_word(text[at]) && !matches!(text[at], 'r' | 'b') {
+            (at..text.len()).find(|&i| !is_word(text[i])).unwrap_or(text.len())
+        } else {
+            literal_end(&text, at).unwrap_or(at + 1)
+        };
+        let own: String = text[at..end].iter().collect();
+        if matches!(text[at], '"' | 'r' | 'b') && own.ends_with(['"', '#']) && own.len() > 1 {
+            let inner = own.trim_start_matches(['r', 'b', '#']).trim_end_matches('#').trim_matches('"').to_owned();
+            list.push(Literal { line, text: inner, before: code[at.saturating_sub(80)..at].iter().collect() });
+        }
+        line += own.matches('\n').count();
+        at = end;
+    }
+    list
 }
 
 /// `use` trees with whether they are public, and the place of the first token behind them.
