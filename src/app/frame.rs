@@ -97,7 +97,8 @@ const ICON: &[u8] = include_bytes!("../../assets/desktop/cfs-256.png");
 pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     let catalogue = catalogue.map(Path::to_path_buf);
     let sessions = sessions_folder();
-    let icon = eframe::icon_data::from_png_bytes(ICON).map_err(|error| anyhow::anyhow!("the window's icon: {error}"))?;
+    let icon =
+        eframe::icon_data::from_png_bytes(ICON).map_err(|error| anyhow::anyhow!("the window's icon: {error}"))?;
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_inner_size([1280.0, 720.0])
