@@ -59,8 +59,12 @@ fn walk(harness: &mut Harness<'static, App>, look: &mut dyn FnMut(&Harness<'stat
         look(harness, entry.tile.title);
     }
     apply(harness, Command::Maximise(None));
-    for section in harness.query_all_by_role(Role::DisclosureTriangle).map(|node| node.rect()).collect::<Vec<_>>() {
-        click(harness, section.center());
+    let triangles = harness.query_all_by_role(Role::DisclosureTriangle);
+    let sections: Vec<String> = triangles.filter_map(|node| node.accesskit_node().label()).collect();
+    assert!(sections.len() >= 8, "{sections:?}");
+    for section in sections {
+        harness.get_by_role_and_label(Role::DisclosureTriangle, &section).click_accesskit();
+        harness.run_steps(3);
     }
     look(harness, "scene unfolded");
     apply(harness, Command::SystemExample(0));

@@ -6,6 +6,7 @@ use cfs::app::backend::memory_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
 use cfs::app::offer::offers;
+use cfs::app::shelf::{Entry, Query};
 use cfs::app::{App, state::Document};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -21,10 +22,12 @@ struct Kept {
 
 fn kept(harness: &Harness<'_, App>) -> Kept {
     let state = &harness.state().state;
-    let row = |entry: &Arc<cfs::app::shelf::Entry>| (entry.key.clone(), entry.name.clone(), entry.favourite);
+    let row = |entry: &Arc<Entry>| (entry.key.clone(), entry.name.clone(), entry.favourite);
+    // All of the catalogue, whatever the list was asked for.
+    let all = state.shelf().unwrap().search(&Query::default()).unwrap();
     Kept {
         document: state.document.clone(),
-        products: state.found.entries.iter().map(row).collect(),
+        products: all.entries.iter().map(row).collect(),
         deleted: state.deleted.len(),
     }
 }
@@ -32,7 +35,7 @@ fn kept(harness: &Harness<'_, App>) -> Kept {
 /// Long enough for the history to take a step by itself.
 fn rest(harness: &mut Harness<'_, App>) {
     settle(harness);
-    harness.run_steps(90);
+    harness.run_steps(8);
     settle(harness);
 }
 

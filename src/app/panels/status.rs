@@ -183,7 +183,8 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         if let Some(fraction) = fraction {
             ui.add(ProgressBar::new(fraction).desired_width(70.0).desired_height(10.0));
         }
-        if ui.small_button("×").on_hover_text(shell::cancel(word)).clicked() {
+        let cancel = ui.small_button("×").accessible_name(shell::cancel(word));
+        if cancel.on_hover_text(shell::cancel(word)).clicked() {
             commands.push(Command::Cancel(job.lane));
         }
     }
