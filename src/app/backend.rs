@@ -23,6 +23,7 @@ use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
 use crate::study::{Library, Scene, Session, StudyError};
+use crate::texts::shell;
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -150,7 +151,7 @@ impl Shelf for CatalogueShelf {
             if !progress.cancelled() {
                 self.failing.lock().unwrap_or_else(PoisonError::into_inner).push(one.clone());
             }
-            AppError::from(error).about(format_args!("{}, state {}", one.product, one.state))
+            AppError::from(error).about(shell::product_in_state(&one.product, &one.state))
         })?;
         lock(filler).put_state(&product, &dataset)?;
         Ok([waiting.len() - 1, all])

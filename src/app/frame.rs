@@ -57,6 +57,7 @@ impl App {
         if self.opened.take(&self.state, ui.ctx().cumulative_frame_nr()) {
             // However it was opened, who opens a sheet wants to type.
             self.state.wants_keyboard = self.state.sheet.is_some();
+            self.state.focus_search &= self.state.sheet.is_none();
         }
         let commands = panels::show(ui, self);
         for command in commands {

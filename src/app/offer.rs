@@ -384,7 +384,7 @@ mod tests {
     fn keys_are_named_as_on_a_german_keyboard() {
         let _german = speak(texts::Language::German);
         let words = |command: Command| key_words(&of(&command).unwrap().keys.unwrap());
-        assert_eq!(words(Command::Redo), "Strg+Umschalt+Z");
+        assert_eq!(words(Command::Redo), "Strg+Umsch+Z");
         assert_eq!(words(Command::MeasureSystem), "Strg+Eingabe");
     }
 }

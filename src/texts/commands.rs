@@ -14,7 +14,7 @@ texts! {
 
     const CTRL = "Ctrl+" | "Strg+";
     const ALT = "Alt+" | "Alt+";
-    const SHIFT = "Shift+" | "Umschalt+";
+    const SHIFT = "Shift+" | "Umsch+";
     const KEY_ENTER = "Enter" | "Eingabe";
     const KEY_ESCAPE = "Escape" | "Esc";
     const KEY_DELETE = "Delete" | "Entf";

@@ -177,6 +177,7 @@ texts! {
     fn tile_ending(ending) = "the ending \"{ending}\" is none that a tile's numbers are written as: use .csv; pictures are handed on by Ctrl+E" | "in der Endung „{ending}“ werden keine Zahlen einer Kachel geschrieben: .csv verwenden; Bilder gibt Strg+E weiter";
     const MEASURED_ENDING = "an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt" | "in dieser Endung wird nichts geschrieben; möglich sind .cfsp (alle Stellungen), .xml oder .btdf.txt";
     const NO_DIALOG = "no file dialog here" | "hier gibt es keinen Dateidialog";
+    fn product_in_state(product, state) = "{product}, state {state}" | "{product}, Stellung {state}";
     fn no_state(product) = "{product} has no state: import it again" | "{product} hat keine Stellung: erneut importieren";
     const NO_STATES = "the system has no states: give it at least one angle" | "das System hat keine Stellungen: mindestens einen Winkel angeben";
     fn not_one_state(count) = "{count} states; expected a file of one" | "{count} Stellungen; erwartet wird eine Datei mit einer";

@@ -75,7 +75,7 @@ fn the_drawing_follows_the_text_and_its_states() {
     assert!(harness.query_by_label_contains("(venetian), 8 states").is_some());
     assert!(section(&harness).starts_with("3 outlines"));
     assert!(harness.query_by_label("-30°").is_some());
-    harness.get_by_label("▶").click();
+    harness.get_by_label("Next state").click();
     harness.run_steps(3);
     assert!(harness.query_by_label("-15°").is_some());
     let wrong = harness.state().state.goniophotometer.text.replace("spacing = 0.072", "spacing = -1");

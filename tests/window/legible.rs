@@ -12,10 +12,12 @@ use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
 use cfs::app::error::AppError;
 use cfs::app::hand_on::{Choices, What};
+use cfs::app::language::LanguageChoice;
 use cfs::app::room_look::RoomView;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
+use cfs::app::tour::TourAct;
 use egui_kittest::Harness;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -62,6 +64,38 @@ impl Problems {
             }
         }
         harness.state_mut().apply(Command::Maximise(None));
+    }
+
+    /// Each sheet, and the palette.
+    fn sheets(&mut self, harness: &mut Harness<'_, App>) {
+        let sheets = [
+            Sheet::Import,
+            Sheet::Findings,
+            Sheet::Keys,
+            Sheet::Accuracy,
+            Sheet::Goniophotometer,
+            Sheet::Path(PathUse::Open),
+            Sheet::Path(PathUse::ExportLid),
+            Sheet::Path(PathUse::ExportTile(TILES[0].tile)),
+        ];
+        for sheet in sheets {
+            apply(harness, Command::Sheet(Some(sheet)));
+            for size in [SIZES[0], SIZES[1]] {
+                self.look(harness, &format!("{sheet:?}"), size);
+            }
+            apply(harness, Command::Sheet(None));
+        }
+        apply(harness, Command::Sheet(Some(Sheet::HandOn)));
+        for what in What::ALL {
+            apply(harness, Command::HandOn(Box::new(Choices { what, ..Choices::default() })));
+            for size in [SIZES[0], SIZES[1]] {
+                self.look(harness, &format!("hand on, {what:?}"), size);
+            }
+        }
+        apply(harness, Command::Sheet(None));
+        apply(harness, Command::Palette);
+        self.look(harness, "palette", SIZES[0]);
+        apply(harness, Command::Palette);
     }
 
     fn none_left(self) {
@@ -127,36 +161,22 @@ fn a_blind_at_noon_can_be_read_at_all_sizes_in_all_tiles_and_sheets() {
     for folded in [Command::ToggleCatalogue, Command::ToggleScene] {
         apply(&mut harness, folded);
     }
-    let sheets = [
-        Sheet::Import,
-        Sheet::Findings,
-        Sheet::Keys,
-        Sheet::Accuracy,
-        Sheet::Goniophotometer,
-        Sheet::Path(PathUse::Open),
-        Sheet::Path(PathUse::ExportLid),
-        Sheet::Path(PathUse::ExportTile(TILES[0].tile)),
-    ];
-    for sheet in sheets {
-        apply(&mut harness, Command::Sheet(Some(sheet)));
-        for size in [SIZES[0], SIZES[1]] {
-            problems.look(&mut harness, &format!("{sheet:?}"), size);
-        }
-        apply(&mut harness, Command::Sheet(None));
-    }
-    apply(&mut harness, Command::Sheet(Some(Sheet::HandOn)));
-    for what in What::ALL {
-        apply(&mut harness, Command::HandOn(Box::new(Choices { what, ..Choices::default() })));
-        for size in [SIZES[0], SIZES[1]] {
-            problems.look(&mut harness, &format!("hand on, {what:?}"), size);
-        }
-    }
-    apply(&mut harness, Command::Sheet(None));
-    apply(&mut harness, Command::Palette);
-    problems.look(&mut harness, "palette", SIZES[0]);
-    apply(&mut harness, Command::Palette);
+    problems.sheets(&mut harness);
     apply(&mut harness, Command::Theme(ThemeChoice::Light));
     problems.bench(&mut harness, "noon, light");
+    problems.none_left();
+}
+
+#[test]
+fn the_window_can_be_read_in_german() {
+    let mut harness = window();
+    let mut problems = Problems::default();
+    apply(&mut harness, Command::Language(LanguageChoice::German));
+    problems.bench(&mut harness, "German");
+    problems.each_tile(&mut harness, "German");
+    problems.sheets(&mut harness);
+    apply(&mut harness, Command::Tour(TourAct::Start));
+    problems.look(&mut harness, "German, tour", SIZES[0]);
     problems.none_left();
 }
 

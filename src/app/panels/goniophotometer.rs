@@ -111,12 +111,14 @@ fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>)
     if let Some(state) = states.get(bench.drawn).filter(|_| states.len() > 1) {
         ui.horizontal(|ui| {
             let mut drawn = bench.drawn;
-            if ui.add_enabled(drawn > 0, Button::new("◀")).on_hover_text(texts::PREVIOUS_STATE).clicked() {
+            let back = ui.add_enabled(drawn > 0, Button::new("◀")).accessible_name(texts::PREVIOUS_STATE);
+            if back.on_hover_text(texts::PREVIOUS_STATE).clicked() {
                 drawn -= 1;
             }
             let slider = Slider::new(&mut drawn, 0..=states.len() - 1).show_value(false);
             ui.add(slider).labelled_by(label.id);
-            if ui.add_enabled(drawn + 1 < states.len(), Button::new("▶")).on_hover_text(texts::NEXT_STATE).clicked() {
+            let forth = ui.add_enabled(drawn + 1 < states.len(), Button::new("▶")).accessible_name(texts::NEXT_STATE);
+            if forth.on_hover_text(texts::NEXT_STATE).clicked() {
                 drawn += 1;
             }
             ui.label(format!("{state}°"));

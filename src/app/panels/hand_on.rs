@@ -174,10 +174,12 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let name = ui.label("Write to");
     // On as many lines as the name needs: its end, which says what it is, stays in sight.
     let field = TextEdit::multiline(&mut text)
+        .id(egui::Id::unique("path of what is handed on"))
         .desired_rows(1)
         .return_key(None::<egui::KeyboardShortcut>)
         .desired_width(f32::INFINITY);
     let field = ui.add(field).labelled_by(name.id);
+    super::fields::take_keyboard(&field, state, commands);
     if text != state.path {
         commands.push(Command::EditPath(text.clone()));
     }

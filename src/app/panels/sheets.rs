@@ -10,7 +10,7 @@ use crate::app::theme;
 use crate::app::views::accuracy;
 use crate::app::window::App;
 use crate::texts::shell;
-use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Id, Key, RichText, ScrollArea, TextEdit, Ui};
 use std::path::PathBuf;
 
 /// Draws the sheet that is open.
@@ -110,7 +110,9 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     ui.add(egui::Label::new(hint.get()).wrap());
     let mut text = state.path.clone();
     let name = ui.label(shell::PATH);
-    let field = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY)).labelled_by(name.id);
+    // A name of its own: it keeps the keyboard whatever comes and goes around it.
+    let field = TextEdit::singleline(&mut text).id(Id::unique("path of a sheet")).desired_width(f32::INFINITY);
+    let field = ui.add(field).labelled_by(name.id);
     take_keyboard(&field, state, commands);
     if text != state.path {
         commands.push(Command::EditPath(text.clone()));

@@ -184,7 +184,9 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             ui.add(ProgressBar::new(fraction).desired_width(70.0).desired_height(10.0));
         }
         // Known by its lane: what stands before it comes and goes while a finger is on it.
-        let stop = ui.push_id(("stop", job.lane), |ui| ui.small_button("×").on_hover_text(shell::cancel(word)));
+        let stop = ui.push_id(("stop", job.lane), |ui| {
+            ui.small_button("×").accessible_name(shell::cancel(word)).on_hover_text(shell::cancel(word))
+        });
         if stop.inner.clicked() {
             commands.push(Command::Cancel(job.lane));
         }

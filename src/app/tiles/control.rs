@@ -6,6 +6,7 @@ use crate::app::control as rules;
 use crate::app::facing::sun_incident;
 use crate::app::jobs::Lane;
 use crate::app::state::{State, Tile};
+use crate::app::typing::read_number;
 use crate::app::views::{Cache, control};
 use crate::app::{moment, title};
 use crate::compute::profile_angle::profile_angle;
@@ -55,6 +56,7 @@ fn still(product: Option<&crate::catalogue::Product>) -> Text {
 fn setting(ui: &mut Ui, name: Text, tip: Text, unit: &str, value: &mut Option<f64>, most: f64) {
     let mut number = value.unwrap_or(0.0);
     let drag = DragValue::new(&mut number).range(0.0..=most).speed(most / 400.0).max_decimals(1).suffix(unit);
+    let drag = drag.custom_parser(|text| read_number(text, unit));
     let label = ui.label(name);
     if ui.add(drag).labelled_by(label.id).on_hover_text(tip).changed() {
         *value = (number > 0.0).then_some(number);
@@ -112,6 +114,7 @@ fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
             let mut elevation = keys.elevation.unwrap_or(DEFAULT_ELEVATION);
             let label = ui.label(say::REDIRECT_TO);
             let drag = DragValue::new(&mut elevation).range(-90.0..=90.0).speed(0.5).max_decimals(1).suffix("°");
+            let drag = drag.custom_parser(|text| read_number(text, "°"));
             let drag = ui.add(drag).labelled_by(label.id);
             if drag.on_hover_text(say::REDIRECT_TIP).changed() {
                 keys.elevation = Some(elevation);

@@ -102,6 +102,7 @@ fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLo
     factor.inner.on_hover_text(tip).on_disabled_hover_text(tip);
     if let Some(mut z) = input.plane_z {
         let drag = egui::DragValue::new(&mut z).range(0.0..=input.room[2]).speed(0.01).suffix(" m").max_decimals(2);
+        let drag = drag.custom_parser(|text| crate::app::typing::read_number(text, " m"));
         let label = ui.label(say::PLANE_AT);
         if ui.add(drag).labelled_by(label.id).changed() {
             actions.push(Action::PlaneMoved(z));

@@ -103,7 +103,8 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
                         moved = move_to(aperture, surface, &room);
                     }
                 }
-                if several && ui.small_button("×").on_hover_text(texts::TAKE_OUT).clicked() {
+                let take_out = several.then(|| ui.small_button("×").accessible_name(texts::take_out_number(index + 1)));
+                if take_out.is_some_and(|button| button.on_hover_text(texts::TAKE_OUT).clicked()) {
                     gone = Some(index);
                 }
             });

@@ -1,0 +1,184 @@
+//! Both languages everywhere: no part of the window without a name for screen readers, and no English word left while it
+//! speaks German.
+
+use crate::driven::{Idle, apply, frames, settle};
+use crate::legible::inspect::words;
+use cfs::app::App;
+use cfs::app::backend::memory_shelf;
+use cfs::app::command::Command;
+use cfs::app::compare::Act;
+use cfs::app::hand_on::{Choices, What};
+use cfs::app::language::LanguageChoice;
+use cfs::app::offer::MENUS;
+use cfs::app::state::{PathUse, Sheet};
+use cfs::app::tiles::TILES;
+use cfs::app::tour::TourAct;
+use cfs::texts::pairs;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// What somebody can act on.
+const ACTIVE: [Role; 12] = [
+    Role::Button,
+    Role::CheckBox,
+    Role::RadioButton,
+    Role::ComboBox,
+    Role::Slider,
+    Role::SpinButton,
+    Role::TextInput,
+    Role::MultilineTextInput,
+    Role::ListBoxOption,
+    Role::MenuItem,
+    Role::DisclosureTriangle,
+    Role::Link,
+];
+
+/// English words that the window still says in German because another part of it says them; none is meant to stay.
+const OPEN: [&str; 0] = [];
+
+/// Parts whose words are not looked for yet. Empty when all of the window speaks both languages.
+const OPEN_FILES: [&str; 0] = [];
+
+fn window(language: LanguageChoice) -> Harness<'static, App> {
+    let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
+    settle(&mut harness);
+    apply(&mut harness, Command::Language(language));
+    let moving = harness.state().state.found.entries.iter().find(|entry| entry.states.len() > 3).unwrap().key.clone();
+    apply(&mut harness, Command::Select(moving));
+    harness
+}
+
+/// Shows all parts of the window one after the other, and has each looked at.
+fn walk(harness: &mut Harness<'static, App>, look: &mut dyn FnMut(&Harness<'static, App>, &str)) {
+    look(harness, "bench");
+    for entry in TILES {
+        apply(harness, Command::Maximise(Some(entry.tile)));
+        look(harness, entry.tile.title);
+    }
+    apply(harness, Command::Maximise(None));
+    let triangles = harness.query_all_by_role(Role::DisclosureTriangle);
+    let sections: Vec<String> = triangles.filter_map(|node| node.accesskit_node().label()).collect();
+    assert!(sections.len() >= 8, "{sections:?}");
+    for section in sections {
+        harness.get_by_role_and_label(Role::DisclosureTriangle, &section).click_accesskit();
+        harness.run_steps(3);
+    }
+    look(harness, "scene unfolded");
+    apply(harness, Command::SystemExample(0));
+    look(harness, "goniophotometer");
+    let paths = [
+        PathUse::Open,
+        PathUse::SaveScene,
+        PathUse::ExportLid,
+        PathUse::ExportMeasured,
+        PathUse::ReplaceState,
+        PathUse::ExportTile(TILES[0].tile),
+    ];
+    let sheets = [Sheet::Import, Sheet::Findings, Sheet::Keys, Sheet::Accuracy, Sheet::Deleted, Sheet::Messages];
+    for sheet in sheets.into_iter().chain(paths.map(Sheet::Path)) {
+        apply(harness, Command::Sheet(None));
+        apply(harness, Command::Sheet(Some(sheet)));
+        look(harness, &format!("{sheet:?}"));
+    }
+    apply(harness, Command::EditProduct(None));
+    look(harness, "product");
+    apply(harness, Command::Sheet(None));
+    apply(harness, Command::Sheet(Some(Sheet::HandOn)));
+    for what in What::ALL {
+        apply(harness, Command::HandOn(Box::new(Choices { what, ..Choices::default() })));
+        look(harness, &format!("hand on {what:?}"));
+    }
+    apply(harness, Command::Sheet(None));
+    apply(harness, Command::Palette);
+    look(harness, "palette");
+    apply(harness, Command::Palette);
+    apply(harness, Command::Tour(TourAct::Start));
+    look(harness, "tour");
+    apply(harness, Command::Tour(TourAct::Leave));
+    apply(harness, Command::Compare(Act::Add));
+    apply(harness, Command::Hour(1));
+    apply(harness, Command::Compare(Act::AddMoment));
+    look(harness, "tray");
+    apply(harness, Command::Compare(Act::Show));
+    look(harness, "comparison");
+    apply(harness, Command::Compare(Act::Show));
+    apply(harness, Command::Compare(Act::Clear));
+    // The menus last: the pointer stays over them.
+    let bar: Vec<egui::Rect> = MENUS
+        .iter()
+        .map(|menu| {
+            let word = if harness.state().state.settings.language == LanguageChoice::German {
+                german(menu.english())
+            } else {
+                menu.english()
+            };
+            harness.get_all_by_label(word).map(|node| node.rect()).min_by(|a, b| a.top().total_cmp(&b.top())).unwrap()
+        })
+        .collect();
+    for (menu, rect) in MENUS.iter().zip(bar) {
+        click(harness, rect.center());
+        look(harness, menu.english());
+        harness.key_press(egui::Key::Escape);
+        harness.run_steps(3);
+    }
+}
+
+fn click(harness: &mut Harness<'static, App>, at: egui::Pos2) {
+    harness.hover_at(at);
+    harness.step();
+    harness.drag_at(at);
+    harness.step();
+    harness.drop_at(at);
+    harness.run_steps(4);
+}
+
+/// The German of a command's English.
+fn german(english: &str) -> &'static str {
+    pairs().find(|(file, one, _)| *file == "commands" && *one == english).map(|(_, _, german)| german).unwrap()
+}
+
+#[test]
+fn everything_that_can_be_used_has_a_name_in_both_languages() {
+    let mut nameless = BTreeSet::new();
+    for language in [LanguageChoice::English, LanguageChoice::German] {
+        walk(&mut window(language), &mut |harness, place| {
+            for node in harness.root().children_recursive() {
+                let node = node.accesskit_node();
+                let named = node.label().is_some_and(|label| label.chars().any(|c| !c.is_whitespace()));
+                if ACTIVE.contains(&node.role()) && !named {
+                    nameless.insert(format!("{place}: {:?} {:?}", node.role(), node.value()));
+                }
+            }
+        });
+    }
+    assert!(nameless.is_empty(), "{nameless:#?}");
+}
+
+#[test]
+fn no_english_is_left_where_the_window_speaks_german() {
+    let same: BTreeSet<&str> =
+        pairs().filter(|(_, english, german)| english == german).map(|(_, one, _)| one).collect();
+    let german: BTreeSet<&str> = pairs().map(|(_, _, german)| german).collect();
+    let english: BTreeMap<&str, &str> = pairs()
+        .filter(|(file, english, german)| english != german && !english.contains('{') && !OPEN_FILES.contains(file))
+        .map(|(file, english, _)| (english, file))
+        // What is also said in German, or is the same for another thing.
+        .filter(|(english, _)| !same.contains(english) && !german.contains(english))
+        .collect();
+    let mut left = BTreeMap::new();
+    walk(&mut window(LanguageChoice::German), &mut |harness, place| {
+        let nodes = harness.root().children_recursive();
+        let names = nodes.filter_map(|node| node.accesskit_node().label()).chain(words(harness));
+        for name in names {
+            if let Some(file) = english.get(name.trim())
+                && !OPEN.contains(&name.trim())
+            {
+                left.entry(name).or_insert_with(|| format!("{file}, seen in {place}"));
+            }
+        }
+    });
+    assert!(left.is_empty(), "{left:#?}");
+}

@@ -1,0 +1,117 @@
+//! Every command that menus, palette and keys offer: what it changes in the study or the catalogue is taken back by
+//! Ctrl+Z, to the same study and the same catalogue.
+
+use crate::driven::{Idle, frames, settle};
+use cfs::app::backend::memory_shelf;
+use cfs::app::command::Command;
+use cfs::app::compare::Act;
+use cfs::app::offer::offers;
+use cfs::app::shelf::{Entry, Query};
+use cfs::app::{App, state::Document};
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use std::sync::Arc;
+
+/// What undo has to bring back: all of the document but the numbers of what was done, and the catalogue's list.
+#[derive(Debug, PartialEq)]
+struct Kept {
+    document: Document,
+    products: Vec<(String, String, bool)>,
+    deleted: usize,
+}
+
+fn kept(harness: &Harness<'_, App>) -> Kept {
+    let state = &harness.state().state;
+    let row = |entry: &Arc<Entry>| (entry.key.clone(), entry.name.clone(), entry.favourite);
+    // All of the catalogue, whatever the list was asked for.
+    let all = state.shelf().unwrap().search(&Query::default()).unwrap();
+    Kept {
+        document: state.document.clone(),
+        products: all.entries.iter().map(row).collect(),
+        deleted: state.deleted.len(),
+    }
+}
+
+/// Long enough for the history to take a step by itself.
+fn rest(harness: &mut Harness<'_, App>) {
+    settle(harness);
+    harness.run_steps(8);
+    settle(harness);
+}
+
+/// Left out: they close the window, are undo itself, or take long and change nothing that is kept.
+fn left_out(command: &Command) -> bool {
+    matches!(command, Command::Quit | Command::Undo | Command::Redo | Command::MeasureAccuracy | Command::MeasureSystem)
+}
+
+#[test]
+fn every_offered_command_that_changes_something_is_taken_back() {
+    let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
+    settle(&mut harness);
+    // A product that moves, in a state in the middle; something in the tray; another scene than the first.
+    let moving = harness.state().state.found.entries.iter().find(|entry| entry.states.len() > 3).unwrap().clone();
+    harness.state_mut().apply(Command::Select(moving.key.clone()));
+    settle(&mut harness);
+    harness.state_mut().apply(Command::SelectState(moving.states[1].clone()));
+    harness.state_mut().apply(Command::Compare(Act::Add));
+    harness.state_mut().state.document.scene.site.azimuth = 200.0;
+    rest(&mut harness);
+    let mut changing = Vec::new();
+    for offer in offers().iter().filter(|offer| !left_out(&offer.command)) {
+        let before = kept(&harness);
+        harness.state_mut().apply(offer.command.clone());
+        rest(&mut harness);
+        let changed = kept(&harness) != before;
+        if changed {
+            changing.push(offer.text.as_str());
+            harness.state_mut().apply(Command::Undo);
+            rest(&mut harness);
+            assert_eq!(kept(&harness), before, "{}", offer.text);
+            harness.state_mut().apply(Command::Redo);
+            rest(&mut harness);
+            assert_ne!(kept(&harness), before, "{} again", offer.text);
+            harness.state_mut().apply(Command::Undo);
+            rest(&mut harness);
+            assert_eq!(kept(&harness), before, "{} once more", offer.text);
+        }
+        // What was opened is closed again; whatever it is, it is none of the history.
+        let state = &mut harness.state_mut().state;
+        (state.sheet, state.palette, state.compare.open, state.compare.swapped) = (None, None, false, None);
+        (state.maximised, state.tour) = (None, None);
+    }
+    for expected in [
+        "One hour later",
+        "One day earlier",
+        "Next state",
+        "Reset the scene",
+        "Delete product",
+        "Add to compare",
+        "Empty the tray",
+    ] {
+        assert!(changing.contains(&expected), "{expected} changed nothing: {changing:?}");
+    }
+}
+
+#[test]
+fn steps_that_follow_on_each_other_at_once_are_taken_back_one_by_one() {
+    let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
+    settle(&mut harness);
+    let mut seen = vec![kept(&harness).document];
+    let commands = [
+        Command::Compare(Act::Add),
+        Command::Hour(2),
+        Command::Compare(Act::AddMoment),
+        Command::ResetScene,
+        Command::Compare(Act::Clear),
+    ];
+    for command in commands {
+        harness.state_mut().apply(command);
+        harness.step();
+        seen.push(kept(&harness).document);
+    }
+    for before in seen.iter().rev().skip(1) {
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        settle(&mut harness);
+        assert_eq!(kept(&harness).document, *before);
+    }
+}
