@@ -2,66 +2,30 @@
 
 mod cut;
 mod form;
+mod input;
 mod lobe;
 mod place;
 mod schemes;
 mod words;
 
-pub use form::{FormInput, words as form_words};
-pub use schemes::SchemesInput;
+pub use form::words as form_words;
+pub use input::{Action, FormInput, Input, SchemesInput};
 
 use super::Cache;
-use crate::app::incidence::{Incidence, Source};
+use crate::app::incidence::Source;
 use crate::app::paint::colour_scale::ColourScale;
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::tile::{self, Foot, Status, Words};
+use crate::app::paint::tile::{self, Foot, Words};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::number;
-use crate::study::data_form::DataForm;
 use crate::texts::{Text, tiles as say};
 use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2};
 use place::{Place, frame, places};
 use std::sync::Arc;
 use words::{drawn, leaving_text, pointed_text, selection_text};
-
-/// What the tile draws.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
-    /// Transmission of light from outside; `None` while no product is chosen.
-    pub btdf: Option<&'a Btdf>,
-    /// Product and state in words.
-    pub name: &'a str,
-    /// The direction of incidence, the sun's or a chosen one.
-    pub incidence: Incidence,
-    /// Where the sun is, if it is before the façade.
-    pub sun: Option<Incident>,
-    /// Scale forced from outside (comparison), lowest and highest q.
-    pub range: Option<[f64; 2]>,
-    /// Changes with `btdf`.
-    pub revision: u64,
-    /// The data in another form than as measured, where that is looked at.
-    pub form: Option<FormInput<'a>>,
-    /// The map of schemes, where it is looked at.
-    pub schemes: Option<SchemesInput<'a>>,
-    /// How far the content is to be trusted.
-    pub status: Status<'a>,
-}
-
-/// What the user did.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action {
-    /// A cell of the incident hemisphere was chosen: its centre.
-    ChooseIncidence(Incident),
-    /// Couple the incidence to the sun, or not.
-    FollowSun(bool),
-    /// Show the data in this form.
-    Form(DataForm),
-    /// Show or hide the map of schemes.
-    Schemes,
-}
 
 type Bits = [u64; 3];
 
