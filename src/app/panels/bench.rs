@@ -24,6 +24,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         app.state.settings.layout = None;
         app.toasts.warning(say::layout_unreadable(problem));
     }
+    app.bench.times.clear();
     let whole = ui.available_rect_before_wrap();
     if let Some(tile) = app.state.maximised {
         app.bench.places = vec![(tile, whole)];
