@@ -7,12 +7,9 @@ use super::jobs::Lane;
 use super::paint::tile::pointed_foot;
 use super::state::Tile;
 use super::window::App;
-use super::work::Outcome;
+use super::work::{Outcome, Pixels};
 use crate::report::{Size, TileKind};
 use crate::texts::tiles as say;
-
-/// A picture on its way into the clipboard: width, height, and red, green and blue of its pixels row by row.
-pub type Pixels = (usize, usize, Vec<u8>);
 
 /// Longest sentence that is said of what was copied. \[letters\]
 const SAID: usize = 80;

@@ -30,6 +30,11 @@ fn beside(places: &[(Tile, Rect)], from: Tile, way: Way) -> Option<Tile> {
 }
 
 impl App {
+    /// How long each tile in sight took to be drawn in the last frame, for measurements.
+    pub fn tile_times(&self) -> &[(Tile, std::time::Duration)] {
+        &self.bench.times
+    }
+
     /// Arranges the tiles.
     pub(super) fn arrange(&mut self, what: Arrange) {
         let state = &mut self.state;

@@ -3,7 +3,6 @@
 use super::changes::{Change, Looked, Reread};
 use super::compare::Part;
 use super::control::Year;
-use super::copying::Pixels;
 use super::data_looks::{FormResult, SchemesResult};
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
@@ -39,6 +38,9 @@ pub use crate::study::intake::ReadDataset;
 
 /// How long data of built-in products are computed before it is asked anew which come first.
 const FILLING: Duration = Duration::from_millis(500);
+
+/// A picture on its way into the clipboard: width, height, and red, green and blue of its pixels row by row.
+pub type Pixels = (usize, usize, Vec<u8>);
 
 /// What jobs bring back.
 #[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]

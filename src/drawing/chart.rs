@@ -6,6 +6,7 @@ use super::font::width;
 use super::legend::{self, Name};
 use super::plot::{Axis, Form, Plot, Series};
 use super::{Align, Drawing, Frame, Point, Shape, TEXT};
+use crate::texts::tiles as say;
 
 /// Room for the labels below a panel, with and without a name of the axis.
 const BELOW: [f64; 2] = [40.0, 22.0];
@@ -33,7 +34,7 @@ pub fn draw(plots: &[Plot], [across, down]: [f64; 2]) -> Drawing {
     let room = across / plots.len().max(1) as f64;
     for (k, plot) in plots.iter().enumerate() {
         let frame = Frame::new(k as f64 * room, 6.0 + legend, room - 8.0, down - legend - 6.0);
-        let title = format!("{} against {}", plot.y.name, plot.x.name);
+        let title = say::against(&plot.y.name, &plot.x.name);
         drawing.add(Shape::text([frame.left + 0.5 * frame.width, frame.top + 14.0], title, inks.ink));
         panel(&mut drawing, frame.inside([0.0, ABOVE, 8.0, 0.0]), plot, inks);
     }

@@ -4,6 +4,7 @@ use super::colours::{ColourScale, Inks};
 use super::font::width;
 use super::shape::moved;
 use super::{Align, Drawing, Frame, Shape, TEXT, ticks};
+use crate::texts::tiles as say;
 
 /// Height that a colour scale needs.
 pub const HEIGHT: f64 = 34.0;
@@ -12,7 +13,7 @@ pub const LINE: f64 = 19.0;
 
 /// A colour scale with marks, and its quantity and unit at the right.
 pub fn scale(drawing: &mut Drawing, frame: Frame, scale: &ColourScale, unit: &str, inks: &Inks) {
-    let words = if scale.log { format!("{unit} (log)") } else { unit.to_owned() };
+    let words = if scale.log { say::logarithmic(unit) } else { unit.to_owned() };
     let room = (frame.width - width(&words, TEXT) - 28.0).max(40.0);
     let bar = Frame::new(frame.left + 12.0, frame.top + 2.0, room, 11.0);
     const STEPS: usize = 96;

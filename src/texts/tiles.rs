@@ -126,6 +126,9 @@ texts! {
 
     // Bench.
     fn layout_unreadable(problem) = "The kept layout of the tiles cannot be read: {problem}; they stand as at a first start" | "Die gespeicherte Anordnung der Kacheln ist nicht lesbar: {problem}; sie stehen wie beim ersten Start";
+    fn layout_form(given, known) = "form {given}, where this program reads {known}" | "Form {given}, dieses Programm liest {known}";
+    const LAYOUT_SHARE = "a share of a row or column is not between 0.001 and 1000" | "ein Anteil einer Zeile oder Spalte liegt nicht zwischen 0,001 und 1000";
+    const LAYOUT_UNKNOWN = "none of its tiles is known" | "keine ihrer Kacheln ist bekannt";
     fn head_tip(last) = "Drag: dock elsewhere or as a tab. Double click: fill the bench, or show all tiles (keys 1–{last} and 0). Right click: export, copy, arrange" | "Ziehen: anderswo oder als Reiter andocken. Doppelklick: maximieren oder alle Kacheln zeigen (Tasten 1–{last} und 0). Rechtsklick: exportieren, kopieren, anordnen";
     fn tile_named(title) = "Tile {title}" | "Kachel {title}";
     fn not_written(title) = "Not written: {title} shows what was there before the last change" | "Nicht geschrieben: {title} zeigt den Stand vor der letzten Änderung";

@@ -75,6 +75,21 @@ impl Disk {
         mesh
     }
 
+    /// The borders between cells, each once: drawn twice, by the cells on both sides and with other chords, they would beat.
+    pub fn borders(&self, projection: Projection, side: Side, basis: &RingBasis) -> Vec<Vec<Pos2>> {
+        let place = |radius: f64, phi: f64| self.screen(side.polar(radius, phi));
+        let mut lines = Vec::new();
+        for cell in basis.cells() {
+            let (from, n) = (cell.phi - 0.5 * cell.width, arc_steps(&cell));
+            let [inner, outer] = [cell.theta_min, cell.theta_max].map(|theta| projection.radius(theta));
+            lines.push((0..=n).map(|k| place(outer, from + cell.width * k as f64 / n as f64)).collect());
+            if cell.width < 1.99 * PI {
+                lines.push(vec![place(inner, from), place(outer, from)]);
+            }
+        }
+        lines
+    }
+
     /// A continuous function on the disk (given disk coordinates), evaluated at 30 × 72 points.
     pub fn smooth(&self, value: impl Fn([f64; 2]) -> Color32) -> Mesh {
         const RINGS: u32 = 30;
@@ -192,6 +207,26 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn every_border_is_drawn_once() {
+        let disk = Disk { centre: pos2(0.0, 0.0), radius: 100.0 };
+        let basis = RingBasis::tregenza();
+        let lines = disk.borders(Projection::ProjectedSolidAngle, Side::Incident, &basis);
+        let length: f32 = lines.iter().flat_map(|line| line.windows(2)).map(|pair| pair[0].distance(pair[1])).sum();
+        let radius = |theta| 100.0 * Projection::ProjectedSolidAngle.radius(theta);
+        let of_ring = |ring: &crate::compute::basis::Ring| {
+            let round = 2.0 * PI * radius(ring.theta_max);
+            let spokes = if ring.count > 1 {
+                ring.count as f64 * (radius(ring.theta_max) - radius(ring.theta_min))
+            } else {
+                0.0
+            };
+            round + spokes
+        };
+        let wanted: f64 = basis.rings().iter().map(of_ring).sum();
+        assert!((f64::from(length) / wanted - 1.0).abs() < 2e-3, "{length} {wanted}");
     }
 
     #[test]

@@ -4,6 +4,7 @@
 pub mod body;
 pub mod camera;
 pub mod colour_scale;
+pub mod frozen;
 pub mod hemisphere;
 pub mod palette;
 pub mod plot;

@@ -24,6 +24,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         app.state.settings.layout = None;
         app.toasts.warning(say::layout_unreadable(problem));
     }
+    app.bench.times.clear();
     let whole = ui.available_rect_before_wrap();
     if let Some(tile) = app.state.maximised {
         app.bench.places = vec![(tile, whole)];
@@ -33,7 +34,8 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     // Its tiles are drawn by the bench that holds it.
     let mut tree = std::mem::replace(&mut app.bench.tree, Tree::empty(egui::Id::unique("bench")));
     app.bench.places.clear();
-    let mut behaviour = Docking { app, commands, edited: false };
+    let spacing = tab_spacing(ui, &tree);
+    let mut behaviour = Docking { app, commands, edited: false, spacing };
     tree.ui(&mut behaviour, ui);
     let edited = behaviour.edited;
     app.bench.tree = tree;
@@ -44,11 +46,34 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
+/// Free room at both sides of a tab's name: less where all names of a bar would not fit. \[points\]
+fn tab_spacing(ui: &Ui, tree: &Tree<Tile>) -> f32 {
+    const SPACING: std::ops::RangeInclusive<f32> = 2.0..=10.0;
+    let name = |id: &TileId| match tree.tiles.get(*id) {
+        Some(egui_tiles::Tile::Pane(tile)) => tile.name.get(),
+        _ => "",
+    };
+    let width = |text: &str| {
+        ui.painter().layout_no_wrap(text.to_owned(), egui::FontId::proportional(13.0), Color32::WHITE).size().x
+    };
+    let bars = tree.tiles.iter().filter_map(|(id, tile)| match tile {
+        egui_tiles::Tile::Container(egui_tiles::Container::Tabs(tabs)) => Some((tree.tiles.rect(*id)?, tabs)),
+        _ => None,
+    });
+    let room = bars.map(|(rect, tabs)| {
+        let names: f32 = tabs.children.iter().map(|id| width(name(id))).sum();
+        (rect.width() - names - 2.0) / (2.0 * tabs.children.len().max(1) as f32)
+    });
+    room.fold(*SPACING.end(), f32::min).max(*SPACING.start())
+}
+
 /// Tiles that dock.
 struct Docking<'a> {
     app: &'a mut App,
     commands: &'a mut Vec<Command>,
     edited: bool,
+    /// Beside the names of tabs. \[points\]
+    spacing: f32,
 }
 
 impl Behavior<Tile> for Docking<'_> {
@@ -75,9 +100,8 @@ impl Behavior<Tile> for Docking<'_> {
         26.0
     }
 
-    /// Little, so that six names fit into the least window.
     fn tab_title_spacing(&self, _visuals: &Visuals) -> f32 {
-        2.0
+        self.spacing
     }
 
     fn resize_stroke(&self, style: &egui::Style, state: ResizeState) -> Stroke {

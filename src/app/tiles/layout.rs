@@ -1,6 +1,7 @@
 //! Where tiles stand on the bench, as a value: read, written, rearranged; and the tree that draws it.
 
 use crate::app::state::Tile;
+use crate::texts::tiles as say;
 use egui_tiles::{Container, Linear, LinearDir, Tabs, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
@@ -117,17 +118,17 @@ impl Layout {
     pub fn read(text: &str, known: &[Tile]) -> Result<Self, String> {
         let kept: Kept = serde_json::from_str(text).map_err(|error| error.to_string())?;
         if kept.version != VERSION {
-            return Err(format!("form {}, where this program reads {VERSION}", kept.version));
+            return Err(say::layout_form(kept.version, VERSION));
         }
         if !kept.tree.sound() {
-            return Err("a share of a row or column is not between 0.001 and 1000".to_owned());
+            return Err(say::LAYOUT_SHARE.into());
         }
         let mut left = known.to_vec();
         let layout = kept.tree.filter_map(&mut |title: String| {
             let number = left.iter().position(|tile| tile.title == title)?;
             Some(left.remove(number))
         });
-        let Some(layout) = layout else { return Err("none of its tiles is known".to_owned()) };
+        let Some(layout) = layout else { return Err(say::LAYOUT_UNKNOWN.into()) };
         Ok(if left.is_empty() { layout } else { layout.with(&left) })
     }
 

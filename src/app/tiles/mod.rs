@@ -26,6 +26,7 @@ use super::paint::tile::waiting;
 use super::state::{Results, State, Tile};
 use egui::{Rect, Ui};
 use egui_tiles::Tree;
+use std::time::{Duration, Instant};
 
 /// A tile, and how its drawing begins.
 pub struct Entry {
@@ -60,6 +61,8 @@ pub struct Bench {
     pub in_hand: Tile,
     /// The tile in hand is to get the keyboard in the next frame.
     pub to_focus: bool,
+    /// How long each tile in sight took to be drawn in the last frame.
+    pub times: Vec<(Tile, Duration)>,
     drawn: Vec<(Tile, Box<dyn Drawn>)>,
 }
 
@@ -76,6 +79,7 @@ impl Default for Bench {
             places: Vec::new(),
             in_hand: TILES[0].tile,
             to_focus: false,
+            times: Vec::new(),
             drawn: TILES.iter().map(|entry| (entry.tile, (entry.begin)())).collect(),
         }
     }
@@ -141,7 +145,10 @@ impl Bench {
             waiting(ui, tile.name.get(), tile.help.get(), &words, is_error);
             return None;
         }
-        drawn.show(ui, seen, commands)
+        let start = Instant::now();
+        let numbers = drawn.show(ui, seen, commands);
+        self.times.push((tile, start.elapsed()));
+        numbers
     }
 }
 

@@ -2,66 +2,31 @@
 
 mod cut;
 mod form;
+mod input;
 mod lobe;
 mod place;
 mod schemes;
 mod words;
 
-pub use form::{FormInput, words as form_words};
-pub use schemes::SchemesInput;
+pub use form::words as form_words;
+pub use input::{Action, FormInput, Input, SchemesInput};
 
 use super::Cache;
-use crate::app::incidence::{Incidence, Source};
+use crate::app::incidence::Source;
 use crate::app::paint::colour_scale::ColourScale;
+use crate::app::paint::frozen::{Grain, frozen, grain};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::paint::tile::{self, Foot, Status, Words};
+use crate::app::paint::tile::{self, Foot, Words};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::number;
-use crate::study::data_form::DataForm;
 use crate::texts::{Text, tiles as say};
 use egui::{Align2, Color32, EventFilter, Key, Mesh, Rect, Sense, Shape, Stroke, Ui, pos2};
 use place::{Place, frame, places};
 use std::sync::Arc;
 use words::{drawn, leaving_text, pointed_text, selection_text};
-
-/// What the tile draws.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
-    /// Transmission of light from outside; `None` while no product is chosen.
-    pub btdf: Option<&'a Btdf>,
-    /// Product and state in words.
-    pub name: &'a str,
-    /// The direction of incidence, the sun's or a chosen one.
-    pub incidence: Incidence,
-    /// Where the sun is, if it is before the façade.
-    pub sun: Option<Incident>,
-    /// Scale forced from outside (comparison), lowest and highest q.
-    pub range: Option<[f64; 2]>,
-    /// Changes with `btdf`.
-    pub revision: u64,
-    /// The data in another form than as measured, where that is looked at.
-    pub form: Option<FormInput<'a>>,
-    /// The map of schemes, where it is looked at.
-    pub schemes: Option<SchemesInput<'a>>,
-    /// How far the content is to be trusted.
-    pub status: Status<'a>,
-}
-
-/// What the user did.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action {
-    /// A cell of the incident hemisphere was chosen: its centre.
-    ChooseIncidence(Incident),
-    /// Couple the incidence to the sun, or not.
-    FollowSun(bool),
-    /// Show the data in this form.
-    Form(DataForm),
-    /// Show or hide the map of schemes.
-    Schemes,
-}
 
 type Bits = [u64; 3];
 
@@ -147,7 +112,10 @@ pub struct State {
     indicatrix: Cache<(u64, Bits), Option<Indicatrix>>,
     left: Cache<(u64, Disk, Projection, bool, bool), Arc<Mesh>>,
     triangles: Cache<(u64, Disk, Projection), Arc<Mesh>>,
+    outlines: Cache<(u64, Disk, Projection, bool, Grain), Arc<Mesh>>,
     right: Cache<EmergentKey, Arc<Mesh>>,
+    /// The largest value that leaves.
+    most: Cache<(u64, Bits, bool), f64>,
     scale: Option<ColourScale>,
     lobe: lobe::State,
 }
@@ -163,6 +131,8 @@ impl Default for State {
             shade_tau: true,
             hold: false,
             triangles: Cache::default(),
+            outlines: Cache::default(),
+            most: Cache::default(),
             incidences: Cache::default(),
             indicatrix: Cache::default(),
             left: Cache::default(),
@@ -271,7 +241,9 @@ fn incident_side(
             ui.painter().circle(disk.screen(*at), 2.0, palette.face, Stroke::new(1.0, palette.ink));
         }
     } else if map.is_none() {
-        outline_all(ui, &disk, projection, &cells.basis, &palette);
+        let key = (input.revision, disk, projection, dark, grain(ui));
+        let lines = state.outlines.get(key, || outlines(ui, &disk, projection, &cells.basis, &palette));
+        ui.painter().add(Shape::Mesh(lines.clone()));
     }
     let from = match (place.legend, place.corner) {
         (None, Some(_)) if shade && map.is_none() => say::where_from_shaded(number(scale.hi, 2)),
@@ -346,14 +318,10 @@ fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<
 }
 
 /// Hair lines between cells, while they are large enough to be told apart.
-fn outline_all(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, palette: &Palette) {
-    if basis.len() > 400 {
-        return;
-    }
+fn outlines(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, palette: &Palette) -> Arc<Mesh> {
     let stroke = Stroke::new(0.6, palette.outline.gamma_multiply(0.6));
-    for cell in basis.cells() {
-        ui.painter().add(Shape::closed_line(outline(disk, projection, Side::Incident, &cell), stroke));
-    }
+    let lines = if basis.len() > 400 { vec![] } else { disk.borders(projection, Side::Incident, basis) };
+    frozen(ui, lines.into_iter().map(|line| Shape::line(line, stroke)))
 }
 
 /// The scale of what leaves; while something is dragged it holds still.
@@ -387,8 +355,9 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     });
     let weighted = state.weighted;
     let scale = found.as_ref().map(|Indicatrix { basis, q }| {
-        let values = basis.cells().zip(q).map(|(cell, q)| drawn(*q, &cell, weighted));
-        scale_of(values.fold(0.0, f64::max), input, state)
+        let values = || basis.cells().zip(q).map(|(cell, q)| drawn(*q, &cell, weighted));
+        let most = *state.most.get((revision, key, weighted), || values().fold(0.0, f64::max));
+        scale_of(most, input, state)
     });
     let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(direction.0.theta()));

@@ -3,6 +3,7 @@
 use super::Cache;
 use crate::app::incidence::{Incidence, Source, direction_text};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::frozen::{Grain, frozen, grain};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, incident_disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Foot, Status, Words};
@@ -13,9 +14,10 @@ pub use crate::drawing::flux_split::FluxSplit;
 use crate::drawing::flux_split::percent;
 use crate::drawing::plot::MONTHS;
 use crate::drawing::ticks::number;
-use crate::texts::tiles as say;
+use crate::texts::{Language, language, tiles as say};
 use egui::{Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::f64::consts::PI;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
 /// What the tile draws.
@@ -59,7 +61,9 @@ pub struct State {
     /// The scale stays as it is.
     pub hold: bool,
     scale: Option<ColourScale>,
-    max: Cache<u64, f64>,
+    /// The cells to draw by, and the largest τ of them.
+    cells: Cache<u64, (RingBasis, f64)>,
+    paths: Cache<PathsKey, Paths>,
     mesh: Cache<(u64, Disk, ColourScale), Arc<Mesh>>,
 }
 
@@ -113,10 +117,12 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
     let disk = Disk::within(Rect::from_min_max(map.min, pos2(map.right(), legend.top())));
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
     let response = ui.interact(area, ui.scope_id().with("map"), Sense::click());
-    let basis = super::incident_cells(btdf);
-    let max = *state
-        .max
-        .get(input.revision, || basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max));
+    let (basis, max) = state.cells.get(input.revision, || {
+        let basis = super::incident_cells(btdf);
+        let max = basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max);
+        (basis, max)
+    });
+    let max = *max;
     // Up to the data's own maximum: dense products would be one dark blot on a scale up to 1. Opaque ones still
     // need an extent.
     let own = || ColourScale::up_to(max.max(1e-3), state.log, 2, ColourMap::Sequential);
@@ -126,14 +132,16 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
     let held = state.scale.clone().filter(|scale| (input.status.hold_scale || state.hold) && scale.log == log);
     let scale = input.range.map(forced).or(held).unwrap_or_else(own);
     state.scale = Some(scale.clone());
-    let mesh =
-        state.mesh.get((input.revision, disk, scale.clone()), || Arc::new(map_mesh(&disk, btdf, &basis, &scale)));
+    let mesh = state.mesh.get((input.revision, disk, scale.clone()), || Arc::new(map_mesh(&disk, btdf, basis, &scale)));
     ui.painter().add(Shape::Mesh(mesh.clone()));
     disk.frame(ui.painter(), PROJECTION, say::OUTSIDE.get(), &palette);
     if !state.hide_paths {
         let sun =
             input.moment.filter(|sun| sun.0.vector().z > 0.0).map(|sun| disk.screen(incident_disk(PROJECTION, sun)));
-        sun_paths(ui, &disk, input.sun_paths, sun, &palette);
+        let key = (fingerprint(input.sun_paths), disk, grain(ui), language());
+        let paths = state.paths.get(key, || sun_paths(ui, &disk, input.sun_paths));
+        ui.painter().add(Shape::Mesh(paths.lines.clone()));
+        name_paths(ui, paths, sun, &palette);
     }
     // The chosen direction, as the flux split has it.
     if input.incidence.source == Source::Chosen {
@@ -203,16 +211,45 @@ fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) ->
     }
 }
 
-fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<egui::Pos2>, palette: &Palette) {
-    // Names are written last, over all lines, where neither another name nor the sun is.
-    let mut names: Vec<(Rect, egui::Pos2, String)> = vec![];
-    let mut name = |place: egui::Pos2, text: String| {
-        let size = Rect::from_center_size(place, vec2(8.0 + 7.5 * text.chars().count() as f32, 17.0));
-        let free = sun.is_none_or(|at| size.distance_to_pos(at) > 8.0);
-        if free && names.iter().all(|(other, ..)| !other.intersects(size)) {
-            names.push((size, place, text));
+/// The sun's paths as triangles, and where names may stand beside them.
+#[derive(Debug, Clone)]
+struct Paths {
+    lines: Arc<Mesh>,
+    names: Vec<(egui::Pos2, String)>,
+}
+
+/// What the paths hang on: which, where, how fine, and in which language.
+type PathsKey = (u64, Disk, Grain, Language);
+
+/// Tells paths of one place and façade from those of others: by the middle of each.
+fn fingerprint(paths: &[Vec<(f64, Incident)>]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for path in paths {
+        path.len().hash(&mut hasher);
+        if let Some((hour, d)) = path.get(path.len() / 2) {
+            hour.to_bits().hash(&mut hasher);
+            d.0.vector().to_array().map(f64::to_bits).hash(&mut hasher);
         }
-    };
+    }
+    hasher.finish()
+}
+
+/// Names are written over all lines, where neither another name nor the sun is.
+fn name_paths(ui: &Ui, paths: &Paths, sun: Option<egui::Pos2>, palette: &Palette) {
+    let mut used: Vec<Rect> = vec![];
+    for (place, text) in &paths.names {
+        let size = Rect::from_center_size(*place, vec2(8.0 + 7.5 * text.chars().count() as f32, 17.0));
+        let free = sun.is_none_or(|at| size.distance_to_pos(at) > 8.0);
+        if free && used.iter().all(|other| !other.intersects(size)) {
+            used.push(size);
+            on_halo(ui.painter(), *place, text, palette);
+        }
+    }
+}
+
+fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>]) -> Paths {
+    let (mut shapes, mut names) = (vec![], vec![]);
+    let mut name = |place: egui::Pos2, text: String| names.push((place, text));
     // On a small disk the solstices and March say it all.
     let small = disk.radius < 80.0;
     for (month, path) in paths.iter().enumerate() {
@@ -233,15 +270,16 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
         }
         runs.push(run);
         for run in runs.iter().filter(|run| run.len() > 1) {
-            ui.painter().add(Shape::line(run.clone(), under));
-            ui.painter().add(Shape::line(run.clone(), stroke));
+            shapes.push(Shape::line(run.clone(), under));
+            shapes.push(Shape::line(run.clone(), stroke));
         }
         for (hour, incident) in path.iter().filter(|(hour, _)| (hour - hour.round()).abs() < 1e-6) {
             if small || incident.0.vector().z <= 0.0 {
                 continue;
             }
             let at = disk.screen(incident_disk(PROJECTION, *incident));
-            ui.painter().circle(at, 1.8, Color32::WHITE, Stroke::new(0.6, Color32::BLACK));
+            shapes.push(Shape::circle_filled(at, 1.8, Color32::WHITE));
+            shapes.push(Shape::circle_stroke(at, 1.8, Stroke::new(0.6, Color32::BLACK)));
             // Where the paths are close together the winter's hours stand for all.
             let labelled = (month == 11 || month == 5 && disk.radius > 130.0) && (hour.round() as i64) % 3 == 0;
             let above = at + vec2(0.0, -9.0);
@@ -257,9 +295,7 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>], sun: Option<e
             name(run[run.len() / 4], MONTHS[month].into());
         }
     }
-    for (_, place, text) in &names {
-        on_halo(ui.painter(), *place, text, palette);
-    }
+    Paths { lines: frozen(ui, shapes), names }
 }
 
 /// Whose light the split is of, in a line of at most `width`.

@@ -1,25 +1,11 @@
 //! The data in another form: the choice, and what is told of it.
 
-use super::{Action, Input};
-use crate::app::data_looks::FormResult;
+use super::input::{Action, FormInput, Input};
 use crate::app::paint::tile::Foot;
 use crate::drawing::ticks::number;
 use crate::study::data_form::{DataForm, Formed, How, NoForm};
 use crate::texts::{Text, fixed, tiles as say};
 use egui::{ComboBox, Ui};
-
-/// Another form of the data than as measured.
-#[derive(Debug, Clone, Copy)]
-pub struct FormInput<'a> {
-    /// Which.
-    pub form: DataForm,
-    /// The data in it; `None` until they are computed.
-    pub result: Option<&'a FormResult>,
-    /// A fault of the program.
-    pub error: Option<&'a str>,
-    /// Changes with `result`.
-    pub revision: u64,
-}
 
 /// What a form is called, and one sentence.
 pub const fn words(form: DataForm) -> [Text; 2] {

@@ -1,7 +1,7 @@
 //! The map of schemes on the incident side: what is done within each triangle of the data's directions, and why.
 
-use super::Input;
-use crate::app::data_looks::{NoSchemes, SchemesResult};
+use super::input::{Input, SchemesInput};
+use crate::app::data_looks::NoSchemes;
 use crate::app::paint::hemisphere::{Disk, Projection, Side};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::Foot;
@@ -19,17 +19,6 @@ const PARTS: usize = 4;
 const DRAWN: f64 = 0.94;
 /// Height of a line of the legend. \[points\]
 const LINE: f32 = 16.0;
-
-/// The map of schemes.
-#[derive(Debug, Clone, Copy)]
-pub struct SchemesInput<'a> {
-    /// The triangles; `None` until they are there.
-    pub result: Option<&'a SchemesResult>,
-    /// A fault of the program.
-    pub error: Option<&'a str>,
-    /// Changes with `result`.
-    pub revision: u64,
-}
 
 const fn word(way: Way) -> Text {
     match way {
@@ -182,6 +171,7 @@ pub(super) fn legend(ui: &Ui, rect: Rect, align: Align2, input: &Input<'_>, pale
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::data_looks::SchemesResult;
     use crate::compute::incidence::left_out::Errors;
 
     fn triangle(way: Way) -> Triangle {

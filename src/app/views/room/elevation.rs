@@ -2,7 +2,7 @@
 
 use super::input::{Frame, Input};
 use super::marks::scale_bar;
-use super::plan::outline;
+use super::plan::{outline, things};
 use crate::app::paint::colour_scale::ColourScale;
 use crate::app::paint::palette::Palette;
 use egui::{Rect, Stroke, StrokeKind, Ui, vec2};
@@ -14,7 +14,13 @@ const STRIP: f32 = 6.0;
 pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, row: usize, scale: &ColourScale, palette: &Palette) {
     let painter = ui.painter();
     painter.rect_filled(frame.area, 0, palette.face);
-    scale_bar(ui, frame.area, frame.scale);
+    let mut there = things(frame, input);
+    there.extend(
+        input.plane_z.map(|z| {
+            Rect::from_two_pos(frame.screen(0.0, z), frame.screen(input.room[1], z)).expand2(vec2(0.0, STRIP))
+        }),
+    );
+    scale_bar(ui, frame.area, frame.scale, &[], &there);
     if let Some(z) = input.plane_z {
         let ends = [frame.screen(0.0, z), frame.screen(input.room[1], z)];
         let strip = Rect::from_two_pos(ends[0], ends[1]).expand2(vec2(0.0, 0.5 * STRIP));

@@ -59,7 +59,6 @@ pub(super) fn show(
     let dashes = [plan.screen(0.0, x), plan.screen(input.room[1], x)];
     painter.extend(Shape::dashed_line(&dashes, Stroke::new(1.2, Color32::WHITE), 4.0, 4.0));
     let mut used: Vec<Rect> = vec![Rect::from_two_pos(dashes[0], dashes[1]).expand(1.0)];
-    used.push(scale_bar(ui, plan.area, plan.scale));
     let mut named: Vec<(f64, Vec<Vec<Pos2>>)> = vec![];
     for (level, lines) in lines {
         let colour = contrast(scale.colour(*level));
@@ -73,6 +72,9 @@ pub(super) fn show(
         });
         named.push((*level, on_screen.collect()));
     }
+    let mut on_plan: Vec<Vec<Pos2>> = named.iter().flat_map(|(_, lines)| lines.iter().cloned()).collect();
+    on_plan.push(dashes.to_vec());
+    used.push(scale_bar(ui, plan.area, plan.scale, &on_plan, &things(plan, input)));
     // The names come over all lines, those of the levels that are asked for first.
     named.sort_by_key(|(level, _)| !ASKED_FOR.contains(level));
     for (level, lines) in &named {
@@ -90,6 +92,16 @@ pub(super) fn show(
         }
     }
     outline(ui, plan, input, palette);
+}
+
+/// What stands on the picture beside lines: sensors with their values, rooflights.
+pub(super) fn things(frame: &Frame, input: &Input<'_>) -> Vec<Rect> {
+    let sensor = |point: &[f64; 3]| {
+        let at = frame.screen(point[1], if frame.side { point[2] } else { point[0] });
+        Rect::from_min_max(at - vec2(7.0, 9.0), at + vec2(50.0, 9.0))
+    };
+    let openings = input.apertures.iter().map(|one| frame.opening(one, input.room).expand(4.0));
+    input.points.iter().map(sensor).chain(openings).collect()
 }
 
 /// The room with its apertures, whatever it holds.

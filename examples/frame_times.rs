@@ -1,0 +1,130 @@
+//! What a frame of the window costs while the sun is dragged: six tiles at 1280 × 720, with the real engine's results, without
+//! a display. Prints our code's time a frame on the thread that draws, apart by tile, and what egui takes beside it to turn
+//! shapes into triangles.
+//!
+//! `cargo run --release --example frame_times [FRAMES]`; 240 frames unless told otherwise. Medians: a frame in which the
+//! machine did something else counts as one.
+
+use cfs::app::App;
+use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::command::Command;
+use cfs::app::moment;
+use egui::{Event, Modifiers, PointerButton, RawInput, Rect, pos2, vec2};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Longest that the first results are waited for.
+const PATIENCE: Duration = Duration::from_secs(600);
+/// How far the sun goes from one frame to the next. \[min\]
+const STEP: i32 = 1;
+
+/// A window that is drawn by hand.
+struct Window {
+    ctx: egui::Context,
+    app: App,
+    time: f64,
+}
+
+/// What one frame took.
+struct Frame {
+    logic: Duration,
+    draw: Duration,
+    tessellate: Duration,
+    triangles: usize,
+}
+
+impl Window {
+    fn frame(&mut self, events: Vec<Event>) -> Frame {
+        self.time += 1.0 / 60.0;
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 720.0))),
+            time: Some(self.time),
+            events,
+            ..RawInput::default()
+        };
+        let (mut logic, mut draw) = (Duration::ZERO, Duration::ZERO);
+        let app = &mut self.app;
+        let output = self.ctx.run_ui(input, |ui| {
+            let start = Instant::now();
+            app.logic(&ui.ctx().clone());
+            logic += start.elapsed();
+            let start = Instant::now();
+            app.draw(ui);
+            draw += start.elapsed();
+        });
+        let start = Instant::now();
+        let list = self.ctx.tessellate(output.shapes, output.pixels_per_point);
+        let tessellate = start.elapsed();
+        let triangles = list
+            .iter()
+            .map(|one| match &one.primitive {
+                egui::epaint::Primitive::Mesh(mesh) => mesh.indices.len() / 3,
+                egui::epaint::Primitive::Callback(_) => 0,
+            })
+            .sum();
+        Frame { logic, draw, tessellate, triangles }
+    }
+
+    fn settle(&mut self) -> anyhow::Result<()> {
+        let start = Instant::now();
+        loop {
+            self.frame(vec![]);
+            let there = self.app.results.room.value.is_some() && self.app.results.lid.value.is_some();
+            if there && !self.app.busy() {
+                return Ok(());
+            }
+            anyhow::ensure!(start.elapsed() < PATIENCE, "no results within {PATIENCE:?}");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+}
+
+fn milliseconds(mut list: Vec<Duration>) -> String {
+    list.sort_unstable();
+    let at = |share: f64| list.get(((list.len() as f64 * share) as usize).min(list.len().saturating_sub(1)));
+    let told = |share| at(share).map_or(0.0, |time| 1e3 * time.as_secs_f64());
+    format!("median {:6.2}   nine tenths {:6.2}   longest {:6.2}", told(0.5), told(0.9), told(1.0))
+}
+
+fn main() -> anyhow::Result<()> {
+    let frames: usize = std::env::args().nth(1).map_or(Ok(240), |text| text.parse())?;
+    let engine = Arc::new(StudyEngine::default());
+    let mut window = Window { ctx: egui::Context::default(), app: App::with_shelf(engine, memory_shelf), time: 0.0 };
+    window.settle()?;
+    let at = pos2(1276.0, 716.0);
+    let press =
+        Event::PointerButton { pos: at, button: PointerButton::Primary, pressed: true, modifiers: Modifiers::NONE };
+    window.frame(vec![Event::PointerMoved(at), press]);
+    let (mut logic, mut draw, mut tessellate, mut ours) = (vec![], vec![], vec![], vec![]);
+    let mut tiles: BTreeMap<&'static str, Vec<Duration>> = BTreeMap::new();
+    let (mut triangles, mut moved) = (0, window.app.results.lid.revision);
+    let mut results = 0;
+    for _ in 0..frames {
+        let mut scene = window.app.state.document.scene.clone();
+        moment::step(&mut scene, 0, STEP);
+        window.app.apply(Command::Scene(Box::new(scene)));
+        let frame = window.frame(vec![]);
+        ours.push(frame.logic + frame.draw);
+        logic.push(frame.logic);
+        draw.push(frame.draw);
+        tessellate.push(frame.tessellate);
+        triangles = frame.triangles;
+        for (tile, time) in window.app.tile_times() {
+            tiles.entry(tile.title).or_default().push(*time);
+        }
+        results += u64::from(moved != window.app.results.lid.revision);
+        moved = window.app.results.lid.revision;
+        // As a display of sixty frames a second leaves the other threads their time.
+        std::thread::sleep(Duration::from_millis(8));
+    }
+    println!("{frames} frames, {results} new light distributions, {triangles} triangles; milliseconds:");
+    println!("our code       {}", milliseconds(ours));
+    println!("  logic        {}", milliseconds(logic));
+    println!("  drawing      {}", milliseconds(draw));
+    for (title, times) in tiles {
+        println!("    {title:<13}{}", milliseconds(times));
+    }
+    println!("tessellation   {}", milliseconds(tessellate));
+    Ok(())
+}

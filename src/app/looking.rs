@@ -1,0 +1,73 @@
+//! Makes what the BTDF tile looks at.
+
+use super::data_looks::{DataLook, FormKey, FormResult, NoSchemes, SchemesResult};
+use super::incidence::Incidence;
+use super::jobs::Lane;
+use super::state::Tile;
+use super::tiles;
+use super::window::App;
+use super::work::Outcome;
+use crate::compute::btdf::Scattered;
+use crate::compute::incidence::left_out::LeftOut;
+use crate::compute::incidence::ways::triangles;
+use crate::study::data_form::{DataForm, NoForm, compressed, filtered};
+use crate::study::scene_file::Interpolation;
+
+/// The tile that all this is for.
+const TILE: Tile = tiles::BTDF;
+
+impl App {
+    /// Looks at the data otherwise, and brings the tile into sight.
+    pub(super) fn look_at_data(&mut self, change: impl FnOnce(&mut DataLook)) {
+        change(&mut self.state.data_look);
+        self.bring_up(TILE);
+    }
+
+    /// Asks for what the BTDF tile looks at and does not have yet.
+    pub(super) fn ask_data_looks(&mut self) {
+        let state = &self.state;
+        let look = state.data_look;
+        let Some(dataset) = state.dataset.value.clone().filter(|_| look != DataLook::default()) else { return };
+        if !self.bench.in_sight(state.maximised).contains(&TILE) {
+            return;
+        }
+        let Some(btdf) = dataset.transmission() else { return };
+        let compute = state.document.scene.compute.clone();
+        let incident = Incidence::shown(state.incident, &state.document.scene).direction;
+        let key = FormKey::of(btdf, state.dataset.revision, incident, (look.form, compute.diffuse_interpolation));
+        let engine = self.services.engine.clone();
+        if look.form != DataForm::Measured && self.asked_form != Some(key) {
+            self.asked_form = Some(key);
+            self.results.form.error = None;
+            let (dataset, engine) = (dataset.clone(), engine.clone());
+            self.start(Lane::DataForm, move |_| {
+                let made = dataset.transmission().map_or(Err(NoForm::NoValues), |btdf| match key.form {
+                    DataForm::Filtered => filtered(btdf, incident, key.diffuse, || match &btdf.scattered {
+                        Some(Scattered::Directions(data)) => Some(engine.interpolator(data)),
+                        _ => None,
+                    }),
+                    _ => compressed(btdf, incident),
+                });
+                Outcome::DataForm(FormResult { key, made })
+            });
+        }
+        let key = (self.state.dataset.revision, compute.sun_interpolation, compute.interpolation);
+        if look.schemes && self.asked_schemes != Some(key) {
+            self.asked_schemes = Some(key);
+            self.results.schemes.error = None;
+            self.start(Lane::Schemes, move |_| {
+                let made = match dataset.transmission().and_then(|btdf| btdf.scattered.as_ref()) {
+                    Some(Scattered::Directions(_)) if key.2 == Interpolation::Patch => Err(NoSchemes::Patches),
+                    Some(Scattered::Directions(data)) => {
+                        let interpolator = engine.interpolator(data);
+                        let model = interpolator.model();
+                        let list = triangles(model, &LeftOut::new(model));
+                        if list.is_empty() { Err(NoSchemes::NoTriangles) } else { Ok(list) }
+                    }
+                    _ => Err(NoSchemes::NoDirections),
+                };
+                Outcome::Schemes(SchemesResult { key, made })
+            });
+        }
+    }
+}
