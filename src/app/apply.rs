@@ -165,7 +165,8 @@ impl App {
                 state.query = query;
                 self.search();
             }
-            Command::Favourite(key, favourite) => self.store(move |shelf| shelf.set_favourite(&key, favourite)),
+            Command::Favourite(key, favourite) => self.star(key, favourite),
+            Command::Shelve(what) => self.shelve(what),
             Command::OpenPaths(paths) => self.read_paths(paths),
             Command::Write(what, path) => self.write(what, path),
             Command::EditPath(text) => {
@@ -220,7 +221,7 @@ impl App {
     }
 
     /// Chooses a product by its key; one that the list does not hold is looked up first.
-    fn select_product(&mut self, product: String) {
+    pub(super) fn select_product(&mut self, product: String) {
         let state = &self.state;
         if state.document.selection.product == product {
             return;
@@ -354,13 +355,16 @@ impl App {
         if !back.is_empty() {
             self.store_additions(back);
         }
-        let after = self.state.document.changes.clone();
-        // The last one first: each was made on what the one before it left.
-        for &gone in before.changes.iter().rev().filter(|number| !after.contains(number)) {
-            self.make_change(gone, false);
-        }
-        for &back in after.iter().filter(|number| !before.changes.contains(number)) {
-            self.make_change(back, true);
+        let document = &self.state.document;
+        let sides = [(&before.changes, document.changes.clone()), (&before.marks, document.marks.clone())];
+        for (before, after) in sides {
+            // The last one first: each was made on what the one before it left.
+            for &gone in before.iter().rev().filter(|number| !after.contains(number)) {
+                self.make_change(gone, false);
+            }
+            for &back in after.iter().filter(|number| !before.contains(number)) {
+                self.make_change(back, true);
+            }
         }
     }
 }

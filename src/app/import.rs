@@ -22,6 +22,8 @@ pub struct ImportFields {
     pub tags: String,
     /// Who measured or computed.
     pub author: String,
+    /// On which terms the data may be passed on.
+    pub license: String,
 }
 
 impl ImportFields {
@@ -171,6 +173,7 @@ impl Proposed {
             manufacturer: fields.manufacturer.trim().to_owned(),
             kind: fields.kind.trim().to_owned(),
             tags: fields.tag_list(),
+            license: fields.license.trim().to_owned(),
             provenance: Provenance {
                 author: fields.author.trim().to_owned(),
                 method: record(&self.told.provenance.method, &self.repairs),

@@ -183,6 +183,7 @@ impl Arranging<'_> {
             new.kind.clone_from(&old.kind);
             new.tags.clone_from(&old.tags);
             new.author.clone_from(&old.author);
+            new.license.clone_from(&old.license);
         }
         for (words, part) in product.states.iter_mut().zip(&product.parts) {
             let [file] = part.as_slice() else { continue };
@@ -241,6 +242,7 @@ fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed
         kind: meta.kind.clone(),
         tags: meta.tags.join(", "),
         author: meta.provenance.author.clone(),
+        license: meta.license.clone(),
     };
     Proposed {
         diagnoses,

@@ -24,11 +24,13 @@ pub enum Word {
     Tags,
     /// Who measured or computed.
     Author,
+    /// On which terms the data may be passed on.
+    License,
 }
 
 impl Word {
     /// All, in the order of the sheet.
-    pub const ALL: [Self; 4] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author];
+    pub const ALL: [Self; 5] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author, Self::License];
 
     /// What its field is called.
     pub const fn label(self) -> &'static str {
@@ -37,6 +39,7 @@ impl Word {
             Self::Kind => "Kind",
             Self::Tags => "Tags",
             Self::Author => "Author",
+            Self::License => "License",
         }
     }
 
@@ -47,6 +50,7 @@ impl Word {
             Self::Kind => &mut fields.kind,
             Self::Tags => &mut fields.tags,
             Self::Author => &mut fields.author,
+            Self::License => &mut fields.license,
         }
     }
 }

@@ -13,7 +13,7 @@ use super::language::LanguageChoice;
 use super::palette::Hit;
 use super::room_look::RoomLook;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
-use super::shelf::{Addition, Found, Query, Shelf};
+use super::shelf::{Addition, Found, Query, Sets, Shelf};
 use super::theme::ThemeChoice;
 use super::tour::Tour;
 use crate::catalogue::{Deleted, Product};
@@ -26,7 +26,7 @@ use crate::study::comparison::same_question;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
-use crate::texts::{Text, shell};
+use crate::texts::{Text, catalogue as subscribing, shell};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -53,6 +53,8 @@ pub struct Document {
     pub additions: Vec<usize>,
     /// Numbers of the changes to its products that hold now; see [`State::changes`].
     pub changes: Vec<usize>,
+    /// Numbers of those changes that no figure hangs on: stars, collections, subscriptions.
+    pub marks: Vec<usize>,
     /// Numbers of the imports that are discarded now; see [`State::discarded`].
     pub discarded: Vec<usize>,
 }
@@ -99,6 +101,10 @@ pub struct Settings {
     pub text_size: f32,
     /// Steps of the tour that were done.
     pub tour: usize,
+    /// Products as a gallery of pictures?
+    pub gallery: bool,
+    /// Keys of the products that were shown last, the last first.
+    pub recent: Vec<String>,
 }
 
 impl Default for Settings {
@@ -115,6 +121,8 @@ impl Default for Settings {
             room: RoomLook::default(),
             text_size: 1.0,
             tour: 0,
+            gallery: false,
+            recent: Vec::new(),
         }
     }
 }
@@ -221,6 +229,10 @@ pub enum Sheet {
     Product,
     /// Products out of sight.
     Deleted,
+    /// Collections, and those of the selected product.
+    Collections,
+    /// Folders of packages that are subscribed to.
+    Subscriptions,
     /// What the window said.
     Messages,
     /// Handing on: pictures, reports, luminaires, data.
@@ -244,6 +256,8 @@ pub enum PathUse {
     ExportMeasured,
     /// Read a file in place of that of a product's state.
     ReplaceState,
+    /// Subscribe to a folder of packages.
+    Subscribe,
     /// Write what is handed on.
     HandOn,
 }
@@ -258,6 +272,7 @@ impl PathUse {
             Self::ExportTile(_) => shell::EXPORT_A_TILE,
             Self::ExportMeasured => shell::EXPORT_THE_DATA,
             Self::ReplaceState => shell::REPLACE_A_STATE,
+            Self::Subscribe => subscribing::SUBSCRIBE_TITLE,
             Self::HandOn => shell::HAND_ON,
         }
     }
@@ -309,6 +324,10 @@ pub struct State {
     pub replacing: Option<(String, String)>,
     /// Products out of sight, as last looked up.
     pub deleted: Vec<Deleted>,
+    /// Collections and subscriptions, as last looked up.
+    pub sets: Sets,
+    /// Name of a new collection, as typed.
+    pub collection: String,
     /// Command palette: its words while open.
     pub palette: Option<String>,
     /// The row of the palette that Enter takes.
@@ -319,6 +338,10 @@ pub struct State {
     pub focus_search: bool,
     /// The sheet that was opened wants the keyboard for the field to type in, until that has it.
     pub wants_keyboard: bool,
+    /// Give the chosen row of the list the keyboard in the next frame.
+    pub focus_list: bool,
+    /// Choose the first row as soon as the list is that of what was typed.
+    pub first_due: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
     /// What is being computed before there is a dataset of the selection, in words for the tiles' heads.
@@ -362,6 +385,7 @@ impl State {
                 scene,
                 additions: Vec::new(),
                 changes: Vec::new(),
+                marks: Vec::new(),
                 discarded: Vec::new(),
             },
             settings,
@@ -385,11 +409,15 @@ impl State {
             editing: None,
             replacing: None,
             deleted: Vec::new(),
+            sets: Sets::default(),
+            collection: String::new(),
             palette: None,
             palette_row: 0,
             palette_hits: Vec::new(),
             focus_search: false,
             wants_keyboard: false,
+            focus_list: false,
+            first_due: false,
             dataset: Shown::default(),
             computing: None,
             product: None,

@@ -9,12 +9,13 @@ use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
 use super::facing::surface_of;
+use super::gallery::Made;
 use super::goniophotometer::Finished;
 use super::hand_on::Preview;
 use super::import::{Import, Proposed};
 use super::jobs::JobState;
 use super::scene::{Selection, rule};
-use super::shelf::{Found, Shelf};
+use super::shelf::{Found, Sets, Shelf};
 use super::state::{Daylight, PathUse, Tile};
 use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
@@ -102,6 +103,12 @@ pub enum Outcome {
     Reread(Result<Reread, AppError>),
     /// The folders of packages that are subscribed to were read.
     Synced(Result<Report, AppError>),
+    /// Whether what was chosen is a folder of packages to subscribe to: its path, or why not.
+    Folder(Result<String, String>),
+    /// Collections and subscriptions.
+    Sets(Result<Sets, AppError>),
+    /// Pictures of products.
+    Pictures(Vec<Made>),
     /// Products out of sight.
     Deleted(Result<Vec<Deleted>, AppError>),
     /// Something else in the catalogue was changed.

@@ -106,8 +106,8 @@ fn newer_packages_are_refused_by_their_version() {
         zip.write_all(manifest.as_bytes()).unwrap();
         package::read(&zip.finish().unwrap().into_inner()).unwrap_err().to_string()
     };
-    let newer = made("{\"format\": \"cfs-package 2\", \"products\": [{\"rays\": 1}], \"more\": {}}");
-    assert_eq!(newer, "the package was written by a newer version of cfs (cfs-package 2; this program reads up to 1)");
+    let newer = made("{\"format\": \"cfs-package 3\", \"products\": [{\"rays\": 1}], \"more\": {}}");
+    assert_eq!(newer, "the package was written by a newer version of cfs (cfs-package 3; this program reads up to 2)");
     assert!(made("{\"format\": \"other 1\", \"products\": []}").contains("format is \"other 1\""));
     assert!(made("{\"format\": \"cfs-package 0\", \"products\": []}").contains("format is"));
 }

@@ -12,6 +12,7 @@ mod compare_view;
 mod control_view;
 mod driven;
 mod files_view;
+mod gallery_view;
 mod goniophotometer_view;
 mod hand_on_view;
 mod import_view;
