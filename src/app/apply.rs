@@ -106,13 +106,14 @@ impl App {
             }
             Command::Cancel(lane) => {
                 let stopped = self.jobs.cancel(lane);
-                if lane == Lane::Import {
-                    state.under_way = None;
-                }
                 if lane == Lane::Mend {
                     for product in state.import.iter_mut().flat_map(|import| &mut import.products) {
                         product.wished = None;
                     }
+                }
+                if lane == Lane::Import {
+                    state.under_way = None;
+                    self.stop_arranging();
                 }
                 if lane == Lane::Compare {
                     self.compare.stop();
@@ -349,6 +350,7 @@ impl App {
             self.store(move |shelf| shelf.remove_all(&gone));
         }
         self.step_discarded(&before.discarded);
+        self.step_arranged(&before.arranged);
         // What is still being stored since it was added is there again as soon as it is there.
         let back = after.iter().filter(|number| !before.additions.contains(number) && !self.adding.contains(number));
         let back: Vec<_> = back.map(|&number| (number, self.state.additions[number].addition.clone())).collect();

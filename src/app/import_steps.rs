@@ -1,6 +1,7 @@
 //! What can be done in the import sheet's table: choose rows, put files together or apart, name states, answer questions.
 
 use super::import::{ImportFields, Row, StateWords};
+use crate::texts::{Text, catalogue as text};
 
 /// How a row is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,13 +34,13 @@ impl Word {
     pub const ALL: [Self; 5] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author, Self::License];
 
     /// What its field is called.
-    pub const fn label(self) -> &'static str {
+    pub const fn label(self) -> Text {
         match self {
-            Self::Manufacturer => "Manufacturer",
-            Self::Kind => "Kind",
-            Self::Tags => "Tags",
-            Self::Author => "Author",
-            Self::License => "License",
+            Self::Manufacturer => text::MANUFACTURER,
+            Self::Kind => text::KIND,
+            Self::Tags => text::TAGS,
+            Self::Author => text::AUTHOR,
+            Self::License => text::LICENSE,
         }
     }
 

@@ -30,6 +30,8 @@ pub enum Lane {
     Mend,
     /// Asking the desktop for paths.
     Dialog,
+    /// What the checks say about the selected dataset.
+    Findings,
     /// Pictures of products.
     Gallery,
     /// Writing into the catalogue.
@@ -77,6 +79,7 @@ impl Lane {
             Self::Import => shell::LANE_IMPORT,
             Self::Mend => shell::LANE_MEND,
             Self::Dialog => shell::LANE_DIALOG,
+            Self::Findings => products::LANE_FINDINGS,
             Self::Gallery => products::LANE_GALLERY,
             Self::Store => shell::LANE_STORE,
             Self::Subscribed => shell::LANE_SUBSCRIBED,

@@ -200,6 +200,8 @@ impl App {
             Outcome::Target(PathUse::HandOn, Ok(Some(path))) => self.state.path = path.display().to_string(),
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
+            Outcome::Rearranged(import, names) => self.take_rearranged(*import, &names),
+            Outcome::Examined(dataset, found) => self.state.examined = Some((dataset, found)),
             Outcome::Read(import) => self.take_import(*import),
             Outcome::Mended(files, mended) => self.take_mended(&files, mended),
             Outcome::ReadScene(path, Ok(scene)) => {

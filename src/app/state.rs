@@ -8,7 +8,7 @@ use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::hand_on::{Choices, HandOn};
-use super::import::{Import, KeptImport};
+use super::import::{Arranged, Import, KeptImport};
 use super::language::LanguageChoice;
 use super::palette::Hit;
 use super::room_look::RoomLook;
@@ -19,6 +19,7 @@ use super::tour::Tour;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
+use crate::compute::doctor::Diagnosis;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::accuracy::Accuracy;
@@ -57,6 +58,8 @@ pub struct Document {
     pub marks: Vec<usize>,
     /// Numbers of the imports that are discarded now; see [`State::discarded`].
     pub discarded: Vec<usize>,
+    /// Numbers of the arrangements of imports that hold now; see [`State::arranged`].
+    pub arranged: Vec<usize>,
 }
 
 impl Document {
@@ -312,6 +315,8 @@ pub struct State {
     pub drafts: Vec<KeptImport>,
     /// Imports and drafts that were discarded in this session.
     pub discarded: Vec<KeptImport>,
+    /// Steps from one arrangement of an import to another in this session.
+    pub arranged: Vec<Arranged>,
     /// The goniophotometer's sheet.
     pub goniophotometer: Bench,
     /// Additions of this session.
@@ -344,6 +349,8 @@ pub struct State {
     pub first_due: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
+    /// What the checks say, and about which dataset.
+    pub examined: Option<(Arc<Dataset>, Arc<Vec<Diagnosis>>)>,
     /// What is being computed before there is a dataset of the selection, in words for the tiles' heads.
     pub computing: Option<String>,
     /// The selected product: states with their numbers, control curve.
@@ -387,6 +394,7 @@ impl State {
                 changes: Vec::new(),
                 marks: Vec::new(),
                 discarded: Vec::new(),
+                arranged: Vec::new(),
             },
             settings,
             catalogue: CatalogueState::Opening,
@@ -403,6 +411,7 @@ impl State {
             storing: None,
             drafts: Vec::new(),
             discarded: Vec::new(),
+            arranged: Vec::new(),
             goniophotometer: Bench::default(),
             additions: Vec::new(),
             changes: Vec::new(),
@@ -419,6 +428,7 @@ impl State {
             focus_list: false,
             first_due: false,
             dataset: Shown::default(),
+            examined: None,
             computing: None,
             product: None,
             incident: None,

@@ -9,6 +9,7 @@ use super::dialogs::{FileDialogs, NoDialogs};
 use super::due::Due;
 use super::engine::{Engine, LidFigures};
 use super::error::AppError;
+use super::examining::Examined;
 use super::export::Exports;
 use super::gallery::Gallery;
 use super::import::KeptImport;
@@ -85,6 +86,8 @@ pub struct App {
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
     pub(super) states_view: states::State,
+    /// What the checks said, by content.
+    pub(super) examined: Examined,
     /// Pictures of products.
     pub gallery: Gallery,
     pub(super) ctx: egui::Context,
@@ -166,6 +169,7 @@ impl App {
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
             states_view: states::State::default(),
+            examined: Examined::default(),
             gallery: Gallery::default(),
             ctx: egui::Context::default(),
             installed: false,

@@ -21,6 +21,7 @@ use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
+use crate::compute::doctor::Diagnosis;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::compute::lid::c_gamma::Peaks;
@@ -76,6 +77,10 @@ pub enum Outcome {
     Target(PathUse, Result<Option<PathBuf>, AppError>),
     /// Files were read.
     Read(Box<Import>),
+    /// The files of an import were arranged otherwise; names of the products before, by their files.
+    Rearranged(Box<Import>, Vec<(Vec<String>, String)>),
+    /// What the checks say about a dataset.
+    Examined(Arc<Dataset>, Arc<Vec<Diagnosis>>),
     /// Several at once, in order.
     Several(Vec<Outcome>),
     /// A product that was read, known by its files, with the repairs that were wished: its datasets, what is said about

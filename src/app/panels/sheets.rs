@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Findings => match app.state.dataset.value.as_ref() {
             Some(dataset) => {
                 ui.strong(crate::app::title::selection(&app.state));
-                import::of_selection(ui, dataset);
+                import::of_selection(ui, &app.state, dataset);
             }
             None => {
                 let words = match &app.state.catalogue {
