@@ -154,7 +154,9 @@ fn table() -> Vec<Offer> {
         offer(sheet(state::Sheet::Deleted), words::DELETED, words::DELETED_TIP).menu(EDIT, 12),
         offer(AddImport, words::ADD_IMPORT, words::ADD_IMPORT_TIP),
         offer(sheet(state::Sheet::Messages), words::MESSAGES, words::MESSAGES_TIP).menu(HELP, 3),
-        offer(Shelve(Shelving::Gallery), catalogue::GALLERY_MENU, catalogue::GALLERY_TIP).keys(CTRL, Key::G).menu(VIEW, 22),
+        offer(Shelve(Shelving::Gallery), catalogue::GALLERY_MENU, catalogue::GALLERY_TIP)
+            .keys(CTRL, Key::G)
+            .menu(VIEW, 22),
         offer(Shelve(Shelving::Recent), catalogue::RECENT_MENU, catalogue::RECENT_ALONE).menu(VIEW, 22),
         offer(Shelve(Shelving::First), catalogue::FIRST_MENU, catalogue::FIRST_MENU_TIP),
         offer(Search, words::SEARCH, words::SEARCH_TIP).keys(CTRL, Key::F),

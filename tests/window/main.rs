@@ -18,6 +18,7 @@ mod hand_on_view;
 mod import_view;
 mod legible;
 mod product_sheet;
+mod rearranging;
 mod room_view;
 mod scene_panel;
 mod truth;
