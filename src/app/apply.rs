@@ -106,13 +106,14 @@ impl App {
             }
             Command::Cancel(lane) => {
                 let stopped = self.jobs.cancel(lane);
-                if lane == Lane::Import {
-                    state.under_way = None;
-                }
                 if lane == Lane::Mend {
                     for product in state.import.iter_mut().flat_map(|import| &mut import.products) {
                         product.wished = None;
                     }
+                }
+                if lane == Lane::Import {
+                    state.under_way = None;
+                    self.stop_arranging();
                 }
                 if lane == Lane::Compare {
                     self.compare.stop();
@@ -165,7 +166,8 @@ impl App {
                 state.query = query;
                 self.search();
             }
-            Command::Favourite(key, favourite) => self.store(move |shelf| shelf.set_favourite(&key, favourite)),
+            Command::Favourite(key, favourite) => self.star(key, favourite),
+            Command::Shelve(what) => self.shelve(what),
             Command::OpenPaths(paths) => self.read_paths(paths),
             Command::Write(what, path) => self.write(what, path),
             Command::EditPath(text) => {
@@ -220,7 +222,7 @@ impl App {
     }
 
     /// Chooses a product by its key; one that the list does not hold is looked up first.
-    fn select_product(&mut self, product: String) {
+    pub(super) fn select_product(&mut self, product: String) {
         let state = &self.state;
         if state.document.selection.product == product {
             return;
@@ -348,19 +350,23 @@ impl App {
             self.store(move |shelf| shelf.remove_all(&gone));
         }
         self.step_discarded(&before.discarded);
+        self.step_arranged(&before.arranged);
         // What is still being stored since it was added is there again as soon as it is there.
         let back = after.iter().filter(|number| !before.additions.contains(number) && !self.adding.contains(number));
         let back: Vec<_> = back.map(|&number| (number, self.state.additions[number].addition.clone())).collect();
         if !back.is_empty() {
             self.store_additions(back);
         }
-        let after = self.state.document.changes.clone();
-        // The last one first: each was made on what the one before it left.
-        for &gone in before.changes.iter().rev().filter(|number| !after.contains(number)) {
-            self.make_change(gone, false);
-        }
-        for &back in after.iter().filter(|number| !before.changes.contains(number)) {
-            self.make_change(back, true);
+        let document = &self.state.document;
+        let sides = [(&before.changes, document.changes.clone()), (&before.marks, document.marks.clone())];
+        for (before, after) in sides {
+            // The last one first: each was made on what the one before it left.
+            for &gone in before.iter().rev().filter(|number| !after.contains(number)) {
+                self.make_change(gone, false);
+            }
+            for &back in after.iter().filter(|number| !before.contains(number)) {
+                self.make_change(back, true);
+            }
         }
     }
 }

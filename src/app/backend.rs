@@ -6,8 +6,8 @@ use super::error::AppError;
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::shelf_library::WindowLibrary;
 use crate::catalogue::{
-    Catalogue, Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateKey, StateName, Stored, Words,
-    default_path,
+    Catalogue, Collection, Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateKey, StateName,
+    Stored, Subscription, Words, default_path,
 };
 use crate::compute::btdf::{Btdf, Dataset, Indicatrices};
 use crate::compute::direction::Incident;
@@ -228,6 +228,26 @@ impl Shelf for CatalogueShelf {
 
     fn subscribed_folder(&self, product: &str) -> Result<Option<String>, AppError> {
         Ok(self.lock().subscribed_folder(product)?)
+    }
+
+    fn collections(&self) -> Result<Vec<Collection>, AppError> {
+        Ok(self.lock().collections()?)
+    }
+
+    fn collect(&self, name: &str, products: &[String], put: bool) -> Result<(), AppError> {
+        Ok(self.lock().collect(name, products, put)?)
+    }
+
+    fn subscriptions(&self) -> Result<Vec<Subscription>, AppError> {
+        Ok(self.lock().subscriptions()?)
+    }
+
+    fn subscribe(&self, folder: &str) -> Result<(), AppError> {
+        Ok(self.lock().subscribe(folder)?)
+    }
+
+    fn unsubscribe(&self, folder: &str) -> Result<usize, AppError> {
+        Ok(self.lock().unsubscribe(folder)?)
     }
 
     fn sync(&self, progress: &dyn Progress) -> Result<Report, AppError> {

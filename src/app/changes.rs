@@ -4,6 +4,7 @@ use super::error::AppError;
 use super::import::{ImportFields, StateWords};
 use super::shelf::Shelf;
 use crate::catalogue::{Event, Product, Replacement, Snapshot, StateName, Words};
+use crate::texts::catalogue as text;
 use std::sync::Arc;
 
 /// A change to a product of the catalogue: kept so that undo can take it back and redo make it again.
@@ -15,6 +16,29 @@ pub enum Change {
         key: String,
         /// Its name.
         name: String,
+    },
+    /// Its star was set or taken.
+    Starred {
+        /// Key of the product.
+        key: String,
+        /// Set, not taken.
+        on: bool,
+    },
+    /// Products were put into a collection, or taken out.
+    Collected {
+        /// Name of the collection.
+        name: String,
+        /// Keys of the products, none of which was there before.
+        products: Vec<String>,
+        /// In, not out.
+        put: bool,
+    },
+    /// A folder of packages is subscribed to, or no more.
+    Subscribed {
+        /// The folder.
+        folder: String,
+        /// Subscribed, not ended.
+        on: bool,
     },
     /// Other words.
     Described {
@@ -46,6 +70,11 @@ pub enum Change {
 }
 
 impl Change {
+    /// Does any figure hang on it?
+    pub const fn is_mark(&self) -> bool {
+        matches!(self, Self::Starred { .. } | Self::Collected { .. } | Self::Subscribed { .. })
+    }
+
     /// Makes the change, or takes it back.
     ///
     /// # Errors
@@ -54,6 +83,10 @@ impl Change {
         match (self, forth) {
             (Self::Deleted { key, .. }, true) => shelf.delete(key),
             (Self::Deleted { key, .. }, false) => shelf.restore(key),
+            (Self::Starred { key, on }, _) => shelf.set_favourite(key, *on == forth),
+            (Self::Collected { name, products, put }, _) => shelf.collect(name, products, *put == forth),
+            (Self::Subscribed { folder, on }, _) if *on == forth => shelf.subscribe(folder),
+            (Self::Subscribed { folder, .. }, _) => shelf.unsubscribe(folder).map(|_| ()),
             (Self::Described { key, after, .. }, true) => shelf.describe(key, after),
             (Self::Described { key, before, .. }, false) => shelf.describe(key, before),
             (Self::Named { key, after, .. }, true) => shelf.name_states(key, after),
@@ -112,12 +145,14 @@ impl Editing {
             manufacturer: product.manufacturer.clone(),
             kind: product.kind.clone(),
             tags: product.tags.clone(),
+            license: product.license.clone(),
         };
         let fields = ImportFields {
             name: before.name.clone(),
             manufacturer: before.manufacturer.clone(),
             kind: before.kind.clone(),
             tags: before.tags.join(", "),
+            license: before.license.clone(),
             author: product.provenance.author.clone(),
         };
         let words = |name: &StateName| StateWords {
@@ -140,17 +175,18 @@ impl Editing {
             manufacturer: self.fields.manufacturer.trim().to_owned(),
             kind: self.fields.kind.trim().to_owned(),
             tags: self.fields.tag_list(),
+            license: self.fields.license.trim().to_owned(),
         }
     }
 
     /// What is wrong with what was typed, in a sentence.
     pub fn problem(&self) -> Option<String> {
         if self.fields.name.trim().is_empty() {
-            return Some("It needs a name.".to_owned());
+            return Some(text::NEEDS_A_NAME.into());
         }
         let wrong = |words: &&StateWords| !words.angle.trim().is_empty() && words.number().is_none();
         let wrong = self.states.iter().find(wrong)?;
-        Some(format!("“{}” is no angle; expected a number of degrees.", wrong.angle.trim()))
+        Some(text::no_angle(wrong.angle.trim()))
     }
 
     /// The changes that what was typed asks for.

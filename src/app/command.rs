@@ -11,6 +11,7 @@ use super::jobs::Lane;
 use super::language::LanguageChoice;
 use super::room_look::{RoomLook, RoomView};
 use super::shelf::Query;
+use super::shelving::Shelving;
 use super::state::{PathUse, Sheet, Tile};
 use super::text_size::TextSize;
 use super::theme::ThemeChoice;
@@ -194,6 +195,8 @@ pub enum Command {
     Dismiss(Option<u64>),
     /// Forget all messages.
     ForgetMessages,
+    /// Something with the list of products.
+    Shelve(Shelving),
     /// Something about what is compared.
     Compare(Act),
     /// List products like this one by what they do to light; like the selected one where it is `None`.

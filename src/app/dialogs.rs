@@ -51,7 +51,9 @@ impl FileDialogs for NativeDialogs {
                 Some(ending) => dialog.add_filter(shell::WHAT_IS_HANDED_ON, &[ending.to_string_lossy()]),
                 None => dialog,
             },
-            PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState => dialog.add_filter(shell::SCENE, &["toml"]),
+            PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe => {
+                dialog.add_filter(shell::SCENE, &["toml"])
+            }
         };
         Ok(dialog.save_file())
     }

@@ -13,6 +13,7 @@ use super::work::{Outcome, ReadDataset};
 use crate::catalogue::{Replacement, Snapshot, SourceFile, content_of};
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{recorded, repaired_all};
+use crate::texts::{catalogue as text, fixed};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -71,8 +72,8 @@ fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, A
         }
         let one = replacement(&before, &state.key, &file, dataset)?;
         let tau = one.dataset.transmission().map(|btdf| btdf.tau_hemispherical());
-        let word = |tau: Option<f64>| tau.map_or_else(|| "–".to_owned(), |tau| format!("{tau:.3}"));
-        told.push(format!("{}: τ {} becomes {}", file.name, word(state.tau_hemispherical), word(tau)));
+        let word = |tau: Option<f64>| tau.map_or_else(|| "–".to_owned(), |tau| fixed(tau, 3));
+        told.push(text::tau_becomes(&file.name, word(state.tau_hemispherical), word(tau)));
         list.push(one);
     }
     let change = (!list.is_empty()).then(|| Change::Replaced {
@@ -115,7 +116,7 @@ impl App {
         match change {
             Ok(change) => {
                 self.change(change);
-                self.toasts.success("Replaced; Ctrl+Z takes the new data out again");
+                self.toasts.success(text::REPLACED);
             }
             Err(error) => self.tell(&error),
         }
@@ -143,7 +144,7 @@ impl App {
             self.state.editing = None;
             self.state.sheet = None;
             self.change(change);
-            self.toasts.success("Taken; Ctrl+Z brings the data of before back");
+            self.toasts.success(text::TAKEN);
         }
     }
 }

@@ -43,6 +43,8 @@ impl App {
         self.ask_data_looks();
         self.ask_compared();
         self.ask_preview();
+        self.ask_pictures();
+        self.ask_findings();
         self.fill_catalogue();
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.keep_session();

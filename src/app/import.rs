@@ -4,6 +4,7 @@ use super::shelf::Addition;
 use crate::catalogue::{Doubt, Grouping, Known, NewProduct, Provenance, SourceFile, StateName, key_of_angle};
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{Diagnosis, Repair, record};
+use crate::texts::{Text, take_in as text};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,6 +23,8 @@ pub struct ImportFields {
     pub tags: String,
     /// Who measured or computed.
     pub author: String,
+    /// On which terms the data may be passed on.
+    pub license: String,
 }
 
 impl ImportFields {
@@ -118,22 +121,22 @@ impl Proposed {
     pub fn problem(&self) -> Option<String> {
         if let Some(place) = (0..self.datasets.len()).find(|&place| !transmits(&self.datasets[place])) {
             let file = self.sources.get(place).map_or("", String::as_str);
-            return Some(format!("{file} tells no visible transmission, and cannot be stored").trim().to_owned());
+            return Some(text::tells_nothing(file).trim().to_owned());
         }
         if !self.named() {
-            return Some("A name is missing".to_owned());
+            return Some(text::NAME_MISSING.into());
         }
         let mut keys = BTreeSet::new();
         for words in &self.states {
             if !words.angle.trim().is_empty() && words.number().is_none() {
-                return Some(format!("“{}” is no angle; expected a number of degrees", words.angle.trim()));
+                return Some(text::no_angle(words.angle.trim()));
             }
             let key = words.key();
             if key.is_empty() && self.states.len() > 1 {
-                return Some("A state has neither an angle nor a name".to_owned());
+                return Some(text::NAMELESS_STATE.into());
             }
             if !keys.insert(key.clone()) {
-                return Some(format!("Two states are called {key}"));
+                return Some(text::same_key(key));
             }
         }
         None
@@ -171,6 +174,7 @@ impl Proposed {
             manufacturer: fields.manufacturer.trim().to_owned(),
             kind: fields.kind.trim().to_owned(),
             tags: fields.tag_list(),
+            license: fields.license.trim().to_owned(),
             provenance: Provenance {
                 author: fields.author.trim().to_owned(),
                 method: record(&self.told.provenance.method, &self.repairs),
@@ -196,6 +200,33 @@ impl Proposed {
 /// Is there what a product needs?
 fn transmits(dataset: &Dataset) -> bool {
     dataset.transmission().or(dataset.visible.transmission_back.as_ref()).is_some()
+}
+
+/// A number of things in words.
+pub fn number(count: usize, one: Text, more: fn(usize) -> String) -> String {
+    if count == 1 { one.into() } else { more(count) }
+}
+
+/// How the files of an import are taken: what undo goes over.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Arrangement {
+    /// How the files are taken as a whole.
+    pub grouping: Grouping,
+    /// Which files make a product each, where that was changed by hand.
+    pub by_hand: Option<Vec<Vec<String>>>,
+    /// Files about which the question was answered.
+    pub answered: BTreeSet<String>,
+}
+
+/// A step from one arrangement of an import to another.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Arranged {
+    /// Files and folders of the import.
+    pub paths: Vec<PathBuf>,
+    /// Before the step.
+    pub before: Arrangement,
+    /// After it.
+    pub after: Arrangement,
 }
 
 /// A state in the table: number of the product and of the state, from 0.
@@ -226,6 +257,8 @@ pub struct Import {
     pub shown: Option<Row>,
     /// Products whose states are folded away.
     pub folded: BTreeSet<usize>,
+    /// The products are still those of the arrangement before.
+    pub arranging: bool,
 }
 
 /// What stands for a file in an import: where it lies and its name.
@@ -238,6 +271,11 @@ pub fn file_id(file: &SourceFile) -> String {
 }
 
 impl Import {
+    /// How its files are taken.
+    pub fn arrangement(&self) -> Arrangement {
+        Arrangement { grouping: self.grouping, by_hand: self.by_hand.clone(), answered: self.answered.clone() }
+    }
+
     /// Those that are to be stored, as far as the same is not there already.
     pub fn wanted(&self) -> impl Iterator<Item = &Proposed> {
         self.products.iter().filter(|product| product.wanted())
@@ -284,10 +322,12 @@ impl Import {
     /// What it is called among drafts.
     pub fn name(&self) -> String {
         let first = self.paths.first().map(|path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
-        let more = if self.paths.len() > 1 { format!(" and {} more", self.paths.len() - 1) } else { String::new() };
-        let count = self.products.len();
-        let products = if count == 1 { "1 product".to_owned() } else { format!("{count} products") };
-        format!("{}{more}: {products}", first.unwrap_or_default())
+        let first = first.unwrap_or_default();
+        let products = number(self.products.len(), text::ONE_PRODUCT, text::products);
+        match self.paths.len() {
+            0 | 1 => text::draft_name(first, products),
+            paths => text::draft_of_many(first, paths - 1, products),
+        }
     }
 }
 

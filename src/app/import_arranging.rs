@@ -151,7 +151,7 @@ impl Arranging<'_> {
 
     /// Gives a product what was typed and tried on the same files before.
     fn take_kept(&self, product: &mut Proposed, failures: &mut Vec<String>) {
-        self.carry_over(product);
+        carry_over(&self.before, product);
         if let Some(kept) = self.kept.and_then(|kept| kept.products.iter().find(|kept| kept.is_about(product))) {
             product.fields = kept.fields.clone();
             product.add_anyway = kept.add_anyway;
@@ -172,29 +172,51 @@ impl Arranging<'_> {
     }
 }
 
-impl Arranging<'_> {
-    /// Gives a product what was typed about its files while they made other products: names and angles of states, maker,
-    /// kind, tags and author. Its name is that of its own files.
-    fn carry_over(&self, product: &mut Proposed) {
-        let holding = |file: &String| self.before.iter().find(|old| !old.packed && old.files.contains(file));
-        if let Some(old) = product.files.first().and_then(holding) {
-            let (new, old) = (&mut product.fields, &old.fields);
-            new.manufacturer.clone_from(&old.manufacturer);
-            new.kind.clone_from(&old.kind);
-            new.tags.clone_from(&old.tags);
-            new.author.clone_from(&old.author);
+/// Gives a product what was typed about its files while they made other products: names and angles of states, maker,
+/// kind, tags and author. Its name is that of its own files.
+fn carry_over(before: &[Proposed], product: &mut Proposed) {
+    let holding = |file: &String| before.iter().find(|old| !old.packed && old.files.contains(file));
+    if let Some(old) = product.files.first().and_then(holding) {
+        let (new, old) = (&mut product.fields, &old.fields);
+        new.manufacturer.clone_from(&old.manufacturer);
+        new.kind.clone_from(&old.kind);
+        new.tags.clone_from(&old.tags);
+        new.author.clone_from(&old.author);
+        new.license.clone_from(&old.license);
+    }
+    for (words, part) in product.states.iter_mut().zip(&product.parts) {
+        let [file] = part.as_slice() else { continue };
+        let Some(old) = holding(&product.files[*file]) else { continue };
+        let place = old.files.iter().position(|other| *other == product.files[*file]);
+        let state = old.parts.iter().position(|part| Some(part.as_slice()) == place.as_ref().map(std::slice::from_ref));
+        if let Some(state) = state
+            && old.states[state] != StateWords::of(&old.originals[state].state)
+        {
+            words.clone_from(&old.states[state]);
         }
-        for (words, part) in product.states.iter_mut().zip(&product.parts) {
-            let [file] = part.as_slice() else { continue };
-            let Some(old) = holding(&product.files[*file]) else { continue };
-            let place = old.files.iter().position(|other| *other == product.files[*file]);
-            let state =
-                old.parts.iter().position(|part| Some(part.as_slice()) == place.as_ref().map(std::slice::from_ref));
-            if let Some(state) = state
-                && old.states[state] != StateWords::of(&old.originals[state].state)
-            {
-                words.clone_from(&old.states[state]);
+    }
+}
+
+/// Gives the products of a new arrangement what was typed and answered while they were made; `names`: of the products
+/// before, by their files, as they were when it was asked for.
+pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)]) {
+    new.answered.clone_from(&now.answered);
+    for product in &mut new.products {
+        if let Some(same) = now.products.iter().find(|one| one.files == product.files) {
+            let (doubt, known) = (product.doubt.take(), std::mem::take(&mut product.known));
+            *product = Proposed { doubt, known, same_as: product.same_as.take(), ..same.clone() };
+        } else {
+            carry_over(&now.products, product);
+            let holding =
+                product.files.first().and_then(|file| now.products.iter().find(|one| one.files.contains(file)));
+            let typed =
+                |one: &&Proposed| names.iter().any(|(files, name)| *files == one.files && *name != one.fields.name);
+            if let Some(one) = holding.filter(typed) {
+                product.fields.name.clone_from(&one.fields.name);
             }
+        }
+        if product.files.iter().any(|file| new.answered.contains(file)) {
+            product.doubt = None;
         }
     }
 }
@@ -241,6 +263,7 @@ fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed
         kind: meta.kind.clone(),
         tags: meta.tags.join(", "),
         author: meta.provenance.author.clone(),
+        license: meta.license.clone(),
     };
     Proposed {
         diagnoses,
@@ -268,12 +291,14 @@ pub fn of_package(package: &str, datasets: Vec<Dataset>, meta: NewProduct) -> Pr
 /// The same files arranged otherwise; words, repairs and answers stay with products that remain the same.
 pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn Progress) -> Outcome {
     let before = std::mem::take(&mut import.products);
+    let names = before.iter().map(|one| (one.files.clone(), one.fields.name.clone())).collect();
     let (packed, before): (Vec<_>, Vec<_>) = before.into_iter().partition(|product| product.packed);
     import.selected.clear();
     import.shown = None;
     import.folded.clear();
+    import.arranging = false;
     Arranging { shelf, before, kept: None }.products(&mut import, packed, progress);
-    Outcome::Read(Box::new(import))
+    Outcome::Rearranged(Box::new(import), names)
 }
 
 /// Transmittances under uniform light.

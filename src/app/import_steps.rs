@@ -1,6 +1,7 @@
 //! What can be done in the import sheet's table: choose rows, put files together or apart, name states, answer questions.
 
 use super::import::{ImportFields, Row, StateWords};
+use crate::texts::{Text, catalogue as text};
 
 /// How a row is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,19 +25,22 @@ pub enum Word {
     Tags,
     /// Who measured or computed.
     Author,
+    /// On which terms the data may be passed on.
+    License,
 }
 
 impl Word {
     /// All, in the order of the sheet.
-    pub const ALL: [Self; 4] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author];
+    pub const ALL: [Self; 5] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author, Self::License];
 
     /// What its field is called.
-    pub const fn label(self) -> &'static str {
+    pub const fn label(self) -> Text {
         match self {
-            Self::Manufacturer => "Manufacturer",
-            Self::Kind => "Kind",
-            Self::Tags => "Tags",
-            Self::Author => "Author",
+            Self::Manufacturer => text::MANUFACTURER,
+            Self::Kind => text::KIND,
+            Self::Tags => text::TAGS,
+            Self::Author => text::AUTHOR,
+            Self::License => text::LICENSE,
         }
     }
 
@@ -47,6 +51,7 @@ impl Word {
             Self::Kind => &mut fields.kind,
             Self::Tags => &mut fields.tags,
             Self::Author => &mut fields.author,
+            Self::License => &mut fields.license,
         }
     }
 }

@@ -1,11 +1,12 @@
 //! The import sheet's table: what its steps do.
 
-use super::import::{Import, Row};
-use super::import_arranging::rearranged;
+use super::import::{Arranged, Arrangement, Import, Row};
+use super::import_arranging::{catch_up, rearranged};
 use super::import_steps::{Choose, Step};
 use super::jobs::Lane;
 use super::window::App;
 use crate::catalogue::Grouping;
+use crate::texts::take_in as text;
 use std::collections::BTreeSet;
 
 impl Import {
@@ -35,6 +36,11 @@ impl Import {
         let rest = |one: &super::import::Proposed| -> Vec<String> {
             one.files.iter().filter(|file| !files.contains(file)).cloned().collect()
         };
+        // While products are still those of the arrangement before, that which was asked for last is what is changed.
+        if let (Some(groups), true) = (&self.by_hand, self.arranging) {
+            let rest = |group: &Vec<String>| group.iter().filter(|file| !files.contains(file)).cloned().collect();
+            return groups.iter().map(rest).filter(|files: &Vec<String>| !files.is_empty()).collect();
+        }
         self.products.iter().filter(|one| !one.packed).map(rest).filter(|files| !files.is_empty()).collect()
     }
 }
@@ -43,6 +49,7 @@ impl App {
     /// Does one thing with the table.
     pub(super) fn import_step(&mut self, step: Step) {
         let Some(import) = &mut self.state.import else { return };
+        let before = import.arrangement();
         match step {
             Step::Choose(row, how) => import.choose(BTreeSet::from([row]), how),
             Step::ChooseProduct(product, how) => import.choose(import.states_of(product), how),
@@ -101,6 +108,56 @@ impl App {
                 }
             }
         }
+        self.note_arrangement(before);
+    }
+
+    /// A step from one arrangement to another is one of undo.
+    fn note_arrangement(&mut self, before: Arrangement) {
+        let Some(import) = &self.state.import else { return };
+        let after = import.arrangement();
+        if before != after {
+            let number = self.state.arranged.len();
+            self.state.arranged.push(Arranged { paths: import.paths.clone(), before, after });
+            self.undoer.add_undo(&self.state.document);
+            self.state.document.arranged.push(number);
+            self.undoer.add_undo(&self.state.document);
+        }
+    }
+
+    /// After a step back or forth: the arrangement that holds now.
+    pub(super) fn step_arranged(&mut self, before: &[usize]) {
+        let after = self.state.document.arranged.clone();
+        let steps = &self.state.arranged;
+        let gone = before.iter().rev().filter(|number| !after.contains(number)).map(|&n| (&steps[n], &steps[n].before));
+        let back = after.iter().filter(|number| !before.contains(number)).map(|&n| (&steps[n], &steps[n].after));
+        let Some((step, wanted)) = gone.chain(back).last().map(|(step, wanted)| (step.clone(), wanted.clone())) else {
+            return;
+        };
+        match &mut self.state.import {
+            Some(import) if import.paths == step.paths => {
+                (import.grouping, import.by_hand, import.answered) = (wanted.grouping, wanted.by_hand, wanted.answered);
+                self.rearrange();
+            }
+            _ => self.toasts.info(text::NOT_OPEN),
+        }
+    }
+
+    /// Takes a new arrangement in; what was typed meanwhile stays. One of an import that is gone is forgotten.
+    pub(super) fn take_rearranged(&mut self, mut new: Import, names: &[(Vec<String>, String)]) {
+        if let Some(now) = self.state.import.as_ref().filter(|now| now.paths == new.paths) {
+            catch_up(&mut new, now, names);
+            self.state.import = Some(new);
+            self.mend_next();
+        }
+    }
+
+    /// The arrangement that was under way is not made: the one that is shown holds.
+    pub(super) fn stop_arranging(&mut self) {
+        if let Some(import) = self.state.import.as_mut().filter(|import| import.arranging) {
+            import.arranging = false;
+            let groups = import.products.iter().filter(|one| !one.packed).map(|one| one.files.clone());
+            import.by_hand = Some(groups.collect());
+        }
     }
 
     /// Makes products of these groups of files, in the background.
@@ -115,13 +172,17 @@ impl App {
     pub(super) fn group_import(&mut self, grouping: Grouping) {
         let Some(import) = &mut self.state.import else { return };
         if import.grouping != grouping || import.by_hand.is_some() {
+            let before = import.arrangement();
             (import.grouping, import.by_hand) = (grouping, None);
             self.rearrange();
+            self.note_arrangement(before);
         }
     }
 
     fn rearrange(&mut self) {
-        let Some(import) = self.state.import.clone() else { return };
+        let Some(import) = &mut self.state.import else { return };
+        import.arranging = true;
+        let import = import.clone();
         let shelf = self.state.shelf();
         self.start(Lane::Import, move |job| rearranged(import, shelf.as_deref(), job));
     }

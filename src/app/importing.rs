@@ -10,6 +10,7 @@ use super::state::{Added, CatalogueState, Sheet};
 use super::window::App;
 use crate::catalogue::Grouping;
 use crate::compute::doctor::Repair;
+use crate::texts::take_in as text;
 use std::path::PathBuf;
 
 impl App {
@@ -90,7 +91,7 @@ impl App {
         self.keep_draft_of(|_| true);
         self.state.sheet = None;
         if let Some(draft) = self.state.drafts.last() {
-            self.toasts.info(format!("Kept as a draft: {}. The import sheet (I) lists it", draft.name));
+            self.toasts.info(text::kept(&draft.name));
         }
     }
 
@@ -106,7 +107,7 @@ impl App {
             }
         };
         let Some(gone) = gone else { return };
-        self.toasts.info(format!("Discarded: {}. Ctrl+Z brings it back", gone.name));
+        self.toasts.info(text::discarded(&gone.name));
         self.undoer.add_undo(&self.state.document);
         self.state.document.discarded.push(self.state.discarded.len());
         self.state.discarded.push(gone);
@@ -156,7 +157,7 @@ impl App {
     }
 
     /// One product after the other.
-    fn mend_next(&mut self) {
+    pub(super) fn mend_next(&mut self) {
         let import = self.state.import.as_ref().filter(|_| !self.jobs.busy(Lane::Mend));
         let Some(product) = import.and_then(|import| import.products.iter().find(|one| one.wished.is_some())) else {
             return;
@@ -232,6 +233,6 @@ impl App {
             self.state.import = Some(import);
             self.state.sheet = Some(Sheet::Import);
         }
-        self.toasts.error(format!("Nothing was added: {error}"));
+        self.toasts.error(text::nothing_added(error));
     }
 }

@@ -9,7 +9,7 @@
 
 use super::error::JobError;
 use crate::compute::estimate::Progress;
-use crate::texts::{self, Text, shell};
+use crate::texts::{self, Text, catalogue as products, shell};
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -30,6 +30,10 @@ pub enum Lane {
     Mend,
     /// Asking the desktop for paths.
     Dialog,
+    /// What the checks say about the selected dataset.
+    Findings,
+    /// Pictures of products.
+    Gallery,
     /// Writing into the catalogue.
     Store,
     /// Reading folders of packages that are subscribed to.
@@ -75,6 +79,8 @@ impl Lane {
             Self::Import => shell::LANE_IMPORT,
             Self::Mend => shell::LANE_MEND,
             Self::Dialog => shell::LANE_DIALOG,
+            Self::Findings => products::LANE_FINDINGS,
+            Self::Gallery => products::LANE_GALLERY,
             Self::Store => shell::LANE_STORE,
             Self::Subscribed => shell::LANE_SUBSCRIBED,
             Self::Scene => shell::LANE_SCENE,

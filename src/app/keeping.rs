@@ -10,10 +10,11 @@ use super::window::App;
 use super::work::Outcome;
 use crate::catalogue::Deleted;
 use crate::study::subscriptions::Report;
+use crate::texts::catalogue as text;
 
 impl App {
     /// The named product, or the selected one.
-    fn meant(&self, key: Option<String>) -> Option<String> {
+    pub(super) fn meant(&self, key: Option<String>) -> Option<String> {
         key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()))
     }
 
@@ -45,7 +46,7 @@ impl App {
     pub(super) fn delete_product(&mut self, key: Option<String>) {
         let Some(key) = self.meant(key) else { return };
         if self.state.deleted.iter().any(|one| one.key == key) {
-            self.toasts.info("It is deleted already; choose another product");
+            self.toasts.info(text::DELETED_ALREADY);
             return;
         }
         let entries = self.state.found.clone();
@@ -63,7 +64,7 @@ impl App {
                 self.state.control_of = None;
             }
         }
-        self.toasts.info(format!("Deleted: {name}. Ctrl+Z, or Recently deleted in the Edit menu, brings it back"));
+        self.toasts.info(text::deleted(&name));
         self.change(Change::Deleted { key, name });
     }
 
@@ -87,8 +88,18 @@ impl App {
         if let Err(error) = result {
             if forth {
                 self.state.document.changes.retain(|&other| other != number);
+                self.state.document.marks.retain(|&other| other != number);
             }
             self.tell(&error);
+        }
+        let change = self.state.changes.get(number);
+        let mark = change.is_some_and(Change::is_mark);
+        if matches!(change, Some(Change::Subscribed { .. })) {
+            self.sync_subscribed();
+        }
+        self.look_up_sets();
+        if mark {
+            return self.search();
         }
         // What is shown, and the header of the LID, may be of before.
         self.asked = None;
@@ -126,9 +137,10 @@ impl App {
                 }
                 if report.taken + report.gone > 0 {
                     let (taken, gone) = (report.taken, report.gone);
-                    self.toasts.info(format!("Subscribed folders: {taken} products came or changed, {gone} went"));
+                    self.toasts.info(text::synced(taken, gone));
                     self.search();
                 }
+                self.look_up_sets();
             }
             Err(error) => self.tell(&error),
         }

@@ -25,7 +25,7 @@ fn study(state: &State) -> String {
 /// A name to start from.
 pub fn file_name(state: &State, what: PathUse) -> String {
     match what {
-        PathUse::Open | PathUse::ReplaceState => String::new(),
+        PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe => String::new(),
         PathUse::SaveScene => format!("{}.toml", study(state)),
         PathUse::ExportLid => format!("{}.ldt", study(state)),
         PathUse::ExportTile(tile) => format!("{}_{}.csv", study(state), safe(&tile.title.to_lowercase())),

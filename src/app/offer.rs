@@ -8,6 +8,7 @@ use super::control;
 use super::examples::EXAMPLES;
 use super::language::LanguageChoice;
 use super::room_look::RoomView;
+use super::shelving::Shelving;
 use super::state::{self, PathUse};
 use super::text_size::TextSize as Size;
 use super::theme::ThemeChoice;
@@ -18,7 +19,7 @@ use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
 use crate::texts::tiles as tiles_say;
-use crate::texts::{self, Language::English, Text, language, shell, speak};
+use crate::texts::{self, Language::English, Text, catalogue, language, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
@@ -136,6 +137,9 @@ fn table() -> Vec<Offer> {
             .unlisted(),
         offer(OpenFolder, words::OPEN_FOLDER, words::OPEN_FOLDER_TIP).keys(CTRL.plus(SHIFT), Key::O).menu(FILE, 0),
         offer(SyncSubscribed, words::READ_SUBSCRIBED, words::READ_SUBSCRIBED_TIP).menu(FILE, 3),
+        offer(Shelve(Shelving::Subscribe), catalogue::SUBSCRIBE_MENU, catalogue::SUBSCRIBE_TIP).menu(FILE, 3),
+        offer(sheet(state::Sheet::Subscriptions), catalogue::SUBSCRIPTIONS_MENU, catalogue::SUBSCRIPTIONS_TIP)
+            .menu(FILE, 3),
         offer(sheet(state::Sheet::Import), words::IMPORT, words::IMPORT_TIP).keys(PLAIN, Key::I).menu(FILE, 2),
         offer(PutAside, words::PUT_ASIDE, words::PUT_ASIDE_TIP),
         offer(SaveScene, words::SAVE_SCENE, words::SAVE_SCENE_TIP).keys(CTRL, Key::S).menu(FILE, 10),
@@ -144,10 +148,17 @@ fn table() -> Vec<Offer> {
         offer(Undo, words::UNDO, words::UNDO_TIP).keys(CTRL, Key::Z).menu(EDIT, 0),
         offer(Redo, words::REDO, words::REDO_TIP).keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
         offer(EditProduct(None), words::EDIT_PRODUCT, words::EDIT_PRODUCT_TIP).keys(PLAIN, Key::F2).menu(EDIT, 10),
+        offer(sheet(state::Sheet::Collections), catalogue::COLLECTIONS_MENU, catalogue::COLLECTIONS_TIP).menu(EDIT, 10),
+        offer(Shelve(Shelving::Star), catalogue::STAR_MENU, catalogue::STAR_MENU_TIP).menu(EDIT, 10),
         offer(DeleteProduct(None), words::DELETE_PRODUCT, words::DELETE_PRODUCT_TIP).menu(EDIT, 11),
         offer(sheet(state::Sheet::Deleted), words::DELETED, words::DELETED_TIP).menu(EDIT, 12),
         offer(AddImport, words::ADD_IMPORT, words::ADD_IMPORT_TIP),
         offer(sheet(state::Sheet::Messages), words::MESSAGES, words::MESSAGES_TIP).menu(HELP, 3),
+        offer(Shelve(Shelving::Gallery), catalogue::GALLERY_MENU, catalogue::GALLERY_TIP)
+            .keys(CTRL, Key::G)
+            .menu(VIEW, 22),
+        offer(Shelve(Shelving::Recent), catalogue::RECENT_MENU, catalogue::RECENT_ALONE).menu(VIEW, 22),
+        offer(Shelve(Shelving::First), catalogue::FIRST_MENU, catalogue::FIRST_MENU_TIP),
         offer(Search, words::SEARCH, words::SEARCH_TIP).keys(CTRL, Key::F),
         offer(Palette, words::PALETTE, words::PALETTE_TIP).keys(CTRL, Key::K).menu(HELP, 0),
     ];

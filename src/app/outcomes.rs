@@ -6,7 +6,7 @@ use super::engine::Question;
 use super::error::AppError;
 use super::jobs::Lane;
 use super::scene::selection_of;
-use super::shelf::{Addition, Shelf};
+use super::shelf::{Addition, Query, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::tiles;
 use super::window::{App, fresh_undoer};
@@ -32,7 +32,7 @@ impl App {
     /// Looks the list up anew.
     pub(super) fn search(&mut self) {
         if let Some(shelf) = self.state.shelf() {
-            let query = self.state.query.clone();
+            let query = Query { shown: self.state.settings.recent.clone(), ..self.state.query.clone() };
             self.start(Lane::Catalogue, move |_| Outcome::Found(shelf.search(&query)));
         }
     }
@@ -142,13 +142,20 @@ impl App {
                 self.state.catalogue = CatalogueState::Ready(shelf);
                 self.search();
                 self.look_up_deleted();
+                self.look_up_sets();
                 self.sync_subscribed();
                 self.fill_due = true;
                 self.asked = None;
                 self.start_waiting_files();
             }
             Outcome::Builtin(Ok(0)) => self.search(),
-            Outcome::Builtin(Ok(_)) => self.fill_due = true,
+            Outcome::Builtin(Ok(_)) => {
+                self.fill_due = true;
+                // What was computed has a picture now.
+                if self.state.settings.gallery {
+                    self.search();
+                }
+            }
             Outcome::Provided(Ok(())) => {
                 self.state.computing = None;
                 // LID and room wait for the same data in their own lanes.
@@ -169,6 +176,7 @@ impl App {
                 self.state.search_error = None;
                 self.state.found = Arc::new(found);
                 self.select_something();
+                self.choose_first();
             }
             Outcome::Found(Err(error)) => self.state.search_error = Some(error.to_string()),
             Outcome::Hits(found) => self.take_hits(found),
@@ -192,6 +200,8 @@ impl App {
             Outcome::Target(PathUse::HandOn, Ok(Some(path))) => self.state.path = path.display().to_string(),
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
+            Outcome::Rearranged(import, names) => self.take_rearranged(*import, &names),
+            Outcome::Examined(dataset, found) => self.state.examined = Some((dataset, found)),
             Outcome::Read(import) => self.take_import(*import),
             Outcome::Mended(files, mended) => self.take_mended(&files, mended),
             Outcome::ReadScene(path, Ok(scene)) => {
@@ -222,6 +232,9 @@ impl App {
             Outcome::ToReplace(change) => self.take_replacement(change),
             Outcome::Reread(result) => self.take_reread(result),
             Outcome::Synced(result) => self.take_synced(result),
+            Outcome::Folder(folder) => self.take_folder(folder),
+            Outcome::Sets(sets) => self.take_sets(sets),
+            Outcome::Pictures(made) => self.take_pictures(made),
             Outcome::Deleted(list) => self.take_deleted(list),
             Outcome::Stored(result) => {
                 if let Err(error) = result {
@@ -408,6 +421,7 @@ impl App {
             return;
         }
         self.asked = Some(document.clone());
+        self.note_shown();
         // What is in sight has the computer to itself.
         self.fill_due |= self.jobs.cancel(Lane::Builtin);
         self.stop_computing();

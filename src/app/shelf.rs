@@ -1,6 +1,7 @@
 //! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
 
 use super::error::AppError;
+use crate::catalogue::{Collection, Subscription};
 use crate::catalogue::{Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateName, Stored, Words};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
@@ -21,6 +22,15 @@ pub struct Addition {
     pub datasets: Vec<Arc<Dataset>>,
     /// Name, kind, where the data come from.
     pub product: NewProduct,
+}
+
+/// Collections and subscriptions of a catalogue.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Sets {
+    /// Collections by name.
+    pub collections: Vec<Collection>,
+    /// Folders that are subscribed to.
+    pub subscriptions: Vec<Subscription>,
 }
 
 /// A catalogue as the window sees it.
@@ -66,6 +76,16 @@ pub trait Shelf: Send + Sync {
     fn replace_states(&self, product: &str, list: &[Replacement]) -> Result<(), AppError>;
     /// The folder of packages that a product comes from; `None` for others.
     fn subscribed_folder(&self, product: &str) -> Result<Option<String>, AppError>;
+    /// Collections by name.
+    fn collections(&self) -> Result<Vec<Collection>, AppError>;
+    /// Puts products into a collection, or takes them out.
+    fn collect(&self, name: &str, products: &[String], put: bool) -> Result<(), AppError>;
+    /// Folders of packages that are subscribed to.
+    fn subscriptions(&self) -> Result<Vec<Subscription>, AppError>;
+    /// Subscribes to a folder of packages; its products come when it is read.
+    fn subscribe(&self, folder: &str) -> Result<(), AppError>;
+    /// Ends a subscription: its products go. How many went.
+    fn unsubscribe(&self, folder: &str) -> Result<usize, AppError>;
     /// Reads the folders of packages that are subscribed to, where they have changed.
     fn sync(&self, _progress: &dyn Progress) -> Result<Report, AppError> {
         Ok(Report::default())

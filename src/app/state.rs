@@ -8,17 +8,18 @@ use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::hand_on::{Choices, HandOn};
-use super::import::{Import, KeptImport};
+use super::import::{Arranged, Import, KeptImport};
 use super::language::LanguageChoice;
 use super::palette::Hit;
 use super::room_look::RoomLook;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
-use super::shelf::{Addition, Found, Query, Shelf};
+use super::shelf::{Addition, Found, Query, Sets, Shelf};
 use super::theme::ThemeChoice;
 use super::tour::Tour;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
+use crate::compute::doctor::Diagnosis;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::accuracy::Accuracy;
@@ -26,7 +27,7 @@ use crate::study::comparison::same_question;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
-use crate::texts::{Text, shell};
+use crate::texts::{Text, catalogue as subscribing, shell};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -53,8 +54,12 @@ pub struct Document {
     pub additions: Vec<usize>,
     /// Numbers of the changes to its products that hold now; see [`State::changes`].
     pub changes: Vec<usize>,
+    /// Numbers of those changes that no figure hangs on: stars, collections, subscriptions.
+    pub marks: Vec<usize>,
     /// Numbers of the imports that are discarded now; see [`State::discarded`].
     pub discarded: Vec<usize>,
+    /// Numbers of the arrangements of imports that hold now; see [`State::arranged`].
+    pub arranged: Vec<usize>,
 }
 
 impl Document {
@@ -99,6 +104,10 @@ pub struct Settings {
     pub text_size: f32,
     /// Steps of the tour that were done.
     pub tour: usize,
+    /// Products as a gallery of pictures?
+    pub gallery: bool,
+    /// Keys of the products that were shown last, the last first.
+    pub recent: Vec<String>,
 }
 
 impl Default for Settings {
@@ -115,6 +124,8 @@ impl Default for Settings {
             room: RoomLook::default(),
             text_size: 1.0,
             tour: 0,
+            gallery: false,
+            recent: Vec::new(),
         }
     }
 }
@@ -221,6 +232,10 @@ pub enum Sheet {
     Product,
     /// Products out of sight.
     Deleted,
+    /// Collections, and those of the selected product.
+    Collections,
+    /// Folders of packages that are subscribed to.
+    Subscriptions,
     /// What the window said.
     Messages,
     /// Handing on: pictures, reports, luminaires, data.
@@ -244,6 +259,8 @@ pub enum PathUse {
     ExportMeasured,
     /// Read a file in place of that of a product's state.
     ReplaceState,
+    /// Subscribe to a folder of packages.
+    Subscribe,
     /// Write what is handed on.
     HandOn,
 }
@@ -258,6 +275,7 @@ impl PathUse {
             Self::ExportTile(_) => shell::EXPORT_A_TILE,
             Self::ExportMeasured => shell::EXPORT_THE_DATA,
             Self::ReplaceState => shell::REPLACE_A_STATE,
+            Self::Subscribe => subscribing::SUBSCRIBE_TITLE,
             Self::HandOn => shell::HAND_ON,
         }
     }
@@ -297,6 +315,8 @@ pub struct State {
     pub drafts: Vec<KeptImport>,
     /// Imports and drafts that were discarded in this session.
     pub discarded: Vec<KeptImport>,
+    /// Steps from one arrangement of an import to another in this session.
+    pub arranged: Vec<Arranged>,
     /// The goniophotometer's sheet.
     pub goniophotometer: Bench,
     /// Additions of this session.
@@ -309,6 +329,10 @@ pub struct State {
     pub replacing: Option<(String, String)>,
     /// Products out of sight, as last looked up.
     pub deleted: Vec<Deleted>,
+    /// Collections and subscriptions, as last looked up.
+    pub sets: Sets,
+    /// Name of a new collection, as typed.
+    pub collection: String,
     /// Command palette: its words while open.
     pub palette: Option<String>,
     /// The row of the palette that Enter takes.
@@ -319,8 +343,14 @@ pub struct State {
     pub focus_search: bool,
     /// The sheet that was opened wants the keyboard for the field to type in, until that has it.
     pub wants_keyboard: bool,
+    /// Give the chosen row of the list the keyboard in the next frame.
+    pub focus_list: bool,
+    /// Choose the first row as soon as the list is that of what was typed.
+    pub first_due: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
+    /// What the checks say, and about which dataset.
+    pub examined: Option<(Arc<Dataset>, Arc<Vec<Diagnosis>>)>,
     /// What is being computed before there is a dataset of the selection, in words for the tiles' heads.
     pub computing: Option<String>,
     /// The selected product: states with their numbers, control curve.
@@ -362,7 +392,9 @@ impl State {
                 scene,
                 additions: Vec::new(),
                 changes: Vec::new(),
+                marks: Vec::new(),
                 discarded: Vec::new(),
+                arranged: Vec::new(),
             },
             settings,
             catalogue: CatalogueState::Opening,
@@ -379,18 +411,24 @@ impl State {
             storing: None,
             drafts: Vec::new(),
             discarded: Vec::new(),
+            arranged: Vec::new(),
             goniophotometer: Bench::default(),
             additions: Vec::new(),
             changes: Vec::new(),
             editing: None,
             replacing: None,
             deleted: Vec::new(),
+            sets: Sets::default(),
+            collection: String::new(),
             palette: None,
             palette_row: 0,
             palette_hits: Vec::new(),
             focus_search: false,
             wants_keyboard: false,
+            focus_list: false,
+            first_due: false,
             dataset: Shown::default(),
+            examined: None,
             computing: None,
             product: None,
             incident: None,

@@ -9,7 +9,9 @@ use super::dialogs::{FileDialogs, NoDialogs};
 use super::due::Due;
 use super::engine::{Engine, LidFigures};
 use super::error::AppError;
+use super::examining::Examined;
 use super::export::Exports;
+use super::gallery::Gallery;
 use super::import::KeptImport;
 use super::jobs::{JobState, Jobs, Lane};
 use super::messages::Messages;
@@ -84,6 +86,10 @@ pub struct App {
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
     pub(super) states_view: states::State,
+    /// What the checks said, by content.
+    pub(super) examined: Examined,
+    /// Pictures of products.
+    pub gallery: Gallery,
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
@@ -163,6 +169,8 @@ impl App {
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
             states_view: states::State::default(),
+            examined: Examined::default(),
+            gallery: Gallery::default(),
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),

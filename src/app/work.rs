@@ -8,17 +8,19 @@ use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
 use super::facing::surface_of;
+use super::gallery::Made;
 use super::goniophotometer::Finished;
 use super::hand_on::Preview;
 use super::import::{Import, Proposed};
 use super::jobs::JobState;
 use super::scene::{Selection, rule};
-use super::shelf::{Found, Shelf};
+use super::shelf::{Found, Sets, Shelf};
 use super::state::{Daylight, PathUse, Tile};
 use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
+use crate::compute::doctor::Diagnosis;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::compute::lid::c_gamma::Peaks;
@@ -77,6 +79,10 @@ pub enum Outcome {
     Target(PathUse, Result<Option<PathBuf>, AppError>),
     /// Files were read.
     Read(Box<Import>),
+    /// The files of an import were arranged otherwise; names of the products before, by their files.
+    Rearranged(Box<Import>, Vec<(Vec<String>, String)>),
+    /// What the checks say about a dataset.
+    Examined(Arc<Dataset>, Arc<Vec<Diagnosis>>),
     /// Several at once, in order.
     Several(Vec<Outcome>),
     /// A product that was read, known by its files, with the repairs that were wished: its datasets, what is said about
@@ -104,6 +110,12 @@ pub enum Outcome {
     Reread(Result<Reread, AppError>),
     /// The folders of packages that are subscribed to were read.
     Synced(Result<Report, AppError>),
+    /// Whether what was chosen is a folder of packages to subscribe to: its path, or why not.
+    Folder(Result<String, String>),
+    /// Collections and subscriptions.
+    Sets(Result<Sets, AppError>),
+    /// Pictures of products.
+    Pictures(Vec<Made>),
     /// Products out of sight.
     Deleted(Result<Vec<Deleted>, AppError>),
     /// Something else in the catalogue was changed.

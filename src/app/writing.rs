@@ -5,6 +5,7 @@ use super::goniophotometer;
 use super::handing_on;
 use super::jobs::Lane;
 use super::naming::start_path;
+use super::shelving::Shelving;
 use super::state::{PathUse, Sheet, Tile};
 use super::window::App;
 use super::work::{Outcome, export_lid, save_scene};
@@ -38,7 +39,7 @@ impl App {
 
     /// Writes where nothing is yet; else the sheet asks.
     pub(super) fn write_new(&mut self, what: PathUse, path: PathBuf) {
-        if matches!(what, PathUse::Open | PathUse::ReplaceState) {
+        if matches!(what, PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe) {
             return self.write(what, path);
         }
         // Whoever saves the scene to where it came from means that file.
@@ -85,6 +86,7 @@ impl App {
         match what {
             PathUse::Open => self.read_paths(vec![path]),
             PathUse::ReplaceState => self.replace_state(path),
+            PathUse::Subscribe => self.shelve(Shelving::SubscribeTo(path)),
             PathUse::SaveScene => {
                 let text = toml::to_string_pretty(&self.state.document.scene);
                 self.start_writing(move || save_scene(&path, text));

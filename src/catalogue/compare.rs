@@ -105,6 +105,7 @@ fn diff_products(
         ("manufacturer", &a.manufacturer, &b.manufacturer),
         ("kind", &a.kind, &b.kind),
         ("description", &a.description, &b.description),
+        ("license", &a.license, &b.license),
         ("provenance.origin", &p.origin, &q.origin),
         ("provenance.author", &p.author, &q.author),
         ("provenance.method", &p.method, &q.method),

@@ -2,6 +2,7 @@
 
 use super::numbered::Pattern;
 use super::source_file::SourceFile;
+use crate::texts::take_in as text;
 
 /// A question about a product that files make.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,16 +17,11 @@ impl Doubt {
     /// The question in one sentence.
     pub fn question(&self) -> String {
         match self {
-            Self::NumbersAlone => {
-                "Are these states of one product? Only the numbers in the names of the files say so".to_owned()
-            }
+            Self::NumbersAlone => text::ASK_NUMBERS.into(),
             Self::PerhapsStates(others) => {
                 let shown: Vec<&str> = others.iter().take(3).map(String::as_str).collect();
-                let more = if others.len() > 3 { format!(" and {} more", others.len() - 3) } else { String::new() };
-                format!(
-                    "Is it a state of one product with {}{more}? The names differ by a number alone",
-                    shown.join(", ")
-                )
+                let shown = shown.join(", ");
+                text::ask_state(if others.len() > 3 { text::and_more(shown, others.len() - 3) } else { shown })
             }
         }
     }

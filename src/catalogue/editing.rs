@@ -186,6 +186,7 @@ impl Catalogue {
             super::subscribed::refuse_subscribed(&tx, key)?;
             tx.execute("DELETE FROM favourite WHERE product_key = ?", [key])?;
             super::sight::bring_back(&tx, key)?;
+            super::collections::leave_all(&tx, key)?;
             forget(&tx, key)?;
             delete(&tx, key)?;
         }

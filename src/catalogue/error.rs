@@ -94,6 +94,9 @@ pub enum CatalogueError {
     /// A product without a name.
     #[error("product \"{0}\" needs a name")]
     NoName(String),
+    /// A collection without a name.
+    #[error("a collection needs a name")]
+    NoCollectionName,
     /// It is out of sight already.
     #[error("product \"{0}\" is deleted already")]
     Deleted(String),

@@ -163,6 +163,7 @@ fn packed(product: Product) -> Result<PackageProduct, CatalogueError> {
             source_hash: from.source_hash,
             inside_face: from.inside_face,
         },
+        license: product.license,
         tags: product.tags,
         states,
         control_curve: product
@@ -192,6 +193,7 @@ fn unpacked(product: PackageProduct) -> NewProduct {
             source_hash: from.source_hash,
             inside_face: from.inside_face,
         },
+        license: product.license,
         tags: product.tags,
         states: product.states.iter().map(|s| StateName { label: s.label.clone(), value: s.value }).collect(),
         control_curve: product

@@ -4,7 +4,7 @@
 //! that is taken for two is seen at once. Where numbers might be angles the user is asked, see [`Doubt`].
 
 use super::doubt::{Doubt, confirmed, speaks_of_slats};
-use super::numbered::{Pattern, distinct, plausible, wordless};
+use super::numbered::{Pattern, distinct, plausible, unclear, wordless};
 use super::source_file::SourceFile;
 use crate::formats::{Format, is_one_function};
 use std::collections::BTreeMap;
@@ -47,6 +47,8 @@ struct Series {
     skeleton: String,
     /// A word calls the number an angle.
     marked: bool,
+    /// The numbers may count or measure something rather than being angles.
+    unclear: bool,
     /// All numbers are different, and could be angles or are called so.
     family: bool,
 }
@@ -71,8 +73,10 @@ fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
         }
         for members in apart.into_values().filter(|members| members.len() > 1) {
             let values: Vec<f64> = members.iter().map(|(_, value)| *value).collect();
-            let family = distinct(&values) && (marked.is_some() || plausible(&values));
-            found.push(Series { members, skeleton: skeleton.to_owned(), marked: marked.is_some(), family });
+            let unclear = unclear(&values, marked.and(first.called));
+            let called = marked.is_some() && !unclear;
+            let family = distinct(&values) && (called || (marked.is_none() && plausible(&values)));
+            found.push(Series { members, skeleton: skeleton.to_owned(), marked: marked.is_some(), unclear, family });
         }
     }
     found
@@ -90,6 +94,9 @@ fn worth_asking(one: &Series) -> bool {
     let mut values: Vec<f64> = one.members.iter().map(|(_, value)| *value).collect();
     values.sort_by(f64::total_cmp);
     let (least, most) = (values[0], values[values.len() - 1]);
+    if one.unclear && distinct(&values) && (one.marked || speaks_of_slats(&one.skeleton)) {
+        return true;
+    }
     let angles = least >= -90.0 && most <= 90.0 && most - least >= 5.0;
     // The same number twice: one file of the family is there in two forms.
     let twice = !distinct(&values) && (one.marked || plausible(&values));
@@ -186,7 +193,7 @@ fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
             let places: Vec<usize> = one.members.iter().map(|(place, _)| *place).collect();
             if one.family {
                 places.iter().for_each(|&place| taken[place] = true);
-                let sure = confirmed(files, &one.members, &one.skeleton, one.marked);
+                let sure = !one.unclear && confirmed(files, &one.members, &one.skeleton, one.marked);
                 let doubt = (!sure).then_some(Doubt::NumbersAlone);
                 list.push(Proposal { doubt, ..in_order(one.members).into() });
             } else if worth_asking(&one) {
@@ -407,6 +414,25 @@ mod tests {
         assert_eq!(found[1].doubt, Some(Doubt::PerhapsStates(vec!["v0.xml".to_owned(), "v30.xml".to_owned()])));
         files[2].folder = "elsewhere".to_owned();
         assert_eq!(ask(&files)[1].doubt, None);
+        // Counted variants and widths of slats, also where a word of angles stands before them.
+        for names in [
+            ["x_rot1.xml", "x_rot2.xml", "x_rot3.xml"],
+            ["slat50.xml", "slat80.xml", "slat100.xml"],
+            ["Lamelle 60.xml", "Lamelle 80.xml", "Lamelle 90.xml"],
+            ["venetian_50.xml", "venetian_80.xml", "venetian_100.xml"],
+            ["winkel1.xml", "winkel2.xml", "winkel3.xml"],
+        ] {
+            let found = asked(&names.map(|name| (name, "", 0.5)));
+            assert!(found.len() == 3 && found.iter().all(|one| one.1.is_some()), "{names:?}: {found:?}");
+        }
+        // Widths below 90 look like angles all the more.
+        let widths = asked(&[("venetian_50.xml", "", 0.5), ("venetian_80.xml", "", 0.4)]);
+        assert_eq!(widths, [(vec![0, 1], Some(Doubt::NumbersAlone))]);
+        // A unit says that it is none, degrees that it is one.
+        assert_eq!(asked(&[("slat_60mm.xml", "", 0.5), ("slat_80mm.xml", "", 0.4)]).len(), 2);
+        for names in [["slat 1deg.xml", "slat 2deg.xml"], ["rot0.xml", "rot90.xml"], ["slat15.xml", "slat60.xml"]] {
+            assert_eq!(asked(&names.map(|name| (name, "", 0.5))), [(vec![0, 1], None)], "{names:?}");
+        }
         // Samples, contents of cloth and numbers of articles are no question.
         for names in [
             ["s1.xml", "s2.xml", "s3.xml"],

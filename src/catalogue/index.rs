@@ -7,47 +7,13 @@
 //! tags before description) and by how well it fits.
 
 use super::ProductRow;
+use super::index_words::{Numbered, place, places, words_of};
 use super::like::{Apart, Likeness};
 use super::query::{Figure, Filter, Query, Sort};
+use super::query_facets::{Facet, Facets};
 use super::rows::Sought;
-use super::words::{self, distance, folded, forgiven, letters, parts, runs, without_written_marks};
-use std::collections::HashMap;
+use super::words::{self, distance, folded, forgiven, letters, without_written_marks};
 use std::sync::Arc;
-
-/// One value of a facet with the number of products that have it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Facet {
-    /// The value.
-    pub value: String,
-    /// How many products.
-    pub count: usize,
-}
-
-/// Values to filter by, most frequent first. Every count is what choosing the value would find with all other filters as
-/// they are.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Facets {
-    /// Kinds; an empty one for products that tell none.
-    pub kinds: Vec<Facet>,
-    /// Makers, those without left out.
-    pub manufacturers: Vec<Facet>,
-    /// Tags.
-    pub tags: Vec<Facet>,
-    /// Measured, computed, unknown.
-    pub origins: Vec<Facet>,
-    /// Products of several states, and of one.
-    pub moving: [usize; 2],
-    /// For every figure that any product has: products by [`Figure::LIMITS`].
-    pub ranges: Vec<(Figure, Vec<usize>)>,
-    /// Favourites.
-    pub favourites: usize,
-    /// Built-in products.
-    pub builtin: usize,
-    /// The user's products.
-    pub own: usize,
-    /// All products of the catalogue, whatever is asked.
-    pub all: usize,
-}
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -68,16 +34,6 @@ pub struct Found {
     pub like: Option<Likeness>,
 }
 
-/// Where a word stands, by weight.
-mod place {
-    pub const NAME: f32 = 10.0;
-    pub const KIND: f32 = 6.0;
-    pub const MAKER: f32 = 5.0;
-    pub const TAG: f32 = 4.0;
-    pub const KEY: f32 = 4.0;
-    pub const GERMAN: f32 = 3.0;
-    pub const DESCRIPTION: f32 = 1.0;
-}
 /// What words are worth that were put together.
 const JOINED: f32 = 0.9;
 /// Shortest part of a word that is looked for.
@@ -101,6 +57,7 @@ struct Item {
     kind: usize,
     manufacturer: usize,
     tags: Vec<usize>,
+    collections: Vec<usize>,
     /// Places among all names, makers and kinds in order.
     order: [usize; 3],
     /// Names of few words come before longer ones that fit as well.
@@ -115,6 +72,7 @@ pub struct Index {
     kinds: Vec<String>,
     manufacturers: Vec<String>,
     tags: Vec<String>,
+    collections: Vec<String>,
 }
 
 /// How well the typed words fit each product.
@@ -126,30 +84,12 @@ struct Fit {
     read_as: Vec<(String, String)>,
 }
 
-/// Numbers for texts, in the order of their first use.
-#[derive(Default)]
-struct Numbered {
-    texts: Vec<String>,
-    numbers: HashMap<String, usize>,
-}
-
-impl Numbered {
-    fn of(&mut self, text: &str) -> usize {
-        if let Some(number) = self.numbers.get(text) {
-            return *number;
-        }
-        self.texts.push(text.to_owned());
-        self.numbers.insert(text.to_owned(), self.texts.len() - 1);
-        self.texts.len() - 1
-    }
-}
-
 impl Index {
     /// Of a list of products, whose order is that of equally good ones.
     pub fn new(products: Vec<Sought>) -> Self {
         let mut all = Numbered::default();
         let mut found_in: Vec<Vec<(u32, f32)>> = Vec::new();
-        let [mut kinds, mut manufacturers, mut tags] = [(); 3].map(|()| Numbered::default());
+        let [mut kinds, mut manufacturers, mut tags, mut collections] = [(); 4].map(|()| Numbered::default());
         let order = [
             places(&products, |product| folded(&product.row.name)),
             places(&products, |product| folded(&product.row.manufacturer)),
@@ -185,6 +125,7 @@ impl Index {
                 kind: kinds.of(&row.kind),
                 manufacturer: manufacturers.of(&row.manufacturer),
                 tags: product.tags.iter().map(|tag| tags.of(tag)).collect(),
+                collections: product.collections.iter().map(|name| collections.of(name)).collect(),
                 order: [order[0][number], order[1][number], order[2][number]],
                 brevity: 0.5 / (1.0 + row.name.split_whitespace().count() as f32),
                 row: product.row,
@@ -195,7 +136,8 @@ impl Index {
             Word { letters: letters(&spelt), length: spelt.len(), text, products }
         };
         let words = all.texts.into_iter().zip(found_in).map(word).collect();
-        Self { items, words, kinds: kinds.texts, manufacturers: manufacturers.texts, tags: tags.texts }
+        let [kinds, manufacturers, tags, collections] = [kinds, manufacturers, tags, collections].map(|all| all.texts);
+        Self { items, words, kinds, manufacturers, tags, collections }
     }
 
     /// Answers a query.
@@ -313,6 +255,11 @@ impl Index {
                 let own = &self.items[number].tags;
                 query.tags.iter().all(|tag| own.iter().any(|at| self.tags[*at] == *tag))
             }
+            Filter::Collections => {
+                let own = &self.items[number].collections;
+                query.collections.is_empty() || own.iter().any(|at| query.collections.contains(&self.collections[*at]))
+            }
+            Filter::Recent => !query.recent || query.shown.contains(&row.key),
             Filter::Favourite => query.favourite.is_none_or(|favourite| row.favourite == favourite),
             Filter::Origin => query.origin.is_none_or(|origin| row.origin == origin),
             Filter::Builtin => query.builtin.is_none_or(|builtin| row.builtin == builtin),
@@ -329,6 +276,10 @@ impl Index {
     fn sort(&self, order: &mut [usize], query: &Query, fit: &Fit) {
         let item = |number: &usize| &self.items[*number];
         match query.sort {
+            // What was shown last first, where nothing was typed.
+            Sort::Match if query.recent && !query.has(Filter::Words) => {
+                order.sort_by_key(|number| query.shown.iter().position(|key| *key == item(number).row.key));
+            }
             // Equally good ones stay in the catalogue's order.
             Sort::Match => order.sort_by(|a, b| fit.score[*b].total_cmp(&fit.score[*a])),
             Sort::Name => order.sort_by_key(|number| item(number).order[0]),
@@ -403,6 +354,10 @@ impl Index {
                 item.tags.iter().for_each(|at| tags[*at] += 1);
                 tags
             });
+        let mut in_collections = vec![0; self.collections.len()];
+        for item in counted(Filter::Collections) {
+            item.collections.iter().for_each(|at| in_collections[*at] += 1);
+        }
         let mut origins = Vec::new();
         for origin in [super::Origin::Measured, super::Origin::Computed, super::Origin::Unknown] {
             let count = counted(Filter::Origin).filter(|item| item.row.origin == origin).count();
@@ -424,6 +379,8 @@ impl Index {
             kinds: list(&self.kinds, kinds, &query.kinds, true),
             manufacturers: list(&self.manufacturers, makers, &query.manufacturers, false),
             tags: list(&self.tags, tags, &query.tags, false),
+            collections: list(&self.collections, in_collections, &query.collections, false),
+            recent: counted(Filter::Recent).filter(|item| query.shown.contains(&item.row.key)).count(),
             origins,
             moving: [true, false]
                 .map(|moving| counted(Filter::Moving).filter(|item| item.row.moves() == moving).count()),
@@ -459,39 +416,4 @@ impl Index {
 /// Place of a filter among the bits of what a product misses.
 fn bit(filter: Filter) -> u16 {
     Filter::all().position(|one| one == filter).map_or(0, |place| 1 << place)
-}
-
-/// Places of products in the order of a text.
-fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec<usize> {
-    let texts: Vec<String> = products.iter().map(of).collect();
-    let mut order: Vec<usize> = (0..products.len()).collect();
-    order.sort_by(|a, b| texts[*a].cmp(&texts[*b]));
-    let mut places = vec![0; products.len()];
-    let mut place = 0;
-    for (at, number) in order.iter().enumerate() {
-        // Equal texts have equal places: what is asked next decides.
-        if at > 0 && texts[order[at - 1]] != texts[*number] {
-            place = at;
-        }
-        places[*number] = place;
-    }
-    places
-}
-
-/// Words of a text, their parts, and (where asked for) neighbours written together; the latter told apart.
-fn words_of(text: &str, join: bool, put: &mut dyn FnMut(&str, bool)) {
-    let folded = folded(text);
-    let short = |word: &str| word.chars().count() <= words::LONGEST;
-    let list: Vec<&str> = runs(&folded).filter(|run| short(run)).collect();
-    for (at, run) in list.iter().enumerate() {
-        put(run, false);
-        parts(run).into_iter().for_each(|part| put(part, false));
-        if join {
-            let mut joined = (*run).to_owned();
-            for next in list[at + 1..].iter().take(2) {
-                joined.push_str(next);
-                put(&joined, true);
-            }
-        }
-    }
 }

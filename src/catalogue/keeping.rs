@@ -17,6 +17,8 @@ pub struct Words {
     pub kind: String,
     /// Words to find it by.
     pub tags: Vec<String>,
+    /// On which terms the data may be passed on; may be empty.
+    pub license: String,
 }
 
 /// A product out of sight.
@@ -49,6 +51,7 @@ fn words_changed(before: &Product, after: &Words) -> String {
         ("maker", &before.manufacturer, &after.manufacturer),
         ("kind", &before.kind, &after.kind),
         ("tags", &tags, &new_tags),
+        ("license", &before.license, &after.license),
     ];
     let changed = fields.iter().filter(|(_, old, new)| old != new);
     let words: Vec<String> = changed.map(|(field, old, new)| format!("{field} “{old}” became “{new}”")).collect();
@@ -67,7 +70,8 @@ impl Catalogue {
             return Err(CatalogueError::BuiltInWords(key.to_owned()));
         }
         refuse_subscribed(&tx, key)?;
-        let [name, manufacturer, kind] = [&words.name, &words.manufacturer, &words.kind].map(|text| text.trim());
+        let [name, manufacturer, kind, license] =
+            [&words.name, &words.manufacturer, &words.kind, &words.license].map(|text| text.trim());
         if name.is_empty() {
             return Err(CatalogueError::NoName(key.to_owned()));
         }
@@ -76,8 +80,8 @@ impl Catalogue {
         tags.dedup();
         let id: i64 = tx.query_row("SELECT id FROM product WHERE key = ?", [key], |row| row.get(0))?;
         tx.execute(
-            "UPDATE product SET name = ?1, manufacturer = ?2, kind = ?3 WHERE id = ?4",
-            (name, manufacturer, kind, id),
+            "UPDATE product SET name = ?1, manufacturer = ?2, kind = ?3, license = ?4 WHERE id = ?5",
+            (name, manufacturer, kind, license, id),
         )?;
         tx.execute("DELETE FROM tag WHERE product = ?", [id])?;
         for tag in &tags {
@@ -88,6 +92,7 @@ impl Catalogue {
             name: text(name),
             manufacturer: text(manufacturer),
             kind: text(kind),
+            license: text(license),
             tags: tags.into_iter().map(text).collect(),
         };
         let changed = words_changed(&product, &after);

@@ -17,9 +17,10 @@
 //! ([`representative`](super::representative())).
 
 use super::{PROFILE_ANGLES, ProductRow};
+use crate::texts::{Text, catalogue as text, fixed};
 
 /// Words of the terms, in the order of [`Apart::terms`].
-const TERMS: [&str; 5] = ["τ", "profile", "ceiling", "sun blocked", "view"];
+const TERMS: [Text; 5] = [text::APART_TAU, text::APART_PROFILE, text::APART_CEILING, text::APART_SUN, text::APART_VIEW];
 /// Differences that two decimals show.
 const SHOWN: f64 = 0.005;
 /// Most terms that are told.
@@ -69,20 +70,20 @@ impl Apart {
 
     /// `0.03 apart: ceiling +0.06, τ −0.01`: the terms that matter most, greatest first.
     pub fn words(&self) -> String {
-        let mut told: Vec<(&str, f64)> =
+        let mut told: Vec<(Text, f64)> =
             TERMS.into_iter().zip(self.terms).filter_map(|(word, term)| Some((word, term?))).collect();
         told.retain(|(_, term)| term.abs() >= SHOWN);
         told.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        let one = |(word, term): &(&str, f64)| match (*word == TERMS[1], *term < 0.0) {
-            (true, _) => format!("{word} {term:.2}"),
-            (false, true) => format!("{word} −{:.2}", -term),
-            (false, false) => format!("{word} +{term:.2}"),
+        let one = |(word, term): &(Text, f64)| match (*word == TERMS[1], *term < 0.0) {
+            (true, _) => format!("{word} {}", fixed(*term, 2)),
+            (false, true) => format!("{word} −{}", fixed(-term, 2)),
+            (false, false) => format!("{word} +{}", fixed(*term, 2)),
         };
         let told: Vec<String> = told.iter().take(MOST_TOLD).map(one).collect();
         if told.is_empty() {
-            "no difference above 0.005".to_owned()
+            text::no_difference(fixed(SHOWN, 3))
         } else {
-            format!("{:.2} apart: {}", self.distance, told.join(", "))
+            text::apart(fixed(self.distance, 2), told.join(", "))
         }
     }
 }
@@ -117,6 +118,7 @@ mod tests {
             origin: Origin::Unknown,
             states: vec![String::new()],
             representative: 0,
+            dataset: None,
             rule: FirstRule::ByHand,
             tau_normal: Some(tau),
             tau_hemispherical: Some(tau),

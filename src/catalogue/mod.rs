@@ -13,6 +13,7 @@
 //! Every change is one transaction: it happens as a whole or not at all.
 
 mod builtin;
+mod collections;
 mod compare;
 mod connection;
 mod content;
@@ -25,12 +26,14 @@ mod gather;
 mod grouping;
 mod history;
 mod index;
+mod index_words;
 mod keeping;
 mod like;
 mod numbered;
 mod open;
 mod product;
 mod query;
+mod query_facets;
 mod record;
 mod representative;
 mod rows;
@@ -45,6 +48,7 @@ mod waiting;
 mod words;
 
 pub use builtin::{BUILTIN_ERROR, BUILTIN_VERSION, TABLE, builtin_method, fingerprint, key_of_builtin};
+pub use collections::Collection;
 pub use compare::{Merged, PackageDiff, ProductDiff, StateDiff, diff_packages, merge_packages};
 pub use connection::Catalogue;
 pub use content::content_of;
@@ -56,7 +60,7 @@ pub use exchange::{Stored, unpack};
 pub use gather::{Gathered, gather, gathered, key_of_angle};
 pub use grouping::{Grouping, Proposal, propose};
 pub use history::Event;
-pub use index::{Facet, Facets, Found, Index};
+pub use index::{Found, Index};
 pub use keeping::{Deleted, Known, Words};
 pub use like::{Apart, Likeness};
 pub use open::default_path;
@@ -65,6 +69,7 @@ pub use product::{
     profile_transmittances,
 };
 pub use query::{Figure, Filter, Query, Sort, Within};
+pub use query_facets::{Facet, Facets};
 pub use record::light;
 pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
 pub use rows::{ProductRow, Sought};

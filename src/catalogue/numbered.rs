@@ -1,11 +1,41 @@
 //! Names with numbers in them: what they have in common, and which number may be the angle of a state.
 
-/// Words before a number that say that it is the angle of the state.
-const BEFORE: [&str; 8] = ["slat", "tilt", "angle", "rot", "rotation", "winkel", "lamella", "lamelle"];
+/// Words before a number that call it the angle of the state, unless it counts something.
+const TURNS: [&str; 5] = ["tilt", "angle", "rot", "rotation", "winkel"];
+/// Words before a number that may be the angle of what they name, or its width.
+const THINGS: [&str; 3] = ["slat", "lamella", "lamelle"];
+/// Widths of slats on the market. \[mm\]
+const WIDTHS: [f64; 13] = [16.0, 25.0, 35.0, 50.0, 60.0, 65.0, 70.0, 80.0, 90.0, 93.0, 100.0, 120.0, 150.0];
 /// Words after a number that say so.
 const AFTER: [&str; 3] = ["deg", "°", "grad"];
 /// Words after a number that say that it is something else.
 const UNITS: [&str; 8] = ["pct", "perc", "proz", "%", "mm", "cm", "nm", "lx"];
+
+/// How sure a word makes it that a number is an angle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Called {
+    /// Degrees.
+    Degrees,
+    /// Something that turns.
+    Turn,
+    /// Something that has an angle and a width.
+    Thing,
+}
+
+/// Could numbers be something other than angles, such as counts and widths?
+pub(super) fn unclear(values: &[f64], called: Option<Called>) -> bool {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let [least, most] = [sorted[0], sorted[sorted.len() - 1]];
+    let counted = (least == 0.0 || least == 1.0) && sorted.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
+    let widths = values.iter().all(|value| WIDTHS.contains(value));
+    match called {
+        Some(Called::Degrees) => false,
+        Some(Called::Turn) => counted || most > 90.0,
+        Some(Called::Thing) => counted || widths || most > 90.0,
+        None => widths,
+    }
+}
 
 /// A name with its numbers taken out.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +46,8 @@ pub(super) struct Pattern {
     pub numbers: Vec<f64>,
     /// Which number is said to be the angle.
     pub marked: Option<usize>,
+    /// By what.
+    pub called: Option<Called>,
     /// Which have another unit.
     pub other: Vec<usize>,
 }
@@ -24,7 +56,8 @@ impl Pattern {
     /// Of a name without its extension.
     pub fn of(name: &str) -> Self {
         let letters: Vec<char> = name.to_lowercase().chars().collect();
-        let mut pattern = Self { skeleton: String::new(), numbers: Vec::new(), marked: None, other: Vec::new() };
+        let mut pattern =
+            Self { skeleton: String::new(), numbers: Vec::new(), marked: None, called: None, other: Vec::new() };
         let mut at = 0;
         while at < letters.len() {
             if !letters[at].is_ascii_digit() {
@@ -61,11 +94,20 @@ impl Pattern {
         }
         let number = self.numbers.len();
         let word = self.skeleton.trim_end_matches(['_', ' ', '-', '=', '(']);
-        if BEFORE.iter().any(|known| word.ends_with(known)) || AFTER.iter().any(|known| after.starts_with(known)) {
-            self.marked = Some(number);
-        }
-        if UNITS.iter().any(|known| after.starts_with(known)) {
+        let ends = |known: &[&str]| known.iter().any(|known| word.ends_with(known));
+        let called = if AFTER.iter().any(|known| after.starts_with(known)) {
+            Some(Called::Degrees)
+        } else if UNITS.iter().any(|known| after.starts_with(known)) {
+            // A unit says more than the word before: "slat 80 mm" is no angle.
             self.other.push(number);
+            None
+        } else if ends(&TURNS) {
+            Some(Called::Turn)
+        } else {
+            ends(&THINGS).then_some(Called::Thing)
+        };
+        if called.is_some() {
+            (self.marked, self.called) = (Some(number), called);
         }
         self.numbers.push(if minus { -size } else { size });
         self.skeleton.push('#');

@@ -15,6 +15,7 @@ const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0004_figures.sql"),
     include_str!("../../migrations/0005_no_text_index.sql"),
     include_str!("../../migrations/0006_history.sql"),
+    include_str!("../../migrations/0007_collections.sql"),
 ];
 
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.

@@ -3,6 +3,7 @@
 use super::words::unmarked;
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
+use crate::texts::{Text, catalogue as text};
 
 /// How data came to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -23,6 +24,15 @@ impl Origin {
             Self::Measured => "measured",
             Self::Computed => "computed",
             Self::Unknown => "unknown",
+        }
+    }
+
+    /// In words.
+    pub const fn words(self) -> Text {
+        match self {
+            Self::Measured => text::MEASURED,
+            Self::Computed => text::COMPUTED,
+            Self::Unknown => text::UNKNOWN,
         }
     }
 
@@ -129,6 +139,8 @@ pub struct Product {
     pub description: String,
     /// Where the data come from.
     pub provenance: Provenance,
+    /// On which terms the data may be passed on, e.g. `CC BY 4.0`; may be empty.
+    pub license: String,
     /// Words to find it by, sorted.
     pub tags: Vec<String>,
     /// States in order, at least one.
@@ -169,6 +181,8 @@ pub struct NewProduct {
     pub description: String,
     /// Where the data come from.
     pub provenance: Provenance,
+    /// On which terms the data may be passed on, e.g. `CC BY 4.0`; may be empty.
+    pub license: String,
     /// Words to find it by.
     pub tags: Vec<String>,
     /// Names of the states, in the order of the datasets; empty: made from the datasets' state keys.

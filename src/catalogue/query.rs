@@ -1,6 +1,7 @@
 //! What is looked for in a catalogue: words, filters, order.
 
 use super::Origin;
+use crate::texts::{Text, catalogue as text, fixed};
 
 /// A figure of a product, of the state that stands for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -24,14 +25,15 @@ impl Figure {
     pub const LIMITS: [f64; 6] = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8];
 
     /// In words, sentence case.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::TauNormal => "τ normal",
-            Self::TauHemispherical => "τ hemispherical",
-            Self::ToCeiling => "Light to the ceiling",
-            Self::SunBlocked => "Sun blocked",
-            Self::View => "View",
-        }
+    pub fn words(self) -> &'static str {
+        let text = match self {
+            Self::TauNormal => text::TAU_NORMAL,
+            Self::TauHemispherical => text::TAU_HEMISPHERICAL,
+            Self::ToCeiling => text::TO_CEILING,
+            Self::SunBlocked => text::SUN_BLOCKED,
+            Self::View => text::VIEW,
+        };
+        text.get()
     }
 
     /// The word on the command line and in JSON.
@@ -72,10 +74,10 @@ impl Within {
     /// In words, without the figure's name: `0.20 to 0.40`.
     pub fn words(&self) -> String {
         match (self.low > 0.0, self.high.is_finite()) {
-            (true, true) => format!("{:.2} to {:.2}", self.low, self.high),
-            (true, false) => format!("from {:.2}", self.low),
-            (false, true) => format!("below {:.2}", self.high),
-            (false, false) => "any".to_owned(),
+            (true, true) => text::between(fixed(self.low, 2), fixed(self.high, 2)),
+            (true, false) => text::from(fixed(self.low, 2)),
+            (false, true) => text::below(fixed(self.high, 2)),
+            (false, false) => text::ANY.into(),
         }
     }
 }
@@ -106,15 +108,16 @@ impl Sort {
     }
 
     /// In words, sentence case.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Match => "Best match",
-            Self::Name => "Name",
-            Self::Maker => "Maker",
-            Self::Kind => "Kind",
-            Self::States => "States",
-            Self::By(figure) => figure.words(),
-        }
+    pub fn words(self) -> &'static str {
+        let text = match self {
+            Self::Match => text::BEST_MATCH,
+            Self::Name => text::NAME,
+            Self::Maker => text::MAKER,
+            Self::Kind => text::KIND,
+            Self::States => text::STATES,
+            Self::By(figure) => return figure.words(),
+        };
+        text.get()
     }
 
     /// The word on the command line.
@@ -142,6 +145,12 @@ pub struct Query {
     pub manufacturers: Vec<String>,
     /// All of these tags.
     pub tags: Vec<String>,
+    /// In one of these collections; empty: whatever it is in.
+    pub collections: Vec<String>,
+    /// Products of [`Query::shown`] alone.
+    pub recent: bool,
+    /// Keys of the products that were shown last, the last first: no filter, but what [`Query::recent`] and its count go by.
+    pub shown: Vec<String>,
     /// Favourites alone, or all others.
     pub favourite: Option<bool>,
     /// Measured or computed.
@@ -174,6 +183,10 @@ pub enum Filter {
     Manufacturers,
     /// Tags.
     Tags,
+    /// Collections.
+    Collections,
+    /// Shown last.
+    Recent,
     /// Favourites.
     Favourite,
     /// Measured or computed.
@@ -190,7 +203,7 @@ impl Filter {
     /// All but single words.
     pub fn all() -> impl Iterator<Item = Self> {
         use Filter::*;
-        let plain = [Words, Kinds, Manufacturers, Tags, Favourite, Origin, Builtin, Moving];
+        let plain = [Words, Kinds, Manufacturers, Tags, Collections, Recent, Favourite, Origin, Builtin, Moving];
         plain.into_iter().chain(Figure::ALL.into_iter().map(Range))
     }
 }
@@ -209,6 +222,8 @@ impl Query {
             Filter::Kinds => !self.kinds.is_empty(),
             Filter::Manufacturers => !self.manufacturers.is_empty(),
             Filter::Tags => !self.tags.is_empty(),
+            Filter::Collections => !self.collections.is_empty(),
+            Filter::Recent => self.recent,
             Filter::Favourite => self.favourite.is_some(),
             Filter::Origin => self.origin.is_some(),
             Filter::Builtin => self.builtin.is_some(),
@@ -230,6 +245,8 @@ impl Query {
             Filter::Kinds => query.kinds.clear(),
             Filter::Manufacturers => query.manufacturers.clear(),
             Filter::Tags => query.tags.clear(),
+            Filter::Collections => query.collections.clear(),
+            Filter::Recent => query.recent = false,
             Filter::Favourite => query.favourite = None,
             Filter::Origin => query.origin = None,
             Filter::Builtin => query.builtin = None,
@@ -260,12 +277,12 @@ impl Query {
     pub fn words_of(&self, filter: Filter) -> String {
         let either = |list: &[String]| {
             let words: Vec<&str> =
-                list.iter().map(|word| if word.is_empty() { "not told" } else { word.as_str() }).collect();
-            words.join(" or ")
+                list.iter().map(|word| if word.is_empty() { text::NOT_TOLD.get() } else { word.as_str() }).collect();
+            words.join(text::OR.get())
         };
-        let one_of = |choice: Option<bool>, [yes, no]: [&str; 2]| match choice {
-            Some(true) => yes.to_owned(),
-            Some(false) => no.to_owned(),
+        let one_of = |choice: Option<bool>, [yes, no]: [Text; 2]| match choice {
+            Some(true) => yes.into(),
+            Some(false) => no.into(),
             None => String::new(),
         };
         match filter {
@@ -273,15 +290,17 @@ impl Query {
             Filter::Word(place) => typed(&self.text).nth(place).unwrap_or_default().to_owned(),
             Filter::Kinds => either(&self.kinds).replace('-', " "),
             Filter::Manufacturers => either(&self.manufacturers),
-            Filter::Tags => self.tags.join(" and "),
-            Filter::Favourite => one_of(self.favourite, ["starred", "not starred"]),
-            Filter::Origin => self.origin.map(super::Origin::word).unwrap_or_default().to_owned(),
-            Filter::Builtin => one_of(self.builtin, ["built in", "your own"]),
-            Filter::Moving => one_of(self.moving, ["moving", "fixed"]),
+            Filter::Tags => self.tags.join(text::AND.get()),
+            Filter::Collections => either(&self.collections),
+            Filter::Recent => text::RECENT_CHIP.into(),
+            Filter::Favourite => one_of(self.favourite, [text::STARRED, text::NOT_STARRED]),
+            Filter::Origin => self.origin.map(|origin| origin.words().into()).unwrap_or_default(),
+            Filter::Builtin => one_of(self.builtin, [text::BUILT_IN, text::YOUR_OWN]),
+            Filter::Moving => one_of(self.moving, [text::MOVING, text::FIXED]),
             Filter::Range(figure) => {
                 let ranges = self.ranges.iter().filter(|range| range.figure == figure);
                 let words: Vec<String> = ranges.map(Within::words).collect();
-                format!("{} {}", figure.words(), words.join(" or "))
+                format!("{} {}", figure.words(), words.join(text::OR.get()))
             }
         }
     }

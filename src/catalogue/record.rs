@@ -153,6 +153,7 @@ pub(super) fn product(
         name: meta.name,
         kind: meta.kind.trim().to_owned(),
         provenance: meta.provenance,
+        license: meta.license.trim().to_owned(),
         tags,
         states,
         control_curve: meta.control_curve,

@@ -35,6 +35,8 @@ pub struct ProductRow {
     pub states: Vec<String>,
     /// Place of the state that stands for the product.
     pub representative: usize,
+    /// Hash of the dataset of that state; `None` while it is still to be computed.
+    pub dataset: Option<Arc<str>>,
     /// The rule by which it works when nobody has said otherwise.
     pub rule: FirstRule,
     /// Visible transmittance of light from outside at normal incidence.
@@ -90,6 +92,8 @@ pub struct Sought {
     pub description: String,
     /// Words to find it by.
     pub tags: Vec<String>,
+    /// Collections that it is in.
+    pub collections: Vec<String>,
 }
 
 /// A state while it is read.
@@ -98,6 +102,7 @@ struct StateRow {
     numbers: Numbers,
     figures: [Option<f64>; COLUMNS.len()],
     profile: String,
+    dataset: Option<Arc<str>>,
 }
 
 /// Reads lists of one table into those of each product.
@@ -122,15 +127,15 @@ fn states(db: &Connection) -> Result<HashMap<i64, Vec<StateRow>>, CatalogueError
     let figures = columns.join(", ");
     gathered(
         db,
-        &format!("SELECT product, key, value, tau_profile, {figures} FROM state ORDER BY product, position"),
+        &format!("SELECT product, key, value, tau_profile, dataset, {figures} FROM state ORDER BY product, position"),
         |row| {
             let mut figures = [None; COLUMNS.len()];
             for (place, figure) in figures.iter_mut().enumerate() {
-                *figure = row.get(4 + place)?;
+                *figure = row.get(5 + place)?;
             }
             let tau_hemispherical = figures[1];
             let numbers = Numbers { value: row.get(2)?, tau_hemispherical };
-            Ok(StateRow { key: row.get(1)?, numbers, figures, profile: row.get(3)? })
+            Ok(StateRow { key: row.get(1)?, numbers, figures, profile: row.get(3)?, dataset: row.get(4)? })
         },
     )
 }
@@ -139,6 +144,9 @@ fn states(db: &Connection) -> Result<HashMap<i64, Vec<StateRow>>, CatalogueError
 pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
     let mut states = states(db)?;
     let mut tags = gathered(db, "SELECT product, tag FROM tag ORDER BY product, tag", |row| row.get::<_, String>(1))?;
+    let collections =
+        "SELECT p.id, c.name FROM collection c JOIN product p ON p.key = c.product_key ORDER BY p.id, c.name";
+    let mut collections = gathered(db, collections, |row| row.get::<_, String>(1))?;
     let mut curves =
         gathered(db, "SELECT product, profile_angle, value FROM control_point ORDER BY product, position", |row| {
             Ok(CurvePoint { profile_angle: row.get(1)?, value: row.get(2)? })
@@ -174,6 +182,7 @@ pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
             kind: row.get(4)?,
             origin: Origin::from_word(&row.get::<_, String>(5)?),
             representative: place,
+            dataset: stands.and_then(|state| state.dataset.clone()),
             rule,
             tau_normal: figure(Figure::TauNormal),
             tau_hemispherical: figure(Figure::TauHemispherical),
@@ -190,6 +199,7 @@ pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
             row: Arc::new(product),
             description: row.get(7)?,
             tags: tags.remove(&id).unwrap_or_default(),
+            collections: collections.remove(&id).unwrap_or_default(),
         });
     }
     Ok(list)

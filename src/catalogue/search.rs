@@ -1,6 +1,7 @@
 //! Finding products: the words of a catalogue's file in memory, read anew when the file has changed.
 
-use super::index::{Facets, Found, Index};
+use super::index::{Found, Index};
+use super::query_facets::Facets;
 use super::{Catalogue, CatalogueError, ProductRow, Query, rows};
 use std::sync::Arc;
 

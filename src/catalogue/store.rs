@@ -33,8 +33,8 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     let (p, from) = (&record.product, &record.product.provenance);
     tx.prepare_cached(
         "INSERT INTO product (key, name, manufacturer, kind, description, origin, author, method, date, source_file,
-                              source_hash, inside_face, builtin, rank, system)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)",
+                              source_hash, inside_face, builtin, rank, system, license)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
     )?
     .execute(params![
         p.key,
@@ -51,7 +51,8 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
         from.inside_face,
         p.builtin,
         rank,
-        p.system
+        p.system,
+        p.license
     ])?;
     let id = tx.last_insert_rowid();
     for (hash, blob) in &record.datasets {
@@ -156,6 +157,7 @@ fn product_of_row(key: &str, row: &Row<'_>) -> rusqlite::Result<Product> {
         builtin: row.get(12)?,
         favourite: row.get(13)?,
         system: row.get(14)?,
+        license: row.get(15)?,
     })
 }
 
@@ -186,7 +188,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
     let found = db
         .prepare_cached(
             "SELECT id, name, manufacturer, kind, description, origin, author, method, date, source_file, source_hash,
-                    inside_face, builtin, EXISTS (SELECT 1 FROM favourite WHERE product_key = key), system
+                    inside_face, builtin, EXISTS (SELECT 1 FROM favourite WHERE product_key = key), system, license
              FROM product WHERE key = ?",
         )?
         .query_row([key], |row| Ok((row.get::<_, i64>(0)?, product_of_row(key, row)?)))

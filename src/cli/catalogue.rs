@@ -128,7 +128,7 @@ fn product_json(product: &Product) -> Value {
     let curve = product.control_curve.iter().map(|p| json!({"profile_angle": p.profile_angle, "value": p.value}));
     json!({
         "key": product.key, "name": product.name, "manufacturer": product.manufacturer, "kind": product.kind,
-        "description": product.description, "tags": product.tags, "favourite": product.favourite,
+        "description": product.description, "license": product.license, "tags": product.tags, "favourite": product.favourite,
         "builtin": product.builtin,
         "provenance": {
             "origin": from.origin.word(), "author": from.author, "method": from.method, "date": from.date,
@@ -159,6 +159,7 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
         ("date", &from.date),
         ("source", &from.source_file),
         ("inside face", &from.inside_face),
+        ("license", &product.license),
     ] {
         if !value.is_empty() {
             writeln!(text, "  {label}: {value}")?;

@@ -21,6 +21,9 @@ pub struct RenameArgs {
     /// Word to find it by, in place of all that it has; may be given several times.
     #[arg(long = "tag")]
     pub tags: Vec<String>,
+    /// On which terms the data may be passed on, e.g. "CC BY 4.0".
+    #[arg(long)]
+    pub license: Option<String>,
 }
 
 /// Arguments of `cfs catalogue delete`.
@@ -71,8 +74,9 @@ pub(super) fn history(catalogue: &Catalogue, args: &HistoryArgs) -> anyhow::Resu
 /// Gives a product other words; those that are not named stay.
 pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Result<()> {
     let product = catalogue.product(&args.key)?;
-    if args.name.is_none() && args.manufacturer.is_none() && args.kind.is_none() && args.tags.is_empty() {
-        anyhow::bail!("nothing to change; expected a NAME, --manufacturer, --kind or --tag");
+    let words = [&args.name, &args.manufacturer, &args.kind, &args.license];
+    if words.iter().all(|word| word.is_none()) && args.tags.is_empty() {
+        anyhow::bail!("nothing to change; expected a NAME, --manufacturer, --kind, --tag or --license");
     }
     let or = |asked: &Option<String>, stored: String| asked.clone().unwrap_or(stored);
     let words = Words {
@@ -80,6 +84,7 @@ pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Re
         manufacturer: or(&args.manufacturer, product.manufacturer),
         kind: or(&args.kind, product.kind),
         tags: if args.tags.is_empty() { product.tags } else { args.tags.clone() },
+        license: or(&args.license, product.license),
     };
     Ok(catalogue.describe(&args.key, &words)?)
 }

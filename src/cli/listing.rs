@@ -22,6 +22,9 @@ pub struct ListArgs {
     /// Products with this tag; several: all of them
     #[arg(long = "tag")]
     pub tags: Vec<String>,
+    /// Products of this collection; several: of any of them
+    #[arg(long = "collection")]
+    pub collections: Vec<String>,
     /// Products of several states alone
     #[arg(long, conflicts_with = "fixed")]
     pub moving: bool,
@@ -84,6 +87,9 @@ impl ListArgs {
             kinds: self.kind.clone(),
             manufacturers: self.maker.clone(),
             tags: self.tags.clone(),
+            collections: self.collections.clone(),
+            recent: false,
+            shown: Vec::new(),
             favourite: self.starred.then_some(true),
             origin: match (self.measured, self.computed) {
                 (true, _) => Some(Origin::Measured),

@@ -17,6 +17,7 @@ pub mod plot;
 mod raster;
 pub mod shape;
 mod svg;
+pub mod thumbnail;
 pub mod ticks;
 
 pub use paper::Drawing;

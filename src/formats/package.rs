@@ -12,8 +12,9 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 /// Format word of the manifest, without its version.
 const FORMAT: &str = "cfs-package";
-/// The version that is written, and the newest that is read.
-pub const VERSION: u32 = 1;
+/// The newest version that is read. Written is the oldest that can hold what there is: 2 where a product tells its
+/// license, else 1.
+pub const VERSION: u32 = 2;
 /// Largest manifest. \[bytes\]
 const MOST_MANIFEST: u64 = 16 << 20;
 /// Largest dataset. \[bytes\]
@@ -64,6 +65,9 @@ pub struct PackageProduct {
     /// Where the data come from.
     #[serde(default)]
     pub provenance: PackageProvenance,
+    /// On which terms the data may be passed on; may be empty.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub license: String,
     /// Words to find it by.
     #[serde(default)]
     pub tags: Vec<String>,
@@ -158,7 +162,8 @@ pub fn write(package: &Package) -> Result<Vec<u8>, PackageError> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // A fixed time in the entries: packages of the same content are the same file.
     let plain = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
-    let manifest = Manifest { format: format!("{FORMAT} {VERSION}"), products: package.products.clone() };
+    let version = if package.products.iter().any(|product| !product.license.is_empty()) { VERSION } else { 1 };
+    let manifest = Manifest { format: format!("{FORMAT} {version}"), products: package.products.clone() };
     let text = serde_json::to_vec_pretty(&manifest)?;
     let mut put = |entry: String, bytes: &[u8], method| {
         zip.start_file(entry.as_str(), plain.compression_method(method))?;

@@ -106,8 +106,8 @@ fn newer_packages_are_refused_by_their_version() {
         zip.write_all(manifest.as_bytes()).unwrap();
         package::read(&zip.finish().unwrap().into_inner()).unwrap_err().to_string()
     };
-    let newer = made("{\"format\": \"cfs-package 2\", \"products\": [{\"rays\": 1}], \"more\": {}}");
-    assert_eq!(newer, "the package was written by a newer version of cfs (cfs-package 2; this program reads up to 1)");
+    let newer = made("{\"format\": \"cfs-package 3\", \"products\": [{\"rays\": 1}], \"more\": {}}");
+    assert_eq!(newer, "the package was written by a newer version of cfs (cfs-package 3; this program reads up to 2)");
     assert!(made("{\"format\": \"other 1\", \"products\": []}").contains("format is \"other 1\""));
     assert!(made("{\"format\": \"cfs-package 0\", \"products\": []}").contains("format is"));
 }
@@ -118,12 +118,12 @@ fn a_newer_catalogue_is_refused_by_its_name() {
     let path = folder.path().join("newer.sqlite");
     rusqlite::Connection::open(&path)
         .unwrap()
-        .execute_batch("PRAGMA application_id = 1128682328; PRAGMA user_version = 7; CREATE TABLE meta (x)")
+        .execute_batch("PRAGMA application_id = 1128682328; PRAGMA user_version = 8; CREATE TABLE meta (x)")
         .unwrap();
     let Err(error) = Catalogue::open(&path) else { panic!("refused") };
     let told = error.to_string();
     assert!(
-        told.contains("newer.sqlite was written by a newer version of cfs (layout 7; this program reads up to 6)"),
+        told.contains("newer.sqlite was written by a newer version of cfs (layout 8; this program reads up to 7)"),
         "{told}"
     );
 }

@@ -28,6 +28,7 @@ fn other_words_are_found_and_the_key_stays() {
         manufacturer: "Tuch AG".to_owned(),
         kind: "screen".to_owned(),
         tags: vec!["summer".to_owned(), " ".to_owned(), "summer".to_owned()],
+        license: String::new(),
     };
     catalogue.describe(&key, &words).unwrap();
     let product = catalogue.product(&key).unwrap();

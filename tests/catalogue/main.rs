@@ -3,6 +3,7 @@
 mod assets;
 mod builtin;
 mod catalogue;
+mod collections;
 #[path = "../common/mod.rs"]
 mod common;
 mod datasets;

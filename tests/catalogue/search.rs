@@ -28,6 +28,7 @@ fn builtins() -> Vec<Sought> {
                 origin: if number % 4 == 0 { Origin::Measured } else { Origin::Computed },
                 states: device.keys,
                 representative: 0,
+                dataset: None,
                 rule: FirstRule::ByHand,
                 tau_normal: (number % 7 > 0).then_some(figure),
                 tau_hemispherical: Some(0.9 * figure),
@@ -41,6 +42,7 @@ fn builtins() -> Vec<Sought> {
             }),
             description: file.system.description.clone(),
             tags: file.tags.clone(),
+            collections: if number % 3 == 0 { vec!["Atrium".to_owned()] } else { Vec::new() },
         }
     };
     SYSTEMS.iter().enumerate().map(one).collect()

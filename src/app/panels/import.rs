@@ -5,13 +5,13 @@ mod findings;
 mod table;
 
 use crate::app::command::Command;
-use crate::app::import::{Import, Proposed};
+use crate::app::import::{Import, Proposed, number};
 use crate::app::import_steps::Step;
 use crate::app::state::State;
 use crate::catalogue::Grouping;
+use crate::texts::take_in as text;
 use egui::{ScrollArea, Ui};
 pub(super) use findings::of_selection;
-use findings::plural;
 
 /// Narrower sheets have the words about a product under the table. \[points\]
 const NARROW: f32 = 620.0;
@@ -20,12 +20,12 @@ const NARROW: f32 = 620.0;
 pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     actions(ui, state, commands);
     let Some(import) = &state.import else {
-        ui.label("Drop dataset files, folders, zip archives or packages anywhere on the window, or press Ctrl+O.");
+        ui.label(text::DROP_HERE);
         return drafts(ui, state, commands);
     };
     if import.products.is_empty() {
         ui.add_space(6.0);
-        ui.label("The catalogue is unchanged.");
+        ui.label(text::UNCHANGED);
     } else {
         grouping(ui, import, commands);
         by_hand(ui, import, commands);
@@ -57,36 +57,32 @@ fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let questions = import.questions();
     ui.horizontal_wrapped(|ui| {
         if !import.products.is_empty() {
-            let text = match import.products.len() {
-                1 => "Add to catalogue".to_owned(),
-                _ => format!("Add {} to catalogue", plural(ready, "product")),
+            let words: String = match import.products.len() {
+                1 => text::ADD_ONE.into(),
+                _ => text::add_many(number(ready, text::ONE_PRODUCT, text::products)),
             };
-            if ui.add_enabled(ready > 0, egui::Button::new(text)).clicked() {
+            // What is being arranged otherwise is stored as it will be.
+            let ready = ready > 0 && !import.arranging;
+            if ui.add_enabled(ready, egui::Button::new(words)).clicked() {
                 commands.push(Command::AddImport);
             }
-            let tip = "Leave it for later: it is listed here, also after a restart";
-            if ui.button("Keep as draft").on_hover_text(tip).clicked() {
+            if ui.button(text::KEEP_DRAFT).on_hover_text(text::KEEP_DRAFT_TIP).clicked() {
                 commands.push(Command::PutAside);
             }
         }
-        if ui
-            .button("Discard")
-            .on_hover_text("Forget what was read; nothing was stored, and Ctrl+Z brings it back")
-            .clicked()
-        {
+        if ui.button(text::DISCARD).on_hover_text(text::DISCARD_TIP).clicked() {
             commands.push(Command::DiscardImport);
         }
         if questions > 0 {
-            let tip = "Every question is answered by what is proposed";
-            if ui.button("All as proposed").on_hover_text(tip).clicked() {
+            if ui.button(text::ALL_AS_PROPOSED).on_hover_text(text::ALL_AS_PROPOSED_TIP).clicked() {
                 commands.push(Command::Import(Step::SettleAll));
             }
-            ui.weak(format!("{} open: what they are about stays here.", plural(questions, "question")));
+            ui.weak(text::open_questions(number(questions, text::ONE_QUESTION, text::questions)));
         }
         if wrong {
-            ui.weak("What is in red below cannot be stored yet.");
+            ui.weak(text::RED_BELOW.get());
         } else if import.wanted().next().is_none() && !import.products.is_empty() {
-            ui.weak("All of it is in the catalogue already: below.");
+            ui.weak(text::ALL_THERE.get());
         }
     });
 }
@@ -94,22 +90,27 @@ fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 /// How many there are, and how the files are taken as a whole.
 fn grouping(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        ui.strong(format!("{} of {}", plural(import.products.len(), "product"), plural(import.states(), "state")));
+        let products = number(import.products.len(), text::ONE_PRODUCT, text::products);
+        let states = number(import.states(), text::ONE_STATE, text::states);
+        ui.strong(text::products_of_states(products, states));
+        if import.arranging {
+            ui.weak(text::ARRANGING.get());
+        }
         if import.sources.len() < 2 {
             return;
         }
-        for (grouping, text, tip) in [
-            (Grouping::Proposed, "By angle", "Files that differ by an angle alone are states of one product"),
-            (Grouping::Each, "Every file apart", "Every file is a product"),
-            (Grouping::One, "All one product", "Every file is a state of one product"),
+        for (grouping, words, tip) in [
+            (Grouping::Proposed, text::BY_ANGLE, text::BY_ANGLE_TIP),
+            (Grouping::Each, text::EVERY_FILE, text::EVERY_FILE_TIP),
+            (Grouping::One, text::ALL_ONE, text::ALL_ONE_TIP),
         ] {
             let chosen = import.grouping == grouping && import.by_hand.is_none();
-            if ui.selectable_label(chosen, text).on_hover_text(tip).clicked() {
+            if ui.selectable_label(chosen, words).on_hover_text(tip).clicked() {
                 commands.push(Command::GroupImport(grouping));
             }
         }
         if import.by_hand.is_some() {
-            ui.weak("changed by hand");
+            ui.weak(text::BY_HAND.get());
         }
     });
 }
@@ -122,35 +123,35 @@ fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     let files = import.files_of_selected().len();
     ui.horizontal_wrapped(|ui| {
         let all = import.selected.len() == import.states();
-        if ui.button(if all { "Choose none" } else { "Choose all" }).clicked() {
+        if ui.button(if all { text::CHOOSE_NONE } else { text::CHOOSE_ALL }).clicked() {
             commands.push(Command::Import(Step::ChooseAll));
         }
-        for (least, step, text, tip) in [
-            (2, Step::Together, "One product of these", "The files that are chosen are the states of one product"),
-            (1, Step::Apart, "Each its own", "Every file that is chosen is a product of its own"),
+        for (least, step, words, tip) in [
+            (2, Step::Together, text::ONE_OF_THESE, text::ONE_OF_THESE_TIP),
+            (1, Step::Apart, text::EACH_ITS_OWN, text::EACH_ITS_OWN_TIP),
         ] {
-            if ui.add_enabled(files >= least, egui::Button::new(text)).on_hover_text(tip).clicked() {
+            if ui.add_enabled(files >= least, egui::Button::new(words)).on_hover_text(tip).clicked() {
                 commands.push(Command::Import(step));
             }
         }
         ui.add_enabled_ui(files > 0, |ui| {
-            let menu = ui.menu_button("State of…", |ui| {
+            let menu = ui.menu_button(text::STATE_OF, |ui| {
                 ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
                     let open = |(_, product): &(usize, &Proposed)| !product.packed;
-                    for (number, product) in import.products.iter().enumerate().filter(open) {
+                    for (place, product) in import.products.iter().enumerate().filter(open) {
                         if ui.button(&product.fields.name).clicked() {
-                            commands.push(Command::Import(Step::StatesOf(number)));
+                            commands.push(Command::Import(Step::StatesOf(place)));
                             ui.close();
                         }
                     }
                 });
             });
-            menu.response.on_hover_text("The files that are chosen are states of another product here");
+            menu.response.on_hover_text(text::STATE_OF_TIP);
         });
         if import.selected.is_empty() {
-            ui.weak("Click a row; Shift for a range, Ctrl or Space for more.");
+            ui.weak(text::CLICK_A_ROW.get());
         } else {
-            ui.weak(format!("{} chosen", plural(import.selected.len(), "row")));
+            ui.weak(text::chosen(number(import.selected.len(), text::ONE_ROW, text::rows)));
         }
     });
 }
@@ -161,15 +162,15 @@ fn drafts(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         return;
     }
     ui.add_space(8.0);
-    ui.strong(plural(state.drafts.len(), "draft"));
-    for (number, draft) in state.drafts.iter().enumerate() {
-        ui.push_id(("draft", number), |ui| {
+    ui.strong(number(state.drafts.len(), text::ONE_DRAFT, text::drafts));
+    for (place, draft) in state.drafts.iter().enumerate() {
+        ui.push_id(("draft", place), |ui| {
             ui.horizontal_wrapped(|ui| {
-                for (text, command) in
-                    [("Go on", Command::OpenDraft(number)), ("Discard", Command::DiscardDraft(number))]
+                for (words, command) in
+                    [(text::GO_ON, Command::OpenDraft(place)), (text::DISCARD, Command::DiscardDraft(place))]
                 {
-                    let button = ui.button(text);
-                    let label = format!("{text}: {}", draft.name);
+                    let button = ui.button(words);
+                    let label = text::about(words, &draft.name);
                     button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
                     if button.clicked() {
                         commands.push(command);

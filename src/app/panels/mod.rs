@@ -12,6 +12,7 @@ mod messages;
 mod palette;
 mod product;
 mod scene;
+mod sets;
 mod sheets;
 mod status;
 mod tour;
@@ -60,7 +61,9 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .resizable(true)
             .default_size(250.0)
             .size_range(widths(ui, 240.0))
-            .show(ui, |ui| catalogue::show(ui, &mut app.state, &mut app.states_view, &mut commands));
+            .show(ui, |ui| {
+                catalogue::show(ui, &mut app.state, (&mut app.states_view, &mut app.gallery), &mut commands)
+            });
         places.catalogue = Some(catalogue.response.rect);
     }
     // The goniophotometer needs the bench's room; the scene's sun goes on shining on its drawing.

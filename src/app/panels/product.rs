@@ -6,6 +6,7 @@ use crate::app::command::Command;
 use crate::app::import::ImportFields;
 use crate::app::state::State;
 use crate::app::theme;
+use crate::texts::catalogue as text;
 use egui::{TextEdit, Ui};
 
 /// Fields for the words about a product; the new ones when something was typed.
@@ -14,15 +15,17 @@ pub(super) fn words(ui: &mut Ui, fields: &ImportFields, author: bool) -> Option<
     let mut typed = fields.clone();
     egui::Grid::new("about").num_columns(2).show(ui, |ui| {
         let list = [
-            ("Name", &mut typed.name),
-            ("Manufacturer", &mut typed.manufacturer),
-            ("Kind", &mut typed.kind),
-            ("Tags", &mut typed.tags),
-            ("Author", &mut typed.author),
+            (text::NAME, &mut typed.name),
+            (text::MANUFACTURER, &mut typed.manufacturer),
+            (text::KIND, &mut typed.kind),
+            (text::TAGS, &mut typed.tags),
+            (text::AUTHOR, &mut typed.author),
+            (text::LICENSE, &mut typed.license),
         ];
-        for (label, text) in list.into_iter().filter(|(label, _)| author || *label != "Author") {
+        for (label, field) in list.into_iter().filter(|(label, _)| author || *label != text::AUTHOR) {
             let name = ui.label(label);
-            ui.add(TextEdit::singleline(text).desired_width(200.0)).labelled_by(name.id);
+            let hint = if label == text::LICENSE { text::LICENSE_HINT.get() } else { "" };
+            ui.add(TextEdit::singleline(field).hint_text(hint).desired_width(200.0)).labelled_by(name.id);
             ui.end_row();
         }
     });
@@ -32,16 +35,14 @@ pub(super) fn words(ui: &mut Ui, fields: &ImportFields, author: bool) -> Option<
 /// Draws the sheet of a product.
 pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(editing) = &state.editing else {
-        ui.label("No product is selected.");
+        ui.label(text::NONE_SELECTED);
         return;
     };
-    ui.weak(format!("Key in scenes: {}", editing.key));
+    ui.weak(text::key_in_scenes(&editing.key));
     if let Some(folder) = &editing.looked.subscribed {
-        ui.add(egui::Label::new(format!("It comes from {folder}, which is subscribed to, and is only read.")).wrap());
+        ui.add(egui::Label::new(text::of_subscription(folder)).wrap());
     } else if editing.fixed() {
-        ui.label(
-            "It comes with the program and keeps its name, kind and tags. It can be deleted, which takes it out of sight.",
-        );
+        ui.label(text::OF_PROGRAM);
     } else {
         if let Some(typed) = words(ui, &editing.fields, false) {
             commands.push(Command::EditWords(Box::new(typed)));
@@ -51,13 +52,13 @@ pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         if let Some(problem) = &problem {
             ui.colored_label(theme::palette(ui).error, problem);
         }
-        if ui.add_enabled(problem.is_none(), egui::Button::new("Save")).clicked() {
+        if ui.add_enabled(problem.is_none(), egui::Button::new(text::SAVE)).clicked() {
             commands.push(Command::SaveWords);
         }
         files(ui, editing, commands);
     }
     ui.add_space(8.0);
-    if ui.button("Delete product").on_hover_text("Out of sight; it can be brought back").clicked() {
+    if ui.button(text::DELETE_PRODUCT).on_hover_text(text::DELETE_PRODUCT_TIP).clicked() {
         commands.push(Command::Sheet(None));
         commands.push(Command::DeleteProduct(Some(editing.key.clone())));
     }
@@ -67,19 +68,20 @@ pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 /// Names and angles of its states, each with a file to take its place.
 fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     ui.add_space(8.0);
-    ui.strong("States");
+    ui.strong(text::STATES.get());
     egui::Grid::new("states").num_columns(4).show(ui, |ui| {
-        for word in ["Key", "Angle [°]", "Name", ""] {
-            ui.weak(word);
+        for word in [text::KEY, text::ANGLE_DEGREES, text::NAME] {
+            ui.weak(word.get());
         }
+        ui.weak("");
         ui.end_row();
         for (place, (state, words)) in editing.looked.product.states.iter().zip(&editing.states).enumerate() {
-            let key = if state.key.is_empty() { "the only one" } else { state.key.as_str() };
+            let key = if state.key.is_empty() { text::THE_ONLY_ONE.get() } else { state.key.as_str() };
             ui.add(egui::Label::new(key).truncate());
             let mut typed = words.clone();
-            for (text, what, width) in [(&mut typed.angle, "Angle", 52.0), (&mut typed.name, "Name", 100.0)] {
-                let edit = ui.add(TextEdit::singleline(text).id_salt((what, place)).desired_width(width));
-                let (label, value) = (format!("{what} of state {key}"), text.clone());
+            for (field, what, width) in [(&mut typed.angle, text::ANGLE, 52.0), (&mut typed.name, text::NAME, 100.0)] {
+                let edit = ui.add(TextEdit::singleline(field).id_salt((what, place)).desired_width(width));
+                let (label, value) = (text::of_state(what, key), field.clone());
                 edit.widget_info(|| {
                     let mut info = egui::WidgetInfo::text_edit(true, &value, &value, "");
                     info.label = Some(label.clone());
@@ -89,8 +91,8 @@ fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
             if typed != *words {
                 commands.push(Command::EditState(place, typed));
             }
-            let button = ui.button("Replace…").on_hover_text("Other data for this state, from a file");
-            let label = format!("Replace state {key}");
+            let button = ui.button(text::REPLACE).on_hover_text(text::REPLACE_TIP);
+            let label = text::replace_state(key);
             button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
             if button.clicked() {
                 commands.push(Command::ReplaceState(state.key.clone()));
@@ -106,25 +108,24 @@ fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
         return;
     }
     ui.add_space(8.0);
-    ui.strong("Files");
+    ui.strong(text::FILES.get());
     for path in &editing.looked.paths {
         ui.add(egui::Label::new(path).truncate()).on_hover_text(path);
     }
     match &editing.reread {
         None => {
-            let tip = "What is not as it was is shown before it is taken";
-            if ui.button("Read its files again").on_hover_text(tip).clicked() {
+            if ui.button(text::READ_AGAIN).on_hover_text(text::READ_AGAIN_TIP).clicked() {
                 commands.push(Command::Reread);
             }
         }
         Some(reread) if reread.change.is_none() => {
-            ui.label("Nothing has changed since they were read.");
+            ui.label(text::NOTHING_CHANGED);
         }
         Some(reread) => {
             for line in &reread.told {
                 ui.add(egui::Label::new(line).wrap());
             }
-            if ui.button("Take the changes").on_hover_text("Ctrl+Z brings the data of before back").clicked() {
+            if ui.button(text::TAKE_CHANGES).on_hover_text(text::TAKE_CHANGES_TIP).clicked() {
                 commands.push(Command::TakeChanges);
             }
         }
@@ -134,9 +135,9 @@ fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
 /// What happened to it.
 fn history(ui: &mut Ui, editing: &Editing) {
     ui.add_space(8.0);
-    ui.strong("History");
+    ui.strong(text::HISTORY.get());
     if editing.looked.history.is_empty() {
-        ui.weak("Nothing is written down.");
+        ui.weak(text::NO_HISTORY.get());
     }
     for event in &editing.looked.history {
         ui.weak(clock::words(&event.at));
@@ -146,19 +147,19 @@ fn history(ui: &mut Ui, editing: &Editing) {
 
 /// Draws the list of products out of sight.
 pub(super) fn deleted(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    ui.add(egui::Label::new("Out of sight, and kept. Scenes that name them still work.").wrap());
+    ui.add(egui::Label::new(text::DELETED_HELP).wrap());
     if state.deleted.is_empty() {
-        ui.label("No product is deleted.");
+        ui.label(text::NONE_DELETED);
     }
     let palette = theme::palette(ui);
     for one in &state.deleted {
         ui.add_space(6.0);
         ui.label(&one.name);
         ui.horizontal(|ui| {
-            let origin = if one.builtin { ", built in" } else { "" };
-            ui.colored_label(palette.weak, format!("{}{origin}", clock::words(&one.at)));
-            let button = ui.button("Restore");
-            let label = format!("Restore {}", one.name);
+            let at = clock::words(&one.at);
+            ui.colored_label(palette.weak, if one.builtin { text::at_built_in(at) } else { at });
+            let button = ui.button(text::RESTORE);
+            let label = text::restore(&one.name);
             button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
             if button.clicked() {
                 commands.push(Command::RestoreProduct(one.key.clone()));

@@ -1,7 +1,7 @@
 //! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
 
 use super::fields::take_keyboard;
-use super::{import, messages, product};
+use super::{import, messages, product, sets};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::offer::{key_words, listed};
@@ -9,7 +9,7 @@ use crate::app::state::{CatalogueState, PathUse, Sheet, State};
 use crate::app::theme;
 use crate::app::views::accuracy;
 use crate::app::window::App;
-use crate::texts::shell;
+use crate::texts::{catalogue as texts, shell};
 use egui::{Id, Key, RichText, ScrollArea, TextEdit, Ui};
 use std::path::PathBuf;
 
@@ -23,6 +23,8 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Goniophotometer => shell::GONIOPHOTOMETER,
         Sheet::Product => shell::PRODUCT,
         Sheet::Deleted => shell::DELETED,
+        Sheet::Collections => texts::COLLECTIONS,
+        Sheet::Subscriptions => texts::SUBSCRIPTIONS,
         Sheet::Messages => shell::MESSAGES,
         Sheet::HandOn => shell::HAND_ON,
         Sheet::Path(what) => what.title(),
@@ -46,7 +48,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Findings => match app.state.dataset.value.as_ref() {
             Some(dataset) => {
                 ui.strong(crate::app::title::selection(&app.state));
-                import::of_selection(ui, dataset);
+                import::of_selection(ui, &app.state, dataset);
             }
             None => {
                 let words = match &app.state.catalogue {
@@ -62,6 +64,8 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Goniophotometer => super::goniophotometer::show(ui, app, commands),
         Sheet::Product => product::edit(ui, &app.state, commands),
         Sheet::Deleted => product::deleted(ui, &app.state, commands),
+        Sheet::Collections => sets::collections(ui, &app.state, commands),
+        Sheet::Subscriptions => sets::subscriptions(ui, &app.state, commands),
         Sheet::Messages => messages::list(ui, &app.toasts, commands),
         Sheet::HandOn => super::hand_on::show(ui, app, commands),
         Sheet::Path(what) => path(ui, &app.state, what, commands),
@@ -100,6 +104,7 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     let (hint, action) = match what {
         PathUse::Open => (shell::OPEN_HINT, shell::OPEN),
         PathUse::ReplaceState => (shell::REPLACE_HINT, shell::REPLACE),
+        PathUse::Subscribe => (texts::SUBSCRIBE_HINT, texts::SUBSCRIBE),
         PathUse::SaveScene => (shell::SAVE_HINT, shell::SAVE),
         PathUse::ExportLid => (shell::LID_HINT, shell::EXPORT),
         PathUse::ExportMeasured => (shell::MEASURED_HINT, shell::EXPORT),

@@ -6,21 +6,20 @@ use crate::app::shelf::{Found, Query};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::catalogue::{Facet, Figure, Filter, Origin, Sort};
+use crate::texts::{Text, catalogue as text};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{ComboBox, PopupCloseBehavior, RichText, ScrollArea, Ui, vec2};
 
-/// What a facet calls an empty value.
-const NOT_TOLD: &str = "not told";
-
 /// A menu of values that stays open while they are chosen.
-fn menu(ui: &mut Ui, title: &str, chosen: bool, values: impl FnOnce(&mut Ui)) {
-    let text = if chosen { RichText::new(title).color(theme::palette(ui).accent) } else { RichText::new(title) };
+fn menu(ui: &mut Ui, [title, facet]: [Text; 2], chosen: bool, values: impl FnOnce(&mut Ui)) {
+    let title =
+        if chosen { RichText::new(title.get()).color(theme::palette(ui).accent) } else { RichText::new(title.get()) };
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let (button, _) = MenuButton::new(text).config(config).ui(ui, |ui| {
+    let (button, _) = MenuButton::new(title).config(config).ui(ui, |ui| {
         ui.set_min_width(170.0);
         ScrollArea::vertical().max_height(380.0).show(ui, values);
     });
-    button.accessible_name(format!("Filter by {}", title.to_lowercase()));
+    button.accessible_name(text::filter_by(facet));
 }
 
 /// A value with what choosing it would find; was it clicked?
@@ -39,10 +38,10 @@ fn in_or_out(list: &mut Vec<String>, value: &str) {
 
 fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>) {
     if facets.is_empty() {
-        ui.weak("No product tells it");
+        ui.weak(text::NOBODY_TELLS.get());
     }
     for facet in facets {
-        let words = if facet.value.is_empty() { NOT_TOLD.to_owned() } else { facet.value.replace('-', " ") };
+        let words = if facet.value.is_empty() { text::NOT_TOLD.into() } else { facet.value.replace('-', " ") };
         if value(ui, chosen.contains(&facet.value), &words, facet.count) {
             in_or_out(chosen, &facet.value);
         }
@@ -50,9 +49,9 @@ fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>) {
 }
 
 /// A pair of which one, the other or both may be asked for.
-fn either(ui: &mut Ui, words: [&str; 2], counts: [usize; 2], chosen: &mut Option<bool>) {
+fn either(ui: &mut Ui, words: [Text; 2], counts: [usize; 2], chosen: &mut Option<bool>) {
     for (yes, (words, count)) in [true, false].into_iter().zip(words.into_iter().zip(counts)) {
-        if value(ui, *chosen == Some(yes), words, count) {
+        if value(ui, *chosen == Some(yes), words.get(), count) {
             *chosen = (*chosen != Some(yes)).then_some(yes);
         }
     }
@@ -83,30 +82,43 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
         let starred = query.favourite == Some(true);
         let star = ui.selectable_label(starred, format!("★ {}", found.facets.favourites));
-        if star.on_hover_text("Starred products alone").accessible_name("Starred products alone").clicked() {
+        if star.on_hover_text(text::STARRED_ALONE).accessible_name(text::STARRED_ALONE).clicked() {
             query.favourite = (!starred).then_some(true);
         }
-        menu(ui, "Kind", query.has(Filter::Kinds), |ui| list(ui, &found.facets.kinds, &mut query.kinds));
-        menu(ui, "Maker", query.has(Filter::Manufacturers), |ui| {
+        let recent = ui.selectable_label(query.recent, format!("{}  {}", text::RECENT, found.facets.recent));
+        if recent.on_hover_text(text::RECENT_ALONE).accessible_name(text::RECENT_ALONE).clicked() {
+            query.recent = !query.recent;
+        }
+        menu(ui, [text::KIND, text::KIND_FACET], query.has(Filter::Kinds), |ui| {
+            list(ui, &found.facets.kinds, &mut query.kinds)
+        });
+        menu(ui, [text::MAKER, text::MAKER_FACET], query.has(Filter::Manufacturers), |ui| {
             list(ui, &found.facets.manufacturers, &mut query.manufacturers);
         });
-        menu(ui, "Moves", query.has(Filter::Moving), |ui| {
-            either(ui, ["moving", "fixed"], found.facets.moving, &mut query.moving);
+        menu(ui, [text::MOVES, text::MOVES_FACET], query.has(Filter::Moving), |ui| {
+            either(ui, [text::MOVING, text::FIXED], found.facets.moving, &mut query.moving);
         });
-        menu(ui, "Data", query.has(Filter::Origin) || query.has(Filter::Builtin), |ui| {
+        menu(ui, [text::DATA, text::DATA_FACET], query.has(Filter::Origin) || query.has(Filter::Builtin), |ui| {
             for facet in &found.facets.origins {
                 let origin = Origin::from_word(&facet.value);
-                let words = if origin == Origin::Unknown { NOT_TOLD } else { facet.value.as_str() };
-                if value(ui, query.origin == Some(origin), words, facet.count) {
+                let words = if origin == Origin::Unknown { text::NOT_TOLD } else { origin.words() };
+                if value(ui, query.origin == Some(origin), words.get(), facet.count) {
                     query.origin = (query.origin != Some(origin)).then_some(origin);
                 }
             }
             ui.separator();
-            either(ui, ["built in", "your own"], [found.facets.builtin, found.facets.own], &mut query.builtin);
+            either(ui, [text::BUILT_IN, text::YOUR_OWN], [found.facets.builtin, found.facets.own], &mut query.builtin);
         });
         let ranges = Figure::ALL.into_iter().any(|figure| query.has(Filter::Range(figure)));
-        menu(ui, "Figures", ranges, |ui| figures(ui, found, query));
-        menu(ui, "Tags", query.has(Filter::Tags), |ui| list(ui, &found.facets.tags, &mut query.tags));
+        menu(ui, [text::FIGURES, text::FIGURES_FACET], ranges, |ui| figures(ui, found, query));
+        if !found.facets.collections.is_empty() {
+            menu(ui, [text::COLLECTIONS, text::COLLECTIONS_FACET], query.has(Filter::Collections), |ui| {
+                list(ui, &found.facets.collections, &mut query.collections);
+            });
+        }
+        menu(ui, [text::TAGS, text::TAGS_FACET], query.has(Filter::Tags), |ui| {
+            list(ui, &found.facets.tags, &mut query.tags)
+        });
     });
     chosen(ui, query);
 }
@@ -122,12 +134,12 @@ fn chosen(ui: &mut Ui, query: &mut Query) {
         for filter in &filters {
             let words = query.words_of(*filter);
             let chip = egui::Button::new(format!("{words} ×")).fill(theme::palette(ui).chosen).truncate();
-            let chip = ui.add(chip).on_hover_text(format!("{words}: a click takes this filter out"));
-            if chip.accessible_name(format!("Without {words}")).clicked() {
+            let chip = ui.add(chip).on_hover_text(text::takes_out(&words));
+            if chip.accessible_name(text::without(&words)).clicked() {
                 *query = query.without(*filter);
             }
         }
-        if filters.len() > 1 && ui.button("Clear").on_hover_text("Take all filters out").clicked() {
+        if filters.len() > 1 && ui.button(text::CLEAR).on_hover_text(text::CLEAR_ALL).clicked() {
             *query = query.words_alone();
         }
     });
@@ -137,14 +149,11 @@ fn chosen(ui: &mut Ui, query: &mut Query) {
 pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     let found = &*state.found;
     ui.horizontal(|ui| {
-        ui.weak(format!("{} of {}", found.entries.len(), found.total)).on_hover_text(format!(
-            "{} of {} products fit",
-            found.entries.len(),
-            found.total
-        ));
+        let (shown, total) = (found.entries.len(), found.total);
+        ui.weak(text::count_of(shown, total)).on_hover_text(text::products_fit(shown, total));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let (arrow, name) = if query.descending { ("↓", "Falling order") } else { ("↑", "Rising order") };
-            let tip = format!("{name}; a click turns it round");
+            let (arrow, name) = if query.descending { ("↓", text::FALLING) } else { ("↑", text::RISING) };
+            let tip = text::turn_round(name);
             // The best match first is neither.
             let by_match = query.sort == Sort::Match;
             let turn = ui.add_enabled(!by_match, egui::Button::new(arrow)).on_hover_text(tip).accessible_name(name);
@@ -165,7 +174,7 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
                     }
                 }
             });
-            combo.response.on_hover_text("Order of the list").accessible_name("Order");
+            combo.response.on_hover_text(text::ORDER_TIP).accessible_name(text::ORDER);
         });
     });
 }
@@ -173,7 +182,7 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
 /// Words that were read as others.
 pub(super) fn read_as(ui: &mut Ui, found: &Found) {
     for (typed, read_as) in &found.read_as {
-        ui.weak(format!("No product has “{typed}”: read as “{read_as}”"));
+        ui.weak(text::read_as(typed, read_as));
     }
 }
 
@@ -182,12 +191,9 @@ pub(super) fn like(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(key) = &state.query.like else { return };
     let found = state.found.like.as_ref().filter(|like| like.key == *key);
     let name = found.map_or(key, |like| &like.name);
-    let chip = egui::Button::new(format!("Like {name} ×")).fill(theme::palette(ui).chosen).truncate();
-    let tip = format!(
-        "Products by what they do to light, nearest to {name} first: differences of τ, its profile, light to the ceiling, \
-         sun blocked and view, all as shares of the light that arrives. A click goes back to the list"
-    );
-    if ui.add(chip).on_hover_text(tip).accessible_name(format!("No longer like {name}")).clicked() {
+    let chip = egui::Button::new(text::like(name)).fill(theme::palette(ui).chosen).truncate();
+    let tip = text::like_tip(name);
+    if ui.add(chip).on_hover_text(tip).accessible_name(text::no_longer_like(name)).clicked() {
         commands.push(Command::Find(Query { like: None, ..state.query.clone() }));
     }
 }
@@ -198,30 +204,29 @@ pub(super) fn nothing(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.add_space(16.0);
     ui.vertical_centered(|ui| {
         if found.total == 0 {
-            ui.label("The catalogue holds no product yet: open a file to put one in.");
+            ui.label(text::NO_PRODUCT_YET);
             return;
         }
         let filtered = query.filters().next().is_some();
         let words = query.has(Filter::Words);
         ui.label(match (words, filtered) {
-            (true, false) => "Nothing has all these words.",
-            (true, true) => "Nothing has all these words and passes the filters.",
-            (false, _) => "Nothing passes all the filters.",
+            (true, false) => text::NOT_ALL_WORDS,
+            (true, true) => text::NOT_WORDS_AND_FILTERS,
+            (false, _) => text::NOT_ALL_FILTERS,
         });
         let mut offered = found.without.iter().filter(|(filter, _)| query.has(*filter)).peekable();
         // One by one where that helps; else all filters at once.
-        if offered.peek().is_none() && filtered && words && ui.button("Take all filters out").clicked() {
+        if offered.peek().is_none() && filtered && words && ui.button(text::CLEAR_ALL).clicked() {
             commands.push(Command::Find(query.words_alone()));
         }
         for (filter, count) in offered.take(6) {
-            let products = if *count == 1 { "1 product".to_owned() } else { format!("{count} products") };
             let what = query.words_of(*filter);
-            let text = format!("{products} without “{what}”");
-            if ui.add(egui::Button::new(&text).truncate()).on_hover_text(&text).clicked() {
+            let words = if *count == 1 { text::one_without(&what) } else { text::more_without(count, &what) };
+            if ui.add(egui::Button::new(&words).truncate()).on_hover_text(&words).clicked() {
                 commands.push(Command::Find(query.without(*filter)));
             }
         }
-        if ui.button("Show all").clicked() {
+        if ui.button(text::SHOW_ALL).clicked() {
             commands.push(Command::Find(Query::default()));
         }
     });

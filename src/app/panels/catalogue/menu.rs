@@ -3,24 +3,43 @@
 use crate::app::command::Command;
 use crate::app::compare::Act;
 use crate::app::shelf::Entry;
+use crate::app::shelving::Shelving;
+use crate::app::state::Sheet;
+use crate::catalogue::Collection;
+use crate::texts::catalogue as text;
 
 /// The menu of a row.
-pub(super) fn show(row: &egui::Response, entry: &Entry, commands: &mut Vec<Command>) {
+pub(super) fn show(row: &egui::Response, entry: &Entry, collections: &[Collection], commands: &mut Vec<Command>) {
     row.context_menu(|ui| {
         let key = || Some(entry.key.clone());
-        if ui.button("Compare").on_hover_text("Add to the tray of what is compared").clicked() {
+        if ui.button(text::COMPARE).on_hover_text(text::COMPARE_TIP).clicked() {
             commands.push(Command::Compare(Act::AddProduct(entry.key.clone())));
             ui.close();
         }
-        if ui.button("Products like this").on_hover_text("By what they do to light, nearest first").clicked() {
+        if ui.button(text::LIKE_THIS).on_hover_text(text::LIKE_THIS_TIP).clicked() {
             commands.push(Command::Like(key()));
             ui.close();
         }
-        if ui.button("Rename…").on_hover_text("Name, maker, kind and tags").clicked() {
+        ui.menu_button(text::COLLECTIONS, |ui| {
+            for one in collections {
+                let mut inside = one.products.contains(&entry.key);
+                if ui.checkbox(&mut inside, &one.name).clicked() {
+                    let name = one.name.clone();
+                    commands.push(Command::Shelve(Shelving::Collect { name, product: key(), put: inside }));
+                    ui.close();
+                }
+            }
+            if ui.button(text::COLLECTIONS_MENU).on_hover_text(text::COLLECTIONS_TIP).clicked() {
+                commands.push(Command::Select(entry.key.clone()));
+                commands.push(Command::Sheet(Some(Sheet::Collections)));
+                ui.close();
+            }
+        });
+        if ui.button(text::RENAME).on_hover_text(text::RENAME_TIP).clicked() {
             commands.push(Command::EditProduct(key()));
             ui.close();
         }
-        if ui.button("Delete").on_hover_text("Out of sight; undo or Recently deleted brings it back").clicked() {
+        if ui.button(text::DELETE).on_hover_text(text::DELETE_TIP).clicked() {
             commands.push(Command::DeleteProduct(key()));
             ui.close();
         }

@@ -1,12 +1,13 @@
 //! Beside the table of what was found: words about the products that are chosen, and the row that is shown, as it will be
 //! stored.
 
-use super::findings::{counts, diagnoses, picture, plural, seen};
+use super::findings::{counts, diagnoses, picture, seen};
 use crate::app::command::Command;
-use crate::app::import::{Import, Proposed, Row};
+use crate::app::import::{Import, Proposed, Row, number};
 use crate::app::import_steps::{Step, Word};
 use crate::compute::btdf::Severity;
 use crate::compute::doctor::{Repair, RepairKind};
+use crate::texts::{fixed, take_in as text};
 use egui::{TextEdit, Ui};
 
 /// Draws it.
@@ -15,13 +16,13 @@ pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     let there = |row: &Row| import.products.get(row.0).is_some_and(|product| row.1 < product.datasets.len());
     let row = import.shown.filter(there).or_else(|| import.rows().next());
     if products.len() > 1 {
-        ui.strong(format!("About {}", plural(products.len(), "product")));
+        ui.strong(text::about_products(number(products.len(), text::ONE_PRODUCT, text::products)));
         for_all(ui, import, &products, commands);
-    } else if let Some((number, _)) = row {
-        let number = products.first().copied().unwrap_or(number);
-        ui.strong("About it");
-        if let Some(typed) = crate::app::panels::product::words(ui, &import.products[number].fields, true) {
-            commands.push(Command::EditImport(number, Box::new(typed)));
+    } else if let Some((place, _)) = row {
+        let place = products.first().copied().unwrap_or(place);
+        ui.strong(text::ABOUT_IT.get());
+        if let Some(typed) = crate::app::panels::product::words(ui, &import.products[place].fields, true) {
+            commands.push(Command::EditImport(place, Box::new(typed)));
         }
     }
     if let Some(row) = row {
@@ -38,27 +39,27 @@ fn for_all(ui: &mut Ui, import: &Import, products: &[usize], commands: &mut Vec<
             let of = |number: &usize| word.of(&mut import.products[*number].fields.clone()).clone();
             let first = products.first().map(of).unwrap_or_default();
             let same = products.iter().all(|number| of(number) == first);
-            let mut text = if same { first.clone() } else { String::new() };
-            let before = text.clone();
+            let mut typed = if same { first.clone() } else { String::new() };
+            let before = typed.clone();
             let name = ui.label(word.label());
-            let hint = if same { "" } else { "different" };
-            ui.add(TextEdit::singleline(&mut text).hint_text(hint).desired_width(180.0)).labelled_by(name.id);
+            let hint = if same { "" } else { text::DIFFERENT.get() };
+            ui.add(TextEdit::singleline(&mut typed).hint_text(hint).desired_width(180.0)).labelled_by(name.id);
             ui.end_row();
-            if text != before {
-                commands.push(Command::Import(Step::Word(word, text)));
+            if typed != before {
+                commands.push(Command::Import(Step::Word(word, typed)));
             }
         }
     });
-    ui.weak("What is typed here is written for all of them.");
+    ui.weak(text::FOR_ALL.get());
 }
 
-fn state(ui: &mut Ui, (number, place): Row, product: &Proposed, commands: &mut Vec<Command>) {
+fn state(ui: &mut Ui, (own, place): Row, product: &Proposed, commands: &mut Vec<Command>) {
     let dataset = &product.datasets[place];
     let source = product.sources.get(place).filter(|source| !source.is_empty());
     ui.add(egui::Label::new(egui::RichText::new(source.map_or(dataset.name.as_str(), String::as_str)).strong()).wrap());
-    ui.weak(format!("{}; incident {}, emergent {}", dataset.format, dataset.incident_basis, dataset.emergent_basis));
+    ui.weak(text::bases(&dataset.format, &dataset.incident_basis, &dataset.emergent_basis));
     if let Some(seen) = seen(ui, dataset) {
-        ui.weak(format!("τ {:.3} normal, {:.3} hemispherical", seen.tau[0], seen.tau[1]));
+        ui.weak(text::taus(fixed(seen.tau[0], 3), fixed(seen.tau[1], 3)));
         if let Some(sentence) = &seen.sentence {
             picture(ui, seen.up, sentence);
         }
@@ -66,29 +67,29 @@ fn state(ui: &mut Ui, (number, place): Row, product: &Proposed, commands: &mut V
     let repairs = product.wished.as_ref().unwrap_or(&product.repairs);
     let turn = Repair::whole(RepairKind::TurnUpsideDown);
     ui.horizontal_wrapped(|ui| {
-        let tip = "Up and down exchanged in all states of this product; the picture shows what comes of it";
-        if ui.button("Turn upside down").on_hover_text(tip).clicked() {
+        if ui.button(text::TURN).on_hover_text(text::TURN_TIP).clicked() {
             commands.push(match repairs.last() == Some(&turn) {
-                true => Command::UndoRepair(number),
-                false => Command::Repair(number, turn),
+                true => Command::UndoRepair(own),
+                false => Command::Repair(own, turn),
             });
         }
-        if !repairs.is_empty() && ui.button("Undo the repair").on_hover_text("Take the last repair back").clicked() {
-            commands.push(Command::UndoRepair(number));
+        if !repairs.is_empty() && ui.button(text::UNDO_REPAIR).on_hover_text(text::UNDO_REPAIR_TIP).clicked() {
+            commands.push(Command::UndoRepair(own));
         }
     });
     if !repairs.is_empty() {
         let words: Vec<String> = repairs.iter().map(|repair| repair.label()).collect();
-        let how = if product.wished.is_some() { "Repairing" } else { "Repaired" };
-        ui.add(egui::Label::new(format!("{how}: {}", words.join("; "))).wrap());
+        let words = words.join("; ");
+        let line = if product.wished.is_some() { text::repairing(words) } else { text::repaired(words) };
+        ui.add(egui::Label::new(line).wrap());
     }
     ui.add_space(6.0);
     let found = product.diagnoses.get(place).map_or(&[][..], Vec::as_slice);
     let grave = found.iter().any(|one| one.finding.severity != Severity::Info);
-    let title = if found.is_empty() { "No findings".to_owned() } else { format!("Findings: {}", counts(found)) };
-    egui::CollapsingHeader::new(title).id_salt(("findings", number, place)).default_open(grave).show(ui, |ui| {
+    let title: String = if found.is_empty() { text::NO_FINDINGS.into() } else { text::findings(counts(found)) };
+    egui::CollapsingHeader::new(title).id_salt(("findings", own, place)).default_open(grave).show(ui, |ui| {
         let mut asked = None;
         diagnoses(ui, found, repairs, |repair| asked = Some(repair));
-        commands.extend(asked.map(|repair| Command::Repair(number, repair)));
+        commands.extend(asked.map(|repair| Command::Repair(own, repair)));
     });
 }

@@ -1,24 +1,28 @@
 //! What the checks say about datasets, with repairs to try, and the picture by which one sees whether they lie as they should.
 
+use crate::app::import::number;
+use crate::app::state::State;
 use crate::app::theme;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::direction::{Dir, Incident};
-use crate::compute::doctor::{Diagnosis, Repair, Ways, examine, sun_from_above};
+use crate::compute::doctor::{Diagnosis, Repair, Ways, sun_from_above};
+use crate::texts::{Text, take_in as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::Arc;
 
-/// A number of things in words.
-pub(super) fn plural(count: usize, word: &str) -> String {
-    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
-}
-
 /// How many findings there are of each severity, the worst first: `1 error, 2 warnings`; empty without any.
 pub(super) fn counts(list: &[Diagnosis]) -> String {
     let of = |severity: Severity| list.iter().filter(|one| one.finding.severity == severity).count();
-    let words = [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Info, "note")];
-    let words = words.into_iter().map(|(severity, word)| (of(severity), word)).filter(|(count, _)| *count > 0);
-    let words: Vec<String> = words.map(|(count, word)| plural(count, word)).collect();
+    type Words = (Severity, Text, fn(usize) -> String);
+    let words: [Words; 3] = [
+        (Severity::Error, text::ONE_ERROR, text::errors),
+        (Severity::Warning, text::ONE_WARNING, text::warnings),
+        (Severity::Info, text::ONE_NOTE, text::notes),
+    ];
+    let words = words.into_iter().map(|(severity, one, more)| (of(severity), one, more));
+    let words: Vec<String> =
+        words.filter(|(count, ..)| *count > 0).map(|(count, one, more)| number(count, one, more)).collect();
     words.join(", ")
 }
 
@@ -27,37 +31,29 @@ pub(super) fn worst(list: &[Diagnosis]) -> Option<Severity> {
     list.iter().map(|one| one.finding.severity).max()
 }
 
-/// What the doctor says about the selected dataset; asked once a dataset, not once a frame.
-pub fn of_selection(ui: &mut Ui, dataset: &Arc<Dataset>) {
-    type Examined = Arc<(usize, Vec<Diagnosis>)>;
-    let (id, place) = (egui::Id::unique("examined"), Arc::as_ptr(dataset) as usize);
-    let kept: Option<Examined> = ui.data(|data| data.get_temp(id));
-    let examined = match kept.filter(|kept| kept.0 == place) {
-        Some(kept) => kept,
-        None => {
-            let made: Examined = Arc::new((place, examine(dataset)));
-            ui.data_mut(|data| data.insert_temp(id, made.clone()));
-            made
-        }
-    };
-    diagnoses(ui, &examined.1, &[], |_| {});
+/// What the doctor says about the selected dataset, once it was asked.
+pub fn of_selection(ui: &mut Ui, state: &State, dataset: &Arc<Dataset>) {
+    match state.examined.as_ref().filter(|(of, _)| Arc::ptr_eq(of, dataset)) {
+        Some((_, found)) => diagnoses(ui, found, &[], |_| {}),
+        None => drop(ui.label(text::CHECKING)),
+    }
 }
 
 /// Findings with their meaning, and a button for every repair that is offered and not yet made.
 pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnMut(Repair)) {
     let palette = theme::palette(ui);
     if list.is_empty() {
-        ui.label("The checks have nothing to say.");
+        ui.label(text::NOTHING_TO_SAY);
     }
     for severity in [Severity::Error, Severity::Warning, Severity::Info] {
         for Diagnosis { finding, meaning, repair, sure } in list.iter().filter(|one| one.finding.severity == severity) {
-            let colour = match severity {
-                Severity::Error => palette.error,
-                Severity::Warning => palette.warning,
-                Severity::Info => palette.weak,
+            let (colour, word) = match severity {
+                Severity::Error => (palette.error, text::ERROR),
+                Severity::Warning => (palette.warning, text::WARNING),
+                Severity::Info => (palette.weak, text::INFO),
             };
             ui.add_space(4.0);
-            ui.colored_label(colour, severity.word());
+            ui.colored_label(colour, word.get());
             ui.add(egui::Label::new(&finding.message).wrap());
             if severity != Severity::Info && !meaning.is_empty() {
                 ui.add(egui::Label::new(egui::RichText::new(*meaning).color(palette.weak)).wrap());
@@ -65,11 +61,7 @@ pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut as
             if let Some(repair) = repair.filter(|repair| !made.contains(repair)) {
                 // The same repair may be offered by several findings.
                 let button = ui.push_id((finding.code, repair), |ui| ui.button(repair.label())).inner;
-                let tip = if *sure {
-                    "Beyond doubt. Nothing is stored yet, and it can be undone"
-                } else {
-                    "A question: only if it is so for the product. Try it: nothing is stored, and it can be undone"
-                };
+                let tip = if *sure { text::SURE } else { text::UNSURE };
                 if button.on_hover_text(tip).clicked() {
                     ask(repair);
                 }
@@ -124,6 +116,6 @@ pub(super) fn picture(ui: &mut Ui, up: Option<f64>, sentence: &str) {
             );
         }
     }
-    response.on_hover_text("Section: outside on the left; if it is not so, up and down or the sides are exchanged");
+    response.on_hover_text(text::PICTURE_TIP);
     ui.add(egui::Label::new(sentence).wrap());
 }

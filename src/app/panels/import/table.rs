@@ -1,12 +1,13 @@
 //! The table of what was found: a line a product, its states under it, and every question in its place.
 
-use super::findings::{counts, plural, worst};
+use super::findings::{counts, worst};
 use crate::app::command::Command;
-use crate::app::import::{Import, Proposed, Row, StateWords};
+use crate::app::import::{Import, Proposed, Row, StateWords, number};
 use crate::app::import_steps::{Choose, Step};
 use crate::app::theme::{self, Palette};
 use crate::catalogue::Doubt;
 use crate::compute::btdf::Severity;
+use crate::texts::{Text, fixed, take_in as text};
 use egui::{Align, FontId, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 
 /// Height of a line. \[points\]
@@ -19,20 +20,22 @@ pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
     let palette = theme::palette(ui);
     let cells = cells(rect);
-    for (cell, word) in cells.iter().zip(["File", "Angle [°]", "State", "τ", "Findings"]) {
+    for (cell, word) in
+        cells.iter().zip([text::FILE.get(), text::ANGLE_DEGREES.get(), text::STATE.get(), "τ", text::FINDINGS.get()])
+    {
         let look = FontId::proportional(13.0);
-        let text = theme::one_line(ui.painter(), word, look, palette.weak, cell.width());
-        ui.painter().galley(pos2(cell.left(), cell.top()), text, palette.weak);
+        let word = theme::one_line(ui.painter(), word, look, palette.weak, cell.width());
+        ui.painter().galley(pos2(cell.left(), cell.top()), word, palette.weak);
     }
-    for (number, product) in import.products.iter().enumerate() {
-        ui.push_id(number, |ui| one(ui, import, number, product, commands));
+    for (place, product) in import.products.iter().enumerate() {
+        ui.push_id(place, |ui| one(ui, import, place, product, commands));
     }
-    for (title, list) in [("Not read", &import.failures), ("Left out", &import.left_out)] {
+    for (title, list) in [(text::NOT_READ, &import.failures), (text::LEFT_OUT, &import.left_out)] {
         if list.is_empty() {
             continue;
         }
         ui.add_space(8.0);
-        ui.strong(format!("{title}: {}", plural(list.len(), "file")));
+        ui.strong(text::about(title, number(list.len(), text::ONE_FILE, text::files)));
         for line in list {
             ui.add(egui::Label::new(line).wrap());
         }
@@ -93,7 +96,7 @@ fn words_of(words: &StateWords) -> String {
 
 /// A product in one line: its name and states.
 fn title(product: &Proposed) -> String {
-    let name = if product.named() { product.fields.name.trim() } else { "(no name)" };
+    let name = if product.named() { product.fields.name.trim() } else { text::NO_NAME.get() };
     let states: Vec<String> = product.states.iter().map(words_of).collect();
     match states.as_slice() {
         [one] if one.is_empty() => name.to_owned(),
@@ -142,7 +145,7 @@ fn head(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, command
     let arrow = Rect::from_min_size(line.min, vec2(22.0, LINE));
     let folded = import.folded.contains(&number);
     let fold = ui.interact(arrow, ui.scope_id().with("fold"), Sense::click());
-    let label = format!("{} the states of {}", if folded { "Show" } else { "Fold" }, product.fields.name);
+    let label = if folded { text::show_states(&product.fields.name) } else { text::fold_states(&product.fields.name) };
     fold.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
     let glyph = if folded { "⏵" } else { "⏷" };
     let colour = if fold.hovered() || fold.has_focus() { palette.text } else { palette.weak };
@@ -168,34 +171,34 @@ fn question(ui: &mut Ui, import: &Import, number: usize, doubt: &Doubt, commands
     let name = import.products[number].fields.name.clone();
     indented(ui, |ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let mut offer = |text: &str, tip: &str| {
-                let button = ui.button(text).on_hover_text(tip);
-                let label = format!("{text}: {name}");
+            let mut offer = |what: Text, tip: Text| {
+                let button = ui.button(what).on_hover_text(tip);
+                let label = text::about(what, &name);
                 button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
                 button.clicked()
             };
             match doubt {
                 Doubt::NumbersAlone => {
-                    if offer("Apart", "Every file is a product of its own") {
+                    if offer(text::APART, text::APART_FILES_TIP) {
                         commands.push(Command::Import(Step::ChooseProduct(number, Choose::Only)));
                         commands.push(Command::Import(Step::Apart));
                     }
-                    if offer("States", "They are states of one product, as proposed") {
+                    if offer(text::AS_STATES, text::AS_STATES_TIP) {
                         commands.push(Command::Import(Step::Settle(number)));
                     }
                 }
                 Doubt::PerhapsStates(others) => {
-                    if offer("Apart", "It is a product of its own, as proposed") {
+                    if offer(text::APART, text::APART_TIP) {
                         commands.push(Command::Import(Step::Settle(number)));
                     }
-                    if offer("One product", "It and those are states of one product") {
+                    if offer(text::ONE_WITH, text::ONE_WITH_TIP) {
                         together(import, number, others, commands);
                     }
                 }
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let text = RichText::new(doubt.question()).color(palette.warning);
-                ui.add(egui::Label::new(text).truncate());
+                let question = RichText::new(doubt.question()).color(palette.warning);
+                ui.add(egui::Label::new(question).truncate());
             });
         });
     });
@@ -222,21 +225,21 @@ fn together(import: &Import, number: usize, others: &[String], commands: &mut Ve
 /// Whether the same data are there already, in the catalogue or in another file.
 fn there_already(ui: &mut Ui, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     let known = product.known.first();
-    let text = match (known, &product.same_as) {
-        (Some(known), _) => format!("Already in the catalogue as {}", known.name),
-        (None, Some(file)) => format!("The same data as {file}"),
+    let line = match (known, &product.same_as) {
+        (Some(known), _) => text::already_as(&known.name),
+        (None, Some(file)) => text::same_data(file),
         (None, None) => return,
     };
     let palette = theme::palette(ui);
     indented(ui, |ui| {
-        ui.colored_label(palette.warning, text);
+        ui.colored_label(palette.warning, line);
         if let Some(known) = known
-            && ui.button("Show it").on_hover_text("Select that product; this sheet stays").clicked()
+            && ui.button(text::SHOW_IT).on_hover_text(text::SHOW_IT_TIP).clicked()
         {
             commands.push(Command::Select(known.key.clone()));
         }
         let mut anyway = product.add_anyway;
-        if ui.checkbox(&mut anyway, "Add anyway").changed() {
+        if ui.checkbox(&mut anyway, text::ADD_ANYWAY).changed() {
             commands.push(Command::AddAnyway(number, anyway));
         }
     });
@@ -252,7 +255,7 @@ fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, comman
     let cells = cells(line);
     let source = product.sources.get(row.1).map_or("", String::as_str);
     let parts = product.parts.get(row.1).map_or(0, Vec::len);
-    let joined = format!("{} files of one function each", parts);
+    let joined = text::joined_files(parts);
     let file = if source.is_empty() { joined.as_str() } else { source };
     let left = Rect::from_min_max(pos2(line.left() + 24.0, line.top()), cells[0].max);
     let state = words_of(words);
@@ -265,12 +268,15 @@ fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, comman
     let mut inside = ui.new_child(UiBuilder::new().max_rect(line));
     let mut typed = words.clone();
     let number_wrong = !words.angle.trim().is_empty() && words.number().is_none();
-    for (cell, text, what) in [(cells[1], &mut typed.angle, "Angle"), (cells[2], &mut typed.name, "State name")] {
-        let colour = if what == "Angle" && number_wrong { palette.error } else { palette.text };
-        let edit = TextEdit::singleline(text).id_salt(what).text_color(colour).desired_width(cell.width() - 8.0);
+    for (cell, field, what) in
+        [(cells[1], &mut typed.angle, text::ANGLE), (cells[2], &mut typed.name, text::STATE_NAME)]
+    {
+        let colour = if what == text::ANGLE && number_wrong { palette.error } else { palette.text };
+        let edit =
+            TextEdit::singleline(field).id_salt(what.english()).text_color(colour).desired_width(cell.width() - 8.0);
         let edit = inside.put(cell.shrink2(vec2(0.0, 2.0)), edit);
-        let label = format!("{what} of {file}");
-        let value = if what == "Angle" { &words.angle } else { &words.name };
+        let label = text::of_file(what, file);
+        let value = if what == text::ANGLE { &words.angle } else { &words.name };
         edit.widget_info(|| {
             let mut info = egui::WidgetInfo::text_edit(true, value, value, "");
             info.label = Some(label.clone());
@@ -281,15 +287,15 @@ fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, comman
         commands.push(Command::Import(Step::Name(row, typed)));
     }
     let tau = product.taus.get(row.1).copied().flatten();
-    let tau = tau.map_or_else(|| "–".to_owned(), |tau| format!("{tau:.2}"));
+    let tau = tau.map_or_else(|| "–".to_owned(), |tau| fixed(tau, 2));
     let found = product.diagnoses.get(row.1).map_or(&[][..], Vec::as_slice);
     let colour = match worst(found) {
         Some(Severity::Error) => palette.error,
         Some(Severity::Warning) => palette.warning,
         _ => palette.weak,
     };
-    for (cell, text, colour) in [(cells[3], tau, palette.text), (cells[4], counts(found), colour)] {
-        let galley = theme::one_line(ui.painter(), &text, FontId::proportional(13.0), colour, cell.width());
+    for (cell, words, colour) in [(cells[3], tau, palette.text), (cells[4], counts(found), colour)] {
+        let galley = theme::one_line(ui.painter(), &words, FontId::proportional(13.0), colour, cell.width());
         ui.painter().galley(pos2(cell.left(), cell.center().y - 0.5 * galley.size().y), galley, colour);
     }
 }

@@ -1,0 +1,161 @@
+//! The list of products beside searching: recent ones, stars, collections, folders of packages. Undo goes over all that is
+//! stored.
+
+use super::changes::Change;
+use super::error::AppError;
+use super::jobs::Lane;
+use super::shelf::{Query, Sets};
+use super::shelving::Shelving;
+use super::state::{PathUse, Sheet};
+use super::window::App;
+use super::work::Outcome;
+use crate::study::subscriptions::folder_of;
+use crate::texts::catalogue as words;
+use std::path::PathBuf;
+
+/// How many products that were shown are known.
+const RECENT: usize = 20;
+
+impl App {
+    /// Does one thing with the list.
+    pub(super) fn shelve(&mut self, what: Shelving) {
+        match what {
+            Shelving::Gallery => self.state.settings.gallery ^= true,
+            Shelving::First => {
+                self.state.first_due = true;
+                self.choose_first();
+            }
+            Shelving::Recent => {
+                let query = Query { recent: !self.state.query.recent, ..self.state.query.clone() };
+                self.state.settings.catalogue_open = true;
+                self.state.query = query;
+                self.search();
+            }
+            Shelving::Star => {
+                let key = self.state.document.selection.product.clone();
+                let starred = self.state.product.as_ref().filter(|product| product.key == key).map(|one| one.favourite);
+                let listed = self.state.found.entries.iter().find(|entry| entry.key == key).map(|one| one.favourite);
+                if let Some(starred) = listed.or(starred) {
+                    self.star(key, !starred);
+                }
+            }
+            Shelving::Collect { name, product, put } => {
+                let name = name.trim().to_owned();
+                let Some(key) = self.meant(product).filter(|_| !name.is_empty()) else { return };
+                let collection = self.state.sets.collections.iter().find(|one| one.name == name);
+                let inside = collection.is_some_and(|one| one.products.contains(&key));
+                if put {
+                    self.state.collection.clear();
+                }
+                // What is so already is no step.
+                if inside != put {
+                    self.mark(Change::Collected { name, products: vec![key], put });
+                }
+            }
+            Shelving::Disband(name) => {
+                if let Some(one) = self.state.sets.collections.iter().find(|one| one.name == name) {
+                    let products = one.products.clone();
+                    self.mark(Change::Collected { name, products, put: false });
+                }
+            }
+            Shelving::EditName(text) => self.state.collection = text,
+            Shelving::Subscribe => self.ask_subscription(),
+            Shelving::SubscribeTo(path) => self.subscribe(path),
+            Shelving::Unsubscribe(folder) => {
+                self.toasts.info(words::unsubscribed(&folder));
+                self.mark(Change::Subscribed { folder, on: false });
+            }
+        }
+    }
+
+    /// Chooses the first product of the list once the list is that of what was typed.
+    pub(super) fn choose_first(&mut self) {
+        if self.jobs.busy(Lane::Catalogue) || !std::mem::take(&mut self.state.first_due) {
+            return;
+        }
+        match self.state.found.entries.first().map(|entry| entry.key.clone()) {
+            Some(first) => {
+                self.state.focus_list = true;
+                self.select_product(first);
+            }
+            // Who typed goes on typing.
+            None => self.state.focus_search = true,
+        }
+    }
+
+    /// Sets or takes a star.
+    pub(super) fn star(&mut self, key: String, on: bool) {
+        self.mark(Change::Starred { key, on });
+    }
+
+    /// A change that no figure hangs on, as a step of its own.
+    fn mark(&mut self, change: Change) {
+        let number = self.state.changes.len();
+        self.state.changes.push(change);
+        self.undoer.add_undo(&self.state.document);
+        self.state.document.marks.push(number);
+        self.undoer.add_undo(&self.state.document);
+        self.make_change(number, true);
+    }
+
+    /// Notes the selected product as the one shown last.
+    pub(super) fn note_shown(&mut self) {
+        let key = &self.state.document.selection.product;
+        let recent = &mut self.state.settings.recent;
+        if key.is_empty() || recent.first() == Some(key) {
+            return;
+        }
+        recent.retain(|other| other != key);
+        recent.insert(0, key.clone());
+        recent.truncate(RECENT);
+    }
+
+    /// Asks for a folder to subscribe to: the path field at once, the desktop's dialog beside it.
+    fn ask_subscription(&mut self) {
+        self.state.path.clear();
+        self.state.sheet = Some(Sheet::Path(PathUse::Subscribe));
+        let dialogs = self.services.dialogs.clone();
+        self.start(Lane::Dialog, move |_| {
+            Outcome::Target(PathUse::Subscribe, dialogs.open_folder().map(|paths| paths.into_iter().next()))
+        });
+    }
+
+    /// Subscribes to a folder once it is found to be one.
+    fn subscribe(&mut self, path: PathBuf) {
+        self.remember_folder(&path);
+        self.queue(move |_| Outcome::Folder(folder_of(&path)));
+    }
+
+    pub(super) fn take_folder(&mut self, folder: Result<String, String>) {
+        match folder {
+            Ok(folder) if self.state.sets.subscriptions.iter().any(|one| one.folder == folder) => {
+                self.toasts.info(words::subscribed_already(&folder));
+                self.sync_subscribed();
+            }
+            Ok(folder) => {
+                self.state.sheet = Some(Sheet::Subscriptions);
+                self.toasts.info(words::subscribed_now(&folder));
+                self.mark(Change::Subscribed { folder, on: true });
+            }
+            Err(problem) => self.toasts.error(problem),
+        }
+    }
+
+    /// Looks up collections and subscriptions.
+    pub(super) fn look_up_sets(&mut self) {
+        self.queue(|shelf| {
+            let sets = || {
+                let collections = shelf.collections()?;
+                Ok::<_, AppError>(Sets { collections, subscriptions: shelf.subscriptions()? })
+            };
+            Outcome::Sets(sets())
+        });
+    }
+
+    pub(super) fn take_sets(&mut self, sets: Result<Sets, AppError>) {
+        match sets {
+            Ok(sets) => self.state.sets = sets,
+            Err(error) => self.tell(&error),
+        }
+    }
+}

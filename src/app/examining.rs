@@ -1,0 +1,53 @@
+//! What the checks say about datasets, kept by content.
+
+use crate::catalogue::content_of;
+use crate::compute::btdf::Dataset;
+use crate::compute::doctor::{Diagnosis, examine};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Most datasets of which it is kept.
+const MOST: usize = 64;
+
+/// What was said last about datasets of a content, newest at the end; every clone is the same.
+#[derive(Debug, Clone, Default)]
+pub struct Examined(Arc<Mutex<VecDeque<(String, Arc<Vec<Diagnosis>>)>>>);
+
+impl Examined {
+    /// What the checks say about a dataset; asked once a content. Takes its time the first time.
+    pub fn of(&self, dataset: &Dataset) -> Arc<Vec<Diagnosis>> {
+        // What readers found counts too.
+        let key = format!("{}{:?}", content_of(dataset), dataset.findings);
+        let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = kept().iter().find(|(known, _)| *known == key) {
+            return known.clone();
+        }
+        let found = Arc::new(examine(dataset));
+        let mut kept = kept();
+        kept.push_back((key, found.clone()));
+        if kept.len() > MOST {
+            kept.pop_front();
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::btdf::Btdf;
+
+    #[test]
+    fn equal_data_are_examined_once() {
+        let examined = Examined::default();
+        let dataset = |tau: f64| {
+            let mut dataset = Dataset::default();
+            dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(tau));
+            dataset
+        };
+        let first = examined.of(&dataset(0.5));
+        assert!(Arc::ptr_eq(&first, &examined.of(&dataset(0.5))));
+        assert!(!Arc::ptr_eq(&first, &examined.of(&dataset(1.5))));
+        assert_eq!(*examined.of(&dataset(1.5)), examine(&dataset(1.5)));
+    }
+}

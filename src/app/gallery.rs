@@ -1,0 +1,83 @@
+//! Pictures of products for the gallery: made on a thread for the cards in sight, kept by the content of the data.
+
+use super::shelf::{Entry, Shelf};
+use crate::catalogue::TYPICAL_SUN;
+use crate::compute::direction::{Dir, Incident};
+use crate::drawing::thumbnail::{SIDE, indicatrix};
+use egui::{Color32, ColorImage, TextureHandle, TextureOptions};
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+/// Most pictures made at a time: the first are in sight before the last are begun.
+const AT_ONCE: usize = 12;
+/// Most pictures that are kept; with more they are made anew as they come into sight.
+const MOST: usize = 1500;
+
+/// A picture that was made, by the hash of the data; `None` where the data cannot be drawn.
+pub type Made = (Arc<str>, Option<Arc<ColorImage>>);
+
+/// What is asked for: key of the product and of its state, hash of the data.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Wanted {
+    product: String,
+    state: String,
+    pub(super) dataset: Arc<str>,
+}
+
+/// The pictures.
+#[derive(Default)]
+pub struct Gallery {
+    pictures: HashMap<Arc<str>, Option<TextureHandle>>,
+    wanted: Vec<Wanted>,
+    /// Columns of cards, as drawn last.
+    pub columns: usize,
+}
+
+/// Where the light of the sun goes that a state stands for its product by.
+pub(super) fn picture(shelf: &dyn Shelf, wanted: &Wanted) -> Option<Arc<ColorImage>> {
+    let dataset = shelf.load(&wanted.product, Some(&wanted.state)).ok()?;
+    let btdf = dataset.transmission()?;
+    let sun = Incident(Dir::from_theta_phi(TYPICAL_SUN.to_radians(), FRAC_PI_2));
+    let pixels = indicatrix(btdf, sun).into_iter();
+    let pixels = pixels.map(|[r, g, b, a]| Color32::from_rgba_unmultiplied(r, g, b, a)).collect();
+    Some(Arc::new(ColorImage::new([SIDE, SIDE], pixels)))
+}
+
+impl Gallery {
+    /// The picture of a product, if it is there; else it is made.
+    pub fn of(&mut self, entry: &Entry) -> Option<&TextureHandle> {
+        let dataset = entry.dataset.as_ref()?;
+        if !self.pictures.contains_key(dataset) && self.wanted.iter().all(|one| one.dataset != *dataset) {
+            self.wanted.push(Wanted {
+                product: entry.key.clone(),
+                state: entry.state().to_owned(),
+                dataset: dataset.clone(),
+            });
+        }
+        self.pictures.get(dataset)?.as_ref()
+    }
+
+    /// What cards in sight have asked for since the last time, and is not there.
+    pub(super) fn wanted(&mut self) -> Vec<Wanted> {
+        let mut list = std::mem::take(&mut self.wanted);
+        list.retain(|one| !self.pictures.contains_key(&one.dataset));
+        list.truncate(AT_ONCE);
+        list
+    }
+
+    /// Is there a picture of data of this hash?
+    pub fn has(&self, dataset: &str) -> bool {
+        self.pictures.get(dataset).is_some_and(Option::is_some)
+    }
+
+    pub(super) fn take(&mut self, ctx: &egui::Context, made: Vec<Made>) {
+        if self.pictures.len() > MOST {
+            self.pictures.clear();
+        }
+        for (dataset, image) in made {
+            let texture = image.map(|image| ctx.load_texture(&*dataset, image, TextureOptions::LINEAR));
+            self.pictures.insert(dataset, texture);
+        }
+    }
+}

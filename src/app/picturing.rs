@@ -1,0 +1,30 @@
+//! Has pictures of products made for the gallery.
+
+use super::gallery::{Made, picture};
+use super::jobs::Lane;
+use super::window::App;
+use super::work::Outcome;
+
+impl App {
+    /// Asks for pictures of the cards that are in sight and have none.
+    pub(super) fn ask_pictures(&mut self) {
+        // Cards ask in every frame: what is out of sight meanwhile is not made, and what is under way not twice.
+        let wanted = self.gallery.wanted();
+        if wanted.is_empty() || self.jobs.busy(Lane::Gallery) {
+            return;
+        }
+        let Some(shelf) = self.state.shelf() else { return };
+        self.start(Lane::Gallery, move |_| {
+            let made = wanted.into_iter().map(|one| {
+                let picture = picture(&*shelf, &one);
+                (one.dataset, picture)
+            });
+            Outcome::Pictures(made.collect())
+        });
+    }
+
+    pub(super) fn take_pictures(&mut self, made: Vec<Made>) {
+        let ctx = self.ctx.clone();
+        self.gallery.take(&ctx, made);
+    }
+}

@@ -1,0 +1,69 @@
+//! Collections: sets of products that the user makes and names. A product may be in any number of them; a collection is
+//! there as long as something is in it.
+
+use super::{Catalogue, CatalogueError};
+use rusqlite::Connection;
+
+/// A collection.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Collection {
+    /// Its name.
+    pub name: String,
+    /// Keys of its products, sorted.
+    pub products: Vec<String>,
+}
+
+/// Takes a product that is gone for good out of all: another one may get its key.
+pub(super) fn leave_all(db: &Connection, key: &str) -> Result<(), CatalogueError> {
+    db.execute("DELETE FROM collection WHERE product_key = ?", [key])?;
+    Ok(())
+}
+
+impl Catalogue {
+    /// Puts products into a collection, or takes them out of it; all in one step. What is so already stays so.
+    ///
+    /// # Errors
+    /// A product that is not there, or a collection without a name; then nothing changes.
+    pub fn collect(&mut self, name: &str, products: &[String], put: bool) -> Result<(), CatalogueError> {
+        let name = name.trim();
+        if name.is_empty() {
+            return Err(CatalogueError::NoCollectionName);
+        }
+        let tx = self.change()?;
+        for key in products {
+            if !put {
+                tx.execute("DELETE FROM collection WHERE name = ? AND product_key = ?", [name, key])?;
+                continue;
+            }
+            let there = "SELECT EXISTS (SELECT 1 FROM product WHERE key = ?)";
+            if !tx.query_row(there, [key], |row| row.get::<_, bool>(0))? {
+                return Err(CatalogueError::NoProduct(key.clone()));
+            }
+            tx.execute("INSERT OR IGNORE INTO collection VALUES (?, ?)", [name, key])?;
+        }
+        tx.commit()?;
+        Ok(())
+    }
+
+    /// All collections by name, with the products in them that are in sight.
+    ///
+    /// # Errors
+    /// Of SQLite.
+    pub fn collections(&self) -> Result<Vec<Collection>, CatalogueError> {
+        let mut ask = self.db.prepare_cached(
+            "SELECT name, product_key FROM collection
+             WHERE product_key IN (SELECT key FROM product) AND product_key NOT IN (SELECT product_key FROM deleted)
+             ORDER BY name COLLATE NOCASE, name, product_key",
+        )?;
+        let mut rows = ask.query([])?;
+        let mut list: Vec<Collection> = Vec::new();
+        while let Some(row) = rows.next()? {
+            let (name, key): (String, String) = (row.get(0)?, row.get(1)?);
+            match list.last_mut().filter(|last| last.name == name) {
+                Some(last) => last.products.push(key),
+                None => list.push(Collection { name, products: vec![key] }),
+            }
+        }
+        Ok(list)
+    }
+}

@@ -1,0 +1,69 @@
+//! Tools of the index: words of texts, numbers for texts, places in an order, weights.
+
+use super::rows::Sought;
+use super::words::{self, folded, parts, runs};
+use std::collections::HashMap;
+
+/// Where a word stands, by weight.
+pub(super) mod place {
+    pub const NAME: f32 = 10.0;
+    pub const KIND: f32 = 6.0;
+    pub const MAKER: f32 = 5.0;
+    pub const TAG: f32 = 4.0;
+    pub const KEY: f32 = 4.0;
+    pub const GERMAN: f32 = 3.0;
+    pub const DESCRIPTION: f32 = 1.0;
+}
+
+/// Numbers for texts, in the order of their first use.
+#[derive(Default)]
+pub(super) struct Numbered {
+    pub(super) texts: Vec<String>,
+    numbers: HashMap<String, usize>,
+}
+
+impl Numbered {
+    pub(super) fn of(&mut self, text: &str) -> usize {
+        if let Some(number) = self.numbers.get(text) {
+            return *number;
+        }
+        self.texts.push(text.to_owned());
+        self.numbers.insert(text.to_owned(), self.texts.len() - 1);
+        self.texts.len() - 1
+    }
+}
+
+/// Places of products in the order of a text.
+pub(super) fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec<usize> {
+    let texts: Vec<String> = products.iter().map(of).collect();
+    let mut order: Vec<usize> = (0..products.len()).collect();
+    order.sort_by(|a, b| texts[*a].cmp(&texts[*b]));
+    let mut places = vec![0; products.len()];
+    let mut place = 0;
+    for (at, number) in order.iter().enumerate() {
+        // Equal texts have equal places: what is asked next decides.
+        if at > 0 && texts[order[at - 1]] != texts[*number] {
+            place = at;
+        }
+        places[*number] = place;
+    }
+    places
+}
+
+/// Words of a text, their parts, and (where asked for) neighbours written together; the latter told apart.
+pub(super) fn words_of(text: &str, join: bool, put: &mut dyn FnMut(&str, bool)) {
+    let folded = folded(text);
+    let short = |word: &str| word.chars().count() <= words::LONGEST;
+    let list: Vec<&str> = runs(&folded).filter(|run| short(run)).collect();
+    for (at, run) in list.iter().enumerate() {
+        put(run, false);
+        parts(run).into_iter().for_each(|part| put(part, false));
+        if join {
+            let mut joined = (*run).to_owned();
+            for next in list[at + 1..].iter().take(2) {
+                joined.push_str(next);
+                put(&joined, true);
+            }
+        }
+    }
+}
