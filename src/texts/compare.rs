@@ -60,6 +60,7 @@ texts! {
     const TAKES_TWO = "A difference takes two: add another product, state or moment (C)." | "Zu einer Differenz gehören zwei: noch ein Produkt, eine Stellung oder einen Zeitpunkt hinzufügen (C).";
     const OTHER_SENSORS = "The sensors are not the same: nothing can be taken from the other." | "Die Messpunkte sind nicht dieselben: keine Differenz.";
     const NO_TRANSMISSION = "No transmission in the data." | "Keine Transmission in den Daten.";
+    const NOTHING_MOVES = "No product of the catalogue: nothing moves." | "Kein Produkt des Katalogs: nichts bewegt sich.";
     const NOT_THERE = "what it is made of is not there" | "woraus es gemacht wird, ist nicht da";
 
     // The table of figures.

@@ -345,11 +345,15 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(direction.0.theta()));
     let legend = place.legend.unwrap_or(place.rect);
+    // A scale that is shared stands above all tiles.
+    let own_legend = input.range.is_none() || weighted;
     let (text, name) = match (found, &scale, state.leaving) {
         (Some(indicatrix), Some(scale), Leaving::Body) => {
             let body = lobe::Input { indicatrix, direction, regular, scale, weighted, key: (input.revision, key) };
             let (text, value) = lobe::show(ui, place, &body, &mut state.lobe);
-            scale.paint_legend(ui.painter(), legend, unit, value, &palette);
+            if own_legend {
+                scale.paint_legend(ui.painter(), legend, unit, value, &palette);
+            }
             (text, None)
         }
         (Some(indicatrix), Some(scale), Leaving::Cuts) => {
@@ -359,7 +363,8 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
         (found, scale, _) => {
             let (text, value, response) = emergent_disk_ui(ui, place, found.as_ref().zip(scale.as_ref()), input, state);
             match scale {
-                Some(scale) => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
+                Some(scale) if own_legend => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
+                Some(_) => {}
                 None => {
                     let at = pos2(legend.center().x, legend.top() + 4.0);
                     tile::caption(ui, at, Align2::CENTER_TOP, "nothing is scattered");

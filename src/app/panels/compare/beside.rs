@@ -2,18 +2,27 @@
 
 use super::places::{missing, places, tile};
 use crate::app::command::Command;
-use crate::app::compare::Part;
+use crate::app::compare::{Act, Part};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::jobs::Lane;
+use crate::app::paint;
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::state::Tile;
 use crate::app::theme;
 use crate::app::tiles::TileInput;
 use crate::app::window::App;
+use crate::drawing::ticks::{fine_ceil, si, tick};
 use crate::study::comparison::scales;
-use egui::{Label, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+use crate::texts::compare as texts;
+use egui::{Label, RichText, Sense, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
 /// Height of a candidate's name. \[points\]
 const NAME: f32 = 24.0;
+/// The common scale is no wider. \[points\]
+const WIDE: f32 = 560.0;
+/// A logarithmic scale of illuminances begins at this share of its end, as the tiles' do.
+const LEAST: f64 = 1e-4;
 
 /// Draws the tiles.
 pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
@@ -21,6 +30,12 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let key = app.compare.key(tile.title);
     let Columns { list, scale: known, .. } = &mut app.compare;
     let scale = *known.get(key, || scale(list, tile));
+    let log =
+        list.first_mut().and_then(|column| column.bench.log(tile)).map(|own| app.state.compare.log.unwrap_or(*own));
+    let factor = tile.title == "Room" && app.state.settings.room.daylight_factor;
+    if let Some(range) = scale.filter(|_| !factor) {
+        legend(ui, tile, range, log, commands);
+    }
     let held = ui.input(|input| input.pointer.any_down());
     let stopped = app.compare.stopped;
     let names = app.compare.names();
@@ -33,10 +48,48 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         let (head, body) = rect.shrink(3.0).split_top_bottom_at_y(rect.top() + NAME);
         let builder = UiBuilder::new().max_rect(head.shrink2(vec2(5.0, 0.0))).id_salt(("name", column.id));
         ui.scope_builder(builder, |ui| ui.add(Label::new(RichText::new(name).strong()).truncate()));
+        if let (Some(own), Some(log)) = (column.bench.log(tile), log) {
+            *own = log;
+        }
         let builder = UiBuilder::new().max_rect(body).id_salt(("candidate", column.id));
         ui.scope_builder(builder, |ui| one(ui, column, tile, (scale, held, stopped), commands));
+        let chosen = column.bench.log(tile).copied();
         app.retarget(place, from, commands);
+        // What is chosen in one holds for all.
+        if let Some(chosen) = chosen.filter(|chosen| log.is_some_and(|log| log != *chosen)) {
+            commands.push(Command::Compare(Act::Log(chosen)));
+        }
     }
+}
+
+/// The scale of all tiles, with one choice of its kind for all of them.
+fn legend(ui: &mut Ui, tile: Tile, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
+    let (unit, always) = match tile.title {
+        "BTDF" => ("q / (1/sr)", false),
+        "Transmittance" => ("τ", false),
+        "Sky" => ("cd/m²", true),
+        "Room" => ("lx", false),
+        "LID" => {
+            ui.label(texts::one_scale(texts::common_scale_is(tick(0.0), si(fine_ceil(hi), "cd"), "")).trim_end());
+            return;
+        }
+        _ => return,
+    };
+    let logarithmic = always || log.unwrap_or(false);
+    let lo = if logarithmic { lo.max(hi * LEAST) } else { lo };
+    let scale = ColourScale { lo, hi, log: logarithmic, map: ColourMap::Sequential };
+    ui.horizontal(|ui| {
+        if let Some(mut log) = log
+            && ui.toggle_value(&mut log, texts::LOG.get()).on_hover_text(texts::LOG_TIP).clicked()
+        {
+            commands.push(Command::Compare(Act::Log(log)));
+        }
+        let size = vec2(ui.available_width().min(WIDE), LEGEND_HEIGHT);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        scale.paint_legend(ui.painter(), rect, unit, None, &Palette::of(ui.visuals()));
+        let value = texts::common_scale_is(tick(lo), tick(hi), unit);
+        paint::tile::name(ui, &response, texts::COMMON_SCALE.get(), &value);
+    });
 }
 
 fn one(
@@ -60,6 +113,10 @@ fn one(
     }
     if column.state.dataset.value.is_none() {
         ui.centered_and_justified(|ui| ui.label(missing(column)));
+        return;
+    }
+    if tile.title == "Control" && column.state.product.is_none() {
+        ui.centered_and_justified(|ui| ui.label(texts::NOTHING_MOVES));
         return;
     }
     let Column { state, results, bench, .. } = column;
