@@ -1,6 +1,8 @@
 //! Comparing, as the window knows it: what can be done with the tray, and how the comparison is looked at. The tray itself
 //! is part of the scene ([`CompareKeys`](crate::study::scene_file::CompareKeys)).
 
+use crate::texts::compare as texts;
+
 /// One thing to do about what is compared. Numbers are places in the tray, from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Act {
@@ -30,6 +32,8 @@ pub enum Act {
     Look(Look),
     /// Which tile, by its title.
     Tile(&'static str),
+    /// Logarithmic scales in all tiles, or linear ones.
+    Log(bool),
     /// From which one the differences are taken.
     Base(usize),
     /// Show the other one in the tiles, or go back.
@@ -61,23 +65,25 @@ impl Look {
     pub const ALL: [Self; 4] = [Self::Beside, Self::Difference, Self::Curves, Self::Figures];
 
     /// In words.
-    pub const fn words(self) -> &'static str {
+    pub fn words(self) -> &'static str {
         match self {
-            Self::Beside => "Side by side",
-            Self::Difference => "Difference",
-            Self::Curves => "Curves",
-            Self::Figures => "Figures",
+            Self::Beside => texts::BESIDE,
+            Self::Difference => texts::DIFFERENCE,
+            Self::Curves => texts::CURVES,
+            Self::Figures => texts::FIGURES,
         }
+        .get()
     }
 
     /// One sentence.
-    pub const fn tip(self) -> &'static str {
+    pub fn tip(self) -> &'static str {
         match self {
-            Self::Beside => "The same tile for each, all on one scale",
-            Self::Difference => "Each less the chosen base, with sign; zero is in the middle of the scale",
-            Self::Curves => "All in one plot: luminous intensity, depth of the room, transmittance, control",
-            Self::Figures => "One table with errors; the better one is marked where the difference is larger",
+            Self::Beside => texts::BESIDE_TIP,
+            Self::Difference => texts::DIFFERENCE_TIP,
+            Self::Curves => texts::CURVES_TIP,
+            Self::Figures => texts::FIGURES_TIP,
         }
+        .get()
     }
 }
 
@@ -90,6 +96,8 @@ pub struct View {
     pub look: Look,
     /// Title of the tile; empty: the room's.
     pub tile: &'static str,
+    /// Logarithmic scales in all tiles side by side; `None`: as each begins.
+    pub log: Option<bool>,
     /// The base of differences.
     pub base: usize,
     /// Shown in the tiles instead of the scene's own.
@@ -113,6 +121,8 @@ pub enum Part {
     Room,
     /// The year of control.
     Year,
+    /// The room's surfaces, where the perspective shows them.
+    Surfaces,
     /// Figures of the dataset.
     Data,
 }

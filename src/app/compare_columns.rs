@@ -6,17 +6,20 @@ use super::control::YearKey;
 use super::error::AppError;
 use super::facing::surface;
 use super::incidence::Incidence;
+use super::room_look::RoomView;
 use super::scene::selection_of;
 use super::state::{CatalogueState, Daylight, Document, Results, Settings, Shown, State};
 use super::tiles::Bench;
 use super::views::Cache;
 use super::views::difference::{self, Picture};
 use super::work::{Compared, Shelved};
+use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
 use crate::drawing::plot::Plot;
 use crate::study::comparison::{DataFacts, Facts, LidFacts, candidate, label, same_question};
 use crate::study::scene_file::{CompareKeys, SceneFile};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A candidate with what is known of it.
 pub struct Column {
@@ -89,6 +92,7 @@ impl Column {
         outdate(&mut self.state.daylight);
         outdate(&mut self.results.lid);
         outdate(&mut self.results.room);
+        outdate(&mut self.results.surfaces);
         outdate(&mut self.results.year);
         self.data.0 = false;
     }
@@ -106,6 +110,7 @@ impl Column {
             Part::Shelf => due(&self.state.dataset) || due(&self.state.daylight),
             Part::Lid => due(&self.results.lid),
             Part::Room => due(&self.results.room),
+            Part::Surfaces => self.state.settings.room.view == RoomView::Perspective && due(&self.results.surfaces),
             Part::Peaks => !self.results.lid.stale && self.results.lid_peaks().is_none(),
             Part::Year => !self.state.dataset.stale && due(&self.results.year) && self.year_key().is_some(),
             Part::Data => !self.data.0 && !self.state.dataset.stale,
@@ -140,6 +145,18 @@ impl Column {
         }
     }
 
+    fn take_own(&mut self, own: Result<(String, Arc<Dataset>), AppError>, daylight: Result<Daylight, String>) {
+        self.state.product = None;
+        match own {
+            Ok((state, dataset)) => {
+                self.state.shown_state = state;
+                self.state.dataset.put(dataset);
+            }
+            Err(error) => self.state.dataset.error = Some(error.to_string()),
+        }
+        self.state.daylight.take(daylight);
+    }
+
     fn take_shelf(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, String>) {
         match shelved {
             Ok(Shelved { product, state, dataset }) => {
@@ -159,6 +176,8 @@ impl Column {
     pub fn take(&mut self, what: Compared) {
         match what {
             Compared::Shelf(shelved, daylight) => self.take_shelf(shelved, daylight.map_err(|error| error.to_string())),
+            Compared::Own(own, daylight) => self.take_own(own, daylight.map_err(|error| error.to_string())),
+            Compared::Surfaces(result) => self.results.surfaces.take(result),
             Compared::Lid(result) => self.results.lid.take(result),
             Compared::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
             Compared::Room(result) => self.results.room.take(result),
@@ -176,6 +195,7 @@ impl Column {
                 self.results.lid.error = Some(error);
             }
             Part::Room => self.results.room.error = Some(error),
+            Part::Surfaces => self.results.surfaces.error = Some(error),
             Part::Year => self.results.year.error = Some(error),
             Part::Data => self.data = (true, None),
         }
@@ -220,6 +240,11 @@ impl Columns {
             let own = &mut column.state;
             (own.incident, own.computing) = (state.incident, None);
             own.scene_path.clone_from(&state.scene_path);
+            own.settings.room = state.settings.room;
+            // Surfaces have no scale in common: side by side the plan stands for them.
+            if state.compare.open && own.settings.room.view == RoomView::Perspective {
+                own.settings.room.view = RoomView::Plan;
+            }
             if let CatalogueState::Ready(shelf) = &state.catalogue {
                 own.catalogue = CatalogueState::Ready(shelf.clone());
             }
@@ -319,6 +344,7 @@ impl Column {
         adopt(&mut self.state.daylight, &state.daylight);
         adopt(&mut self.results.lid, &results.lid);
         adopt(&mut self.results.room, &results.room);
+        adopt(&mut self.results.surfaces, &results.surfaces);
         if self.results.lid_peaks().is_none() {
             self.results.peaks.clone_from(&results.peaks);
         }

@@ -5,19 +5,26 @@ use super::command::Command;
 use super::compare::{Act, Look, Part};
 use super::compare_columns::Column;
 use super::engine::Question;
+use super::error::AppError;
 use super::jobs::Lane;
 use super::scene::{rule, selection_of};
+use super::shelf_library::WindowLibrary;
 use super::state::{Daylight, Document, State};
 use super::tiles::TILES;
 use super::window::App;
 use super::work::{Compared, Outcome, Shelved, take_from_shelf};
 use super::{control, title};
+use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::comparison::{DataFacts, FIGURES, Facts, MOST, Row, candidate, compare, csv};
 use crate::study::control::year::CONTROLLED;
-use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
+use crate::study::scene_file::{CompareKeys, ControlMode, SceneFile, SystemKeys};
 use crate::study::sky::outside_from_keys;
+use crate::study::system::Need;
+use crate::study::{Library, Scene, SystemLibrary as _};
+use crate::texts::{Language, compare as texts, language};
+use std::sync::Arc;
 
 /// The candidate that a document shows, under a name.
 fn keys_of(document: &Document, name: String) -> CompareKeys {
@@ -33,11 +40,17 @@ fn keys_of(document: &Document, name: String) -> CompareKeys {
     CompareKeys { name, system, control, ..CompareKeys::default() }
 }
 
+/// A rule within a name.
+fn rule_words(mode: ControlMode) -> String {
+    let short = control::words(mode).short;
+    // German nouns keep their capital.
+    if language() == Language::English { short.to_lowercase() } else { short.to_owned() }
+}
+
 /// What is shown, in words: the rule instead of the state that it picks now.
 fn shown_words(state: &State) -> String {
     if state.document.selection.state == CONTROLLED {
-        let short = control::words(state.control_mode()).short.to_lowercase();
-        return format!("{}, {short}", title::product(state));
+        return format!("{}, {}", title::product(state), rule_words(state.control_mode()));
     }
     title::selection(state)
 }
@@ -59,7 +72,7 @@ pub fn parts(look: Look, tile: &str) -> &'static [Part] {
 }
 
 /// All that the tiles draw.
-const ALL: &[Part] = &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks, Part::Year];
+const ALL: &[Part] = &[Part::Shelf, Part::Room, Part::Surfaces, Part::Lid, Part::Peaks, Part::Year];
 
 impl App {
     /// Does what was asked about the tray.
@@ -110,6 +123,7 @@ impl App {
             }
             Act::Look(look) => self.look_at(|view| view.look = look),
             Act::Tile(tile) => self.look_at(|view| view.tile = tile),
+            Act::Log(log) => self.state.compare.log = Some(log),
             Act::Base(place) => self.look_at(|view| view.base = place),
             Act::Swap => self.swap(),
             Act::SwapWith(place) => {
@@ -120,7 +134,7 @@ impl App {
             Act::Copy => {
                 let names = self.compare.names();
                 self.ctx.copy_text(csv(&self.rows(), &names));
-                self.toasts.info("Figures copied as CSV");
+                self.toasts.info(texts::COPIED);
             }
             Act::Resume | Act::Take(_) | Act::Remove(_) | Act::Move(..) | Act::Rename(..) => {}
         }
@@ -141,7 +155,7 @@ impl App {
     }
 
     fn say_empty(&mut self) {
-        self.toasts.info("Nothing to compare yet: C adds what is shown, or use the ⊕ of a row in the catalogue");
+        self.toasts.info(texts::TRAY_EMPTY);
     }
 
     fn look_at(&mut self, change: impl FnOnce(&mut super::compare::View)) {
@@ -168,11 +182,11 @@ impl App {
         let tray = &self.state.document.scene.compare;
         let known = |other: &CompareKeys| CompareKeys { name: keys.name.clone(), ..other.clone() } == keys;
         if tray.len() >= MOST {
-            self.toasts.info(format!("The tray holds {MOST}: take one out first"));
+            self.toasts.info(texts::tray_full(MOST));
         } else if keys.system.is_none() && keys.aperture.is_empty() {
-            self.toasts.info("Nothing is shown yet that could be compared");
+            self.toasts.info(texts::NOTHING_SHOWN);
         } else if tray.iter().any(known) {
-            self.toasts.info("In the tray already. Shift+C adds it with this moment, to be compared with another one");
+            self.toasts.info(texts::IN_TRAY_ALREADY);
         } else {
             self.edit_tray(|tray| tray.push(keys));
         }
@@ -180,13 +194,13 @@ impl App {
 
     fn add_product(&mut self, key: String) {
         let Some(entry) = self.state.found.entries.iter().find(|entry| entry.key == key).cloned() else {
-            self.toasts.info("The product is not in the list: search for it, then add it");
+            self.toasts.info(texts::NOT_LISTED);
             return;
         };
         let mut document = self.state.document.clone();
         first_choice(&mut document, key, entry.rule, Some(entry.state()).filter(|_| entry.moves()));
         let how = match (control::first_keys(entry.rule), entry.moves()) {
-            (Some(keys), _) => format!(", {}", control::words(keys.mode).short.to_lowercase()),
+            (Some(keys), _) => format!(", {}", rule_words(keys.mode)),
             (None, true) => format!(", {}", entry.state()),
             (None, false) => String::new(),
         };
@@ -205,8 +219,7 @@ impl App {
         match chosen.or_else(|| list.iter().position(|column| !column.shows(own))) {
             Some(other) => (view.swapped, view.open) = (Some(other), false),
             None => {
-                self.toasts
-                    .info("Nothing to swap with: add what is shown (C), choose another product or state, then X");
+                self.toasts.info(texts::NOTHING_TO_SWAP);
             }
         }
     }
@@ -237,17 +250,18 @@ impl App {
         let elsewhere = |place: &usize| own && self.compare.list.get(*place).is_some_and(|one| one.shows(document));
         let Some((column, part)) = self.compare.next(columns.filter(|place| !elsewhere(place)), parts) else { return };
         let question = Question { scene: column.scene().clone(), base: self.state.base(), shelf };
-        let (id, engine) = (column.id, self.services.engine.clone());
+        let (id, engine, files) = (column.id, self.services.engine.clone(), self.library.clone());
         let lid = column.results.lid.value.clone();
         let dataset = column.state.dataset.value.clone();
         let year = column.year_key().zip(column.state.product.clone());
         self.compare.running = Some((id, part));
         self.start(Lane::Compare, move |job| {
-            let missing = || Compared::Failed(part, "what it is made of is not there".to_owned());
+            let missing = || Compared::Failed(part, texts::NOT_THERE.into());
             let done = match part {
-                Part::Shelf => shelf_part(&question, job),
+                Part::Shelf => shelf_part(&question, &files, job),
                 Part::Lid => Compared::Lid(engine.lid(&question, job)),
                 Part::Room => Compared::Room(engine.room(&question, job)),
+                Part::Surfaces => Compared::Surfaces(engine.surfaces(&question, job)),
                 Part::Peaks => lid.map_or_else(missing, |lid| {
                     let peaks = Peaks::of(&lid.lid);
                     Compared::Peaks(lid, peaks)
@@ -278,9 +292,11 @@ impl App {
                 let scene = shared(&document.scene, &column.keys, *changed);
                 (scene != document.scene).then(|| Command::Scene(Box::new(scene)))
             }
-            Command::Incidence(_) | Command::ExportTile(_) | Command::CopyTile(_) | Command::Maximise(_) => {
-                Some(command)
-            }
+            Command::Incidence(_)
+            | Command::RoomLook(_)
+            | Command::ExportTile(_)
+            | Command::CopyTile(_)
+            | Command::Maximise(_) => Some(command),
             _ => None,
         }));
     }
@@ -289,7 +305,7 @@ impl App {
     pub(super) fn find_like(&mut self, key: Option<String>) {
         let key = key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
         let Some(key) = key else {
-            self.toasts.info("No product is chosen");
+            self.toasts.info(texts::NO_PRODUCT_CHOSEN);
             return;
         };
         self.state.settings.catalogue_open = true;
@@ -324,11 +340,29 @@ fn shared(scene: &SceneFile, keys: &CompareKeys, changed: SceneFile) -> SceneFil
     scene
 }
 
+/// State and dataset of a scene whose first aperture no product fills, but a file or a closed form.
+fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Result<(String, Arc<Dataset>), AppError> {
+    let Question { scene, base, shelf } = question;
+    let library = WindowLibrary { files, shelf: &**shelf, progress };
+    // Resolved first: the control may pick the state.
+    let resolved = Scene::resolve(scene, base, &library)?;
+    let state = resolved.apertures.first().ok_or(AppError::NoAperture)?.system.state.clone();
+    let keys = match &scene.aperture[0].system {
+        SystemKeys::File { path, .. } if !state.is_empty() => {
+            SystemKeys::File { path: path.clone(), state: Some(state.clone()) }
+        }
+        keys => keys.clone(),
+    };
+    Ok((state, library.load(&keys, base, Need::Everything)?.dataset.clone()))
+}
+
 /// Product, state and dataset of a candidate, computed where the catalogue does not hold them yet; sky and sun.
-fn shelf_part(question: &Question, progress: &dyn Progress) -> Compared {
+fn shelf_part(question: &Question, files: &Library, progress: &dyn Progress) -> Compared {
     let Question { scene, base, shelf } = question;
     let daylight = outside_from_keys(&scene.sky, &scene.site, base).map(|(outside, sun)| Daylight { outside, sun });
-    let selection = selection_of(scene).unwrap_or_default();
+    let Some(selection) = selection_of(scene) else {
+        return Compared::Own(own_part(question, files, progress), daylight);
+    };
     let found = take_from_shelf(&**shelf, &selection, scene, daylight.as_ref().ok(), (0, base)).and_then(|found| {
         if found.dataset.is_some() {
             return Ok(found);

@@ -8,6 +8,7 @@ use crate::formats::Format;
 use crate::report::{Size, TileKind, tender};
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{SceneFile, SystemKeys};
+use crate::texts::{Language, Text, hand_on as texts};
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
 
@@ -47,16 +48,16 @@ impl What {
     ];
 
     /// Its name, and one sentence.
-    pub const fn words(self) -> [&'static str; 2] {
+    pub const fn words(self) -> [Text; 2] {
         match self {
-            Self::Picture => ["Picture", "A tile at a chosen size, with product, place, moment and errors round it"],
-            Self::Report => ["Report", "A study or a product sheet as PDF"],
-            Self::Luminaire => ["Luminaire file", "The window at this moment as a luminaire for other programs"],
-            Self::Series => ["Luminaire series", "A luminaire file for each of many hours and states, with an index"],
-            Self::Table => ["Table", "The numbers of a tile (.csv)"],
-            Self::Dataset => ["Dataset", "The scattering data of the state that is shown"],
-            Self::Package => ["Package", "The product with all its states, for another catalogue (.cfsp)"],
-            Self::Scene => ["Scene", "Everything this study needs, as a text file (.toml)"],
+            Self::Picture => [texts::PICTURE, texts::PICTURE_TIP],
+            Self::Report => [texts::REPORT, texts::REPORT_TIP],
+            Self::Luminaire => [texts::LUMINAIRE, texts::LUMINAIRE_TIP],
+            Self::Series => [texts::SERIES, texts::SERIES_TIP],
+            Self::Table => [texts::TABLE, texts::TABLE_TIP],
+            Self::Dataset => [texts::DATASET, texts::DATASET_TIP],
+            Self::Package => [texts::PACKAGE, texts::PACKAGE_TIP],
+            Self::Scene => [texts::SCENE, texts::SCENE_TIP],
         }
     }
 }
@@ -115,6 +116,8 @@ pub struct Choices {
     pub title: String,
     /// What it is to answer.
     pub question: String,
+    /// Of a study: with the candidates of the tray.
+    pub comparison: bool,
     /// Template of a product sheet's tender text.
     pub tender: String,
     /// Luminaires as LM-63 (.ies) instead of EULUMDAT (.ldt).
@@ -137,6 +140,7 @@ impl Default for Choices {
             report: ReportKind::default(),
             title: String::new(),
             question: String::new(),
+            comparison: true,
             tender: tender::TEMPLATE.to_owned(),
             ies: false,
             series: Series::default(),
@@ -207,6 +211,10 @@ pub struct Key {
     pub selection: Selection,
     /// For which incidence, to the bit.
     pub incident: Option<[u64; 3]>,
+    /// Which tile of the candidates, and which of them the others are less.
+    pub compared: (TileKind, usize),
+    /// In which language.
+    pub language: Language,
 }
 
 /// One file of a series.

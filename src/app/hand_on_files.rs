@@ -11,12 +11,15 @@ use crate::compute::estimate::{Cancelled, Progress};
 use crate::drawing::Drawing;
 use crate::drawing::colours::Inks;
 use crate::formats::write_dataset;
+use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
-use crate::report::{Look, Size, pdf, picture};
+use crate::report::{Look, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
 use crate::study::moment;
+use crate::study::scene_file::SceneFile;
 use crate::study::subject::Wanted;
+use crate::texts::hand_on as texts;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,6 +36,8 @@ pub struct Order {
     pub product: Option<Arc<Product>>,
     /// The data of its state.
     pub dataset: Option<Arc<Dataset>>,
+    /// Of the candidates in a study: which tile, and which of them the others are less.
+    pub compared: (TileKind, usize),
     /// Numbers of the tile.
     pub numbers: Option<String>,
     /// Computes.
@@ -69,13 +74,24 @@ impl Order {
         let subject = self.engine.subject(&self.question, self.incident, Wanted::ALL, progress)?;
         let pages = match choices.report {
             ReportKind::Sheet => sheet_pages(&Sheet { subject: &subject, tender: &choices.tender, inks: self.inks() })?,
-            ReportKind::Study => study_pages(&Study {
-                subject: &subject,
-                title: choices.title.trim(),
-                question: choices.question.trim(),
-                comparison: None,
-                inks: self.inks(),
-            })?,
+            ReportKind::Study => {
+                let scene = &self.question.scene;
+                let asked = SceneFile { compare: Vec::new(), ..scene.clone() };
+                let scene = if choices.comparison { scene } else { &asked };
+                let wanted = Wanted { lid: true, room: true, control: self.compared.0 == TileKind::Control };
+                let comparison = Comparison::of(scene, self.compared, |scene, name| {
+                    check(progress)?;
+                    let question = Question { scene: scene.clone(), ..self.question.clone() };
+                    self.engine.subject(&question, self.incident, wanted, progress).map_err(|error| error.about(name))
+                })?;
+                study_pages(&Study {
+                    subject: &subject,
+                    title: choices.title.trim(),
+                    question: choices.question.trim(),
+                    comparison: comparison.as_ref(),
+                    inks: self.inks(),
+                })?
+            }
         };
         Ok((subject.name, pages))
     }
@@ -217,9 +233,9 @@ impl Order {
                 let [width, height] = self.choices.size.pixels();
                 let scale = (PREVIEW / drawing.width.max(drawing.height)).min(width / drawing.width);
                 let said = if self.choices.vector {
-                    format!("{}, vectors", self.choices.size)
+                    texts::vectors(self.choices.size)
                 } else {
-                    format!("{width:.0} × {height:.0} pixels")
+                    texts::pixels(format!("{width:.0}"), format!("{height:.0}"))
                 };
                 shown(&drawing, scale, said)
             }
@@ -227,15 +243,15 @@ impl Order {
                 let (_, pages) = self.report(progress)?;
                 let first = pages.first().ok_or(AppError::NoProduct)?;
                 let count = pages.len();
-                let said = if count == 1 { "1 page, A4".to_owned() } else { format!("page 1 of {count}, A4") };
+                let said = if count == 1 { texts::ONE_PAGE.into() } else { texts::page_one_of(count) };
                 shown(first, PREVIEW / first.height, said)
             }
             What::Series => {
                 let moments = self.moments(path)?;
-                let mut list = vec![(name(path), "index".to_owned())];
+                let mut list = vec![(name(path), texts::INDEX.into())];
                 let words = |one: &Moment| match &*one.state {
                     "" => moment::words(one.time),
-                    state => format!("{}, state {state}", moment::words(one.time)),
+                    state => texts::moment_state(moment::words(one.time), state),
                 };
                 list.extend(moments.into_iter().map(|one| (one.name.clone(), words(&one))));
                 Preview::Files(list)
@@ -244,9 +260,9 @@ impl Order {
                 let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
                 let states = product.states.len();
                 let waiting = product.states.iter().filter(|state| state.dataset.is_none()).count();
-                let mut words = if states == 1 { "one state".to_owned() } else { format!("{states} states") };
+                let mut words = if states == 1 { texts::ONE_STATE.into() } else { texts::states_are(states) };
                 if waiting > 0 {
-                    words.push_str(&format!(", {waiting} still to be computed"));
+                    words = texts::to_be_computed(words, waiting);
                 }
                 Preview::Files(vec![(name(path), words)])
             }

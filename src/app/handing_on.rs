@@ -12,6 +12,7 @@ use super::tiles::TILES;
 use super::window::App;
 use super::work::Outcome;
 use crate::report::TileKind;
+use crate::texts::language;
 use std::path::{Path, PathBuf};
 
 /// What a preview hangs on, of the window as it is.
@@ -23,7 +24,14 @@ fn key_of(state: &State) -> Key {
         scene: document.scene.clone(),
         selection: document.selection.clone(),
         incident: state.incident.map(bits),
+        compared: compared(state),
+        language: language(),
     }
+}
+
+/// Which tile of the candidates is compared, and which of them the others are less.
+fn compared(state: &State) -> (TileKind, usize) {
+    (TileKind::titled(state.compare.tile()).unwrap_or(TileKind::Room), state.compare.base)
 }
 
 /// The files that are written for a path.
@@ -108,6 +116,7 @@ impl App {
             incident: state.incident,
             product: Some(product),
             dataset: state.dataset.value.clone().filter(|_| !state.dataset.stale),
+            compared: compared(state),
             numbers,
             engine: self.services.engine.clone(),
         })

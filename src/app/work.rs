@@ -139,12 +139,16 @@ pub enum Outcome {
 pub enum Compared {
     /// Product, state and dataset, and sky and sun.
     Shelf(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
+    /// State and dataset of a system that is no product of the catalogue, and sky and sun.
+    Own(Result<(String, Arc<Dataset>), AppError>, Result<Daylight, SkyKeyError>),
     /// The LID.
     Lid(Result<LidFigures, AppError>),
     /// Its largest intensities.
     Peaks(Arc<LidFigures>, Peaks),
     /// The room.
     Room(Result<RoomFigures, AppError>),
+    /// The room's surfaces.
+    Surfaces(Result<SurfaceFigures, AppError>),
     /// What control does over the year.
     Year(Result<Year, StudyError>),
     /// Figures of the dataset; `None` without a transmission.

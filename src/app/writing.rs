@@ -9,6 +9,7 @@ use super::shelving::Shelving;
 use super::state::{PathUse, Sheet, Tile};
 use super::window::App;
 use super::work::{Outcome, export_lid, save_scene};
+use crate::texts::hand_on as texts;
 use std::path::{Path, PathBuf};
 
 impl App {
@@ -99,7 +100,7 @@ impl App {
                     Some(run) => {
                         self.start_writing(move || Outcome::Written(what, goniophotometer::export(&run, &path)));
                     }
-                    None => self.toasts.info("Compute the system first"),
+                    None => self.toasts.info(texts::COMPUTE_FIRST),
                 }
             }
             PathUse::ExportLid => self.lid_to = Some(path),
@@ -109,8 +110,8 @@ impl App {
     fn write_lid(&mut self, path: PathBuf) {
         let shown = &self.results.lid;
         if shown.stale && shown.value.is_some() {
-            let why = shown.error.as_deref().unwrap_or("what is shown is of before the last change");
-            self.toasts.error(format!("The LID is not written: {why}"));
+            let why = shown.error.as_deref().unwrap_or(texts::OF_BEFORE.get());
+            self.toasts.error(texts::lid_not_written(why));
             return;
         }
         let (engine, lid) = (self.services.engine.clone(), shown.value.clone());

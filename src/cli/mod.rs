@@ -13,6 +13,7 @@ pub mod goniophotometer;
 pub mod importing;
 pub mod info;
 pub mod keeping;
+mod language;
 pub mod lid;
 pub mod like;
 pub mod listing;

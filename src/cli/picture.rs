@@ -1,10 +1,12 @@
 //! `cfs picture`: a tile of the window as a picture, without the window.
 
+use super::language::ReportLanguage;
 use super::progress::TerminalProgress;
 use crate::report::{Look, Size, TileKind, picture};
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::subject::{Asked, Subject, Wanted};
 use crate::study::{Library, Session, files, read_scene_file};
+use crate::texts::speak;
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
@@ -29,6 +31,9 @@ pub struct PictureArgs {
     /// Without product, place, moment, errors and origin round it
     #[arg(long)]
     pub plain: bool,
+    /// Language of its words: en or de
+    #[arg(long, default_value = "en", value_name = "en|de")]
+    pub language: ReportLanguage,
     /// File to write: .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
@@ -52,6 +57,7 @@ pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
         bail!("--out {shown}: a picture is written as .svg or .png");
     }
     let subject = subject(&args.scene, args.tile.needs(), library)?;
+    let _spoken = speak(args.language.0);
     let look = Look { size: args.size, print: args.print, caption: !args.plain };
     let drawing = picture(&subject, args.tile, &look).with_context(|| args.scene.display().to_string())?;
     let bytes = if ending == "svg" {

@@ -1,15 +1,18 @@
 //! `cfs report`: a study or a product sheet as PDF.
 
+use super::language::ReportLanguage;
 use super::picture::subject;
 use super::progress::TerminalProgress;
 use crate::drawing::colours::Inks;
+use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
-use crate::report::{pdf, tender};
+use crate::report::{TileKind, pdf, tender};
 use crate::study::example::scene_of;
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::subject::{Asked, Subject, Wanted};
-use crate::study::{Library, Session, files};
+use crate::study::{Library, Session, files, read_scene_file};
+use crate::texts::{Language, speak};
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +21,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Examples:
   cfs report office.toml --out office.pdf                      the study of a scene
   cfs report office.toml --question \"Blinds or panel?\" --out office.pdf
+  cfs report office.toml --compared lid --language de --out office.pdf   its [[compare]] with LIDs, in German
   cfs report office.toml --sheet --out blind.pdf               the product sheet of its first window
   cfs report venetian-80-72 --state 45 --out blind.pdf         the product sheet of a product of the catalogue
 
@@ -48,6 +52,15 @@ pub struct ReportArgs {
     /// For printers: black lines, told apart without colours
     #[arg(long)]
     pub print: bool,
+    /// Language of the report: en or de
+    #[arg(long, default_value = "en", value_name = "en|de")]
+    pub language: ReportLanguage,
+    /// Tile that is drawn of each of the scene's candidates ([[compare]]): btdf, transmittance, sky, lid, room or control
+    #[arg(long, value_name = "TILE", default_value = "room")]
+    pub compared: TileKind,
+    /// Number of the candidate that the others are less, from 1
+    #[arg(long, value_name = "NUMBER", default_value = "1")]
+    pub base: usize,
     /// File to write (.pdf)
     #[arg(long, value_name = "FILE.pdf", required_unless_present = "template")]
     pub out: Option<PathBuf>,
@@ -56,7 +69,10 @@ pub struct ReportArgs {
 /// Runs the command.
 pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     if args.template {
-        return super::output::print(tender::TEMPLATE);
+        return super::output::print(match args.language.0 {
+            Language::English => tender::TEMPLATE,
+            Language::German => tender::TEMPLATE_GERMAN,
+        });
     }
     let (Some(what), Some(out)) = (&args.what, &args.out) else { bail!("a scene or product, and --out, are needed") };
     if !out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
@@ -67,6 +83,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
             .with_context(|| format!("{}: not text in UTF-8; a tender text is", path.display()))?,
         None => tender::TEMPLATE.to_owned(),
     };
+    let _spoken = speak(args.language.0);
     let inks = if args.print { &Inks::PRINT } else { &Inks::LIGHT };
     let is_scene = what.ends_with(".toml") || Path::new(what).is_file();
     let (subject, sheet) = if is_scene {
@@ -77,15 +94,33 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     } else {
         (of_product(what, args.state.as_deref(), library)?, true)
     };
+    let comparison = if is_scene && !sheet { compared(Path::new(what), args, library)? } else { None };
     let pages = if sheet {
         sheet_pages(&Sheet { subject: &subject, tender: &template, inks })
     } else {
         let (title, question) = (&*args.title, &*args.question);
-        study_pages(&Study { subject: &subject, title, question, comparison: None, inks })
+        study_pages(&Study { subject: &subject, title, question, comparison: comparison.as_ref(), inks })
     };
     let pages = pages.with_context(|| what.clone())?;
     files::write(out, &pdf::write(&pages, &subject.name)?)?;
     Ok(())
+}
+
+/// The candidates that a scene lists.
+fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result<Option<Comparison>> {
+    let scene = read_scene_file(path)?;
+    let count = scene.compare.len();
+    if count > 0 && !(1..=count).contains(&args.base) {
+        bail!("--base {}: expected a number from 1 to {count}, one of the scene's candidates", args.base);
+    }
+    let base = path.parent().unwrap_or(Path::new("."));
+    let (session, progress) = (Session::new(), TerminalProgress::new());
+    let wanted = Wanted { lid: true, room: true, control: args.compared == TileKind::Control };
+    Comparison::of(&scene, (args.compared, args.base.saturating_sub(1)), |file, name| {
+        let asked = Asked { file, base, incident: None, wanted };
+        Subject::of(&asked, &session, library, &|key| library.product(key), &progress)
+            .with_context(|| format!("{}, candidate {name}", path.display()))
+    })
 }
 
 /// A product in the scene of a first start.

@@ -1,11 +1,13 @@
 //! Why nothing can be handed on.
 
+use crate::texts::Text;
+
 /// Why nothing can be handed on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReportError {
     /// A tile has nothing to show: which, and why.
     #[error("{0}: {1}")]
-    Nothing(&'static str, String),
+    Nothing(Text, String),
     /// A size that is none: as typed, and why.
     #[error("size \"{0}\": {1}; expected e.g. 1600x1200 (pixels) or 160x120mm")]
     Size(String, &'static str),

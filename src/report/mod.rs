@@ -3,6 +3,7 @@
 //! A tile's picture is a [`Drawing`](crate::drawing::Drawing) made of a [`Subject`](crate::study::subject::Subject), so that
 //! window and command line hand the same on, whatever the window's size and theme. A report is pages of such drawings.
 
+pub mod comparison;
 mod error;
 pub mod pages;
 pub mod pdf;
@@ -13,6 +14,7 @@ pub mod study;
 pub mod table;
 pub mod tender;
 pub mod tiles;
+pub mod words;
 
 pub use error::ReportError;
 pub use picture::{Look, Origin, picture};

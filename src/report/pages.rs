@@ -6,6 +6,7 @@ use super::table::Table;
 use crate::drawing::colours::Inks;
 use crate::drawing::font::{LEADING, shortened, width, wrapped};
 use crate::drawing::{Align, Drawing, Frame, Rgb, Shape};
+use crate::texts::hand_on as texts;
 
 /// A4. \[pt\]
 const PAPER: [f64; 2] = [595.28, 841.89];
@@ -240,7 +241,7 @@ impl Pages {
         for (k, page) in self.done.iter_mut().enumerate() {
             let y = PAPER[1] - 36.0;
             page.add(rule(Frame::new(MARGINS[0], y - 12.0, WIDTH, 0.0), &self.inks));
-            let number = format!("{PROGRAM} · page {} of {count}", k + 1);
+            let number = texts::page_of(PROGRAM, k + 1, count);
             let room = WIDTH - width(&number, SMALL) - GAP;
             let title = shortened(&self.title, SMALL, room);
             page.add(Shape::words([MARGINS[0], y], title, self.inks.weak, SMALL, Align::Start));

@@ -4,6 +4,7 @@ use super::ReportError;
 use super::picture::PROGRAM;
 use crate::drawing::font::{DEJAVU, MIDDLE, width};
 use crate::drawing::{Drawing, Point as Place, Rgb, Shape};
+use crate::texts::{Language, language};
 use krilla::Document;
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Point, Transform};
@@ -14,7 +15,7 @@ use krilla::paint::{Fill, LineJoin, Stroke, StrokeDash};
 use krilla::surface::Surface;
 use krilla::text::{Font, TextDirection};
 
-/// Writes pages.
+/// Writes pages; the language that is spoken is told as that of the document.
 ///
 /// # Errors
 /// What the encoder refuses.
@@ -22,7 +23,11 @@ pub fn write(pages: &[Drawing], title: &str) -> Result<Vec<u8>, ReportError> {
     let wrong = |what: &str| ReportError::Pdf(what.to_owned());
     let font = Font::new(DEJAVU.into(), 0).ok_or_else(|| wrong("the font cannot be read"))?;
     let mut document = Document::new();
-    let metadata = Metadata::new().title(title.to_owned()).creator(PROGRAM.to_owned()).language("en".to_owned());
+    let language = match language() {
+        Language::English => "en",
+        Language::German => "de",
+    };
+    let metadata = Metadata::new().title(title.to_owned()).creator(PROGRAM.to_owned()).language(language.to_owned());
     document.set_metadata(metadata);
     for drawing in pages {
         let size = PageSettings::from_wh(drawing.width as f32, drawing.height as f32);

@@ -11,6 +11,7 @@ use crate::study::moment::bearing_word;
 use crate::study::scene_file::SceneFile;
 use crate::study::scene_words::{place, sky, time};
 use crate::study::subject::Subject;
+use crate::texts::hand_on as texts;
 
 /// How a picture is to look.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,14 +48,16 @@ impl Origin {
     pub fn words(subject: &Subject) -> String {
         let dataset = subject.dataset();
         let Some(product) = &subject.product else {
-            let format = if dataset.format.is_empty() { "closed form" } else { &dataset.format };
-            return format!("data: {format}");
+            let format = if dataset.format.is_empty() { texts::CLOSED_FORM.get() } else { &dataset.format };
+            return texts::data(format);
         };
         let from = &product.provenance;
         let mut words = match from.origin {
-            catalogue::Origin::Unknown => "data of unknown origin".to_owned(),
-            origin => format!("data {}", origin.word()),
-        };
+            catalogue::Origin::Unknown => texts::DATA_UNKNOWN,
+            catalogue::Origin::Measured => texts::DATA_MEASURED,
+            catalogue::Origin::Computed => texts::DATA_COMPUTED,
+        }
+        .to_string();
         if !from.method.is_empty() {
             words.push_str(&format!(": {}", from.method));
         }
@@ -94,7 +97,7 @@ pub fn picture(subject: &Subject, tile: TileKind, look: &Look) -> Result<Drawing
         let at = [whole.left + align.share() * whole.width, y];
         drawing.add(Shape::words(at, text, colour, size, align));
     };
-    let title = shortened(&format!("{} – {}", tile.title(), subject.name), 15.0, whole.width);
+    let title = shortened(&format!("{} – {}", tile.words(), subject.name), 15.0, whole.width);
     write(whole.top + 0.5 * line, &title, (15.0, inks.ink, Align::Start));
     let room = whole.width - width(PROGRAM, TEXT) - 12.0;
     let under = shortened(&situation(&subject.file), TEXT, room);

@@ -3,8 +3,9 @@
 use super::pages::{Figure, Pages};
 use super::picture::Origin;
 use super::table::Table;
-use super::tender::{Fields, fill};
+use super::tender::{Fields, fill, spoken};
 use super::tiles::{TileKind, draw, indicatrix, section};
+use super::words::{origin_words, severity_words, thermal_words};
 use super::{ReportError, picture};
 use crate::catalogue::{Origin as From, Product, State, moving_part};
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
@@ -15,8 +16,10 @@ use crate::drawing::colours::Inks;
 use crate::drawing::plot::{Axis, Plot, Series, Unit};
 use crate::drawing::ticks::{number, si, tick};
 use crate::drawing::{Drawing, Frame};
+use crate::study::comparison::{DataFacts, FIGURES, Facts, Value};
 use crate::study::product_control::state_words;
 use crate::study::subject::Subject;
+use crate::texts::{Text, fixed, hand_on as texts};
 
 /// Incidences of the indicatrices: from the normal upwards. \[°\]
 const INCIDENCES: [f64; 3] = [0.0, 30.0, 60.0];
@@ -64,7 +67,7 @@ impl Told {
 }
 
 fn states_words(count: usize) -> String {
-    if count == 1 { "one state".to_owned() } else { format!("{count} states") }
+    if count == 1 { texts::ONE_STATE.into() } else { texts::states_are(count) }
 }
 
 /// The fields of a tender text.
@@ -78,14 +81,14 @@ fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
     let of = |text: fn(&Product) -> &str| product.map_or_else(String::new, |product| text(product).to_owned());
     let origin = product.map_or("", |product| match product.provenance.origin {
         From::Unknown => "",
-        origin => origin.word(),
+        origin => origin_words(origin).get(),
     });
     vec![
         ("name", subject.scene.apertures[0].system.label.clone()),
         ("maker", product.map_or_else(|| dataset.manufacturer.clone(), |product| product.manufacturer.clone())),
         ("kind", of(|product| &product.kind)),
         ("states", states_words(product.map_or(1, |product| product.states.len()))),
-        ("state", if subject.state.is_empty() { "the only one".to_owned() } else { subject.state.clone() }),
+        ("state", if subject.state.is_empty() { texts::THE_ONLY_ONE.into() } else { subject.state.clone() }),
         ("tau_normal", figure(told.tau_normal)),
         ("tau_hemispherical", figure(told.tau_hemispherical)),
         ("to_ceiling", share(told.light.and_then(|light| light.to_ceiling))),
@@ -112,19 +115,18 @@ pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
             let parts = [product.manufacturer.clone(), product.kind.clone(), states_words(product.states.len())];
             parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
         }
-        None => "not of the catalogue".to_owned(),
+        None => texts::NOT_OF_CATALOGUE.into(),
     };
-    let mut pages = Pages::new("Product sheet", name, &under, inks);
+    let mut pages = Pages::new(texts::PRODUCT_SHEET.get(), name, &under, inks);
     let description = product.map_or(&*subject.dataset().description, |product| &product.description);
     if !description.is_empty() {
         pages.paragraph(description);
     }
-    let shown = if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) };
-    pages.heading(&format!("Figures{shown}"));
-    pages.figures(&figures(subject));
-    pages.note(
-        "Figures of the data as they are; how exact these are is said under Data, as far as their source tells it.",
-    );
+    pages.heading(&in_state(subject, texts::FIGURES, |state| texts::figures_of(state)));
+    let facts = DataFacts::of(subject.dataset());
+    pages.figures(&figures(subject, facts.as_ref()));
+    let stated = facts.is_some_and(|facts| facts.error.is_some());
+    pages.note(if stated { texts::FIGURES_NOTE } else { texts::FIGURES_NOTE_UNSTATED }.get());
     pictures(&mut pages, subject, inks)?;
     if let Some(product) = product.filter(|product| product.states.len() > 1) {
         states(&mut pages, product);
@@ -135,31 +137,53 @@ pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
     Ok(pages.finish())
 }
 
-fn figures(subject: &Subject) -> Vec<(String, String)> {
+/// Words with the state that is shown, or without where there is none.
+fn in_state(subject: &Subject, plain: Text, with: fn(&str) -> String) -> String {
+    if subject.state.is_empty() { plain.into() } else { with(&subject.state) }
+}
+
+/// The figures of the state that is shown, with the errors that its data state.
+fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)> {
     let told = Told::of(subject);
     let dataset = subject.dataset();
     let mut list: Vec<(String, String)> = Vec::new();
-    let mut add = |name: &str, value: String| list.push((name.to_owned(), value));
-    add("τ, normal incidence", optional(told.tau_normal));
-    add("τ, diffuse (hemispherical)", optional(told.tau_hemispherical));
+    let mut add = |name: Text, value: String| list.push((name.into(), value));
+    // Of the comparison's table, so that the same figure is nowhere told twice in two ways.
+    let all = Facts { data: facts.copied(), ..Facts::default() };
+    let error = |key: &str| {
+        let figure = FIGURES.iter().find(|figure| figure.key == key)?;
+        (figure.of)(&all)?.error
+    };
+    let share = |key: &str, value: Option<f64>| match value {
+        Some(value) => {
+            let words = Value { value: 100.0 * value, error: error(key).map(|error| 100.0 * error) }.words();
+            format!("{words} %")
+        }
+        None => "–".to_owned(),
+    };
+    let tau = |key: &str, value: Option<f64>| {
+        value.map_or_else(|| "–".to_owned(), |value| Value { value, error: error(key) }.words())
+    };
+    add(texts::TAU_NORMAL, tau("tau_normal", told.tau_normal));
+    add(texts::TAU_DIFFUSE, tau("tau_hemispherical", told.tau_hemispherical));
     if let Some(light) = told.light {
-        add("to the ceiling", light.to_ceiling.map_or_else(|| "–".to_owned(), percent));
-        add("sun kept out (45°)", percent(light.sun_blocked));
-        add("view (straight through)", percent(light.view));
+        add(texts::TO_CEILING, share("to_ceiling", light.to_ceiling));
+        add(texts::SUN_KEPT_OUT, share("sun_blocked", Some(light.sun_blocked)));
+        add(texts::VIEW, share("view", Some(light.view)));
     }
     if let Some(back) = dataset.room_side_reflectance() {
-        add("ρ, room side, diffuse", number(back, 3));
+        add(texts::RHO_ROOM_SIDE, number(back, 3));
     }
     let length = |metres: f64| format!("{} mm", tick(1000.0 * metres));
     if let Some(thickness) = dataset.thickness {
-        add("depth", length(thickness));
+        add(texts::DEPTH, length(thickness));
     }
     if let Some(structure) = dataset.structure {
-        add("spacing of structure", length(structure));
+        add(texts::SPACING, length(structure));
     }
     for (key, value) in dataset.thermal.known() {
         let unit = if key.json().ends_with("_m") { " m" } else { "" };
-        add(key.word(), format!("{}{unit}", number(value, 3)));
+        add(thermal_words(key), format!("{}{unit}", number(value, 3)));
     }
     list
 }
@@ -167,9 +191,9 @@ fn figures(subject: &Subject) -> Vec<(String, String)> {
 /// Section, and where light from three directions goes.
 fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
     let Some(btdf) = subject.transmission() else {
-        return Err(ReportError::Nothing("Product sheet", "the system has no transmission data".to_owned()));
+        return Err(ReportError::Nothing(texts::PRODUCT_SHEET, texts::NO_DATA.into()));
     };
-    pages.heading("Where light goes");
+    pages.heading(texts::WHERE_LIGHT_GOES.get());
     let incident = |degrees: f64| Incident(Dir::from_theta_phi(degrees.to_radians(), 0.5 * std::f64::consts::PI));
     let greatest =
         |degrees: &f64| btdf.indicatrix(incident(*degrees)).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max));
@@ -178,11 +202,11 @@ fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Rep
     let mut row = Vec::new();
     for degrees in INCIDENCES {
         let mut drawing = Drawing::new(260.0, 290.0);
-        let caption = if degrees > 0.0 { format!("from {degrees:.0}° above") } else { "from the normal".to_owned() };
+        let caption = if degrees > 0.0 { texts::from_above(fixed(degrees, 0)) } else { texts::FROM_NORMAL.into() };
         let frame = drawing.frame().inside([8.0; 4]);
         indicatrix(&mut drawing, frame, btdf, incident(degrees), (&caption, Some((max, 4))), inks);
         let tau = number(btdf.tau(incident(degrees)), 3);
-        row.push(Figure { drawing, caption: format!("{caption}: τ {tau}") });
+        row.push(Figure { drawing, caption: texts::picture_tau(caption, tau) });
     }
     pages.pictures(&row, 190.0);
     pages.note(
@@ -194,18 +218,9 @@ fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Rep
     let curve = profile_curve(subject, inks);
     let mut row = Vec::new();
     if let Some(drawing) = described.and_then(|system| section_of(&system, subject, inks)) {
-        row.push(Figure {
-            drawing,
-            caption: format!(
-                "Section{}",
-                if subject.state.is_empty() { String::new() } else { format!(", state {}", subject.state) }
-            ),
-        });
+        row.push(Figure { drawing, caption: in_state(subject, texts::SECTION, |state| texts::section_of(state)) });
     }
-    row.extend(curve.map(|drawing| Figure {
-        drawing,
-        caption: "Transmittance of light in the vertical plane, against the profile angle of its source".to_owned(),
-    }));
+    row.extend(curve.map(|drawing| Figure { drawing, caption: texts::PROFILE_CAPTION.into() }));
     pages.gap(6.0);
     pages.pictures(&row, 190.0);
     Ok(())
@@ -243,7 +258,7 @@ fn profile_curve(subject: &Subject, inks: &Inks) -> Option<Drawing> {
         return None;
     }
     let plot = Plot {
-        x: Axis::linear([-90.0, 90.0], "profile angle", Unit::Degrees),
+        x: Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees),
         y: Axis::linear([0.0, crate::drawing::ticks::fine_ceil(top.max(0.01))], "τ", Unit::Named("")),
         series,
         guides: Vec::new(),
@@ -259,8 +274,16 @@ fn profile_curve(subject: &Subject, inks: &Inks) -> Option<Drawing> {
 }
 
 fn states(pages: &mut Pages, product: &Product) {
-    pages.heading("States");
-    let mut table = Table::of(["state", "τ normal", "τ diffuse", "to ceiling / %", "sun kept out / %", "view / %"]);
+    pages.heading(texts::STATES.get());
+    let heads = [
+        texts::HEAD_STATE,
+        texts::HEAD_TAU_NORMAL,
+        texts::HEAD_TAU_DIFFUSE,
+        texts::HEAD_TO_CEILING,
+        texts::HEAD_SUN,
+        texts::HEAD_VIEW,
+    ];
+    let mut table = Table::of(heads.map(Text::get));
     let share = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |share| number(100.0 * share, 3));
     for state in &product.states {
         let words = state_words(state);
@@ -278,8 +301,9 @@ fn states(pages: &mut Pages, product: &Product) {
 
 /// What it does in the scene that goes with it.
 fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
-    pages.heading("In use");
-    pages.note(&format!("{}; a window of {}.", picture::situation(&subject.file), window(subject)));
+    pages.heading(texts::IN_USE.get());
+    let [width, height] = subject.file.aperture[0].size.map(tick);
+    pages.note(&texts::in_use_note(picture::situation(&subject.file), width, height));
     let mut row = Vec::new();
     for tile in [TileKind::Lid, TileKind::Room] {
         let missing = match tile {
@@ -292,24 +316,18 @@ fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Repor
         let mut drawing = Drawing::new(400.0, 430.0);
         let frame = drawing.frame().inside([4.0; 4]);
         let said = draw(&mut drawing, frame, subject, tile, inks)?;
-        row.push(Figure { drawing, caption: format!("{}: {said}", tile.title()) });
+        row.push(Figure { drawing, caption: format!("{}: {said}", tile.words()) });
     }
     pages.pictures(&row, 260.0);
     Ok(())
 }
 
-/// "3 × 1.8 m".
-fn window(subject: &Subject) -> String {
-    let [width, height] = subject.file.aperture[0].size;
-    format!("{} × {} m", tick(width), tick(height))
-}
-
 fn tender(pages: &mut Pages, template: &str, fields: &Fields) -> Result<(), ReportError> {
-    let lines = fill(template, fields)?;
+    let lines = fill(spoken(template), fields)?;
     if lines.iter().all(|line| line.trim().is_empty()) {
         return Ok(());
     }
-    pages.heading("Tender text");
+    pages.heading(texts::TENDER_TEXT.get());
     for line in lines {
         pages.paragraph(&line);
     }
@@ -318,33 +336,33 @@ fn tender(pages: &mut Pages, template: &str, fields: &Fields) -> Result<(), Repo
 
 /// Where the data come from, and what the checks say of them.
 pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
-    pages.heading("Data");
+    pages.heading(texts::DATA_HEADING.get());
     let dataset = subject.dataset();
     let mut list: Vec<(String, String)> = Vec::new();
-    let mut add = |name: &str, value: &str| {
+    let mut add = |name: Text, value: &str| {
         if !value.is_empty() {
-            list.push((name.to_owned(), value.to_owned()));
+            list.push((name.into(), value.to_owned()));
         }
     };
     match &subject.product {
         Some(product) => {
             let from = &product.provenance;
-            add("origin", from.origin.word());
-            add("method", &from.method);
-            add("by", &from.author);
-            add("date", &from.date);
-            add("file", &from.source_file);
-            add("BLAKE3 of the source", &from.source_hash);
-            add("face to the room", &from.inside_face);
-            add("key in the catalogue", &product.key);
+            add(texts::ORIGIN, origin_words(from.origin).get());
+            add(texts::METHOD, &from.method);
+            add(texts::BY, &from.author);
+            add(texts::DATE, &from.date);
+            add(texts::FILE, &from.source_file);
+            add(texts::HASH, &from.source_hash);
+            add(texts::INSIDE_FACE, &from.inside_face);
+            add(texts::KEY, &product.key);
         }
-        None => add("origin", &Origin::words(subject)),
+        None => add(texts::ORIGIN, &Origin::words(subject)),
     }
-    add("format", &dataset.format);
-    add("incident basis", &dataset.incident_basis);
-    add("emergent basis", &dataset.emergent_basis);
+    add(texts::FORMAT, &dataset.format);
+    add(texts::INCIDENT_BASIS, &dataset.incident_basis);
+    add(texts::EMERGENT_BASIS, &dataset.emergent_basis);
     for link in links(subject) {
-        add("link", &link);
+        add(texts::LINK, &link);
     }
     pages.figures(&list);
     let findings: Vec<(Severity, String)> = match &subject.product {
@@ -361,10 +379,10 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
         None => dataset.findings.iter().map(|finding| (finding.severity, finding.message.clone())).collect(),
     };
     if findings.is_empty() {
-        pages.paragraph("The checks of the data have nothing to say.");
+        pages.paragraph(texts::CHECKS_SILENT.get());
     }
     for (severity, message) in findings {
-        pages.paragraph(&format!("{}: {message}", severity.word()));
+        pages.paragraph(&texts::finding(severity_words(severity), message));
     }
 }
 

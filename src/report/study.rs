@@ -1,10 +1,12 @@
 //! The report on a study, for designers: the question, the situation, figures with their errors, pictures, and how exact
 //! all of it is.
 
+use super::comparison::{Comparison, chapter};
 use super::pages::{Figure, Pages};
 use super::product::{flux, provenance};
 use super::table::Table;
 use super::tiles::{TileKind, draw};
+use super::words::{beam_words, stage_words};
 use super::{ReportError, picture};
 use crate::compute::estimate::Estimate;
 use crate::drawing::Drawing;
@@ -14,6 +16,7 @@ use crate::study::scene_file::{SceneFile, SurfaceKey};
 use crate::study::scene_words::{coordinates, error_words};
 use crate::study::subject::Subject;
 use crate::study::{RoomResult, SensorResult};
+use crate::texts::{Text, hand_on as texts};
 
 /// What a report is made from.
 pub struct Study<'a> {
@@ -23,8 +26,8 @@ pub struct Study<'a> {
     pub title: &'a str,
     /// What was asked; empty: not told.
     pub question: &'a str,
-    /// A comparison with other systems, made by whoever compared them: products in rows, figures with errors in columns.
-    pub comparison: Option<&'a Table>,
+    /// What is compared with it.
+    pub comparison: Option<&'a Comparison>,
     /// Colours or print.
     pub inks: &'a Inks,
 }
@@ -36,24 +39,23 @@ pub struct Study<'a> {
 pub fn pages(study: &Study<'_>) -> Result<Vec<Drawing>, ReportError> {
     let (subject, inks) = (study.subject, study.inks);
     let title = if study.title.is_empty() { &subject.name } else { study.title };
-    let mut pages = Pages::new("Daylight study", title, &picture::situation(&subject.file), inks);
+    let mut pages = Pages::new(texts::STUDY.get(), title, &picture::situation(&subject.file), inks);
     if !study.question.is_empty() {
-        pages.heading("Question");
+        pages.heading(texts::QUESTION.get());
         pages.paragraph(study.question);
     }
-    pages.heading("Situation");
+    pages.heading(texts::SITUATION.get());
     pages.figures(&situation(subject));
     if let Some(room) = &subject.room {
-        pages.heading("Figures");
+        pages.heading(texts::FIGURES.get());
         results(&mut pages, subject, room);
     }
     // With the first of them.
     pages.need(265.0);
-    pages.heading("Pictures");
+    pages.heading(texts::PICTURES.get());
     tiles(&mut pages, subject, inks)?;
-    if let Some(table) = study.comparison {
-        pages.heading("Comparison");
-        pages.table(table);
+    if let Some(comparison) = study.comparison {
+        chapter(&mut pages, comparison, inks)?;
     }
     accuracy(&mut pages, subject);
     provenance(&mut pages, subject);
@@ -63,34 +65,34 @@ pub fn pages(study: &Study<'_>) -> Result<Vec<Drawing>, ReportError> {
 fn situation(subject: &Subject) -> Vec<(String, String)> {
     let file = &subject.file;
     let mut list: Vec<(String, String)> = Vec::new();
-    let mut add = |name: &str, value: String| list.push((name.to_owned(), value));
-    add("system", subject.name.clone());
+    let mut add = |name: Text, value: String| list.push((name.into(), value));
+    add(texts::SYSTEM, subject.name.clone());
     let site = &file.site;
     if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
-        add("place", format!("{}, {} m", coordinates(latitude, longitude), tick(site.elevation)));
+        add(texts::PLACE, format!("{}, {} m", coordinates(latitude, longitude), tick(site.elevation)));
     }
-    add("façade faces", format!("{}° from north", tick(site.azimuth)));
-    add("ground reflectance", tick(site.ground_reflectance));
+    add(texts::FACADE_FACES, texts::from_north(tick(site.azimuth)));
+    add(texts::GROUND, tick(site.ground_reflectance));
     let room = &file.room;
-    add("room", format!("{} × {} × {} m", tick(room.width), tick(room.depth), tick(room.height)));
+    add(texts::ROOM, format!("{} × {} × {} m", tick(room.width), tick(room.depth), tick(room.height)));
     let rho = &room.reflectance;
-    add("ρ floor, walls, ceiling", [rho.floor, rho.walls, rho.ceiling].map(tick).join(", "));
-    add("E diffuse horizontal", si(subject.scene.outside.diffuse_horizontal(), "lx"));
-    add("E direct horizontal", si(subject.scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx"));
+    add(texts::RHO_ROOM, [rho.floor, rho.walls, rho.ceiling].map(tick).join(texts::LIST_OF_THREE.get()));
+    add(texts::E_DIFFUSE, si(subject.scene.outside.diffuse_horizontal(), "lx"));
+    add(texts::E_DIRECT, si(subject.scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx"));
     for (k, aperture) in file.aperture.iter().enumerate() {
         let ([x, y], [width, height]) = (aperture.origin, aperture.size);
-        let surface = if aperture.surface == SurfaceKey::Facade { "façade" } else { "roof" };
+        let surface = if aperture.surface == SurfaceKey::Facade { texts::FACADE } else { texts::ROOF };
         let [x, y, width, height] = [x, y, width, height].map(tick);
-        add(&format!("window {}", k + 1), format!("{surface}, {width} × {height} m at {x}, {y} m"));
+        list.push((texts::window_number(k + 1), texts::window_at(surface, width, height, x, y)));
     }
-    add("sensors", sensors(file));
+    list.push((texts::SENSORS.into(), sensors(file)));
     list
 }
 
 fn sensors(file: &SceneFile) -> String {
     match &file.sensors.plane {
-        Some(plane) => format!("{} × {} at {} m", plane.nx, plane.ny, tick(plane.z)),
-        None => format!("{} listed", file.sensors.points.len()),
+        Some(plane) => texts::sensors_plane(plane.nx, plane.ny, tick(plane.z)),
+        None => texts::sensors_listed(file.sensors.points.len()),
     }
 }
 
@@ -106,34 +108,32 @@ fn results(pages: &mut Pages, subject: &Subject, room: &RoomResult) {
     let least =
         totals.iter().copied().fold(Estimate::exact(f64::INFINITY), |a, b| if b.value < a.value { b } else { a });
     let most = totals.iter().copied().fold(Estimate::exact(0.0), |a, b| if b.value > a.value { b } else { a });
-    let mut table = Table::of(["quantity", "value", "error"]);
-    let mut lux = |name: &str, value: Estimate| {
-        table.row([name.to_owned(), si(value.value, "lx"), format!("± {}", si(value.error, "lx"))]);
+    let mut table = Table::of([texts::QUANTITY, texts::VALUE, texts::ERROR].map(Text::get));
+    let mut lux = |name: Text, value: Estimate| {
+        table.row([name.into(), si(value.value, "lx"), format!("± {}", si(value.error, "lx"))]);
     };
-    lux("illuminance, mean of the sensors", mean);
-    lux("smallest", least);
-    lux("largest", most);
-    lux("mean of what comes straight from the windows", mean_of(|one| one.direct));
-    lux("mean of what the room's surfaces reflect", mean_of(|one| one.interreflected));
+    lux(texts::MEAN, mean);
+    lux(texts::SMALLEST, least);
+    lux(texts::LARGEST, most);
+    lux(texts::MEAN_DIRECT, mean_of(|one| one.direct));
+    lux(texts::MEAN_REFLECTED, mean_of(|one| one.interreflected));
     if mean.value > 0.0 {
         let even = least.value / mean.value;
         let error = (least.error + even * mean.error) / mean.value;
-        table.row(["uniformity, smallest to mean".to_owned(), number(even, 3), format!("± {}", number(error, 2))]);
+        table.row([texts::UNIFORMITY.into(), number(even, 3), format!("± {}", number(error, 2))]);
     }
     let outside = subject.scene.outside.diffuse_horizontal();
     if subject.scene.sun.is_none() && outside > 0.0 {
         let factor = |value: f64| format!("{} %", number(100.0 * value / outside, 3));
-        table.row(["daylight factor, mean".to_owned(), factor(mean.value), format!("± {}", factor(mean.error))]);
+        table.row([texts::DAYLIGHT_FACTOR.into(), factor(mean.value), format!("± {}", factor(mean.error))]);
     }
     if let Some(flux) = flux(subject) {
         let (value, error) = flux.split_once(" ± ").unwrap_or((&flux, "–"));
-        table.row(["flux through the first window".to_owned(), value.to_owned(), format!("± {error}")]);
+        table.row([texts::FLUX.into(), value.to_owned(), format!("± {error}")]);
     }
     pages.table(&table);
     let said = error_words(totals.iter().copied());
-    pages.note(&format!(
-        "Stated: {said}, at sensors that are not in the dark; errors of means are sums of the sensors' own."
-    ));
+    pages.note(&texts::stated_note(said));
 }
 
 fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::Inks) -> Result<(), ReportError> {
@@ -147,7 +147,7 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
         let mut drawing = Drawing::new(size[0], size[1]);
         let frame = drawing.frame().inside([6.0; 4]);
         let said = draw(&mut drawing, frame, subject, tile, inks)?;
-        Ok(Figure { drawing, caption: format!("{}: {said}", tile.title()) })
+        Ok(Figure { drawing, caption: format!("{}: {said}", tile.words()) })
     };
     let rows: [&[(TileKind, [f64; 2])]; 4] = [
         &[(TileKind::Room, [820.0, 330.0])],
@@ -170,28 +170,23 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
 /// How it was computed, and how far that is to be trusted.
 fn accuracy(pages: &mut Pages, subject: &Subject) {
     let Some(room) = &subject.room else { return };
-    pages.heading("Accuracy");
+    pages.heading(texts::ACCURACY.get());
     let reached = 100.0 * room.reached();
-    let mut said = format!(
-        "Largest relative error that is stated, at sensors that are not in the dark: {} %. Share of the light that the data \
-         leave open: {} %.",
-        number(reached, 2),
-        number(100.0 * room.data_share(), 2)
-    );
+    let mut said = texts::accuracy_reached(number(reached, 2), number(100.0 * room.data_share(), 2));
     if let Some(target) = subject.scene.error_target {
-        said.push_str(&format!(" Asked for: {} %.", number(100.0 * target, 2)));
+        said.push_str(&texts::accuracy_asked(number(100.0 * target, 2)));
     }
     pages.paragraph(&said);
-    let mut table = Table::of(["stage", "what was done"]);
+    let mut table = Table::of([texts::STAGE, texts::WHAT_WAS_DONE].map(Text::get));
     table.columns[1].align = crate::drawing::Align::Start;
     // What was kept from before says nothing about this study.
     let kept = |reason: &str| reason.starts_with("reused") || reason == "not there yet";
     for stage in room.plan.stages.iter().filter(|stage| !kept(&stage.reason)) {
-        let done = if stage.runs { "computed" } else { "left out" };
-        table.row([stage.name.to_owned(), format!("{done}: {}", stage.reason)]);
+        let done = if stage.runs { texts::stage_computed(&stage.reason) } else { texts::stage_left_out(&stage.reason) };
+        table.row([stage_words(stage.name), done]);
     }
     for (k, (source, reason)) in room.beams.iter().enumerate() {
-        table.row([format!("sun's beam, window {}", k + 1), format!("{}: {reason}", source.word())]);
+        table.row([texts::beam_of_window(k + 1), format!("{}: {reason}", beam_words(*source))]);
     }
     pages.table(&table);
     if let Some(note) = subject.scene.illuminances.and_then(|light| light.note()) {

@@ -1,9 +1,21 @@
 //! Tender texts: a template with named fields, filled with a product's figures.
 
 use super::ReportError;
+use crate::texts::{Language, language};
 
 /// The template that is shipped, as a start for one's own.
 pub const TEMPLATE: &str = include_str!("../../assets/tender.txt");
+/// The same in German.
+pub const TEMPLATE_GERMAN: &str = include_str!("../../assets/tender_de.txt");
+
+/// A template as it is; of the shipped ones that in the language that is spoken.
+pub fn spoken(template: &str) -> &str {
+    match language() {
+        _ if template != TEMPLATE && template != TEMPLATE_GERMAN => template,
+        Language::English => TEMPLATE,
+        Language::German => TEMPLATE_GERMAN,
+    }
+}
 
 /// Names of fields and what stands for them; an empty text: not known.
 pub type Fields = [(&'static str, String)];
@@ -57,6 +69,20 @@ mod tests {
         let fields = [("name", "Blind".to_owned()), ("maker", String::new()), ("view", "3 %".to_owned())];
         let lines = fill("# x {nothing}\n{name}: {view}\nMaker: {maker}\nplain\n{view}, {maker}", &fields).unwrap();
         assert_eq!(lines, ["Blind: 3 %", "plain", "3 %, –"]);
+    }
+
+    #[test]
+    fn the_shipped_templates_have_the_same_fields_and_own_ones_stay() {
+        let fields = |text: &str| -> Vec<String> {
+            let lines = text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| line.split('{').skip(1));
+            let mut list: Vec<String> = lines.filter_map(|rest| Some(rest.split_once('}')?.0.to_owned())).collect();
+            list.sort();
+            list
+        };
+        assert_eq!(fields(TEMPLATE), fields(TEMPLATE_GERMAN));
+        assert_eq!(spoken(TEMPLATE_GERMAN), TEMPLATE);
+        let _german = crate::texts::speak(Language::German);
+        assert_eq!((spoken(TEMPLATE), spoken("own")), (TEMPLATE_GERMAN, "own"));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 
 use super::accuracy::{Accuracy, Quantity, Rung, Series, words};
 use crate::drawing::plot::{Axis, Form, Guide, Plot, Series as Points, Unit};
+use crate::texts::words as texts;
 
 /// Most dots of one series in the second plot.
 const MOST_DOTS: usize = 400;
@@ -12,7 +13,7 @@ const MOST_DOTS: usize = 400;
 pub fn name(series: &Series) -> String {
     match series.quantity {
         Quantity::Direct => series.method.to_owned(),
-        Quantity::Total => String::from("with interreflection"),
+        Quantity::Total => texts::WITH_INTERREFLECTION.into(),
     }
 }
 
@@ -21,11 +22,11 @@ pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
     let rungs = || accuracy.series.iter().flat_map(told);
     let found = words::axis(accuracy);
     let both = || rungs().flat_map(|rung| rung.errors.iter().flat_map(|e| [e.stated, e.real]));
-    let stated = Axis::decades(both(), 9, "stated error", Unit::Share);
+    let stated = Axis::decades(both(), 9, texts::AXIS_STATED.get(), Unit::Share);
     let [first, last] = stated.range;
     let front = Plot {
-        x: Axis::decades(rungs().map(|rung| rung.sky), 9, "time a new sky", Unit::Seconds),
-        y: Axis::decades(rungs().map(Rung::rms), 9, &format!("{found} (RMS)"), Unit::Share),
+        x: Axis::decades(rungs().map(|rung| rung.sky), 9, texts::AXIS_TIME.get(), Unit::Seconds),
+        y: Axis::decades(rungs().map(Rung::rms), 9, &texts::rms(found), Unit::Share),
         series: accuracy.series.iter().map(front).collect(),
         guides: Vec::new(),
     };

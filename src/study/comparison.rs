@@ -8,6 +8,7 @@ mod candidate;
 pub mod curves;
 pub mod difference;
 mod figures;
+pub mod scales;
 mod table;
 
 pub use candidate::{candidate, label, same_question};
@@ -15,12 +16,22 @@ pub use figures::{DataFacts, FIGURES, Facts, Figure, LidFacts, Sense, Value};
 pub use table::{Row, Verdict, compare, csv, judge, verdict_words};
 
 use super::error::StudyError;
+use super::subject::Subject;
 use super::{Scene, Session};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::c_gamma::Peaks;
 
 /// Most things that are compared at a time.
 pub const MOST: usize = 6;
+
+/// The same of what was computed of a scene in one go.
+pub fn facts_of(subject: &Subject) -> Facts {
+    Facts {
+        data: DataFacts::of(subject.dataset()),
+        lid: subject.lid.as_ref().map(|(lid, peaks)| LidFacts { flux: lid.flux, peaks: Some(*peaks) }),
+        room: subject.room.as_ref().map(|room| room.sensors.iter().map(|sensor| sensor.total()).collect()),
+    }
+}
 
 /// Everything that the figures are made of: data, light and room of a scene, by its first aperture.
 ///

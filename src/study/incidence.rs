@@ -5,6 +5,7 @@ use super::scene_file::SceneFile;
 use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::profile_angle::profile_angle;
 use crate::drawing::ticks::degrees;
+use crate::texts::words as texts;
 
 /// Why it is this direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,22 +39,23 @@ impl Incidence {
     }
 
     /// Whose direction it is.
-    pub const fn name(&self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self.source {
-            Source::Sun => "sun",
-            Source::Chosen => "chosen direction",
-            Source::Normal => "perpendicular light",
+            Source::Sun => texts::THE_SUN.get(),
+            Source::Chosen => texts::CHOSEN_DIRECTION.get(),
+            Source::Normal => texts::PERPENDICULAR.get(),
         }
     }
 
     /// "sun at θ 49°, φ 98°, profile angle 49°", and shorter: the same direction in all of them.
     pub fn texts(&self) -> [String; 3] {
         let direction = self.direction.0;
-        let profile =
-            profile_angle(direction).map_or_else(String::new, |psi| format!(", profile angle {}", degrees(psi)));
-        let why = if self.source == Source::Normal { " (sun not before the façade)" } else { "" };
         let angles = direction_text(direction);
-        [format!("{} at {angles}{profile}{why}", self.name()), format!("{} at {angles}", self.name()), angles]
+        let profile =
+            profile_angle(direction).map_or_else(|| angles.clone(), |psi| texts::with_profile(&angles, degrees(psi)));
+        let why = if self.source == Source::Normal { texts::SUN_BEHIND.get() } else { "" };
+        let name = self.name();
+        [format!("{}{why}", texts::incidence(name, profile)), texts::incidence(name, &angles), angles]
     }
 }
 

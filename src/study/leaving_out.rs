@@ -9,6 +9,7 @@ use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::incidence::left_out::LeftOut;
 use crate::compute::incidence::model::Model;
 use crate::compute::incidence::schemes::SunScheme;
+use crate::texts::{fixed, words as texts};
 use std::sync::Arc;
 
 /// What leaving out has shown of one dataset.
@@ -58,17 +59,12 @@ impl LeavingOut {
     /// What it comes to, and where another scheme than responses would have been better.
     pub fn sentences(&self) -> String {
         let count = self.left_out.directions().count();
-        let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+        let percent = |share: f64| format!("{} %", fixed(100.0 * share, 1));
         let means: Vec<String> = SunScheme::ALL
             .into_iter()
             .map(|scheme| format!("{} {}", scheme.key(), percent(self.left_out.mean(scheme))))
             .collect();
-        let mut text = format!(
-            "{}: each of {count} incident directions left out and foretold from those around it, flux misplaced in the \
-             mean: {}.",
-            self.label,
-            means.join(", ")
-        );
+        let mut text = texts::left_out(&self.label, count, means.join(", "));
         for scheme in SunScheme::ALL {
             let better = self.left_out.directions().filter_map(|one| {
                 let (best, gain) = one.better()?;
@@ -76,20 +72,19 @@ impl LeavingOut {
             });
             let list: Vec<_> = better.collect();
             if let Some((gain, one)) = list.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
-                text.push_str(&format!(
-                    " {} would be better than responses at {}, at most by {} (θ {:.0}°, φ {:.0}°: {} against {}).",
+                text.push_str(&texts::better_scheme(
                     scheme.key(),
                     list.len(),
                     percent(*gain),
-                    one.direction.theta().to_degrees(),
-                    one.direction.phi().to_degrees(),
+                    fixed(one.direction.theta().to_degrees(), 0),
+                    fixed(one.direction.phi().to_degrees(), 0),
                     percent(one.error(scheme)),
                     percent(one.error(SunScheme::Responses)),
                 ));
             }
         }
         if let Some(stated) = self.sun {
-            text.push_str(&format!(" Stated for the sun at the data's own spacing: {}.", percent(stated)));
+            text.push_str(&texts::stated_for_sun(percent(stated)));
         }
         text
     }

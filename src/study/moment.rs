@@ -4,6 +4,7 @@ use super::scene_file::{SceneFile, TimeKey};
 use super::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
+use crate::texts::{Text, fixed, words as texts};
 use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
 
@@ -120,21 +121,35 @@ pub fn clock(hours: f64) -> String {
 
 /// `21 Mar 12:00`
 pub fn words(time: DateTime) -> String {
-    time.strftime("%-d %b %H:%M").to_string()
+    texts::moment(time.day(), month(time.month()), time.strftime("%H:%M"))
+}
+
+/// A month's short name; January is 1.
+pub fn month(number: i8) -> Text {
+    texts::MONTHS[usize::try_from(number - 1).unwrap_or(0).min(11)]
 }
 
 /// An altitude in degrees in words, with so many decimals: `41° high`, `15° below the horizon`.
 pub fn height_words(degrees: f64, decimals: usize) -> String {
-    let shown = format!("{:.decimals$}°", degrees.abs());
+    let shown = format!("{}°", fixed(degrees.abs(), decimals));
     // What rounds to 0 is on the horizon, not under it.
     if shown.chars().all(|c| !c.is_ascii_digit() || c == '0') {
-        return "on the horizon".to_owned();
+        return texts::ON_THE_HORIZON.into();
     }
-    if degrees < 0.0 { format!("{shown} below the horizon") } else { format!("{shown} high") }
+    if degrees < 0.0 { texts::below_the_horizon(shown) } else { texts::high(shown) }
 }
 
 /// A bearing in words: `south`, `south-west`.
 pub fn bearing_word(degrees: f64) -> &'static str {
-    const WORDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
-    WORDS[((degrees.rem_euclid(360.0) / 45.0).round() as usize) % 8]
+    const WORDS: [Text; 8] = [
+        texts::NORTH,
+        texts::NORTH_EAST,
+        texts::EAST,
+        texts::SOUTH_EAST,
+        texts::SOUTH,
+        texts::SOUTH_WEST,
+        texts::WEST,
+        texts::NORTH_WEST,
+    ];
+    WORDS[((degrees.rem_euclid(360.0) / 45.0).round() as usize) % 8].get()
 }

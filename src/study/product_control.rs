@@ -10,6 +10,7 @@ use super::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::catalogue::{FirstRule, Product, State};
 use crate::compute::direction::Surface;
 use crate::compute::estimate::Progress;
+use crate::texts::{Text, decimal, words as texts};
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
@@ -30,47 +31,19 @@ pub struct Words {
     pub tip: &'static str,
 }
 
-/// What people call a rule.
-pub const fn words(mode: ControlMode) -> Words {
-    let (short, does, order, tip) = match mode {
-        ControlMode::Fixed => ("By hand", "fixed by hand", "by hand", "The state stays where [ and ] put it"),
-        ControlMode::Curve => (
-            "Curve",
-            "follows the curve",
-            "follow the curve",
-            "The state that a curve asks for at the sun's profile angle: the product's, or one edited in the tile",
-        ),
-        ControlMode::CutOff => (
-            "Cut-off",
-            "keeps the sun just out (cut-off)",
-            "keep the sun just out (cut-off)",
-            "The most open state that lets no direct sun through, the whole disc counted",
-        ),
-        ControlMode::Din5034 => (
-            "DIN 5034",
-            "closed in sun (DIN 5034)",
-            "closed in sun (DIN 5034)",
-            "The most closed state while the sun is on the façade, else the most open",
-        ),
-        ControlMode::RetroReflect => (
-            "Retro-reflect",
-            "throws the sun back",
-            "throw the sun back",
-            "Mirror slats stand across the beam: 90° − ψ, for the lower part of a window",
-        ),
-        ControlMode::Redirect => (
-            "Redirect",
-            "redirects the sun",
-            "redirect the sun",
-            "Mirror slats send the sun to the ceiling: half of (elevation − ψ), for the upper part of a window",
-        ),
-        ControlMode::User => (
-            "User",
-            "by the user's clock",
-            "by the user's clock",
-            "A state by hours of the day; the hours are set in the scene file",
-        ),
-    };
+/// What people call a rule, in the language that is spoken.
+pub fn words(mode: ControlMode) -> Words {
+    use texts::*;
+    let [short, does, order, tip] = match mode {
+        ControlMode::Fixed => [BY_HAND, BY_HAND_DOES, BY_HAND_ORDER, BY_HAND_TIP],
+        ControlMode::Curve => [CURVE, CURVE_DOES, CURVE_ORDER, CURVE_TIP],
+        ControlMode::CutOff => [CUT_OFF, CUT_OFF_DOES, CUT_OFF_ORDER, CUT_OFF_TIP],
+        ControlMode::Din5034 => [DIN_5034, DIN_5034_DOES, DIN_5034_DOES, DIN_5034_TIP],
+        ControlMode::RetroReflect => [RETRO, RETRO_DOES, RETRO_ORDER, RETRO_TIP],
+        ControlMode::Redirect => [REDIRECT, REDIRECT_DOES, REDIRECT_ORDER, REDIRECT_TIP],
+        ControlMode::User => [USER, USER_DOES, USER_DOES, USER_TIP],
+    }
+    .map(Text::get);
     Words { short, does, order, tip }
 }
 
@@ -78,7 +51,7 @@ pub const fn words(mode: ControlMode) -> Words {
 pub fn state_words(state: &State) -> String {
     match state.value {
         // A key that is the number: the format wrote an angle.
-        Some(value) if state.key.parse() == Ok(value) => format!("{value}°"),
+        Some(value) if state.key.parse() == Ok(value) => decimal(format!("{value}°")),
         _ if state.label.is_empty() => state.key.clone(),
         _ => state.label.clone(),
     }
@@ -194,8 +167,9 @@ pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<
 pub fn quantity(product: &Product) -> &'static str {
     let numeric = product.states.iter().all(|state| state.value.is_some());
     match (numeric, product.kind.as_str()) {
-        (true, "venetian" | "slats" | "venetian blind") => "slat angle / °",
-        (true, _) => "state / °",
-        (false, _) => "state",
+        (true, "venetian" | "slats" | "venetian blind") => texts::SLAT_ANGLE,
+        (true, _) => texts::STATE_ANGLE,
+        (false, _) => texts::STATE,
     }
+    .get()
 }

@@ -196,3 +196,129 @@ fn reports_hold_the_figures_as_text_in_an_embedded_font() {
     // The shipped template is printed for a start.
     assert!(succeed(folder, &["report", "--template"]).contains("{tau_normal}"));
 }
+
+/// The same scene with two candidates.
+fn compared() -> String {
+    format!(
+        "{SCENE}\n[[compare]]\nname = \"Blind, cut-off\"\nsystem = {{ catalogue = \"venetian-80-72\", state = \"controlled\" }}\n\
+         control = {{ mode = \"cut-off\" }}\n[[compare]]\nname = \"Opal\"\nsystem = {{ ideal = \"diffuse\", transmittance = 0.5 }}\n"
+    )
+}
+
+#[test]
+fn a_study_tells_its_candidates_as_the_table_does_and_draws_them_on_one_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("s.toml"), compared()).unwrap();
+    std::fs::write(folder.join("alone.toml"), SCENE).unwrap();
+    succeed(folder, &["report", "s.toml", "--out", "study.pdf"]);
+    succeed(folder, &["report", "alone.toml", "--out", "alone.pdf"]);
+    let said = refuse(folder, &["report", "s.toml", "--base", "3", "--out", "a.pdf"]);
+    assert!(said.contains("--base 3") && said.contains("1 to 2") && !folder.join("a.pdf").exists(), "{said}");
+    let table: serde_json::Value = serde_json::from_str(&succeed(folder, &["compare", "s.toml", "--json"])).unwrap();
+    let plain = succeed(folder, &["compare", "s.toml"]);
+    let Some(study) = poppler(folder, "pdftotext", &["-layout", "study.pdf", "-"]) else { return };
+    let Some(alone) = poppler(folder, "pdftotext", &["-layout", "alone.pdf", "-"]) else { return };
+    for text in
+        ["1 Blind, cut-off", "2 Opal", "Side by side on one scale: Room", "Difference from 1 Blind, cut-off: Room"]
+    {
+        assert!(study.contains(text) && !alone.contains(text), "{text}: {study}");
+    }
+    // The figures are those of the table, to the digit.
+    let row = |text: &str, name: &str| -> Vec<String> {
+        let line = text.lines().map(str::trim).find(|line| line.starts_with(name));
+        let line = line.unwrap_or_else(|| panic!("{name}: {text}"));
+        line[name.len()..].split("  ").map(|cell| cell.trim().trim_start_matches("▲ ").to_owned()).collect()
+    };
+    for name in ["Mean illuminance / lx", "Worst sensor / lx", "Luminous flux / lm", "Uniformity"] {
+        let cells = |text: &str| row(text, name).into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>();
+        let (wanted, found) = (cells(&plain), cells(&study));
+        assert!(wanted.len() >= 3 && found[..2] == wanted[..2], "{name}: {wanted:?} {found:?}");
+    }
+    // Marked is what is better beyond the errors, and nothing else.
+    let figures = table["figures"].as_array().unwrap();
+    let better: usize = figures.iter().map(|figure| figure["better"].as_array().unwrap().len()).sum();
+    let marks = study.lines().filter(|line| !line.contains("marks what")).map(|line| line.matches('▲').count());
+    assert_eq!(marks.sum::<usize>(), better);
+    assert!(better > 0);
+}
+
+#[test]
+fn reports_and_pictures_speak_german_where_they_are_asked_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("s.toml"), compared()).unwrap();
+    let german = |arguments: &[&str]| succeed(folder, &[arguments, &["--language", "de"]].concat());
+    german(&["picture", "s.toml", "--tile", "room", "--out", "room.svg"]);
+    let words = words(&std::fs::read_to_string(folder.join("room.svg")).unwrap());
+    assert!(words.iter().any(|text| text.starts_with("Raum – ")), "{words:?}");
+    assert!(words.iter().any(|text| text.starts_with("Stuttgart, Süd, 21. März 12:00 Uhr, klar")), "{words:?}");
+    assert!(
+        refuse(folder, &["picture", "s.toml", "--tile", "room", "--language", "fr", "--out", "a.svg"])
+            .contains("en or de")
+    );
+    german(&["report", "s.toml", "--out", "study.pdf"]);
+    german(&["report", "s.toml", "--sheet", "--out", "sheet.pdf"]);
+    assert!(german(&["report", "--template"]).contains("Hersteller: {maker}"));
+    for name in ["study.pdf", "sheet.pdf"] {
+        let bytes = std::fs::read(folder.join(name)).unwrap();
+        let holds = |text: &str| bytes.windows(text.len()).any(|part| part == text.as_bytes());
+        assert!(
+            holds("<dc:language><rdf:Bag><rdf:li>de</rdf:li></rdf:Bag></dc:language>")
+                || holds("/Lang (de)")
+                || holds("/Lang(de)"),
+            "{name}"
+        );
+    }
+    let headings: [(&str, &[&str], &[&str]); 2] = [
+        (
+            "study.pdf",
+            &[
+                "Tageslichtstudie",
+                "Kennzahlen",
+                "Bilder",
+                "Vergleich",
+                "Genauigkeit",
+                "Beleuchtungsstärke",
+                "Seite 1 von",
+            ],
+            &["Daylight study", "Figures", "Pictures", "Comparison", "Accuracy", "uniformity", "page 1 of"],
+        ),
+        (
+            "sheet.pdf",
+            &["Produktblatt", "Wohin das Licht geht", "Stellungen", "Im Einsatz", "Ausschreibungstext", "Hersteller"],
+            &["Product sheet", "Where light goes", "In use", "Tender text", "normal incidence", "Manufacturer"],
+        ),
+    ];
+    for (name, wanted, unwanted) in headings {
+        let Some(text) = poppler(folder, "pdftotext", &["-layout", name, "-"]) else { return };
+        for word in wanted {
+            assert!(text.contains(word), "{name}, {word}: {text}");
+        }
+        for word in unwanted {
+            assert!(!text.contains(word), "{name}, {word}: {text}");
+        }
+        // Figures have their comma: of the lines that tell one, none has a point between digits.
+        let pointed = |line: &str| {
+            let bytes = line.as_bytes();
+            bytes.windows(3).any(|three| three[0].is_ascii_digit() && three[1] == b'.' && three[2].is_ascii_digit())
+        };
+        let told = |line: &&str| {
+            ["τ,", "Gleichmäßigkeit", "Mittlere", "τ senkrecht"].iter().any(|word| line.trim().starts_with(word))
+        };
+        let lines: Vec<&str> = text.lines().filter(told).collect();
+        assert!(lines.iter().any(|line| line.contains(',')) && !lines.iter().any(|line| pointed(line)), "{lines:?}");
+    }
+}
+
+#[test]
+fn a_product_sheet_tells_how_far_its_figures_may_be_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    succeed(folder, &["report", "venetian-80-72", "--state", "45", "--out", "sheet.pdf"]);
+    let figures = succeed(folder, &["compare", "venetian-80-72:45", "clear-double"]);
+    let Some(sheet) = poppler(folder, "pdftotext", &["-layout", "sheet.pdf", "-"]) else { return };
+    let line = figures.lines().find(|line| line.starts_with("τ hemispherical")).unwrap();
+    let value = line["τ hemispherical".len()..].trim().split("  ").next().unwrap();
+    assert!(value.contains(" ± ") && sheet.contains(value), "{value}: {sheet}");
+}

@@ -357,7 +357,8 @@ fn what_people_read_stands_in_the_texts() {
     let mut wrong = vec![];
     for (name, text) in sources(&["src/app", "src/report", "src/drawing"]) {
         for literal in words::said(&text).into_iter().filter(|literal| !excused(&name, &literal.text)) {
-            wrong.push(format!("{name}:{}: {:?} belongs into src/texts, in both languages", literal.line, literal.text));
+            wrong
+                .push(format!("{name}:{}: {:?} belongs into src/texts, in both languages", literal.line, literal.text));
         }
     }
     none(&wrong);

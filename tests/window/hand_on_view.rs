@@ -4,7 +4,9 @@ use crate::driven::{apply, coarsen, frames, select, settle};
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
+use cfs::app::compare::Act;
 use cfs::app::hand_on::{Choices, Preview, ReportKind, What};
+use cfs::app::language::LanguageChoice;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::tiles::TILES;
 use cfs::drawing::ticks::si;
@@ -223,4 +225,49 @@ fn the_former_exports_lead_into_the_sheet() {
     let before = harness.state().state.hand_on.revision;
     apply(&mut harness, Command::Hour(1));
     assert!(harness.state().state.hand_on.revision > before);
+}
+
+/// Pages that the preview of a report speaks of.
+fn pages(harness: &Harness<'_, App>) -> usize {
+    let Preview::Picture(_, _, said) = preview(harness) else { panic!("a page") };
+    said.split_whitespace().filter_map(|word| word.trim_matches(',').parse().ok()).max().unwrap()
+}
+
+#[test]
+fn a_study_brings_the_tray_along_unless_it_is_left_out() {
+    let mut harness = window();
+    choose(&mut harness, |choices| (choices.what, choices.report) = (What::Report, ReportKind::Study));
+    let alone = pages(&harness);
+    for key in ["clear-double", "ideal-diffuser"] {
+        apply(&mut harness, Command::Compare(Act::AddProduct(key.to_owned())));
+    }
+    let compared = pages(&harness);
+    assert!(compared > alone, "{compared} {alone}");
+    // Another tile is another preview.
+    let before = harness.state().state.hand_on.revision;
+    apply(&mut harness, Command::Compare(Act::Tile("LID")));
+    assert!(harness.state().state.hand_on.revision > before);
+    choose(&mut harness, |choices| choices.comparison = false);
+    assert_eq!(pages(&harness), alone);
+}
+
+#[test]
+fn what_is_handed_on_speaks_the_language_of_the_window() {
+    let mut harness = window();
+    choose(&mut harness, |choices| (choices.what, choices.vector) = (What::Picture, true));
+    apply(&mut harness, Command::Language(LanguageChoice::German));
+    harness.get_by_label("Vorschau");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("raum.svg");
+    apply(&mut harness, Command::Write(PathUse::HandOn, path.clone()));
+    let svg = std::fs::read_to_string(&path).unwrap();
+    let room = harness.state().results.room.value.clone().unwrap();
+    let mean = room.totals().map(|total| total.value).sum::<f64>() / room.totals().count() as f64;
+    let german = cfs::texts::speak(cfs::texts::Language::German);
+    assert!(svg.contains(&format!("Mittel {} · Min.", si(mean, "lx"))), "{mean}");
+    drop(german);
+    assert!(svg.contains("21. März 12:00 Uhr") && !svg.contains(">mean "));
+    // The scene is written as ever.
+    choose(&mut harness, |choices| choices.what = What::Scene);
+    assert!(matches!(preview(&harness), Preview::Text(text, _) if text.contains("[room]") && text.contains("0.85")));
 }

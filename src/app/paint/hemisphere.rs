@@ -218,8 +218,8 @@ mod tests {
         let radius = |theta| 100.0 * Projection::ProjectedSolidAngle.radius(theta);
         let of_ring = |ring: &crate::compute::basis::Ring| {
             let round = 2.0 * PI * radius(ring.theta_max);
-            let spokes = if ring.count > 1 {
-                ring.count as f64 * (radius(ring.theta_max) - radius(ring.theta_min))
+            let spokes = if ring.sectors > 1 {
+                ring.sectors as f64 * (radius(ring.theta_max) - radius(ring.theta_min))
             } else {
                 0.0
             };

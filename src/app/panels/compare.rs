@@ -13,8 +13,9 @@ use crate::app::theme;
 use crate::app::tiles::TILES;
 use crate::app::window::App;
 use crate::study::comparison::label;
+use crate::texts::{Text, compare as texts};
 use egui::{Align, Key, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
-use places::short;
+use places::{short, tile_words};
 
 /// Mean width of a letter in a chip. \[points\]
 const LETTER: f32 = 7.2;
@@ -36,20 +37,20 @@ pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             ui.set_min_width(own);
             let (text, colour) = match view.swapped.and_then(|place| Some((place, tray.get(place)?))) {
                 Some((place, keys)) => (format!("{} {}", place + 1, label(keys)), theme::palette(ui).accent),
-                None if view.open => (format!("Comparing {}", tray.len()), theme::palette(ui).text),
-                None => ("As in the scene".to_owned(), theme::palette(ui).text),
+                None if view.open => (texts::comparing(tray.len()), theme::palette(ui).text),
+                None => (texts::SCENES_OWN.into(), theme::palette(ui).text),
             };
-            let tip = format!("Shown: {text}. X shows the next of the tray in all tiles, and goes back");
+            let tip = texts::shown(&text);
             let shown = RichText::new(short(&text, (own / 10.5) as usize)).size(LARGE).strong().color(colour);
             ui.label(shown).on_hover_text(tip);
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let button = ui.selectable_label(view.open, "Compare");
-            if button.on_hover_text("All of the tray in the tiles' place, or back to the tiles (Shift+X)").clicked() {
+            let button = ui.selectable_label(view.open, texts::COMPARE);
+            if button.on_hover_text(texts::COMPARE_TIP).clicked() {
                 act(Act::Show);
             }
-            let swap = ui.selectable_label(view.swapped.is_some(), "Swap");
-            if swap.on_hover_text("The other one in all tiles, and back (X)").clicked() {
+            let swap = ui.selectable_label(view.swapped.is_some(), texts::SWAP);
+            if swap.on_hover_text(texts::SWAP_TIP).clicked() {
                 act(Act::Swap);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
@@ -69,7 +70,9 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
     if let Some((named, typed)) = state.compare.naming.as_ref().filter(|(named, _)| *named == place) {
         let mut text = typed.clone();
         let field = ui.add(TextEdit::singleline(&mut text).desired_width(width - 10.0));
-        field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name in the tray"));
+        field.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, texts::NAME_IN_TRAY.get())
+        });
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             act(Act::EditName(None));
         } else if field.lost_focus() {
@@ -88,22 +91,17 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
     let text = if shown { RichText::new(text).color(theme::palette(ui).accent) } else { RichText::new(text) };
     let menu = ui.menu_button(text, |ui| {
         let last = tray.len() - 1;
-        let entries: [(&str, &str, bool, Act); 7] = [
-            ("Show in the tiles", "X goes back to the scene's own", true, Act::SwapWith(place)),
-            (
-                "Make it the scene",
-                "Product, state and what else it has of its own; undo goes back",
-                true,
-                Act::Take(place),
-            ),
-            ("Differences from it", "The others less this one", tray.len() > 1, Act::Base(place)),
-            ("Rename…", "Another name in the tray", true, Act::EditName(Some((place, name.clone())))),
-            ("Move left", "One place earlier", place > 0, Act::Move(place, -1)),
-            ("Move right", "One place later", place < last, Act::Move(place, 1)),
-            ("Remove", "Take it out of the tray", true, Act::Remove(place)),
+        let entries: [(Text, Text, bool, Act); 7] = [
+            (texts::SHOW_IN_TILES, texts::SHOW_IN_TILES_TIP, true, Act::SwapWith(place)),
+            (texts::TAKE, texts::TAKE_TIP, true, Act::Take(place)),
+            (texts::BASE, texts::BASE_TIP, tray.len() > 1, Act::Base(place)),
+            (texts::RENAME, texts::RENAME_TIP, true, Act::EditName(Some((place, name.clone())))),
+            (texts::MOVE_LEFT, texts::MOVE_LEFT_TIP, place > 0, Act::Move(place, -1)),
+            (texts::MOVE_RIGHT, texts::MOVE_RIGHT_TIP, place < last, Act::Move(place, 1)),
+            (texts::REMOVE, texts::REMOVE_TIP, true, Act::Remove(place)),
         ];
         for (text, tip, enabled, what) in entries {
-            if ui.add_enabled(enabled, egui::Button::new(text)).on_hover_text(tip).clicked() {
+            if ui.add_enabled(enabled, egui::Button::new(text.get())).on_hover_text(tip).clicked() {
                 if matches!(what, Act::Base(_)) {
                     act(Act::Look(Look::Difference));
                 }
@@ -112,7 +110,7 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
             }
         }
     });
-    menu.response.on_hover_text(&full).accessible_name(format!("Candidate {full}"));
+    menu.response.on_hover_text(&full).accessible_name(texts::candidate(&full));
 }
 
 /// The comparison.
@@ -142,18 +140,18 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         }
     }
     if view.look != Look::Figures {
-        let combo = egui::ComboBox::from_id_salt("compared tile").width(110.0).selected_text(view.tile());
+        let combo = egui::ComboBox::from_id_salt("compared tile").width(110.0).selected_text(tile_words(view.tile()));
         let combo = combo.show_ui(ui, |ui| {
             for tile in TILES.iter().map(|entry| entry.tile.title) {
-                if ui.selectable_label(view.tile() == tile, tile).clicked() {
+                if ui.selectable_label(view.tile() == tile, tile_words(tile)).clicked() {
                     act(Act::Tile(tile));
                 }
             }
         });
-        combo.response.on_hover_text("Which tile is compared").accessible_name("Compared tile");
+        combo.response.on_hover_text(texts::TILE_TIP).accessible_name(texts::TILE.get());
     }
     if view.look == Look::Difference {
-        ui.label("less");
+        ui.label(texts::LESS);
         let names = app.compare.names();
         let base = names.get(view.base).map_or("", String::as_str);
         let combo = egui::ComboBox::from_id_salt("base").width(130.0).selected_text(short(base, 18));
@@ -164,12 +162,12 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
                 }
             }
         });
-        combo.response.on_hover_text("From which one the differences are taken").accessible_name("Base of differences");
+        combo.response.on_hover_text(texts::BASE_CHOICE_TIP).accessible_name(texts::BASE_CHOICE.get());
     }
-    if app.compare.stopped && ui.button("Go on").on_hover_text("Compute what is missing").clicked() {
+    if app.compare.stopped && ui.button(texts::GO_ON).on_hover_text(texts::GO_ON_TIP).clicked() {
         act(Act::Resume);
     }
-    if ui.button("Close").on_hover_text("Back to the tiles").clicked() {
+    if ui.button(texts::CLOSE).on_hover_text(texts::CLOSE_TIP).clicked() {
         act(Act::Show);
     }
 }

@@ -7,7 +7,10 @@ use crate::app::state::PathUse;
 use crate::app::theme;
 use crate::app::window::App;
 use crate::report::size::Unit;
+use crate::report::tender::spoken;
 use crate::report::{Size, TileKind};
+use crate::texts::words::MONTHS;
+use crate::texts::{Text, hand_on as texts};
 use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, TextureOptions, Ui, vec2};
 use std::path::PathBuf;
 
@@ -18,9 +21,9 @@ const ROWS: usize = 5;
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let before = app.state.settings.hand_on.clone();
     let mut choices = before.clone();
-    let name = ui.label("What");
+    let name = ui.label(texts::WHAT);
     let combo = ComboBox::from_id_salt("what").width(ui.available_width().min(240.0));
-    let combo = combo.selected_text(choices.what.words()[0]).show_ui(ui, |ui| {
+    let combo = combo.selected_text(choices.what.words()[0].get()).show_ui(ui, |ui| {
         for what in What::ALL {
             let [text, tip] = what.words();
             ui.selectable_value(&mut choices.what, what, text).on_hover_text(tip);
@@ -29,7 +32,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     combo.response.labelled_by(name.id);
     ui.add(Label::new(RichText::new(choices.what.words()[1]).weak()).wrap());
     ui.add_space(4.0);
-    options(ui, &mut choices);
+    options(ui, &mut choices, app.state.document.scene.compare.len());
     ui.add_space(6.0);
     target(ui, app, commands);
     ui.separator();
@@ -39,35 +42,46 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
-fn options(ui: &mut Ui, choices: &mut Choices) {
+fn options(ui: &mut Ui, choices: &mut Choices, candidates: usize) {
     match choices.what {
         What::Picture => {
             tiles(ui, choices);
             ui.horizontal_wrapped(|ui| {
-                ui.selectable_value(&mut choices.vector, false, ".png").on_hover_text("Pixels");
-                ui.selectable_value(&mut choices.vector, true, ".svg").on_hover_text("Vectors: sharp at any size");
+                ui.selectable_value(&mut choices.vector, false, ".png").on_hover_text(texts::PIXELS_TIP);
+                ui.selectable_value(&mut choices.vector, true, ".svg").on_hover_text(texts::VECTORS_TIP);
             });
             size(ui, &mut choices.size);
             ui.horizontal_wrapped(|ui| {
-                let tip = "Product, place, moment, errors and origin of the data round the picture";
-                ui.checkbox(&mut choices.caption, "Caption").on_hover_text(tip);
+                ui.checkbox(&mut choices.caption, texts::CAPTION.get()).on_hover_text(texts::CAPTION_TIP);
                 print(ui, &mut choices.print);
             });
         }
         What::Report => {
             ui.horizontal_wrapped(|ui| {
-                let tip = "Question, room, figures with errors, pictures, accuracy";
-                ui.selectable_value(&mut choices.report, ReportKind::Study, "Study").on_hover_text(tip);
-                let tip = "Figures, where light goes, states, tender text, origin of the data";
-                ui.selectable_value(&mut choices.report, ReportKind::Sheet, "Product sheet").on_hover_text(tip);
+                let study = ui.selectable_value(&mut choices.report, ReportKind::Study, texts::STUDY_KIND.get());
+                study.on_hover_text(texts::STUDY_TIP);
+                let sheet = ui.selectable_value(&mut choices.report, ReportKind::Sheet, texts::PRODUCT_SHEET.get());
+                sheet.on_hover_text(texts::SHEET_TIP);
             });
             print(ui, &mut choices.print);
             match choices.report {
                 ReportKind::Study => {
-                    text(ui, "Title", &mut choices.title, 1);
-                    text(ui, "Question", &mut choices.question, 2);
+                    text(ui, texts::TITLE, &mut choices.title, 1);
+                    text(ui, texts::QUESTION, &mut choices.question, 2);
+                    ui.add_enabled_ui(candidates > 0, |ui| {
+                        let tip = texts::WITH_COMPARISON_TIP;
+                        let text = texts::WITH_COMPARISON.get();
+                        ui.checkbox(&mut choices.comparison, text).on_hover_text(tip).on_disabled_hover_text(tip);
+                    });
                 }
-                ReportKind::Sheet => text(ui, "Tender text", &mut choices.tender, ROWS),
+                ReportKind::Sheet => {
+                    // A shipped template goes with the language.
+                    let mut shown = spoken(&choices.tender).to_owned();
+                    text(ui, texts::TENDER_TEXT, &mut shown, ROWS);
+                    if shown != spoken(&choices.tender) {
+                        choices.tender = shown;
+                    }
+                }
             }
         }
         What::Luminaire => luminaire(ui, &mut choices.ies),
@@ -78,9 +92,8 @@ fn options(ui: &mut Ui, choices: &mut Choices) {
         What::Table => tiles(ui, choices),
         What::Dataset => {
             ui.horizontal_wrapped(|ui| {
-                ui.selectable_value(&mut choices.text, false, ".xml").on_hover_text("BSDF XML of LBNL WINDOW");
-                ui.selectable_value(&mut choices.text, true, ".btdf.txt")
-                    .on_hover_text("Text, as goniophotometers write");
+                ui.selectable_value(&mut choices.text, false, ".xml").on_hover_text(texts::XML_TIP);
+                ui.selectable_value(&mut choices.text, true, ".btdf.txt").on_hover_text(texts::TEXT_TIP);
             });
         }
         What::Package | What::Scene => {}
@@ -88,16 +101,15 @@ fn options(ui: &mut Ui, choices: &mut Choices) {
 }
 
 fn print(ui: &mut Ui, print: &mut bool) {
-    let tip = "Black lines that are told apart without colours; false colours stay";
-    ui.checkbox(print, "For printers").on_hover_text(tip);
+    ui.checkbox(print, texts::FOR_PRINTERS.get()).on_hover_text(texts::FOR_PRINTERS_TIP);
 }
 
 fn tiles(ui: &mut Ui, choices: &mut Choices) {
     ui.horizontal(|ui| {
-        let name = ui.label("Tile");
-        let combo = ComboBox::from_id_salt("tile").selected_text(choices.tile.title()).show_ui(ui, |ui| {
+        let name = ui.label(texts::TILE);
+        let combo = ComboBox::from_id_salt("tile").selected_text(choices.tile.words().get()).show_ui(ui, |ui| {
             for tile in TileKind::ALL {
-                ui.selectable_value(&mut choices.tile, tile, tile.title());
+                ui.selectable_value(&mut choices.tile, tile, tile.words().get());
             }
         });
         combo.response.labelled_by(name.id);
@@ -117,14 +129,14 @@ fn size(ui: &mut Ui, size: &mut Size) {
             Unit::Pixels => ("px", 240.0..=8000.0),
             Unit::Millimetres => ("mm", 21.0..=677.0),
         };
-        let name = ui.label("Width");
+        let name = ui.label(texts::WIDTH);
         let drag = |value| DragValue::new(value).range(range.clone()).suffix(format!(" {unit}")).max_decimals(0);
         ui.add(drag(&mut size.width)).labelled_by(name.id);
-        let name = ui.label("Height");
+        let name = ui.label(texts::HEIGHT);
         ui.add(drag(&mut size.height)).labelled_by(name.id);
         let before = size.unit;
-        ui.selectable_value(&mut size.unit, Unit::Pixels, "px").on_hover_text("For screens");
-        ui.selectable_value(&mut size.unit, Unit::Millimetres, "mm").on_hover_text("On paper; 300 pixels an inch");
+        ui.selectable_value(&mut size.unit, Unit::Pixels, "px").on_hover_text(texts::SCREENS_TIP);
+        ui.selectable_value(&mut size.unit, Unit::Millimetres, "mm").on_hover_text(texts::PAPER_TIP);
         if before != size.unit {
             // Usual sizes of the other unit, in the same proportion.
             let width = if size.unit == Unit::Pixels { 1600.0 } else { 160.0 };
@@ -133,45 +145,43 @@ fn size(ui: &mut Ui, size: &mut Size) {
     });
 }
 
-fn text(ui: &mut Ui, label: &str, text: &mut String, rows: usize) {
+fn text(ui: &mut Ui, label: Text, text: &mut String, rows: usize) {
     let name = ui.label(label);
     let field = if rows == 1 { TextEdit::singleline(text) } else { TextEdit::multiline(text).desired_rows(rows) };
     if rows < ROWS {
         ui.add(field.desired_width(f32::INFINITY)).labelled_by(name.id);
     } else {
-        ScrollArea::vertical().id_salt(label).max_height(110.0).show(ui, |ui| {
+        ScrollArea::vertical().id_salt(label.english()).max_height(110.0).show(ui, |ui| {
             ui.add(field.desired_width(f32::INFINITY)).labelled_by(name.id);
         });
     }
 }
 
 fn series(ui: &mut Ui, choices: &mut Choices) {
-    const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
     let series = &mut choices.series;
-    ui.label("On the 21st of");
+    ui.label(texts::ON_THE_21ST);
     ui.horizontal_wrapped(|ui| {
         for (wanted, name) in series.months.iter_mut().zip(MONTHS) {
-            ui.toggle_value(wanted, name);
+            ui.toggle_value(wanted, name.get());
         }
     });
     ui.horizontal_wrapped(|ui| {
         let [first, last] = &mut series.hours;
-        let name = ui.label("From");
+        let name = ui.label(texts::FROM);
         ui.add(DragValue::new(first).range(0..=23).suffix(" h")).labelled_by(name.id);
-        let name = ui.label("to");
+        let name = ui.label(texts::TO);
         ui.add(DragValue::new(last).range(0..=23).suffix(" h")).labelled_by(name.id);
-        let name = ui.label("every");
+        let name = ui.label(texts::EVERY);
         ui.add(DragValue::new(&mut series.step).range(1..=12).suffix(" h")).labelled_by(name.id);
     });
-    ui.checkbox(&mut series.all_states, "All states of the product")
-        .on_hover_text(format!("Else the scene's own state or control; at most {MOST_FILES} files"));
+    ui.checkbox(&mut series.all_states, texts::ALL_STATES.get()).on_hover_text(texts::all_states_tip(MOST_FILES));
 }
 
 /// Folder and name, and the buttons.
 fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let state = &app.state;
     let mut text = state.path.clone();
-    let name = ui.label("Write to");
+    let name = ui.label(texts::WRITE_TO);
     // On as many lines as the name needs: its end, which says what it is, stays in sight.
     let field = TextEdit::multiline(&mut text)
         .id(egui::Id::unique("path of what is handed on"))
@@ -186,17 +196,13 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let path = PathBuf::from(text.trim());
     let ready = !text.trim().is_empty();
     if state.replace.as_ref() == Some(&path) {
-        let words = if state.settings.hand_on.what == What::Series {
-            "Files of these names exist already."
-        } else {
-            "A file of this name exists already."
-        };
-        ui.colored_label(theme::palette(ui).warning, words);
+        let words = if state.settings.hand_on.what == What::Series { texts::THESE_EXIST } else { texts::THIS_EXISTS };
+        ui.colored_label(theme::palette(ui).warning, words.get());
         ui.horizontal(|ui| {
-            if ui.button("Replace").on_hover_text("Write over it").clicked() {
+            if ui.button(texts::REPLACE).on_hover_text(texts::REPLACE_TIP).clicked() {
                 commands.push(Command::Write(PathUse::HandOn, path.clone()));
             }
-            if ui.button("Other name").on_hover_text("Keep the file; give another name").clicked() {
+            if ui.button(texts::OTHER_NAME).on_hover_text(texts::OTHER_NAME_TIP).clicked() {
                 commands.push(Command::KeepFile);
                 field.request_focus();
             }
@@ -206,7 +212,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let job = app.jobs.views().into_iter().find(|job| job.lane == Lane::Export).filter(|_| app.writing);
     if let Some(job) = job {
         ui.horizontal(|ui| {
-            if ui.button("Stop").on_hover_text("Write nothing").clicked() {
+            if ui.button(texts::STOP).on_hover_text(texts::STOP_TIP).clicked() {
                 commands.push(Command::Cancel(Lane::Export));
             }
             let share = job.state.fraction().unwrap_or(0.0);
@@ -216,12 +222,11 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
     ui.horizontal(|ui| {
         let entered = field.has_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        let write =
-            ui.add_enabled(ready, Button::new("Write")).on_hover_text("Write it; a file that exists is asked about");
+        let write = ui.add_enabled(ready, Button::new(texts::WRITE.get())).on_hover_text(texts::WRITE_TIP);
         if ready && (write.clicked() || entered) {
             commands.push(Command::WriteNew(PathUse::HandOn, path));
         }
-        if ui.button("Browse…").on_hover_text("Choose folder and name").clicked() {
+        if ui.button(texts::BROWSE).on_hover_text(texts::BROWSE_TIP).clicked() {
             commands.push(Command::BrowseHandOn);
         }
     });
@@ -230,7 +235,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
 /// A size in bytes for people.
 fn bytes(count: usize) -> String {
     match count {
-        0..10_000 => format!("{count} bytes"),
+        0..10_000 => texts::bytes(count),
         10_000..10_000_000 => format!("{} kB", count / 1000),
         _ => format!("{} MB", count / 1_000_000),
     }
@@ -240,7 +245,7 @@ fn preview(ui: &mut Ui, app: &App) {
     let hand_on = &app.state.hand_on;
     let busy = app.jobs.busy(Lane::Preview);
     ui.horizontal(|ui| {
-        ui.strong("Preview");
+        ui.strong(texts::PREVIEW.get());
         if busy {
             ui.spinner();
         }
@@ -248,7 +253,7 @@ fn preview(ui: &mut Ui, app: &App) {
     match &hand_on.shown {
         None if busy => {}
         None => {
-            ui.weak("Not yet: the product is being read.");
+            ui.weak(texts::NOT_YET.get());
         }
         Some(Err(error)) => {
             ui.add(Label::new(RichText::new(error).color(theme::palette(ui).error)).wrap());
@@ -268,7 +273,7 @@ fn preview(ui: &mut Ui, app: &App) {
             };
             let wide = ui.available_width().min(*width as f32);
             let size = vec2(wide, wide * *height as f32 / (*width).max(1) as f32);
-            let image = egui::Image::new((texture.id(), size)).alt_text("Preview of what will be written");
+            let image = egui::Image::new((texture.id(), size)).alt_text(texts::PREVIEW_ALT.get());
             let response = ui.add(image);
             ui.painter().rect_stroke(
                 response.rect,
@@ -284,7 +289,7 @@ fn preview(ui: &mut Ui, app: &App) {
         }
         Some(Ok(Preview::Files(files))) => {
             let count = files.len();
-            ui.weak(if count == 1 { "One file".to_owned() } else { format!("{count} files") });
+            ui.weak(if count == 1 { texts::ONE_FILE.into() } else { texts::files_are(count) });
             for (name, words) in files {
                 ui.add(Label::new(name).wrap());
                 ui.add(Label::new(RichText::new(words).weak()).wrap());

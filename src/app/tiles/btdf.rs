@@ -24,6 +24,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn log(&mut self) -> Option<&mut bool> {
+        Some(&mut self.view.log)
+    }
+
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.state.dataset.value.is_some()
     }

@@ -71,6 +71,10 @@ pub trait Drawn {
     fn lanes(&self) -> &'static [Lane] {
         &[]
     }
+    /// Its choice of a logarithmic scale, where it has one.
+    fn log(&mut self) -> Option<&mut bool> {
+        None
+    }
     /// Is there anything that the tile could draw? Until then the bench says what is waited for.
     fn ready(&self, seen: &TileInput<'_>) -> bool;
     /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.

@@ -130,6 +130,11 @@ impl Bench {
         state.dataset.stale || state.daylight.stale || lanes.iter().any(old)
     }
 
+    /// A tile's choice of a logarithmic scale, where it has one.
+    pub fn log(&mut self, tile: Tile) -> Option<&mut bool> {
+        self.drawn.iter_mut().find(|(one, _)| *one == tile)?.1.log()
+    }
+
     /// Draws a tile; its numbers where they are asked for.
     pub fn show(
         &mut self,

@@ -101,6 +101,10 @@ impl Drawn for Drawing {
         if self.shown == RoomView::Perspective { &[Lane::Room, Lane::Surfaces] } else { &[Lane::Room] }
     }
 
+    fn log(&mut self) -> Option<&mut bool> {
+        Some(&mut self.view.log)
+    }
+
     fn ready(&self, seen: &TileInput<'_>) -> bool {
         seen.results.room.value.is_some() || seen.results.room.error.is_some()
     }

@@ -362,11 +362,15 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     let unit = if weighted { "q·cosθ / (1/sr)" } else { "q / (1/sr)" };
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(direction.0.theta()));
     let legend = place.legend.unwrap_or(place.rect);
+    // A scale that is shared stands above all tiles.
+    let own_legend = input.range.is_none() || weighted;
     let (text, name) = match (found, &scale, state.leaving) {
         (Some(indicatrix), Some(scale), Leaving::Body) => {
             let body = lobe::Input { indicatrix, direction, regular, scale, weighted, key: (revision, key) };
             let (text, value) = lobe::show(ui, place, &body, &mut state.lobe);
-            scale.paint_legend(ui.painter(), legend, unit, value, &palette);
+            if own_legend {
+                scale.paint_legend(ui.painter(), legend, unit, value, &palette);
+            }
             (text, None)
         }
         (Some(indicatrix), Some(scale), Leaving::Cuts) => {
@@ -376,7 +380,8 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
         (found, scale, _) => {
             let (text, value, response) = emergent_disk_ui(ui, place, found.as_ref().zip(scale.as_ref()), input, state);
             match scale {
-                Some(scale) => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
+                Some(scale) if own_legend => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
+                Some(_) => {}
                 None => {
                     let at = pos2(legend.center().x, legend.top() + 4.0);
                     let missing = input.form.map_or(say::NOTHING_SCATTERED.into(), |form| form.missing());

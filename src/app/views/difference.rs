@@ -3,63 +3,14 @@
 use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, Projection, Side};
-use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::palette::Palette;
 use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::estimate::Estimate;
-use crate::drawing::ticks::{fine_ceil, number};
-use crate::study::comparison::difference::OnCells;
+use crate::drawing::ticks::number;
+pub use crate::study::comparison::difference::{Picture, scale};
 use crate::texts::tiles as say;
 use egui::{Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
-
-/// What differs.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Picture {
-    /// Illuminances at the sensors, x running fastest. \[lx\]
-    Plan {
-        /// Width and depth of the room. \[m\]
-        room: [f64; 2],
-        /// Sensors along x and y.
-        count: [usize; 2],
-        /// Candidate less base, errors added.
-        values: Vec<Estimate>,
-    },
-    /// Luminance coefficients by where light goes \[1/sr\], or transmittances by where it comes from.
-    Disk {
-        /// Which.
-        side: Side,
-        /// Candidate less base.
-        cells: OnCells,
-    },
-}
-
-impl Picture {
-    /// The largest difference, either way.
-    pub fn reach(&self) -> f64 {
-        let largest = |values: &mut dyn Iterator<Item = f64>| {
-            values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
-        };
-        match self {
-            Self::Plan { values, .. } => largest(&mut values.iter().map(|one| one.value)),
-            Self::Disk { cells, .. } => largest(&mut cells.values.iter().copied()),
-        }
-    }
-
-    /// Name and unit of what differs.
-    const fn quantity(&self) -> [&'static str; 2] {
-        match self {
-            Self::Plan { .. } => ["ΔE", "lx"],
-            Self::Disk { side: Side::Emergent, .. } => ["Δq", "1/sr"],
-            Self::Disk { side: Side::Incident, .. } => ["Δτ", ""],
-        }
-    }
-}
-
-/// One scale for all differences of a quantity, as far down as up.
-pub fn scale(reach: f64) -> ColourScale {
-    let hi = fine_ceil(reach.max(1e-6));
-    ColourScale { lo: -hi, hi, log: false, map: ColourMap::Diverging }
-}
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]

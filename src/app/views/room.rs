@@ -139,9 +139,12 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     // In a low tile both would be too small to read: the plan goes first.
     let with_profile = rect.height() > 230.0 && input.complete();
     let profile_height = if with_profile { (0.38 * rect.height()).clamp(110.0, 230.0) } else { 0.0 };
+    // A scale that is shared stands above all tiles.
+    let shared = input.range.is_some() && !input.look.daylight_factor;
+    let legend_height = if shared { 0.0 } else { LEGEND_HEIGHT };
     let frame_rect = Rect::from_min_max(
         pos2(rect.left() + LEFT, rect.top() + if side { 6.0 } else { 2.0 }),
-        pos2(rect.right() - RIGHT, rect.bottom() - profile_height - LEGEND_HEIGHT - 6.0),
+        pos2(rect.right() - RIGHT, rect.bottom() - profile_height - legend_height - 6.0),
     );
     let frame = Frame::within(frame_rect, input.room, side);
     let name = if side { say::ROOM_SECTION } else { say::ROOM_PLAN };
@@ -173,7 +176,9 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
         vec2((frame.area.width() + 30.0).max(160.0).min(frame_rect.width() + 10.0), LEGEND_HEIGHT),
     );
     let unit = input.quantity.unit();
-    scale.paint_legend(ui.painter(), legend, unit, value.map(|v| v.total), &palette);
+    if !shared {
+        scale.paint_legend(ui.painter(), legend, unit, value.map(|v| v.total), &palette);
+    }
     let mut text = None;
     if with_profile {
         // From the plan's left edge to its right: every depth stands under itself.

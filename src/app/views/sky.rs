@@ -239,7 +239,9 @@ fn dome(
     out: &mut Vec<Action>,
 ) -> Foot {
     let palette = Palette::of(ui.visuals());
-    let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - LEGEND_HEIGHT), rect.max);
+    // A scale that is shared stands above all tiles.
+    let legend_height = if input.range.is_some() { 0.0 } else { LEGEND_HEIGHT };
+    let legend = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - legend_height), rect.max);
     let disk = Disk::within(Rect::from_min_max(rect.min, pos2(rect.right(), legend.top())));
     // Beyond the rim too, so that a sun on the horizon can be taken hold of.
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * (disk.radius + 8.0));
@@ -279,7 +281,9 @@ fn dome(
     }
     let place = response.hover_pos().map(|at| disk.disk(at)).filter(|[x, y]| x.hypot(*y) <= 1.0).map(place_of);
     let value = place.map(|p| luminance(p.altitude, p.bearing));
-    scale.paint_legend(ui.painter(), legend, "cd/m²", value, &palette);
+    if input.range.is_none() {
+        scale.paint_legend(ui.painter(), legend, "cd/m²", value, &palette);
+    }
     let sun_text = match input.sun {
         Some(sun) => Foot::from(place_text(say::SUN, sun)),
         None => Foot::from(say::NO_SUN),

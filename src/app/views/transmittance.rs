@@ -113,7 +113,9 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         }
         (None, _) => rect,
     };
-    let legend = Rect::from_min_max(pos2(map.left() + 4.0, map.bottom() - LEGEND_HEIGHT), map.max);
+    // A scale that is shared stands above all tiles.
+    let legend_height = if input.range.is_some() { 0.0 } else { LEGEND_HEIGHT };
+    let legend = Rect::from_min_max(pos2(map.left() + 4.0, map.bottom() - legend_height), map.max);
     let disk = Disk::within(Rect::from_min_max(map.min, pos2(map.right(), legend.top())));
     let area = Rect::from_center_size(disk.centre, vec2(2.0, 2.0) * disk.radius);
     let response = ui.interact(area, ui.scope_id().with("map"), Sense::click());
@@ -161,7 +163,9 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         out.push(Action::ChooseIncidence(incident));
     }
     let pointed = response.hover_pos().and_then(direction);
-    scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|d| btdf.tau(d)), &palette);
+    if input.range.is_none() {
+        scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|d| btdf.tau(d)), &palette);
+    }
     let tau = |d: Incident| format!("τ {}", number(btdf.tau(d), 3));
     // The line under the picture is never empty: without a pointer it tells of the direction that the flux split is of.
     let [full, middle, short] = input.incidence.texts();

@@ -9,8 +9,7 @@ use crate::drawing::{Align, Drawing, Frame, Rgb, Shape, TEXT};
 use crate::study::moment;
 use crate::study::product_control::words;
 use crate::study::subject::{Controlled, Subject};
-
-const STILL: &str = "the product has one state: nothing moves";
+use crate::texts::{fixed, hand_on as texts};
 
 fn colour(states: usize, index: usize) -> Rgb {
     ColourMap::Sequential.rgb(index as f32 / (states.max(2) - 1) as f32)
@@ -20,12 +19,12 @@ fn colour(states: usize, index: usize) -> Rgb {
 fn state(control: &Controlled, index: usize) -> String {
     let (quantity, unit) = control.quantity.split_once(" / ").unwrap_or((control.quantity, ""));
     control.states.get(index).map_or_else(String::new, |(key, value)| {
-        if key.parse() == Ok(*value) { format!("{quantity} {}{unit}", tick(*value)) } else { format!("state {key}") }
+        if key.parse() == Ok(*value) { format!("{quantity} {}{unit}", tick(*value)) } else { texts::state(key) }
     })
 }
 
 pub(super) fn control(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> Result<String, String> {
-    let control = subject.control.as_ref().ok_or(STILL)?;
+    let control = subject.control.as_ref().ok_or(texts::STILL)?;
     let year = control.year.as_ref().filter(|year| !year.hours.is_empty());
     let [upper, lower] = frame.cut_bottom(if year.is_some() { 0.46 * frame.height } else { 0.0 });
     curve(drawing, upper, control, inks);
@@ -36,10 +35,10 @@ pub(super) fn control(drawing: &mut Drawing, frame: Frame, subject: &Subject, in
     }
     let now = control
         .profile_angle
-        .map_or_else(|| "the sun is not before the façade".to_owned(), |angle| format!("profile angle {angle:.0}°"));
+        .map_or_else(|| texts::SUN_BEHIND.into(), |angle| texts::profile_angle_is(fixed(angle, 0)));
     let mut said = vec![words(control.mode).does.to_owned(), now, state(control, control.current)];
     if let Some(year) = year {
-        said.push(format!("{} movements a year", year.movements));
+        said.push(texts::movements(year.movements));
     }
     Ok(said.join(" · "))
 }
@@ -60,16 +59,16 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
         _ => [f64::NAN; 2],
     });
     let now = control.profile_angle.filter(|angle| (0.0..=90.0).contains(angle));
-    let mut series = vec![Series::line("rule", control.curve.iter().copied())];
+    let mut series = vec![Series::line(texts::RULE, control.curve.iter().copied())];
     if !control.today.is_empty() {
-        series.push(Series::line("today", today));
+        series.push(Series::line(texts::TODAY, today));
     }
     let plot = Plot {
-        x: Axis::linear([0.0, 90.0], "profile angle", Unit::Degrees),
+        x: Axis::linear([0.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees),
         y: Axis::linear([lo, hi], name, unit),
         series,
         guides: now
-            .map(|angle| Guide { name: "now".to_owned(), ends: [[angle, lo], [angle, hi]] })
+            .map(|angle| Guide { name: texts::NOW.into(), ends: [[angle, lo], [angle, hi]] })
             .into_iter()
             .collect(),
     };
@@ -84,7 +83,7 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
         let text = Frame::new(at[0] - 14.0, at[1] - 20.0, 28.0, 14.0);
         if used.iter().all(|other| !other.meets(&text)) && panel.area.holds(&text) {
             used.push(text);
-            drawing.shapes.extend(on_halo(text.centre(), &format!("{hour:.0}h"), inks));
+            drawing.shapes.extend(on_halo(text.centre(), &texts::hour_mark(fixed(*hour, 0)), inks));
         }
     }
     for (k, (_, value)) in control.states.iter().enumerate() {

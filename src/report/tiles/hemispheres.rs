@@ -11,15 +11,17 @@ use crate::drawing::hemisphere::{
 };
 use crate::drawing::ticks::number;
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT, legend};
+use crate::study::comparison::scales::Range;
 use crate::study::facing::surface;
 use crate::study::incidence::{Incidence, Source};
 use crate::study::incoming::{flux_split, sun_paths};
 use crate::study::subject::Subject;
+use crate::texts::words::MONTHS;
+use crate::texts::{fixed, hand_on as texts};
 
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
 /// Room round a disk for the words at its rim.
 const RIM: f64 = 19.0;
-const NO_DATA: &str = "the system has no transmission data";
 
 /// A disk over its legend, and its caption between them.
 fn places(frame: Frame) -> (Round, Frame, Point) {
@@ -62,7 +64,7 @@ pub fn indicatrix(
             legend::scale(drawing, below, &scale, "q / (1/sr)", inks);
         }
         None => {
-            drawing.add(Shape::text([below.centre()[0], below.top + 10.0], "nothing is scattered", inks.weak));
+            drawing.add(Shape::text([below.centre()[0], below.top + 10.0], texts::NOTHING_SCATTERED, inks.weak));
         }
     }
     drawing.shapes.extend(round.rim(PROJECTION, inks));
@@ -72,16 +74,23 @@ pub fn indicatrix(
         let at = round.place(emergent_disk(PROJECTION, Emergent::from_through_name(incident.0)));
         drawing.add(Shape::dot(at, 5.0, inks.beam));
         drawing.add(Shape::ring(at, 5.0, [255; 3], 1.5));
+        let words = texts::regular_tau(number(regular, 3));
         // Beside the middle, so that the words stay on the disk.
         let over = if at[1] > round.centre[1] { -16.0 } else { 16.0 };
-        let half = 0.5 * crate::drawing::font::width("regular τ 0.000", TEXT);
+        let half = 0.5 * crate::drawing::font::width(&words, TEXT);
         let x = at[0].clamp(frame.left + half, (frame.right() - half).max(frame.left + half));
-        drawing.shapes.extend(on_halo([x, at[1] + over], &format!("regular τ {}", number(regular, 3)), inks));
+        drawing.shapes.extend(on_halo([x, at[1] + over], &words, inks));
     }
 }
 
-pub(super) fn btdf(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> Result<String, String> {
-    let btdf = subject.transmission().ok_or(NO_DATA)?;
+pub(super) fn btdf(
+    drawing: &mut Drawing,
+    frame: Frame,
+    subject: &Subject,
+    range: Range,
+    inks: &Inks,
+) -> Result<String, String> {
+    let btdf = subject.transmission().ok_or(texts::NO_DATA)?;
     let [outside, inside] =
         if frame.width > 1.1 * frame.height { frame.split(0.5) } else { frame.cut_bottom(0.5 * frame.height) };
     let (round, below, at) = places(outside);
@@ -101,10 +110,10 @@ pub(super) fn btdf(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
     }
     legend::scale(drawing, below, &scale, "τ", inks);
     drawing.shapes.extend(round.rim(PROJECTION, inks));
-    drawing.add(Shape::text(at, "outside: where light comes from", inks.ink));
+    drawing.add(Shape::text(at, texts::OUTSIDE_FROM, inks.ink));
     mark(drawing, &round, &subject.incidence, subject.sun, inks);
     let incident = subject.incidence.direction;
-    indicatrix(drawing, inside, btdf, incident, ("inside: where light goes", None), inks);
+    indicatrix(drawing, inside, btdf, incident, (texts::INSIDE_TO.get(), range.map(|[_, high]| (high, 3))), inks);
     Ok(of_incidence(btdf, &subject.incidence))
 }
 
@@ -127,7 +136,7 @@ pub(super) fn of_incidence(btdf: &Btdf, incidence: &Incidence) -> String {
     let tau = btdf.tau(incident);
     let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
     let parts = if regular > 0.0 && btdf.scattered.is_some() {
-        format!(" (scattered {}, regular {})", number(tau - regular, 3), number(regular, 3))
+        texts::scattered_regular(number(tau - regular, 3), number(regular, 3))
     } else {
         String::new()
     };
@@ -139,9 +148,10 @@ pub(super) fn transmittance(
     drawing: &mut Drawing,
     frame: Frame,
     subject: &Subject,
+    range: Range,
     inks: &Inks,
 ) -> Result<String, String> {
-    let btdf = subject.transmission().ok_or(NO_DATA)?;
+    let btdf = subject.transmission().ok_or(texts::NO_DATA)?;
     let split = flux_split(btdf, subject.incidence.direction, surface(&subject.file));
     let map = if frame.width > 1.1 * frame.height {
         let [map, beside] = frame.split(1.0 - (190.0 / frame.width).min(0.4));
@@ -155,7 +165,7 @@ pub(super) fn transmittance(
     let (round, below, at) = places(map);
     let basis = incident_cells(btdf);
     let max = basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max);
-    let scale = ColourScale::up_to(max.max(1e-3), false, 3, ColourMap::Sequential);
+    let scale = ColourScale::up_to(range.map_or(max.max(1e-3), |[_, high]| high), false, 3, ColourMap::Sequential);
     let cells = match &btdf.scattered {
         // Measured cells stay flat, so that the picture shows no resolution that the data do not have.
         Some(Scattered::Cells(_) | Scattered::Directions(_) | Scattered::Tree(_)) => {
@@ -169,7 +179,7 @@ pub(super) fn transmittance(
     drawing.shapes.extend(cells);
     legend::scale(drawing, below, &scale, "τ", inks);
     drawing.shapes.extend(round.rim(PROJECTION, inks));
-    drawing.add(Shape::text(at, "where light comes from, with the sun's paths", inks.ink));
+    drawing.add(Shape::text(at, texts::FROM_WITH_PATHS, inks.ink));
     paths(drawing, &round, subject, inks);
     mark(drawing, &round, &subject.incidence, subject.sun, inks);
     Ok(format!("{}. {}", of_incidence(btdf, &subject.incidence), split.sentence()))
@@ -177,7 +187,6 @@ pub(super) fn transmittance(
 
 /// The sun's paths on the 21st of each month, with hours and the names of three.
 fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
-    const MONTHS: [&str; 12] = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
     let mut names: Vec<(Frame, Point, String)> = Vec::new();
     let mut name = |at: Point, text: String| {
         let half = 0.5 * crate::drawing::font::width(&text, TEXT) + 4.0;
@@ -207,12 +216,12 @@ fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
             drawing.add(Shape::dot(*at, 1.7, [255; 3]));
             if (month == 11 || month == 5) && (hour.round() as i64) % 3 == 0 {
                 let aside = if month == 5 { -11.0 } else { 11.0 };
-                name([at[0], at[1] + aside], format!("{hour:.0}h"));
+                name([at[0], at[1] + aside], texts::hour_mark(fixed(*hour, 0)));
             }
         }
         let longest = runs.iter().max_by_key(|run| run.len()).filter(|run| run.len() > 3);
         if let (Some(run), true) = (longest, [2, 5, 11].contains(&month)) {
-            name(run[run.len() / 4].1, MONTHS[month].to_owned());
+            name(run[run.len() / 4].1, MONTHS[month].into());
         }
     }
     for (_, at, text) in names {
@@ -227,7 +236,7 @@ fn bar(drawing: &mut Drawing, frame: Frame, split: &FluxSplit, incidence: &Incid
         drawing.add(Shape::words([frame.left + 8.0, y], text, colour, TEXT, Align::Start));
     };
     words(drawing, frame.top + 10.0, incidence.name(), inks.weak);
-    words(drawing, frame.top + 10.0 + line, "leaving to / %", inks.weak);
+    words(drawing, frame.top + 10.0 + line, texts::LEAVING_TO.get(), inks.weak);
     let sentence = wrapped(&split.sentence(), TEXT, frame.width - 10.0);
     let high = (frame.height - 3.2 * line - sentence.len() as f64 * line).max(40.0);
     let column = Frame::new(frame.left + 8.0, frame.top + 2.4 * line, 26.0, high);

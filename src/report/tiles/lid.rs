@@ -8,7 +8,9 @@ use crate::drawing::legend::{self, Name};
 use crate::drawing::lid_curves::{LidPlane, SAMPLES, diffuser, sample, vertical_planes};
 use crate::drawing::ticks::{self, number, si};
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT};
+use crate::study::comparison::scales::Range;
 use crate::study::subject::Subject;
+use crate::texts::hand_on as texts;
 use std::f64::consts::{PI, TAU};
 
 /// Room for the angles round the rim.
@@ -70,8 +72,14 @@ fn ideal(surface: Surface, flux: f64, section: LidPlane) -> Vec<f64> {
     (0..180).map(|k| diffuser(flux, section.direction(Aim::of(surface), TAU * f64::from(k) / 180.0))).collect()
 }
 
-pub(super) fn lid(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> Result<String, String> {
-    let (result, peaks) = subject.lid.as_ref().ok_or("no luminous intensities were computed")?;
+pub(super) fn lid(
+    drawing: &mut Drawing,
+    frame: Frame,
+    subject: &Subject,
+    range: Range,
+    inks: &Inks,
+) -> Result<String, String> {
+    let (result, peaks) = subject.lid.as_ref().ok_or(texts::NO_LID)?;
     let lid = &result.lid;
     let planes = vertical_planes(lid.surface, Some(peaks));
     let curves = sample(lid, &planes);
@@ -79,7 +87,8 @@ pub(super) fn lid(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
     let two = body.width > 1.25 * body.height;
     let [main, side] = if two { body.split(0.54) } else { [body, body] };
     let scattered = result.flux.value - lid.beam_flux();
-    let axes = Polar::within(main, curves.max);
+    let max = range.map_or(curves.max, |[_, high]| high);
+    let axes = Polar::within(main, max);
     axes.axes(drawing, |a| format!("{:.0}°", a.min(TAU - a).to_degrees()), -7.0 * PI / 12.0, inks);
     if scattered > 0.0 {
         let points = axes.curve(&ideal(lid.surface, scattered, LidPlane::Vertical(0)));
@@ -90,7 +99,7 @@ pub(super) fn lid(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
     }
     beams(drawing, &axes, lid, inks);
     if two {
-        let axes = Polar::within(side, curves.max);
+        let axes = Polar::within(side, max);
         axes.axes(drawing, |a| format!("C{:.0}", a.to_degrees()), 7.0 * PI / 12.0, inks);
         if scattered > 0.0 {
             let points = axes.curve(&ideal(lid.surface, scattered, LidPlane::Horizontal));
@@ -107,20 +116,20 @@ pub(super) fn lid(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
         .enumerate()
         .map(|(k, (plane, _))| {
             let flat = *plane == LidPlane::Vertical(90) && lid.surface == Surface::Facade;
-            let zero = if flat { " (0: façade's plane)" } else { "" };
-            name(inks.curve(k, sample_line(), 2.5), format!("{}, cd{zero}", plane.label()))
+            let words = if flat { texts::curve_cd_flat(plane.label()) } else { texts::curve_cd(plane.label()) };
+            name(inks.curve(k, sample_line(), 2.5), words)
         })
         .collect();
     if two {
-        names.push(name(inks.curve(3, sample_line(), 2.5), "γ = 90°, from above, cd".to_owned()));
+        names.push(name(inks.curve(3, sample_line(), 2.5), texts::FROM_ABOVE_CD.into()));
     }
     if scattered > 0.0 {
         let dashes = Shape::dashed(sample_line(), inks.weak, 1.5, [5.0, 4.0]);
-        names.push(name(dashes, "ideal diffuser of the same flux".to_owned()));
+        names.push(name(dashes, texts::IDEAL_DIFFUSER.into()));
     }
     if lid.beam_flux() > 0.0 {
         let dots = Shape::dashed(sample_line(), inks.beam, 2.0, [2.0, 4.0]);
-        names.push(name(dots, "sun's beam, not to scale".to_owned()));
+        names.push(name(dots, texts::SUN_BEAM_NO_SCALE.into()));
     }
     legend::names(drawing, below, &names, inks);
     Ok(figures(lid, peaks, scattered, result.flux.error))
@@ -140,17 +149,21 @@ fn beams(drawing: &mut Drawing, axes: &Polar, lid: &Lid, inks: &Inks) {
 
 /// Flux and peaks in words.
 fn figures(lid: &Lid, peaks: &Peaks, scattered: f64, error: f64) -> String {
-    let mut words = vec![match error {
-        error if error > 0.0 => format!("scattered flux {} ± {}", si(scattered, "lm"), si(error, "lm")),
-        _ => format!("scattered flux {}", si(scattered, "lm")),
-    }];
+    let flux = match error {
+        error if error > 0.0 => format!("{} ± {}", si(scattered, "lm"), si(error, "lm")),
+        _ => si(scattered, "lm"),
+    };
+    let mut words = vec![texts::scattered_flux(flux)];
     if let Some(peak) = &peaks.scattered {
-        words.push(format!("peak {} to {}", si(peak.intensity, "cd"), angles(peak.c, peak.gamma)));
+        words.push(texts::peak(si(peak.intensity, "cd"), angles(peak.c, peak.gamma)));
     }
     if lid.beam_flux() > 0.0 {
-        let to = peaks.beam.as_ref().map_or_else(String::new, |peak| format!(" to {}", angles(peak.c, peak.gamma)));
-        words.push(format!("sun's beam {}{to}", si(lid.beam_flux(), "lm")));
+        let flux = si(lid.beam_flux(), "lm");
+        words.push(match &peaks.beam {
+            Some(peak) => texts::sun_beam_to(flux, angles(peak.c, peak.gamma)),
+            None => texts::sun_beam(flux),
+        });
     }
-    words.push(format!("aperture {} × {} m", number(lid.size[0], 3), number(lid.size[1], 3)));
+    words.push(texts::aperture(number(lid.size[0], 3), number(lid.size[1], 3)));
     words.join(" · ")
 }

@@ -3,7 +3,7 @@
 mod control;
 mod hemispheres;
 mod lid;
-mod room;
+pub(super) mod room;
 mod section;
 mod sky;
 
@@ -13,7 +13,9 @@ pub use section::section;
 use super::error::ReportError;
 use crate::drawing::colours::Inks;
 use crate::drawing::{Drawing, Frame};
+use crate::study::comparison::scales::{self, Range};
 use crate::study::subject::{Subject, Wanted};
+use crate::texts::{Text, hand_on as texts};
 use std::str::FromStr;
 
 /// A tile.
@@ -37,7 +39,7 @@ impl TileKind {
     /// All, in the order of the bench.
     pub const ALL: [Self; 6] = [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control];
 
-    /// The title of the tile.
+    /// The title of the tile in the window's own books.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Btdf => "BTDF",
@@ -46,6 +48,18 @@ impl TileKind {
             Self::Lid => "LID",
             Self::Room => "Room",
             Self::Control => "Control",
+        }
+    }
+
+    /// The same for people.
+    pub const fn words(self) -> Text {
+        match self {
+            Self::Btdf => texts::TILE_BTDF,
+            Self::Transmittance => texts::TILE_TRANSMITTANCE,
+            Self::Sky => texts::TILE_SKY,
+            Self::Lid => texts::TILE_LID,
+            Self::Room => texts::TILE_ROOM,
+            Self::Control => texts::TILE_CONTROL,
         }
     }
 
@@ -94,14 +108,39 @@ pub(super) fn draw(
     tile: TileKind,
     inks: &Inks,
 ) -> Result<String, ReportError> {
-    let told = |why: String| ReportError::Nothing(tile.title(), why);
+    draw_on(drawing, frame, subject, (tile, None), inks)
+}
+
+/// The same on a scale that is shared with others: its lowest and highest value, as [`scale_of`] finds them.
+pub(super) fn draw_on(
+    drawing: &mut Drawing,
+    frame: Frame,
+    subject: &Subject,
+    (tile, range): (TileKind, Range),
+    inks: &Inks,
+) -> Result<String, ReportError> {
     match tile {
-        TileKind::Btdf => hemispheres::btdf(drawing, frame, subject, inks),
-        TileKind::Transmittance => hemispheres::transmittance(drawing, frame, subject, inks),
-        TileKind::Sky => Ok(sky::sky(drawing, frame, subject, inks)),
-        TileKind::Lid => lid::lid(drawing, frame, subject, inks),
-        TileKind::Room => room::room(drawing, frame, subject, inks),
+        TileKind::Btdf => hemispheres::btdf(drawing, frame, subject, range, inks),
+        TileKind::Transmittance => hemispheres::transmittance(drawing, frame, subject, range, inks),
+        TileKind::Sky => Ok(sky::sky(drawing, frame, subject, range, inks)),
+        TileKind::Lid => lid::lid(drawing, frame, subject, range, inks),
+        TileKind::Room => room::room(drawing, frame, subject, range, inks),
         TileKind::Control => control::control(drawing, frame, subject, inks),
     }
-    .map_err(told)
+    .map_err(|why| ReportError::Nothing(tile.words(), why))
+}
+
+/// The scale of a tile that holds all of these; `None` where it is fixed, or where there is no light.
+pub(super) fn scale_of<'a>(tile: TileKind, subjects: impl Iterator<Item = &'a Subject>) -> Range {
+    match tile {
+        TileKind::Btdf => scales::of_q(subjects.filter_map(|one| Some((one.transmission()?, one.incidence.direction)))),
+        TileKind::Transmittance => scales::of_tau(subjects.filter_map(Subject::transmission)),
+        TileKind::Sky => scales::of_skies(subjects.map(|one| &one.scene.outside)),
+        TileKind::Lid => scales::of_lids(subjects.filter_map(|one| Some(&one.lid.as_ref()?.0.lid))),
+        TileKind::Room => {
+            let sensors = subjects.filter_map(|one| one.room.as_ref()).flat_map(|room| &room.sensors);
+            scales::of_illuminances(sensors.map(|sensor| sensor.total().value))
+        }
+        TileKind::Control => None,
+    }
 }

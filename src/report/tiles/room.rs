@@ -8,18 +8,22 @@ use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{si, tick};
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT, legend};
 use crate::study::SensorResult;
+use crate::study::comparison::scales::Range;
 use crate::study::scene_file::{SceneFile, SurfaceKey};
 use crate::study::scene_words::error_words;
 use crate::study::subject::Subject;
+use crate::texts::hand_on as texts;
 
 /// The plan on paper: depth to the right, x downwards (seen from above), the façade at the left.
-struct Plan {
-    area: Frame,
+pub(in crate::report) struct Plan {
+    /// The room.
+    pub area: Frame,
     scale: f64,
 }
 
 impl Plan {
-    fn within(frame: Frame, [width, depth]: [f64; 2]) -> Self {
+    /// The largest in the middle of a frame.
+    pub fn within(frame: Frame, [width, depth]: [f64; 2]) -> Self {
         let scale = (frame.width / depth).min(frame.height / width).max(1e-3);
         let [across, down] = [depth * scale, width * scale];
         let left = frame.left + 0.5 * (frame.width - across);
@@ -29,6 +33,12 @@ impl Plan {
     fn place(&self, x: f64, y: f64) -> Point {
         [self.area.left + y * self.scale, self.area.top + x * self.scale]
     }
+
+    /// A sensor's piece, by its column and row and their steps. \[m\]
+    pub fn cell(&self, [i, j]: [usize; 2], step: [f64; 2]) -> Frame {
+        let [left, top] = self.place(i as f64 * step[0], j as f64 * step[1]);
+        Frame::new(left, top, step[1] * self.scale, step[0] * self.scale)
+    }
 }
 
 /// Mean, extremes and error in words.
@@ -37,18 +47,24 @@ pub fn figures(sensors: &[SensorResult]) -> String {
     let values = || totals().map(|total| total.value);
     let mean = values().sum::<f64>() / sensors.len().max(1) as f64;
     let (min, max) = values().fold((f64::INFINITY, 0.0_f64), |(a, b), value| (a.min(value), b.max(value)));
-    format!("mean {} · min {} · max {} · {}", si(mean, "lx"), si(min, "lx"), si(max, "lx"), error_words(totals()))
+    texts::room_figures(si(mean, "lx"), si(min, "lx"), si(max, "lx"), error_words(totals()))
 }
 
-pub(super) fn room(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> Result<String, String> {
-    let result = subject.room.as_ref().ok_or("no illuminances were computed")?;
-    let listed = "the scene's sensors are listed points; a plan is drawn of a plane of sensors alone";
-    let [nx, ny] = subject.scene.grid.ok_or(listed)?;
+pub(super) fn room(
+    drawing: &mut Drawing,
+    frame: Frame,
+    subject: &Subject,
+    range: Range,
+    inks: &Inks,
+) -> Result<String, String> {
+    let result = subject.room.as_ref().ok_or(texts::NO_ROOM)?;
+    let [nx, ny] = subject.scene.grid.ok_or(texts::LISTED_POINTS)?;
     let totals: Vec<f64> = result.sensors.iter().map(|sensor| sensor.total().value).collect();
     let file = &subject.file;
     let (wide, deep) = (file.room.width, file.room.depth);
     // A dark room still needs a scale with an extent.
     let max = totals.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max).max(1.0);
+    let max = range.map_or(max, |[_, high]| high);
     let scale = ColourScale::up_to(max, false, 2, ColourMap::Sequential);
     let beside = frame.width > 1.6 * frame.height;
     let [upper, lower] = if beside { frame.split(0.55) } else { frame.cut_bottom(0.38 * frame.height) };
@@ -56,10 +72,7 @@ pub(super) fn room(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
     let plan = Plan::within(above.inside([26.0, 4.0, 10.0, 4.0]), [wide, deep]);
     let step = [wide / nx as f64, deep / ny as f64];
     for (k, total) in totals.iter().enumerate() {
-        let (i, j) = ((k % nx) as f64, (k / nx) as f64);
-        let [left, top] = plan.place(i * step[0], j * step[1]);
-        let cell = Frame::new(left, top, step[1] * plan.scale, step[0] * plan.scale);
-        drawing.add(Shape::cell(cell.corners(), scale.rgb(*total)));
+        drawing.add(Shape::cell(plan.cell([k % nx, k / nx], step).corners(), scale.rgb(*total)));
     }
     let row = nx / 2;
     let x = (row as f64 + 0.5) * step[0];
@@ -99,12 +112,15 @@ pub(super) fn room(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
     drawing.add(Shape::line(plan.area.outline(), inks.outline, 1.5));
     openings(drawing, file, &plan, inks);
     let at = [plan.area.left - 16.0, plan.area.centre()[1]];
-    let (text, colour) = ("façade".to_owned(), inks.weak);
+    let (text, colour) = (texts::FACADE.into(), inks.weak);
     drawing.add(Shape::Text { at, text, colour, size: TEXT, align: Align::Middle, turn: -90.0 });
     legend::scale(drawing, below, &scale, "lx", inks);
     section(drawing, lower, &result.sensors, ([nx, ny], row, deep), &scale, inks);
-    let height = file.sensors.plane.map_or_else(String::new, |plane| format!(" at {} m", tick(plane.z)));
-    Ok(format!("E on the plane{height}: {}", figures(&result.sensors)))
+    let said = figures(&result.sensors);
+    Ok(match &file.sensors.plane {
+        Some(plane) => texts::e_on_plane_at(tick(plane.z), said),
+        None => texts::e_on_plane(said),
+    })
 }
 
 fn openings(drawing: &mut Drawing, file: &SceneFile, plan: &Plan, inks: &Inks) {
@@ -198,14 +214,14 @@ fn section(
         Series::line(name, (0..ny).map(|j| [at_depth(j), of(value(row, j))]))
     };
     let plot = Plot {
-        x: Axis::linear([0.0, deep], "distance from the façade", Unit::Named("m")),
+        x: Axis::linear([0.0, deep], texts::FROM_FACADE, Unit::Named("m")),
         y: Axis::linear([scale.lo, scale.hi], "E", Unit::Named("lx")),
         series: vec![
             Series {
                 band: (0..ny).map(band).collect(),
-                ..line(&format!("total in row {} of {nx}; band: all rows", row + 1), |one| one.total().value)
+                ..line(&texts::total_in_row(row + 1, nx), |one| one.total().value)
             },
-            line("direct", |one| one.direct.value),
+            line(texts::DIRECT.get(), |one| one.direct.value),
         ],
         guides: ASKED_FOR
             .map(|level| Guide { name: format!("{level:.0} lx"), ends: [[0.0, level], [deep, level]] })

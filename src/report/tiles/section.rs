@@ -3,6 +3,7 @@
 use crate::compute::system::SystemDescription;
 use crate::drawing::colours::Inks;
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT};
+use crate::texts::{decimal, hand_on as texts};
 
 /// Periods drawn.
 const PERIODS: usize = 3;
@@ -40,15 +41,16 @@ pub fn section(drawing: &mut Drawing, frame: Frame, system: &SystemDescription, 
         drawing.add(Shape::line(points, inks.ink, 1.0));
     }
     let mut write = |at: Point, text: &str, align| drawing.add(Shape::words(at, text, inks.weak, TEXT, align));
-    write([frame.left, frame.top + 8.0], "outside", Align::Start);
-    write([frame.right(), frame.top + 8.0], "inside", Align::End);
+    write([frame.left, frame.top + 8.0], texts::OUTSIDE.get(), Align::Start);
+    write([frame.right(), frame.top + 8.0], texts::INSIDE.get(), Align::End);
     let most = 1000.0 * 0.35 * frame.width / scale;
     let decade = 10_f64.powf(most.log10().floor());
     let bar = [5.0, 2.0, 1.0].into_iter().map(|step| step * decade).find(|bar| *bar <= most).unwrap_or(decade);
     let (left, bottom) = (frame.left + 2.0, frame.bottom() - 8.0);
     let right = left + 1e-3 * bar * scale;
-    let view = if system.upright { ", seen from above" } else { "" };
-    write([right + 6.0, bottom], &format!("{} mm{view}", (1e6 * bar).round() / 1e6), Align::Start);
+    let length = decimal(((1e6 * bar).round() / 1e6).to_string());
+    let words = if system.upright { texts::scale_bar_above(length) } else { texts::scale_bar(length) };
+    write([right + 6.0, bottom], &words, Align::Start);
     drawing.add(Shape::line([[left, bottom], [right, bottom]], inks.weak, 1.5));
     for x in [left, right] {
         drawing.add(Shape::line([[x, bottom - 3.5], [x, bottom + 3.5]], inks.weak, 1.5));

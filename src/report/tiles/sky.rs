@@ -8,8 +8,10 @@ use crate::drawing::hemisphere::{Round, dome_point, on_halo};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
 use crate::drawing::{Drawing, Frame, Shape, legend};
+use crate::study::comparison::scales::Range;
 use crate::study::moment::{height_words, sun};
 use crate::study::subject::Subject;
+use crate::texts::{fixed, hand_on as texts, words};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Altitude and bearing of the middles of small pieces of the dome. \[rad\]
@@ -19,7 +21,7 @@ fn pieces() -> impl Iterator<Item = (f64, f64)> {
         .map(|(row, column)| ((row + 0.5) / 18.0 * FRAC_PI_2, (column + 0.5) / 72.0 * TAU))
 }
 
-pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: &Inks) -> String {
+pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, range: Range, inks: &Inks) -> String {
     let scene = &subject.scene;
     let luminance = |altitude: f64, bearing: f64| {
         scene.outside.luminance(Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing)))
@@ -28,10 +30,10 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
         .map(|(altitude, bearing)| luminance(altitude, bearing))
         .filter(|value| *value > 0.0)
         .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
-    let scale = if high > 0.0 {
-        ColourScale::log_around(low, high, ColourMap::Sequential)
-    } else {
-        ColourScale::up_to(1.0, true, 3, ColourMap::Sequential)
+    let scale = match range {
+        Some([lo, hi]) => ColourScale { lo, hi, log: true, map: ColourMap::Sequential },
+        None if high > 0.0 => ColourScale::log_around(low, high, ColourMap::Sequential),
+        None => ColourScale::up_to(1.0, true, 3, ColourMap::Sequential),
     };
     let [left, right] =
         if frame.width > 1.25 * frame.height { frame.split(0.55) } else { frame.cut_bottom(0.36 * frame.height) };
@@ -59,7 +61,7 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
     drawing.add(Shape::ring(round.centre, round.radius, inks.outline, 1.5));
     let along = [-1.0, 1.0].map(|side| round.place(dome_point(0.0, facade + side * FRAC_PI_2)));
     drawing.add(Shape::line(along, inks.ink, 2.0));
-    for (word, degrees) in [("N", 0.0_f64), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
+    for (word, degrees) in [(words::N, 0.0_f64), (words::E, 90.0), (words::S, 180.0), (words::W, 270.0)] {
         let [x, y] = dome_point(0.0, degrees.to_radians());
         let far = 1.0 + 10.0 / round.radius;
         drawing.add(Shape::text(round.place([far * x, far * y]), word, inks.ink));
@@ -81,11 +83,11 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
     };
     let at_sun = up.map(|(altitude, _)| 90.0 - altitude.to_degrees());
     let plot = Plot {
-        x: Axis::linear([-90.0, 90.0], "zenith angle", Unit::Degrees),
+        x: Axis::linear([-90.0, 90.0], texts::ZENITH_ANGLE, Unit::Degrees),
         y: Axis::log([scale.lo, scale.hi], "L", Unit::Named("cd/m²")),
-        series: vec![Series::line("sky", (-90..=90).map(point))],
+        series: vec![Series::line(texts::SKY, (-90..=90).map(point))],
         guides: at_sun
-            .map(|x| Guide { name: "sun".to_owned(), ends: [[x, scale.lo], [x, scale.hi]] })
+            .map(|x| Guide { name: texts::SUN.into(), ends: [[x, scale.lo], [x, scale.hi]] })
             .into_iter()
             .collect(),
     };
@@ -98,18 +100,18 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks: 
 /// Sun and illuminances in words.
 fn figures(subject: &Subject, place: Option<(f64, f64)>) -> String {
     let scene = &subject.scene;
-    let mut words = vec![place.map_or_else(
-        || "no sun".to_owned(),
+    let mut said = vec![place.map_or_else(
+        || texts::NO_SUN.into(),
         |(altitude, bearing)| {
             let bearing = bearing.to_degrees().round().rem_euclid(360.0);
-            format!("sun {}, bearing {bearing:.0}°", height_words(altitude.to_degrees(), 1))
+            texts::sun_at(height_words(altitude.to_degrees(), 1), fixed(bearing, 0))
         },
     )];
-    words.push(format!("E horizontal: diffuse {}", si(scene.outside.diffuse_horizontal(), "lx")));
-    words.push(format!("direct {}", si(scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx")));
+    said.push(texts::diffuse_horizontal(si(scene.outside.diffuse_horizontal(), "lx")));
+    said.push(texts::direct_horizontal(si(scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx")));
     if let Some((lid, _)) = &subject.lid {
         let (diffuse, direct) = lid.incident;
-        words.push(format!("E on the aperture {}", si(diffuse.value + direct, "lx")));
+        said.push(texts::e_on_aperture(si(diffuse.value + direct, "lx")));
     }
-    words.join(" · ")
+    said.join(" · ")
 }

@@ -2,36 +2,37 @@
 //! The command line and the window say the same.
 
 use super::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series};
+use crate::texts::{decimal, words as texts};
 
 /// A relative error in per cent, three digits behind the point where there are that many.
 pub fn percent(relative: f64) -> String {
     let percent = 100.0 * relative;
-    if percent == 0.0 || percent >= 1e-3 { format!("{percent:.3} %") } else { format!("{percent:.0e} %") }
+    decimal(if percent == 0.0 || percent >= 1e-3 { format!("{percent:.3} %") } else { format!("{percent:.0e} %") })
 }
 
 /// A relative error in per cent, two significant digits.
 fn short(relative: f64) -> String {
     let percent = 100.0 * relative;
     if percent > 0.0 && percent < 1e-2 {
-        return format!("{percent:.1e} %");
+        return decimal(format!("{percent:.1e} %"));
     }
     let digits = if percent > 0.0 { (1.0 - percent.log10().floor()).max(0.0) as usize } else { 0 };
-    format!("{percent:.digits$} %")
+    decimal(format!("{percent:.digits$} %"))
 }
 
 /// The word for a quantity in tables.
 pub fn quantity(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::Direct => "direct",
-        Quantity::Total => "total",
+        Quantity::Direct => texts::DIRECT.get(),
+        Quantity::Total => texts::TOTAL.get(),
     }
 }
 
 /// What kind of error a reference tells.
 pub fn kind(reference: &Reference) -> String {
     match &reference.origin {
-        Origin::FinestRun { .. } => "numerical error against this method's finest run".to_owned(),
-        Origin::Given(name) => format!("true error against {name}"),
+        Origin::FinestRun { .. } => texts::KIND_FINEST.into(),
+        Origin::Given(name) => texts::kind_given(name),
     }
 }
 
@@ -39,26 +40,26 @@ pub fn kind(reference: &Reference) -> String {
 pub fn axis(accuracy: &Accuracy) -> &'static str {
     let given = |reference: &Reference| matches!(reference.origin, Origin::Given(_));
     match accuracy.references.iter().filter(|reference| given(reference)).count() {
-        0 => "error to finest run",
-        n if n == accuracy.references.len() => "true error",
-        _ => "error to reference",
+        0 => texts::AXIS_FINEST,
+        n if n == accuracy.references.len() => texts::AXIS_TRUE,
+        _ => texts::AXIS_REFERENCE,
     }
+    .get()
 }
 
 /// What a reference is, and how good.
 pub fn reference(reference: &Reference) -> String {
-    let (what, stated) = (quantity(reference.quantity), percent(reference.stated));
-    match &reference.origin {
-        Origin::FinestRun { target, rms, max } => format!(
-            "Reference of the {what} illuminance: the ordinary method's finest run, error target {}, states {stated}; from \
-             the second finest it lies {} RMS, {} at most. What the method or the data leave out is not seen so.",
-            percent(*target),
-            percent(*rms),
-            percent(*max),
-        ),
-        Origin::Given(name) => {
-            format!("Reference of the {what} illuminance: {name}, by its own statement good to {stated} or better.")
+    let stated = percent(reference.stated);
+    match (&reference.origin, reference.quantity) {
+        (Origin::FinestRun { target, rms, max }, quantity) => {
+            let [target, rms, max] = [target, rms, max].map(|share| percent(*share));
+            match quantity {
+                Quantity::Direct => texts::finest_direct(target, stated, rms, max),
+                Quantity::Total => texts::finest_total(target, stated, rms, max),
+            }
         }
+        (Origin::Given(name), Quantity::Direct) => texts::given_direct(name, stated),
+        (Origin::Given(name), Quantity::Total) => texts::given_total(name, stated),
     }
 }
 
@@ -70,12 +71,8 @@ pub fn untold(rung: &Rung, reference: &Reference) -> Option<String> {
     let Errors { stated, real, open } = rung.typical();
     let [open, stated, apart] = [open, stated, real].map(short);
     Some(match &reference.origin {
-        Origin::FinestRun { .. } => format!(
-            "no error told: the finest run hardly refines this one (it states {open}, this one {stated}, they differ by {apart})"
-        ),
-        Origin::Given(name) => {
-            format!("no error told: {name} is itself open by {open}, this run states {stated}, they differ by {apart}")
-        }
+        Origin::FinestRun { .. } => texts::untold_finest(open, stated, apart),
+        Origin::Given(name) => texts::untold_given(name, open, stated, apart),
     })
 }
 
@@ -83,10 +80,9 @@ pub fn untold(rung: &Rung, reference: &Reference) -> Option<String> {
 pub fn data_limit(series: &Series) -> Option<String> {
     let first = series.rungs.iter().position(Rung::is_limited_by_data)?;
     let rung = &series.rungs[first];
-    let from = if first == 0 { String::new() } else { format!(" than {}", rung.setting) };
-    Some(format!(
-        "more effort{from} does not help: the data leave ± {} open, the computation ± {}",
-        short(rung.data),
-        short(rung.numerical)
-    ))
+    let (data, own) = (short(rung.data), short(rung.numerical));
+    Some(match first {
+        0 => texts::effort_enough(data, own),
+        _ => texts::effort_enough_from(&rung.setting, data, own),
+    })
 }

@@ -1,6 +1,7 @@
 //! A candidate as the scene that it is.
 
 use crate::study::scene_file::{CompareKeys, IdealKind, SceneFile, SystemKeys};
+use crate::texts::words as texts;
 
 /// The scene of a candidate: what its keys do not say is as in `scene`. It has no candidates of its own.
 pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
@@ -53,9 +54,9 @@ pub fn label(keys: &CompareKeys) -> String {
     match system {
         Some(SystemKeys::Catalogue { key, state }) => with_state(key.clone(), state),
         Some(SystemKeys::File { path, state }) => with_state(path.display().to_string(), state),
-        Some(SystemKeys::Ideal { kind: IdealKind::Transparent, .. }) => "ideal transparent".to_owned(),
-        Some(SystemKeys::Ideal { kind: IdealKind::Diffuse, .. }) => "ideal diffuse".to_owned(),
-        None => "as in the scene".to_owned(),
+        Some(SystemKeys::Ideal { kind: IdealKind::Transparent, .. }) => texts::IDEAL_TRANSPARENT.into(),
+        Some(SystemKeys::Ideal { kind: IdealKind::Diffuse, .. }) => texts::IDEAL_DIFFUSE.into(),
+        None => texts::AS_IN_SCENE.into(),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::Aim;
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
+use crate::texts::compare as texts;
 use std::f64::consts::FRAC_PI_2;
 
 /// Steps of γ and of profile angles. \[°\]
@@ -37,7 +38,7 @@ pub fn of_lids(list: &[(String, &Lid)]) -> [Plot; 2] {
             };
             Series::line(name.as_str(), (-180..=180).step_by(STEP as usize).map(at))
         });
-        let axis = Axis::linear([-180.0, 180.0], format!("γ in C{:.0}–C{c:.0}", c + 180.0), Unit::Degrees);
+        let axis = Axis::linear([-180.0, 180.0], texts::gamma_in(format!("C{:.0}–C{c:.0}", c + 180.0)), Unit::Degrees);
         plot(axis, "I", "cd", series.collect())
     })
 }
@@ -63,10 +64,10 @@ pub fn of_rooms(list: &[(String, Grid<'_>)]) -> Plot {
         Series { band: band.collect(), ..line }
     });
     let depth = list.iter().map(|(_, grid)| grid.depth).fold(0.0, f64::max);
-    let axis = Axis::linear([0.0, depth], "distance from the façade", Unit::Named("m"));
+    let axis = Axis::linear([0.0, depth], texts::FROM_FACADE, Unit::Named("m"));
     let guides =
         [300.0, 500.0].map(|level| Guide { name: format!("{level:.0} lx"), ends: [[0.0, level], [depth, level]] });
-    Plot { guides: guides.into(), ..plot(axis, "E, middle row", "lx", series.collect()) }
+    Plot { guides: guides.into(), ..plot(axis, texts::E_MIDDLE_ROW.get(), "lx", series.collect()) }
 }
 
 /// Transmittance for light in the vertical plane through the normal, from straight up to straight down.
@@ -79,13 +80,13 @@ pub fn of_transmittances(list: &[(String, &Btdf)]) -> Plot {
         };
         Series::line(name.as_str(), (-89..=89).step_by(STEP as usize).map(at))
     });
-    plot(Axis::linear([-90.0, 90.0], "profile angle", Unit::Degrees), "τ", "", series.collect())
+    plot(Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees), "τ", "", series.collect())
 }
 
 /// What control asks for against the profile angle of the sun.
 pub fn of_controls(list: &[(String, Vec<[f64; 2]>)]) -> Plot {
     let series = list.iter().map(|(name, curve)| Series::line(name.as_str(), curve.iter().copied()));
-    plot(Axis::linear([-90.0, 90.0], "profile angle", Unit::Degrees), "state", "°", series.collect())
+    plot(Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees), texts::STATE.get(), "°", series.collect())
 }
 
 #[cfg(test)]

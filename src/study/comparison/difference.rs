@@ -4,6 +4,9 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Btdf;
 use crate::compute::direction::{Emergent, Incident};
 use crate::compute::estimate::Estimate;
+use crate::drawing::colours::{ColourMap, ColourScale};
+use crate::drawing::hemisphere::Side;
+use crate::drawing::ticks::fine_ceil;
 
 /// Rings of the cells that differences are taken on; fine enough for Klems data and what was refined of it.
 const RINGS: usize = 24;
@@ -44,6 +47,55 @@ pub fn of_tau(btdf: &Btdf, base: &Btdf) -> OnCells {
     let at = |incident: Incident| btdf.tau(incident) - base.tau(incident);
     let values = basis.cells().map(|cell| at(Incident(cell.centre()))).collect();
     OnCells { basis, values }
+}
+
+/// What differs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Picture {
+    /// Illuminances at the sensors, x running fastest. \[lx\]
+    Plan {
+        /// Width and depth of the room. \[m\]
+        room: [f64; 2],
+        /// Sensors along x and y.
+        count: [usize; 2],
+        /// Candidate less base, errors added.
+        values: Vec<Estimate>,
+    },
+    /// Luminance coefficients by where light goes \[1/sr\], or transmittances by where it comes from.
+    Disk {
+        /// Which.
+        side: Side,
+        /// Candidate less base.
+        cells: OnCells,
+    },
+}
+
+impl Picture {
+    /// The largest difference, either way.
+    pub fn reach(&self) -> f64 {
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
+        };
+        match self {
+            Self::Plan { values, .. } => largest(&mut values.iter().map(|one| one.value)),
+            Self::Disk { cells, .. } => largest(&mut cells.values.iter().copied()),
+        }
+    }
+
+    /// Name and unit of what differs.
+    pub const fn quantity(&self) -> [&'static str; 2] {
+        match self {
+            Self::Plan { .. } => ["ΔE", "lx"],
+            Self::Disk { side: Side::Emergent, .. } => ["Δq", "1/sr"],
+            Self::Disk { side: Side::Incident, .. } => ["Δτ", ""],
+        }
+    }
+}
+
+/// One scale for all differences of a quantity, as far down as up.
+pub fn scale(reach: f64) -> ColourScale {
+    let hi = fine_ceil(reach.max(1e-6));
+    ColourScale { lo: -hi, hi, log: false, map: ColourMap::Diverging }
 }
 
 #[cfg(test)]

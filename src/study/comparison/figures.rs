@@ -9,6 +9,7 @@ use crate::compute::btdf::{Dataset, LightFigures};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::drawing::ticks::number;
+use crate::texts::{Text, compare as texts, fixed};
 
 /// A figure's value and how far it may be off, both in the figure's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +33,7 @@ impl Value {
         match error.filter(|error| *error > 0.0 && error.is_finite()) {
             Some(error) => {
                 let decimals = (1 - error.log10().floor() as i32).clamp(0, 6) as usize;
-                format!("{value:.decimals$} ± {error:.decimals$}")
+                format!("{} ± {}", fixed(value, decimals), fixed(error, decimals))
             }
             None => number(value, 4),
         }
@@ -52,11 +53,11 @@ pub enum Sense {
 
 impl Sense {
     /// In words.
-    pub const fn words(self) -> &'static str {
+    pub const fn words(self) -> Text {
         match self {
-            Self::More => "more is better",
-            Self::Less => "less is better",
-            Self::Aim => "a matter of aim",
+            Self::More => texts::MORE,
+            Self::Less => texts::FEWER,
+            Self::Aim => texts::AIM,
         }
     }
 }
@@ -113,13 +114,13 @@ pub struct Figure {
     /// The word in files.
     pub key: &'static str,
     /// In words, sentence case.
-    pub name: &'static str,
+    pub name: Text,
     /// Unit; empty for shares of one.
     pub unit: &'static str,
     /// Which way is better.
     pub sense: Sense,
     /// What it is, and why this way is better.
-    pub tip: &'static str,
+    pub tip: Text,
     /// From what is known; `None` where that does not tell it.
     pub of: fn(&Facts) -> Option<Value>,
 }
@@ -175,58 +176,58 @@ fn lit(room: &[Estimate]) -> Estimate {
 pub const FIGURES: &[Figure] = &[
     Figure {
         key: "tau_normal",
-        name: "τ normal",
+        name: texts::TAU_NORMAL,
         unit: "",
         sense: Sense::Aim,
-        tip: "Visible transmittance of light from outside at normal incidence; light or shade may be wanted",
+        tip: texts::TAU_NORMAL_TIP,
         of: |facts| data(facts, |data| data.tau_normal),
     },
     Figure {
         key: "tau_hemispherical",
-        name: "τ hemispherical",
+        name: texts::TAU_HEMISPHERICAL,
         unit: "",
         sense: Sense::Aim,
-        tip: "The same under uniform luminance; light or shade may be wanted",
+        tip: texts::TAU_HEMISPHERICAL_TIP,
         of: |facts| data(facts, |data| data.tau_hemispherical),
     },
     Figure {
         key: "to_ceiling",
-        name: "Light to the ceiling",
+        name: texts::TO_CEILING,
         unit: "",
         sense: Sense::More,
-        tip: "Share of the light transmitted from above the horizon that leaves upwards: what reaches deep without glare",
+        tip: texts::TO_CEILING_TIP,
         of: ceiling,
     },
     Figure {
         key: "sun_blocked",
-        name: "Sun blocked",
+        name: texts::SUN_BLOCKED,
         unit: "",
         sense: Sense::More,
-        tip: "1 − τ for a sun straight before the façade, 45° high: less heat and glare",
+        tip: texts::SUN_BLOCKED_TIP,
         of: |facts| data(facts, |data| data.light.sun_blocked),
     },
     Figure {
         key: "view",
-        name: "View",
+        name: texts::VIEW,
         unit: "",
         sense: Sense::More,
-        tip: "Share of light at normal incidence that goes straight on",
+        tip: texts::VIEW_TIP,
         of: |facts| data(facts, |data| data.light.view),
     },
     Figure {
         key: "flux",
-        name: "Luminous flux",
+        name: texts::FLUX,
         unit: "lm",
         sense: Sense::Aim,
-        tip: "All light that enters by the first aperture, the sun's beam included",
+        tip: texts::FLUX_TIP,
         of: |facts| facts.lid.as_ref().map(|lid| lid.flux.into()),
     },
     Figure {
         key: "peak_scattered",
-        name: "Scattered peak of the LID",
+        name: texts::PEAK,
         unit: "cd",
         sense: Sense::Aim,
-        tip: "Largest scattered intensity as a luminaire file holds it: brightness to the ceiling is wanted, to the eyes it is not",
+        tip: texts::PEAK_TIP,
         of: |facts| {
             let peak = facts.lid.as_ref()?.peaks?.scattered?;
             Some(Value { value: peak.intensity, error: None })
@@ -234,42 +235,42 @@ pub const FIGURES: &[Figure] = &[
     },
     Figure {
         key: "mean",
-        name: "Mean illuminance",
+        name: texts::MEAN,
         unit: "lx",
         sense: Sense::Aim,
-        tip: "Mean over the sensors; light or shade may be wanted",
+        tip: texts::MEAN_TIP,
         of: |facts| room(facts, mean),
     },
     Figure {
         key: "least",
-        name: "Worst sensor",
+        name: texts::LEAST,
         unit: "lx",
         sense: Sense::More,
-        tip: "Least illuminance of any sensor: where daylight is short",
+        tip: texts::LEAST_TIP,
         of: |facts| room(facts, |room| least(room, 1.0)),
     },
     Figure {
         key: "greatest",
-        name: "Best sensor",
+        name: texts::GREATEST,
         unit: "lx",
         sense: Sense::Aim,
-        tip: "Greatest illuminance of any sensor; much more than elsewhere may dazzle",
+        tip: texts::GREATEST_TIP,
         of: |facts| room(facts, |room| least(room, -1.0)),
     },
     Figure {
         key: "uniformity",
-        name: "Uniformity",
+        name: texts::UNIFORMITY,
         unit: "",
         sense: Sense::More,
-        tip: "Least over mean illuminance",
+        tip: texts::UNIFORMITY_TIP,
         of: |facts| room(facts, uniformity),
     },
     Figure {
         key: "share_300",
-        name: "Sensors with 300 lx",
+        name: texts::SHARE_300,
         unit: "",
         sense: Sense::More,
-        tip: "Share of the sensors with at least 300 lx, the target of EN 17037",
+        tip: texts::SHARE_300_TIP,
         of: |facts| room(facts, lit),
     },
 ];

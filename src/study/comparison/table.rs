@@ -2,6 +2,7 @@
 //! errors together.
 
 use super::figures::{Facts, Figure, Sense, Value};
+use crate::texts::{Language, compare as texts, speak};
 
 /// What a row says of its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,9 +67,9 @@ pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
             let list: Vec<&str> = list.iter().filter_map(|at| names.get(*at)).map(String::as_str).collect();
             list.join(", ")
         }
-        Verdict::Within => "within the errors".to_owned(),
-        Verdict::Aim => Sense::Aim.words().to_owned(),
-        Verdict::Unstated => "error not stated".to_owned(),
+        Verdict::Within => texts::WITHIN.into(),
+        Verdict::Aim => Sense::Aim.words().into(),
+        Verdict::Unstated => texts::UNSTATED.into(),
         Verdict::Alone => String::new(),
     }
 }
@@ -77,8 +78,10 @@ fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// The rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`.
+/// The rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`; its words are English, as in
+/// all data files.
 pub fn csv(rows: &[Row], names: &[String]) -> String {
+    let _english = speak(Language::English);
     let mut out = String::from("figure,unit,better_is");
     for name in names {
         out.push_str(&format!(",{},{}", field(name), field(&format!("error of {name}"))));
@@ -86,7 +89,7 @@ pub fn csv(rows: &[Row], names: &[String]) -> String {
     out.push_str(",better\n");
     let number = |value: Option<f64>| value.map(|value| format!("{value:.6}")).unwrap_or_default();
     for row in rows {
-        out.push_str(&format!("{},{},{}", row.figure.key, row.figure.unit, row.figure.sense.words()));
+        out.push_str(&format!("{},{},{}", row.figure.key, row.figure.unit, row.figure.sense.words().english()));
         for value in &row.values {
             let error = value.and_then(|value| value.error);
             out.push_str(&format!(",{},{}", number(value.map(|value| value.value)), number(error)));
@@ -123,7 +126,14 @@ mod tests {
 
     #[test]
     fn the_table_goes_to_spreadsheets() {
-        let figure = Figure { key: "mean", name: "Mean", unit: "lx", sense: Sense::More, tip: "", of: |_| None };
+        let figure = Figure {
+            key: "mean",
+            name: texts::MEAN,
+            unit: "lx",
+            sense: Sense::More,
+            tip: texts::MEAN_TIP,
+            of: |_| None,
+        };
         let rows = [Row { figure, values: values(&[(1.0, 0.5), (3.0, 0.5)]), verdict: Verdict::Better(vec![1]) }];
         let names = ["plain".to_owned(), "a, \"b\"".to_owned()];
         let wanted = "figure,unit,better_is,plain,error of plain,\"a, \"\"b\"\"\",\"error of a, \"\"b\"\"\",better\n\

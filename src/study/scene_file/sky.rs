@@ -1,5 +1,6 @@
 //! `[sky]` as typed: model, sun, and the illuminances that both are scaled to.
 
+use crate::texts::words as texts;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -21,14 +22,15 @@ impl SkyModelKey {
     /// All, in the order that lists show.
     pub const ALL: [Self; 4] = [Self::Cie, Self::Uniform, Self::Perez, Self::Scan];
 
-    /// Words: in a list, for a scene's title, and in the header of a luminaire file.
-    pub const fn words(self) -> [&'static str; 3] {
-        match self {
-            Self::Cie => ["CIE general sky", "CIE sky", "CIE"],
-            Self::Uniform => ["Uniform", "uniform sky", "uniform"],
-            Self::Perez => ["Perez all-weather", "Perez sky", "Perez all-weather"],
-            Self::Scan => ["Measured (file)", "measured sky", "measured scan"],
-        }
+    /// Words: in a list, for a scene's title, and in the header of a luminaire file, which is English.
+    pub fn words(self) -> [&'static str; 3] {
+        let (list, title, header) = match self {
+            Self::Cie => (texts::LIST_CIE, texts::CIE_SKY, "CIE"),
+            Self::Uniform => (texts::LIST_UNIFORM, texts::UNIFORM_SKY, "uniform"),
+            Self::Perez => (texts::LIST_PEREZ, texts::PEREZ_SKY, "Perez all-weather"),
+            Self::Scan => (texts::LIST_SCAN, texts::MEASURED_SKY, "measured scan"),
+        };
+        [list.get(), title.get(), header]
     }
 
     /// Is it scaled to illuminances that are stated? Perez's sky and a measured one bring their own.

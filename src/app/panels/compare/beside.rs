@@ -2,28 +2,27 @@
 
 use super::places::{missing, places, tile};
 use crate::app::command::Command;
-use crate::app::compare::Part;
+use crate::app::compare::{Act, Part};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::jobs::Lane;
-use crate::app::paint::colour_scale::ColourScale;
-use crate::app::paint::palette::ColourMap;
+use crate::app::paint;
+use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::state::Tile;
 use crate::app::theme;
 use crate::app::tiles::TileInput;
-use crate::app::views::sky;
 use crate::app::window::App;
-use crate::compute::angle::Bearing;
-use crate::compute::basis::RingBasis;
-use crate::compute::btdf::Btdf;
-use crate::compute::direction::{Dir, Incident};
-use crate::compute::lid::Lid;
-use crate::compute::lid::c_gamma::Aim;
-use crate::drawing::ticks::fine_ceil;
-use egui::{Label, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
-use std::sync::Arc;
+use crate::drawing::ticks::{fine_ceil, si, tick};
+use crate::study::comparison::scales;
+use crate::texts::compare as texts;
+use egui::{Label, RichText, Sense, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
 /// Height of a candidate's name. \[points\]
 const NAME: f32 = 24.0;
+/// The common scale is no wider. \[points\]
+const WIDE: f32 = 560.0;
+/// A logarithmic scale of illuminances begins at this share of its end, as the tiles' do.
+const LEAST: f64 = 1e-4;
 
 /// Draws the tiles.
 pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
@@ -31,6 +30,12 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let key = app.compare.key(tile.title);
     let Columns { list, scale: known, .. } = &mut app.compare;
     let scale = *known.get(key, || scale(list, tile));
+    let log =
+        list.first_mut().and_then(|column| column.bench.log(tile)).map(|own| app.state.compare.log.unwrap_or(*own));
+    let factor = tile.title == "Room" && app.state.settings.room.daylight_factor;
+    if let Some(range) = scale.filter(|_| !factor) {
+        legend(ui, tile, range, log, commands);
+    }
     let held = ui.input(|input| input.pointer.any_down());
     let stopped = app.compare.stopped;
     let names = app.compare.names();
@@ -43,10 +48,48 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         let (head, body) = rect.shrink(3.0).split_top_bottom_at_y(rect.top() + NAME);
         let builder = UiBuilder::new().max_rect(head.shrink2(vec2(5.0, 0.0))).id_salt(("name", column.id));
         ui.scope_builder(builder, |ui| ui.add(Label::new(RichText::new(name).strong()).truncate()));
+        if let (Some(own), Some(log)) = (column.bench.log(tile), log) {
+            *own = log;
+        }
         let builder = UiBuilder::new().max_rect(body).id_salt(("candidate", column.id));
         ui.scope_builder(builder, |ui| one(ui, column, tile, (scale, held, stopped), commands));
+        let chosen = column.bench.log(tile).copied();
         app.retarget(place, from, commands);
+        // What is chosen in one holds for all.
+        if let Some(chosen) = chosen.filter(|chosen| log.is_some_and(|log| log != *chosen)) {
+            commands.push(Command::Compare(Act::Log(chosen)));
+        }
     }
+}
+
+/// The scale of all tiles, with one choice of its kind for all of them.
+fn legend(ui: &mut Ui, tile: Tile, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
+    let (unit, always) = match tile.title {
+        "BTDF" => ("q / (1/sr)", false),
+        "Transmittance" => ("τ", false),
+        "Sky" => ("cd/m²", true),
+        "Room" => ("lx", false),
+        "LID" => {
+            ui.label(texts::one_scale(texts::common_scale_is(tick(0.0), si(fine_ceil(hi), "cd"), "")).trim_end());
+            return;
+        }
+        _ => return,
+    };
+    let logarithmic = always || log.unwrap_or(false);
+    let lo = if logarithmic { lo.max(hi * LEAST) } else { lo };
+    let scale = ColourScale { lo, hi, log: logarithmic, map: ColourMap::Sequential };
+    ui.horizontal(|ui| {
+        if let Some(mut log) = log
+            && ui.toggle_value(&mut log, texts::LOG.get()).on_hover_text(texts::LOG_TIP).clicked()
+        {
+            commands.push(Command::Compare(Act::Log(log)));
+        }
+        let size = vec2(ui.available_width().min(WIDE), LEGEND_HEIGHT);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        scale.paint_legend(ui.painter(), rect, unit, None, &Palette::of(ui.visuals()));
+        let value = texts::common_scale_is(tick(lo), tick(hi), unit);
+        paint::tile::name(ui, &response, texts::COMMON_SCALE.get(), &value);
+    });
 }
 
 fn one(
@@ -72,6 +115,10 @@ fn one(
         ui.centered_and_justified(|ui| ui.label(missing(column)));
         return;
     }
+    if tile.title == "Control" && column.state.product.is_none() {
+        ui.centered_and_justified(|ui| ui.label(texts::NOTHING_MOVES));
+        return;
+    }
     let Column { state, results, bench, .. } = column;
     let seen = TileInput { state, results, busy: &busy, held, numbers: false, scale };
     bench.show(ui, tile, &seen, commands);
@@ -80,55 +127,19 @@ fn one(
 /// Lowest and highest value of a scale that holds all candidates; `None` for tiles whose scales are fixed, and before there
 /// is anything.
 fn scale(columns: &[Column], tile: Tile) -> Option<[f64; 2]> {
-    let ends = |scale: ColourScale| [scale.lo, scale.hi];
-    let transmissions =
+    let data =
         || columns.iter().filter_map(|column| Some((column, column.state.dataset.value.as_ref()?.transmission()?)));
-    let positive = |value: f64| (value > 0.0).then_some(value);
     match tile.title {
-        "BTDF" => {
-            let greatest = |(column, btdf): (&Column, &Btdf)| {
-                let q = btdf.indicatrix(column.incident()).map(|indicatrix| indicatrix.q).unwrap_or_default();
-                q.into_iter().fold(0.0, f64::max)
-            };
-            let max = positive(transmissions().map(greatest).fold(0.0, f64::max))?;
-            Some(ends(ColourScale::up_to(max, true, 3, ColourMap::Sequential)))
-        }
-        "Transmittance" => {
-            let basis = RingBasis::equal_area(16);
-            let greatest = |(_, btdf): (&Column, &Btdf)| {
-                basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max)
-            };
-            Some([0.0, fine_ceil(positive(transmissions().map(greatest).fold(0.0, f64::max))?)])
-        }
-        "LID" => {
-            let lids = columns.iter().filter_map(|column| column.results.lid.value.as_ref());
-            Some([0.0, positive(lids.map(|figures| strongest(&figures.lid)).fold(0.0, f64::max))?])
-        }
+        "BTDF" => scales::of_q(data().map(|(column, btdf)| (btdf, column.incident()))),
+        "Transmittance" => scales::of_tau(data().map(|(_, btdf)| btdf)),
+        "LID" => scales::of_lids(columns.iter().filter_map(|column| Some(&column.results.lid.value.as_ref()?.lid))),
         "Room" => {
             let rooms = columns.iter().filter_map(|column| column.results.room.value.as_ref());
-            let max = rooms.flat_map(|room| room.totals().map(|one| one.value).collect::<Vec<_>>()).fold(0.0, f64::max);
-            Some([0.0, fine_ceil(positive(max)?)])
+            scales::of_illuminances(rooms.flat_map(|room| room.totals().map(|one| one.value)))
         }
         "Sky" => {
-            let skies = columns.iter().filter_map(|column| column.state.daylight.value.as_ref());
-            let of = |[low, high]: [f64; 2], daylight: &Arc<crate::app::state::Daylight>| {
-                let at = |altitude: f64, bearing: f64| {
-                    daylight.outside.luminance(Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing)))
-                };
-                let [lower, higher] = sky::extent(&at);
-                [low.min(lower), high.max(higher)]
-            };
-            let [low, high] = skies.fold([f64::INFINITY, 0.0], of);
-            (low < high).then(|| ends(ColourScale::log_around(low.max(1e-3), high.max(1e-2), ColourMap::Sequential)))
+            scales::of_skies(columns.iter().filter_map(|column| Some(&column.state.daylight.value.as_ref()?.outside)))
         }
         _ => None,
     }
-}
-
-/// The greatest intensity on a raster of directions. \[cd\]
-fn strongest(lid: &Lid) -> f64 {
-    let aim = Aim::of(lid.surface);
-    let directions = (0..72).flat_map(|c| (0..=90).map(move |gamma| [5.0 * f64::from(c), 2.0 * f64::from(gamma)]));
-    let at = |[c, gamma]: [f64; 2]| lid.intensity(aim.direction(c.to_radians(), gamma.to_radians()));
-    directions.map(at).filter(|value| value.is_finite()).fold(0.0, f64::max)
 }

@@ -1,6 +1,6 @@
 //! Curves of all candidates in one plot, told apart by colour and dashes.
 
-use super::places::short;
+use super::places::{short, tile_words};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::control::rule_curve;
 use crate::app::paint::palette::Palette;
@@ -10,6 +10,8 @@ use crate::app::window::App;
 use crate::compute::estimate::Estimate;
 use crate::drawing::plot::Plot;
 use crate::study::comparison::curves::{Grid, of_controls, of_lids, of_rooms, of_transmittances};
+use crate::texts::compare as texts;
+use crate::texts::language;
 use egui::Ui;
 
 /// Draws the plots.
@@ -21,17 +23,18 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let room = if wide && tile == "LID" { 0.5 * whole.width() } else { whole.width() };
     let most = ((room - 70.0) / 8.0).max(8.0) as usize;
     let names: Vec<String> = app.compare.names().iter().map(|name| short(name, most)).collect();
-    // Rules are in the names of the scene's keys: with them the curves of control change.
+    // Rules are in the names of the scene's keys: with them the curves of control change; the axes with the language.
     let rules = app.compare.list.iter().map(|column| format!("{:?}", column.state.control_keys()));
-    let key = (app.compare.key(tile), 0, names.iter().cloned().chain(rules).collect());
+    let key =
+        (app.compare.key(tile), 0, names.iter().cloned().chain(rules).chain([format!("{:?}", language())]).collect());
     let Columns { list, plots, .. } = &mut app.compare;
     let plots = plots.get(key, || make(tile, list, &names));
     if plots.is_empty() {
         let words = list.iter().find_map(Column::error).map_or_else(
             || match tile {
-                "LID" | "Room" | "BTDF" | "Transmittance" => "Computing…".to_owned(),
-                "Control" => "None of these follows a rule that has a curve.".to_owned(),
-                _ => "Curves are drawn of LID, room, transmittance and control.".to_owned(),
+                "LID" | "Room" | "BTDF" | "Transmittance" => texts::COMPUTING.into(),
+                "Control" => texts::NO_CURVES.into(),
+                _ => texts::CURVES_OF.into(),
             },
             str::to_owned,
         );
@@ -47,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
         let id = ui.scope_id().with(("compared curves", tile, k));
         let look = Look { dashed: true, legend_of, left: 56.0, ..Look::tile(id, &colours, palette.second) };
         let shown = plot::show(ui, rect.shrink(4.0), one, &look, |_| {});
-        tile::name(ui, &shown.response, &format!("Curves of {tile}"), &names.join("; "));
+        tile::name(ui, &shown.response, &texts::curves_name(tile_words(tile)), &names.join("; "));
         legend_of = legend_of.or(Some(id));
     }
 }

@@ -9,6 +9,7 @@ use crate::app::views::difference::{self, Picture};
 use crate::app::window::App;
 use crate::compute::estimate::Estimate;
 use crate::study::comparison::difference::{of_q, of_rooms, of_tau};
+use crate::texts::compare as texts;
 use egui::{Stroke, StrokeKind, Ui, UiBuilder};
 
 /// Draws the tiles.
@@ -17,12 +18,11 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let names = app.compare.names();
     let base = app.state.compare.base.min(names.len().saturating_sub(1));
     if !["BTDF", "Transmittance", "Room"].contains(&tile) {
-        let text = "Differences are drawn of BTDF, transmittance and room. Curves and figures compare the others.";
-        ui.centered_and_justified(|ui| ui.label(text));
+        ui.centered_and_justified(|ui| ui.label(texts::DIFFERENCES_OF));
         return;
     }
     if names.len() < 2 {
-        ui.centered_and_justified(|ui| ui.label("A difference takes two: add another product, state or moment (C)."));
+        ui.centered_and_justified(|ui| ui.label(texts::TAKES_TWO));
         return;
     }
     let key = (app.compare.key(tile), base, Vec::new());
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let pictures = differences.get(key, || list.iter().map(|one| picture(tile, one, &list[base])).collect());
     let reach = pictures.iter().flatten().map(Picture::reach).fold(0.0, f64::max);
     let scale = difference::scale(reach);
-    let less = format!("less {}", names[base]);
+    let less = texts::less_base(&names[base]);
     let others: Vec<usize> = (0..names.len()).filter(|place| *place != base).collect();
     let rects = places(ui.available_rect_before_wrap(), others.len());
     // Another base is another picture.
@@ -42,8 +42,8 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
         let palette = theme::palette(ui);
         ui.painter().rect(rect, 6, palette.surface, Stroke::new(1.0, palette.line), StrokeKind::Inside);
         let words = match base_is_there && is_there(tile, column) {
-            true if tile == "Room" => "The sensors are not the same: nothing can be taken from the other.".to_owned(),
-            true => "No transmission in the data.".to_owned(),
+            true if tile == "Room" => texts::OTHER_SENSORS.into(),
+            true => texts::NO_TRANSMISSION.into(),
             false => missing(column),
         };
         let title = short(&names[place], ((rect.width() - 60.0) / 9.0).max(4.0) as usize);

@@ -5,6 +5,7 @@ use crate::app::compare::Act;
 use crate::app::theme;
 use crate::app::window::App;
 use crate::study::comparison::{Row, Value, Verdict, verdict_words};
+use crate::texts::compare as texts;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 
 /// What the last column says.
@@ -12,7 +13,7 @@ fn verdict(row: &Row, names: &[String]) -> String {
     match &row.verdict {
         Verdict::Better(list) => {
             let places: Vec<String> = list.iter().map(|place| (place + 1).to_string()).collect();
-            format!("{} ({})", places.join(" and "), row.figure.sense.words())
+            format!("{} ({})", places.join(texts::AND.get()), row.figure.sense.words())
         }
         other => verdict_words(other, names),
     }
@@ -23,7 +24,7 @@ fn cell(ui: &mut Ui, row: &Row, place: usize, start: &str) {
     let text = row.values[place].map_or_else(|| "–".to_owned(), Value::words);
     if matches!(&row.verdict, Verdict::Better(list) if list.contains(&place)) {
         let text = RichText::new(format!("▲ {start}{text}")).strong().color(theme::palette(ui).good);
-        ui.label(text).on_hover_text(format!("Better: {}", row.figure.sense.words()));
+        ui.label(text).on_hover_text(texts::better(row.figure.sense.words()));
     } else {
         ui.label(format!("{start}{text}"));
     }
@@ -38,15 +39,14 @@ fn heading(row: &Row) -> String {
 /// A column a candidate.
 fn table(ui: &mut Ui, rows: &[Row], names: &[String]) {
     Grid::new("compared figures").striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
-        ui.label(RichText::new("Figure").strong());
+        ui.label(RichText::new(texts::FIGURE.get()).strong());
         for name in names {
             ui.scope(|ui| {
                 ui.set_max_width(COLUMN - 12.0);
                 ui.add(Label::new(RichText::new(name).strong()).wrap());
             });
         }
-        let tip = "Where the difference is larger than the errors together";
-        ui.label(RichText::new("Better").strong()).on_hover_text(tip);
+        ui.label(RichText::new(texts::BETTER.get()).strong()).on_hover_text(texts::BETTER_TIP);
         ui.end_row();
         for row in rows {
             ui.label(heading(row)).on_hover_text(row.figure.tip);
@@ -91,9 +91,8 @@ pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             table(ui, &rows, &names);
         }
         ui.add_space(6.0);
-        let note = "Errors are those of computation and data that are stated; measured data state none.";
-        ui.add(Label::new(RichText::new(note).color(palette.weak)).wrap());
-        if ui.button("Copy as CSV").on_hover_text("The table with all digits into the clipboard").clicked() {
+        ui.add(Label::new(RichText::new(texts::ERRORS_NOTE.get()).color(palette.weak)).wrap());
+        if ui.button(texts::COPY_CSV).on_hover_text(texts::COPY_CSV_TIP).clicked() {
             commands.push(Command::Compare(Act::Copy));
         }
     });

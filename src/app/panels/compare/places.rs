@@ -3,6 +3,8 @@
 use crate::app::compare_columns::Column;
 use crate::app::state::{State, Tile};
 use crate::app::tiles::TILES;
+use crate::report::TileKind;
+use crate::texts::compare as texts;
 use egui::{Rect, vec2};
 
 /// A name in at most so many letters: its beginning, which says what it is, and its end, which tells it from others.
@@ -15,6 +17,11 @@ pub(super) fn short(name: &str, most: usize) -> String {
     let first: String = letters[..most.saturating_sub(1 + last)].iter().collect();
     let end: String = letters[letters.len() - last..].iter().collect();
     format!("{}…{}", first.trim_end(), end.trim_start())
+}
+
+/// A tile's title for people.
+pub(super) fn tile_words(title: &str) -> String {
+    TileKind::titled(title).map_or_else(|| title.to_owned(), |kind| kind.words().into())
 }
 
 /// The tile that is compared.
@@ -37,7 +44,7 @@ pub(super) fn places(whole: Rect, count: usize) -> Vec<Rect> {
 
 /// What stands in place of a candidate's picture.
 pub(super) fn missing(column: &Column) -> String {
-    column.error().map_or_else(|| "Computing…".to_owned(), str::to_owned)
+    column.error().map_or_else(|| texts::COMPUTING.into(), str::to_owned)
 }
 
 #[cfg(test)]

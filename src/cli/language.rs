@@ -1,0 +1,20 @@
+//! `--language` of what is handed on; everything else that the command line says is English.
+
+use crate::texts::Language;
+use std::str::FromStr;
+
+/// The language of a picture or report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ReportLanguage(pub Language);
+
+impl FromStr for ReportLanguage {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "en" => Ok(Self(Language::English)),
+            "de" => Ok(Self(Language::German)),
+            _ => Err("no language of reports; expected en or de".to_owned()),
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! One scale for the same tile of several candidates: its lowest and highest value, in the tile's unit.
+
+use crate::compute::angle::Bearing;
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::Btdf;
+use crate::compute::direction::{Dir, Incident};
+use crate::compute::lid::Lid;
+use crate::compute::lid::c_gamma::Aim;
+use crate::compute::sky::Outside;
+use crate::drawing::colours::{ColourMap, ColourScale};
+use crate::drawing::ticks::fine_ceil;
+
+/// Lowest and highest value; `None` before there is any light.
+pub type Range = Option<[f64; 2]>;
+
+fn positive(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let greatest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    (greatest > 0.0).then_some(greatest)
+}
+
+/// Luminance coefficients of scattered light, each dataset at its incidence: three decades. \[1/sr\]
+pub fn of_q<'a>(list: impl Iterator<Item = (&'a Btdf, Incident)>) -> Range {
+    let greatest = |(btdf, incident): (&Btdf, Incident)| {
+        btdf.indicatrix(incident).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max))
+    };
+    let scale = ColourScale::up_to(positive(list.map(greatest))?, true, 3, ColourMap::Sequential);
+    Some([scale.lo, scale.hi])
+}
+
+/// Transmittances over the hemisphere.
+pub fn of_tau<'a>(list: impl Iterator<Item = &'a Btdf>) -> Range {
+    let basis = RingBasis::equal_area(16);
+    let greatest = |btdf: &Btdf| basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max);
+    Some([0.0, fine_ceil(positive(list.map(greatest))?)])
+}
+
+/// Scattered intensities, on a raster of directions. \[cd\]
+pub fn of_lids<'a>(list: impl Iterator<Item = &'a Lid>) -> Range {
+    let greatest = |lid: &Lid| {
+        let aim = Aim::of(lid.surface);
+        let directions = (0..72).flat_map(|c| (0..=90).map(move |gamma| [5.0 * f64::from(c), 2.0 * f64::from(gamma)]));
+        directions
+            .map(|[c, gamma]| lid.intensity(aim.direction(c.to_radians(), gamma.to_radians())))
+            .fold(0.0, f64::max)
+    };
+    Some([0.0, positive(list.map(greatest))?])
+}
+
+/// Illuminances. \[lx\]
+pub fn of_illuminances(list: impl Iterator<Item = f64>) -> Range {
+    Some([0.0, fine_ceil(positive(list)?)])
+}
+
+/// Luminances of skies, the dark left out: logarithmic. \[cd/m²\]
+pub fn of_skies<'a>(list: impl Iterator<Item = &'a Outside>) -> Range {
+    let mut range = [f64::INFINITY, 0.0_f64];
+    for outside in list {
+        for (ring, sector) in (0..18).flat_map(|ring| (0..36).map(move |sector| (f64::from(ring), f64::from(sector)))) {
+            let bearing = Bearing::from_radians((10.0 * sector).to_radians());
+            let value = outside.luminance(Dir::from_altitude_bearing((5.0 * ring + 2.5).to_radians(), bearing));
+            if value.is_finite() && value > 0.0 {
+                range = [range[0].min(value), range[1].max(value)];
+            }
+        }
+    }
+    let [low, high] = range;
+    (low < high).then(|| {
+        let scale = ColourScale::log_around(low.max(1e-3), high.max(1e-2), ColourMap::Sequential);
+        [scale.lo, scale.hi]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_scale_holds_the_greatest_of_all_and_nothing_has_none() {
+        let (dim, bright) = (Btdf::ideal_diffuse(0.2), Btdf::ideal_diffuse(0.6));
+        let normal = Incident(Dir::from_theta_phi(0.1, 0.0));
+        let [low, high] = of_q([(&dim, normal), (&bright, normal)].into_iter()).unwrap();
+        assert!(high >= 0.6 / PI && high < 3.0 * 0.6 / PI && (high / low - 1000.0).abs() < 1e-6);
+        assert_eq!(of_tau([&bright, &dim].into_iter()), Some([0.0, 0.6]));
+        assert_eq!(of_illuminances([130.0, f64::NAN, 1210.0].into_iter()), Some([0.0, 1500.0]));
+        assert_eq!(of_illuminances([0.0].into_iter()), None);
+        assert_eq!(of_lids(std::iter::empty()), None);
+    }
+}
