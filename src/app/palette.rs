@@ -4,7 +4,7 @@ use super::command::Command;
 use super::control::state_words;
 use super::jobs::Lane;
 use super::offer::{key_words, listed};
-use super::shelf::{Found, Query};
+use super::shelf::{Found, Hit, Query};
 use super::state::State;
 use super::title;
 use super::window::App;
@@ -16,17 +16,6 @@ pub const ROWS: usize = 12;
 
 /// Products looked through at most.
 const PRODUCTS: usize = 50;
-
-/// A product of the catalogue that the words fit.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Hit {
-    /// Its key.
-    pub key: String,
-    /// Its name.
-    pub name: String,
-    /// What else is said about it: maker and kind.
-    pub about: String,
-}
 
 /// A row of the palette.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,6 +15,17 @@ pub use crate::catalogue::ProductRow as Entry;
 /// What is asked for, and what was found.
 pub use crate::catalogue::{Found, Query};
 
+/// A product of the catalogue that the words fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Hit {
+    /// Its key.
+    pub key: String,
+    /// Its name.
+    pub name: String,
+    /// What else is said about it: maker and kind.
+    pub about: String,
+}
+
 /// A product to be stored: its states, and what the user said about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Addition {

@@ -1,8 +1,6 @@
 //! How large the text is, and everything with it: in steps, and never so large that the window has no room for what it
 //! shows at its least size.
 
-use super::window::App;
-use crate::texts::shell;
 use egui::Vec2;
 
 /// The sizes there are, as shares of the desktop's.
@@ -39,34 +37,6 @@ pub fn fitting(wanted: f32, window: Vec2) -> f32 {
     let most = (window / LEAST_WINDOW).min_elem();
     let fits = |size: &f32| *size <= wanted + 1e-3 && (*size <= 1.0 || *size <= most + 1e-3);
     SIZES.into_iter().rev().find(fits).unwrap_or(SIZES[0])
-}
-
-/// The window's size without regard to the size of its text. \[points of the desktop\]
-fn window(ctx: &egui::Context) -> Vec2 {
-    ctx.content_rect().size() * ctx.zoom_factor()
-}
-
-impl App {
-    /// Another size of the text, where the window has room for it.
-    pub(super) fn change_text_size(&mut self, change: TextSize) {
-        // From what is shown: the window may have become too small for what was wanted once.
-        let room = window(&self.ctx);
-        let shown = fitting(self.state.settings.text_size, room);
-        let wanted = change.after(shown);
-        if change == TextSize::Larger && fitting(wanted, room) <= shown {
-            self.toasts.info(shell::NO_LARGER);
-        } else {
-            self.state.settings.text_size = wanted;
-        }
-    }
-
-    /// Shows text as large as is wanted and the window has room for.
-    pub(super) fn follow_text_size(&self, ctx: &egui::Context) {
-        let size = fitting(self.state.settings.text_size, window(ctx));
-        if (size - ctx.zoom_factor()).abs() > 1e-3 {
-            ctx.set_zoom_factor(size);
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,6 @@
 //! A tour in five steps on what is really there: each is done by doing it, none stops anything else.
 
-use super::state::{Sheet, State};
-use super::tiles::{LID, ROOM, SKY};
-use super::window::App;
-use crate::study::scene_file::{SceneFile, TimeKey};
+use crate::study::scene_file::TimeKey;
 use crate::texts::{Text, shell};
 
 /// A step of the tour.
@@ -50,28 +47,17 @@ pub enum TourAct {
 
 /// What a step is told by.
 #[derive(Debug, Clone, PartialEq)]
-struct Seen {
-    product: String,
-    sun: (Option<TimeKey>, Option<f64>, Option<f64>),
-    light: bool,
-    candidates: usize,
-    handing_on: bool,
+pub(super) struct Seen {
+    pub(super) product: String,
+    pub(super) sun: (Option<TimeKey>, Option<f64>, Option<f64>),
+    pub(super) light: bool,
+    pub(super) candidates: usize,
+    pub(super) handing_on: bool,
 }
 
 impl Seen {
-    fn of(state: &State) -> Self {
-        let SceneFile { sky, compare, .. } = &state.document.scene;
-        Self {
-            product: state.document.selection.product.clone(),
-            sun: (sky.time.clone(), sky.sun.altitude, sky.sun.azimuth),
-            light: state.maximised.is_some_and(|tile| tile == LID || tile == ROOM),
-            candidates: compare.len(),
-            handing_on: state.sheet == Some(Sheet::HandOn),
-        }
-    }
-
     /// Was the step done between then and now?
-    fn done(&self, now: &Self, stop: Stop) -> bool {
+    pub(super) fn done(&self, now: &Self, stop: Stop) -> bool {
         match stop {
             Stop::Product => now.product != self.product,
             Stop::Sun => now.sun != self.sun,
@@ -88,63 +74,5 @@ pub struct Tour {
     /// Where it is.
     pub stop: Stop,
     /// How things were in the last frame.
-    seen: Seen,
-}
-
-impl App {
-    /// Does what is asked of the tour.
-    pub(super) fn tour(&mut self, act: TourAct) {
-        self.state.tour_offered = false;
-        match act {
-            TourAct::Start => {
-                let done = self.state.settings.tour;
-                self.begin_stop(Stop::ALL[if done < Stop::ALL.len() { done } else { 0 }]);
-            }
-            TourAct::Leave => self.state.tour = None,
-            TourAct::Decline => {}
-        }
-    }
-
-    /// Brings into sight where a step is done.
-    fn begin_stop(&mut self, stop: Stop) {
-        let state = &mut self.state;
-        match stop {
-            Stop::Product => state.settings.catalogue_open = true,
-            Stop::Sun => {
-                (state.sheet, state.compare.open) = (None, false);
-                state.settings.scene_open = true;
-                self.bring_up(SKY);
-            }
-            Stop::Light => {
-                (state.sheet, state.compare.open, state.maximised) = (None, false, None);
-                self.bring_up(LID);
-            }
-            Stop::Compare | Stop::HandOn => {}
-        }
-        self.state.tour = Some(Tour { stop, seen: Seen::of(&self.state) });
-    }
-
-    /// Notices what was done since the last frame.
-    pub(super) fn follow_tour(&mut self) {
-        let Some(tour) = &self.state.tour else { return };
-        // At the start of the window something is chosen that nobody chose.
-        if self.state.shelf().is_none() {
-            return;
-        }
-        let (stop, now) = (tour.stop, Seen::of(&self.state));
-        let began_empty = tour.seen.product.is_empty();
-        if began_empty || !tour.seen.done(&now, stop) {
-            self.state.tour = Some(Tour { stop, seen: now });
-            return;
-        }
-        let done = Stop::ALL.iter().position(|one| *one == stop).map_or(0, |place| place + 1);
-        self.state.settings.tour = self.state.settings.tour.max(done);
-        match Stop::ALL.get(done) {
-            Some(next) => self.begin_stop(*next),
-            None => {
-                self.state.tour = None;
-                self.toasts.success(shell::TOUR_DONE);
-            }
-        }
-    }
+    pub(super) seen: Seen,
 }
