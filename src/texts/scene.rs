@@ -80,8 +80,8 @@ texts! {
     const TIME = "Time" | "Zeit";
     const TIME_TIP = "12:30, 12.5 or 9; standard time, no summer time" | "12:30, 12,5 oder 9; Normalzeit, keine Sommerzeit";
     const TIME_OF_DAY = "Time of day" | "Tageszeit";
-    fn rise_and_set(rise, set) = "Sunrise {rise}, sunset {set}" | "Sonnenaufgang {rise}, Untergang {set}";
-    fn no_set(rise) = "Sunrise {rise}, no sunset" | "Sonnenaufgang {rise}, kein Untergang";
+    fn rise_and_set(rise, set) = "Sunrise {rise}, sunset {set}" | "Aufgang {rise}, Untergang {set}";
+    fn no_set(rise) = "Sunrise {rise}, no sunset" | "Aufgang {rise}, kein Untergang";
     fn no_rise(set) = "No sunrise, sunset {set}" | "Kein Sonnenaufgang, Untergang {set}";
     const NO_RISE_OR_SET = "No sunrise or sunset on this day" | "Kein Sonnenauf- oder -untergang an diesem Tag";
     const NO_PLACE_NO_SUN = "No place: the sun is not known" | "Kein Ort: die Sonne ist nicht bekannt";

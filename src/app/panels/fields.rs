@@ -168,7 +168,7 @@ pub fn typed<T>(
     // Once the scene has moved on by other means, what was refused is no longer of interest.
     let draft: Option<Draft> = ui.data(|data| data.get_temp(key)).filter(|draft: &Draft| focused || draft.of == shown);
     let (mut text, mut wrong) = draft.map_or_else(|| (shown.to_owned(), None), |draft| (draft.text, draft.wrong));
-    let response = row(ui, label, |ui| ui.add(TextEdit::singleline(&mut text).id(id).desired_width(96.0)));
+    let response = row(ui, label, |ui| ui.add(TextEdit::singleline(&mut text).id(id).desired_width(112.0)));
     let response = response.on_hover_text(tip.into());
     if response.gained_focus() {
         select_all(ui, id, &text);
