@@ -9,9 +9,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Most datasets of which it is kept.
 const MOST: usize = 64;
 
+/// What was said about data of one content each.
+type Kept = VecDeque<(String, Arc<Vec<Diagnosis>>)>;
+
 /// What was said last about datasets of a content, newest at the end; every clone is the same.
 #[derive(Debug, Clone, Default)]
-pub struct Examined(Arc<Mutex<VecDeque<(String, Arc<Vec<Diagnosis>>)>>>);
+pub struct Examined(Arc<Mutex<Kept>>);
 
 impl Examined {
     /// What the checks say about a dataset; asked once a content. Takes its time the first time.

@@ -158,6 +158,10 @@ impl App {
             }
             Outcome::Provided(Ok(())) => {
                 self.state.computing = None;
+                // What was computed has a picture now.
+                if self.state.settings.gallery {
+                    self.search();
+                }
                 // LID and room wait for the same data in their own lanes.
                 self.ask_scene();
             }

@@ -124,8 +124,8 @@ texts! {
     const RECENT_MENU = "Recent products alone, or all" | "Nur zuletzt benutzte Produkte oder alle";
     const STAR_MENU = "Star the product, or take its star" | "Stern des Produkts setzen oder entfernen";
     const STAR_MENU_TIP = "Starred products can be shown alone" | "Produkte mit Stern lassen sich allein zeigen";
-    const FIRST_MENU = "Go to the list of products" | "Zur Liste der Produkte";
-    const FIRST_MENU_TIP = "Choose the first product of the list; arrow keys go on from there" | "Erstes Produkt der Liste wählen; die Pfeiltasten gehen von dort weiter";
+    const FIRST_MENU = "Choose the first product of the list" | "Erstes Produkt der Liste wählen";
+    const FIRST_MENU_TIP = "It gets the keyboard; arrow keys go on from there" | "Es bekommt die Tastatur; die Pfeiltasten gehen von dort weiter";
     const SUBSCRIBE_MENU = "Subscribe to a folder…" | "Ordner abonnieren…";
     const SUBSCRIBE_TIP = "Products of the packages in a shared folder are listed among the others, and read anew when they change" | "Produkte der Pakete eines gemeinsamen Ordners stehen in der Liste und werden bei Änderungen neu gelesen";
     const SUBSCRIPTIONS = "Subscribed folders" | "Abonnierte Ordner";

@@ -72,7 +72,8 @@ pub fn show(
     if state.found.entries.is_empty() {
         filters::nothing(ui, state, commands);
     } else {
-        if !state.found.entries.iter().any(|entry| entry.key == state.document.selection.product) {
+        let listed = |state: &State| state.found.entries.iter().any(|one| one.key == state.document.selection.product);
+        if state.focus_list && !listed(state) {
             // Nothing in the list could have the keyboard.
             state.focus_list = false;
         }

@@ -62,7 +62,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             .default_size(250.0)
             .size_range(widths(ui, 240.0))
             .show(ui, |ui| {
-                catalogue::show(ui, &mut app.state, (&mut app.states_view, &mut app.gallery), &mut commands)
+                catalogue::show(ui, &mut app.state, (&mut app.states_view, &mut app.gallery), &mut commands);
             });
         places.catalogue = Some(catalogue.response.rect);
     }

@@ -4,7 +4,7 @@ use crate::app::changes::Editing;
 use crate::app::clock;
 use crate::app::command::Command;
 use crate::app::import::ImportFields;
-use crate::app::state::State;
+use crate::app::state::{Sheet, State};
 use crate::app::theme;
 use crate::texts::catalogue as text;
 use egui::{TextEdit, Ui};
@@ -58,6 +58,10 @@ pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         files(ui, editing, commands);
     }
     ui.add_space(8.0);
+    if ui.button(text::COLLECTIONS_MENU).on_hover_text(text::COLLECTIONS_TIP).clicked() {
+        commands.push(Command::Select(editing.key.clone()));
+        commands.push(Command::Sheet(Some(Sheet::Collections)));
+    }
     if ui.button(text::DELETE_PRODUCT).on_hover_text(text::DELETE_PRODUCT_TIP).clicked() {
         commands.push(Command::Sheet(None));
         commands.push(Command::DeleteProduct(Some(editing.key.clone())));

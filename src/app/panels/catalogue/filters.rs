@@ -90,7 +90,7 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
             query.recent = !query.recent;
         }
         menu(ui, [text::KIND, text::KIND_FACET], query.has(Filter::Kinds), |ui| {
-            list(ui, &found.facets.kinds, &mut query.kinds)
+            list(ui, &found.facets.kinds, &mut query.kinds);
         });
         menu(ui, [text::MAKER, text::MAKER_FACET], query.has(Filter::Manufacturers), |ui| {
             list(ui, &found.facets.manufacturers, &mut query.manufacturers);
@@ -117,7 +117,7 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
             });
         }
         menu(ui, [text::TAGS, text::TAGS_FACET], query.has(Filter::Tags), |ui| {
-            list(ui, &found.facets.tags, &mut query.tags)
+            list(ui, &found.facets.tags, &mut query.tags);
         });
     });
     chosen(ui, query);
