@@ -60,7 +60,7 @@ pub struct Input<'a> {
 
 impl fmt::Debug for Input<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Input").field("name", &self.name).field("sun", &self.sun).finish_non_exhaustive()
+        f.debug_struct(stringify!(Input)).field("name", &self.name).field("sun", &self.sun).finish_non_exhaustive()
     }
 }
 
