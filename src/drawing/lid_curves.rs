@@ -81,9 +81,14 @@ pub fn intensity(lid: &Lid, d: Emergent) -> f64 {
 
 /// Samples the cuts.
 pub fn sample(lid: &Lid, planes: &[LidPlane]) -> Curves {
+    sample_at(lid, planes, SAMPLES)
+}
+
+/// The same with another number of samples.
+pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     let aim = Aim::of(lid.surface);
     let cut = |section: LidPlane| -> Vec<f64> {
-        (0..SAMPLES).map(|k| intensity(lid, section.direction(aim, TAU * k as f64 / SAMPLES as f64))).collect()
+        (0..count).map(|k| intensity(lid, section.direction(aim, TAU * k as f64 / count as f64))).collect()
     };
     let vertical: Vec<_> = planes.iter().map(|plane| (*plane, cut(*plane))).collect();
     let horizontal = cut(LidPlane::Horizontal);

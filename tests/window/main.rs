@@ -23,6 +23,7 @@ mod product_sheet;
 mod rearranging;
 mod room_view;
 mod scene_panel;
+mod tiles_view;
 mod tour_view;
 mod truth;
 mod undo;

@@ -14,7 +14,7 @@ use crate::texts::{Text, tiles as say};
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile = Tile { title: "Room", name: say::ROOM, help: say::ROOM_HELP };
+pub const TILE: Tile = Tile { title: say::ROOM.english(), name: say::ROOM, help: say::ROOM_HELP };
 
 /// Its drawing.
 #[derive(Default)]

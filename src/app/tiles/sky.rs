@@ -13,7 +13,7 @@ use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile = Tile { title: "Sky", name: say::SKY, help: say::SKY_HELP };
+pub const TILE: Tile = Tile { title: say::SKY.english(), name: say::SKY, help: say::SKY_HELP };
 
 /// Its drawing.
 #[derive(Default)]

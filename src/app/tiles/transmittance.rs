@@ -16,7 +16,8 @@ use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The tile.
-pub const TILE: Tile = Tile { title: "Transmittance", name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
+pub const TILE: Tile =
+    Tile { title: say::TRANSMITTANCE.english(), name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
 
 /// Place and bearing that sun paths hang on.
 type PathKey = (i16, [u64; 4]);

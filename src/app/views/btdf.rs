@@ -459,13 +459,11 @@ pub fn csv(input: &Input<'_>) -> String {
     let theta = input.incidence.direction.0.theta();
     let regular = btdf.regular.as_ref().map_or(0.0, |r| r.at(theta));
     let _ = writeln!(out, "# {}", input.name.replace(['\n', '\r'], " "));
-    let _ = writeln!(
-        out,
-        "# incidence theta_deg,{:.4},phi_deg,{:.4}",
-        theta.to_degrees(),
-        input.incidence.direction.0.phi().to_degrees()
-    );
-    let _ = writeln!(out, "# tau,{:.6},regular,{regular:.6}", btdf.tau(input.incidence.direction));
+    let phi = input.incidence.direction.0.phi();
+    out.push_str("# incidence ");
+    let _ = writeln!(out, "theta_deg,{:.4},phi_deg,{:.4}", theta.to_degrees(), phi.to_degrees());
+    out.push_str("# ");
+    let _ = writeln!(out, "tau,{:.6},regular,{regular:.6}", btdf.tau(input.incidence.direction));
     if let Some(form) = &input.form {
         let _ = writeln!(out, "# data,{}", form.key());
     }

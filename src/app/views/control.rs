@@ -41,7 +41,7 @@ struct Picture(TextureHandle);
 
 impl std::fmt::Debug for Picture {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Picture({:?})", self.0.size())
+        f.debug_tuple(stringify!(Picture)).field(&self.0.size()).finish()
     }
 }
 
@@ -205,7 +205,7 @@ fn year_picture(ui: &Ui, input: &Input<'_>, days: usize, night: Color32) -> Pict
     let state = |k: usize| input.year.get(k).copied().flatten();
     let pixels = hours.map(|k| state(k).map_or(night, |index| state_colour(input, usize::from(index))));
     let image = ColorImage::new([days, 24], pixels.collect());
-    Picture(ui.ctx().load_texture("year of states", image, TextureOptions::NEAREST))
+    Picture(ui.ctx().load_texture("year-of-states", image, TextureOptions::NEAREST))
 }
 
 fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Option<String> {

@@ -10,12 +10,13 @@ use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::direction::Surface;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
-use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample, vertical_planes};
+use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample_at, vertical_planes};
 use crate::drawing::ticks::{number, si};
 use crate::texts::tiles as say;
 use egui::{Color32, FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use scaling::{Scaling, towards};
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
@@ -50,7 +51,7 @@ pub struct State {
     /// The outermost ring stays as it is.
     pub hold: bool,
     body: body::State,
-    curves: Cache<(u64, Vec<LidPlane>), Curves>,
+    curves: Cache<(u64, Vec<LidPlane>, usize), Arc<Curves>>,
     /// The outermost ring, and whether per area.
     ring: Option<(bool, f64)>,
 }
@@ -98,7 +99,10 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let scaling = Scaling::of(lid, state.per_area);
     let factor = scaling.factor;
     let planes = vertical_planes(lid.surface, input.peaks);
-    let curves = state.curves.get((input.revision, planes.clone()), || sample(lid, &planes)).clone();
+    // While something is dragged every third sample does.
+    let samples = if input.status.hold_scale { SAMPLES / 3 } else { SAMPLES };
+    let key = (input.revision, planes, samples);
+    let curves = state.curves.get(key.clone(), || Arc::new(sample_at(lid, &key.1, samples))).clone();
     let automatic = input.max.unwrap_or(curves.max) * factor;
     let held = (input.status.hold_scale || state.hold) && input.max.is_none();
     let kept = state.ring.filter(|(per_area, _)| held && *per_area == state.per_area);
@@ -132,7 +136,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     let response = ui.interact(main, ui.scope_id().with("vertical"), Sense::hover());
     if let Some(at) = response.hover_pos() {
         let (angle, _) = axes.value(at);
-        let index = (angle.rem_euclid(TAU) / TAU * SAMPLES as f64).round() as usize % SAMPLES;
+        let index = (angle.rem_euclid(TAU) / TAU * samples as f64).round() as usize % samples;
         for ((_, values), colour) in &vertical {
             ui.painter().circle_filled(axes.screen(angle, values[index] * factor), 3.5, *colour);
         }
@@ -157,7 +161,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
         tile::name(ui, &response, say::LID_HORIZONTAL, "γ = 90°");
         if let Some(at) = response.hover_pos() {
             let (angle, _) = axes.value(at);
-            let index = (angle.rem_euclid(TAU) / TAU * SAMPLES as f64).round() as usize % SAMPLES;
+            let index = (angle.rem_euclid(TAU) / TAU * samples as f64).round() as usize % samples;
             ui.painter().circle_filled(axes.screen(angle, curves.horizontal[index] * factor), 3.5, palette.first);
             let c = angle.rem_euclid(TAU).to_degrees();
             let value = scaling.text(curves.horizontal[index]);

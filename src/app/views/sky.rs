@@ -60,7 +60,7 @@ pub struct Input<'a> {
 
 impl fmt::Debug for Input<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Input").field("name", &self.name).field("sun", &self.sun).finish_non_exhaustive()
+        f.debug_struct(stringify!(Input)).field("name", &self.name).field("sun", &self.sun).finish_non_exhaustive()
     }
 }
 
@@ -90,7 +90,7 @@ pub struct State {
     pub hold: bool,
     scale: Option<ColourScale>,
     extent: Cache<u64, [f64; 2]>,
-    dome: Cache<(u64, Disk, ColourScale, u64, bool), Arc<Mesh>>,
+    dome: Cache<(u64, Disk, ColourScale, u64, (bool, bool)), Arc<Mesh>>,
     section: Cache<(u64, u64), Vec<[f64; 2]>>,
     dragging: bool,
 }
@@ -176,17 +176,17 @@ fn picture(
     } else {
         (rest, None)
     };
-    let [min, max] = *state.extent.get(input.revision, || extent(luminance));
     let moving = input.status.hold_scale || state.dragging;
     let log = !state.linear;
     let held = state.scale.clone().filter(|scale| (moving || state.hold) && scale.log == log);
-    let own = || match log {
-        true => ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential),
-        false => ColourScale::up_to(max.max(1e-2), false, 3, ColourMap::Sequential),
+    // Not looked for while the scale is held: every moment of a drag has another sky.
+    let mut own = || match (log, *state.extent.get(input.revision, || extent(luminance))) {
+        (true, [min, max]) => ColourScale::log_around(min.max(1e-3), max.max(1e-2), ColourMap::Sequential),
+        (false, [_, max]) => ColourScale::up_to(max.max(1e-2), false, 3, ColourMap::Sequential),
     };
     let least = |lo: f64| if log { lo } else { 0.0 };
     let forced = input.range.map(|[lo, hi]| ColourScale { lo: least(lo), hi, log, map: ColourMap::Sequential });
-    let scale = forced.or(held).unwrap_or_else(own);
+    let scale = forced.or(held).unwrap_or_else(&mut own);
     state.scale = Some(scale.clone());
     let text = dome(ui, map, luminance, input, state, &scale, out);
     section.and_then(|place| section_ui(ui, place, luminance, input, state, &scale)).unwrap_or(text)
@@ -248,8 +248,9 @@ fn dome(
     let response = ui.interact(area, ui.scope_id().with("dome"), Sense::click_and_drag());
     let (facade, dark) = (input.facade_bearing, ui.visuals().dark_mode);
     // Not of the sky alone: the half behind the façade is faded, into what the theme has as ground.
-    let key = (input.revision, disk, scale.clone(), facade.to_bits(), dark);
-    let mesh = state.dome.get(key, || Arc::new(dome_mesh(&disk, luminance, scale, facade, &palette)));
+    let fine = !(input.status.hold_scale || state.dragging);
+    let key = (input.revision, disk, scale.clone(), facade.to_bits(), (dark, fine));
+    let mesh = state.dome.get(key, || Arc::new(dome_mesh(&disk, luminance, scale, (facade, fine), &palette)));
     ui.painter().add(Shape::Mesh(mesh.clone()));
     compass(ui, &disk, input, &palette);
     // The disk ends at the horizon: a sun under it has no place there.
@@ -311,18 +312,24 @@ fn place_text(what: Text, place: Place) -> [String; 3] {
     [say::with_bearing(&place, format!("{bearing:.0}")), place, short]
 }
 
-fn dome_mesh(disk: &Disk, luminance: Luminance<'_>, scale: &ColourScale, facade: f64, palette: &Palette) -> Mesh {
+/// The dome in colours; while something is dragged every other ring and sector do.
+fn dome_mesh(
+    disk: &Disk,
+    luminance: Luminance<'_>,
+    scale: &ColourScale,
+    (facade, fine): (f64, bool),
+    palette: &Palette,
+) -> Mesh {
     // The border between the halves must be sharp: each half is its own fan, turned so that it starts on the border.
-    const RINGS: u32 = 30;
-    const SECTORS: u32 = 36;
+    let (rings, sectors): (u32, u32) = if fine { (30, 36) } else { (15, 18) };
     let mut mesh = Mesh::default();
     for half in 0..2 {
         let first = mesh.vertices.len() as u32;
-        for ring in 0..=RINGS {
-            for sector in 0..=SECTORS {
-                let turn = f64::from(sector) / f64::from(SECTORS) * 0.5 * TAU + f64::from(half) * 0.5 * TAU;
+        for ring in 0..=rings {
+            for sector in 0..=sectors {
+                let turn = f64::from(sector) / f64::from(sectors) * 0.5 * TAU + f64::from(half) * 0.5 * TAU;
                 let place = Place {
-                    altitude: (1.0 - f64::from(ring) / f64::from(RINGS)) * FRAC_PI_2,
+                    altitude: (1.0 - f64::from(ring) / f64::from(rings)) * FRAC_PI_2,
                     bearing: wrap_two_pi(facade - FRAC_PI_2 + turn),
                 };
                 let full = scale.colour(luminance(place.altitude, place.bearing));
@@ -330,9 +337,9 @@ fn dome_mesh(disk: &Disk, luminance: Luminance<'_>, scale: &ColourScale, facade:
                 mesh.colored_vertex(disk.screen(disk_point(place)), colour);
             }
         }
-        let row = SECTORS + 1;
-        for ring in 0..RINGS {
-            for sector in 0..SECTORS {
+        let row = sectors + 1;
+        for ring in 0..rings {
+            for sector in 0..sectors {
                 let v = first + ring * row + sector;
                 mesh.add_triangle(v, v + 1, v + row);
                 mesh.add_triangle(v + 1, v + row, v + row + 1);
