@@ -16,6 +16,7 @@ use super::work::{Compared, Shelved};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
 use crate::drawing::plot::Plot;
+use crate::report::TileKind;
 use crate::study::comparison::{DataFacts, Facts, LidFacts, candidate, label, same_question};
 use crate::study::scene_file::{CompareKeys, SceneFile};
 use std::path::PathBuf;
@@ -284,8 +285,9 @@ impl Columns {
 
     /// What a picture of all candidates hangs on.
     pub fn key(&self, tile: &'static str) -> ScaleKey {
-        let bits =
-            |column: &Column| (tile == "BTDF").then(|| column.incident().0.vector().to_array().map(f64::to_bits));
+        let bits = |column: &Column| {
+            (tile == TileKind::Btdf.title()).then(|| column.incident().0.vector().to_array().map(f64::to_bits))
+        };
         (tile, self.list.iter().map(Column::revisions).collect(), self.list.iter().map(bits).collect())
     }
 

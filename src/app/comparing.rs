@@ -17,6 +17,7 @@ use super::{control, title};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::c_gamma::Peaks;
+use crate::report::TileKind;
 use crate::study::comparison::{DataFacts, FIGURES, Facts, MOST, Row, candidate, compare, csv};
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{CompareKeys, ControlMode, SceneFile, SystemKeys};
@@ -56,18 +57,19 @@ fn shown_words(state: &State) -> String {
 }
 
 /// The parts that a tile draws.
-pub fn parts(look: Look, tile: &str) -> &'static [Part] {
+pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
+    use TileKind::{Btdf, Control, Lid, Room, Sky, Transmittance};
     match (look, tile) {
         (Look::Figures, _) => &[Part::Shelf, Part::Data, Part::Room, Part::Lid, Part::Peaks],
-        (_, "BTDF" | "Transmittance") => &[Part::Shelf],
-        (Look::Beside, "Sky") => &[Part::Shelf, Part::Lid],
-        (Look::Beside, "LID") => &[Part::Shelf, Part::Lid, Part::Peaks],
-        (_, "Sky") => &[Part::Shelf],
-        (_, "LID") => &[Part::Shelf, Part::Lid],
-        (_, "Room") => &[Part::Shelf, Part::Room],
-        (Look::Beside, "Control") => &[Part::Shelf, Part::Year],
-        (_, "Control") => &[Part::Shelf],
-        _ => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
+        (_, Some(Btdf | Transmittance)) => &[Part::Shelf],
+        (Look::Beside, Some(Sky)) => &[Part::Shelf, Part::Lid],
+        (Look::Beside, Some(Lid)) => &[Part::Shelf, Part::Lid, Part::Peaks],
+        (_, Some(Sky)) => &[Part::Shelf],
+        (_, Some(Lid)) => &[Part::Shelf, Part::Lid],
+        (_, Some(Room)) => &[Part::Shelf, Part::Room],
+        (Look::Beside, Some(Control)) => &[Part::Shelf, Part::Year],
+        (_, Some(Control)) => &[Part::Shelf],
+        (_, None) => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
     }
 }
 
@@ -240,7 +242,7 @@ impl App {
             return;
         }
         let (columns, parts) = match (view.open, view.swapped) {
-            (true, _) => (0..tray, parts(view.look, view.tile())),
+            (true, _) => (0..tray, parts(view.look, TileKind::titled(view.tile()))),
             (false, Some(place)) => (place..place + 1, ALL),
             (false, None) => return,
         };
@@ -318,7 +320,7 @@ impl super::compare::View {
     /// The tile that is compared.
     pub fn tile(&self) -> &'static str {
         let known = TILES.iter().map(|entry| entry.tile.title);
-        known.clone().find(|title| *title == self.tile).or(known.clone().find(|title| *title == "Room")).unwrap_or("")
+        known.clone().find(|title| *title == self.tile).unwrap_or(TileKind::Room.title())
     }
 }
 

@@ -209,11 +209,7 @@ fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Rep
         row.push(Figure { drawing, caption: texts::picture_tau(caption, tau) });
     }
     pages.pictures(&row, 190.0);
-    pages.note(
-        "Luminance coefficient q = L/E of the light that leaves into the room, seen from inside: light that goes up is drawn \
-         up. One logarithmic scale for the three incidences in the vertical plane; equal areas are equal projected solid \
-         angles.",
-    );
+    pages.note(texts::INDICATRIX_NOTE.get());
     let described = subject.product.as_ref().and_then(|product| moving_part(&product.system));
     let curve = profile_curve(subject, inks);
     let mut row = Vec::new();

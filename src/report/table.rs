@@ -44,20 +44,29 @@ impl Table {
             let cells = self.rows.iter().filter_map(|row| row.get(k));
             cells.chain([&self.columns[k].head]).map(|text| width(text, size)).fold(8.0, f64::max) + 0.5
         };
-        let mut widths: Vec<f64> = (0..count).map(natural).collect();
+        let widths: Vec<f64> = (0..count).map(natural).collect();
         let sum: f64 = widths.iter().sum();
         if sum <= room {
             let more = (room - sum) / count.max(1) as f64;
             return widths.into_iter().map(|width| width + more).collect();
         }
+        // No word is broken where all of them fit.
+        let longest = |k: usize| {
+            let cells = self.rows.iter().filter_map(|row| row.get(k)).chain([&self.columns[k].head]);
+            cells.flat_map(|text| text.split_whitespace()).map(|word| width(word, size)).fold(8.0, f64::max) + 0.5
+        };
+        let mut least: Vec<f64> = (0..count).map(longest).collect();
+        if least.iter().sum::<f64>() > room {
+            least.fill(1.0);
+        }
         // No column is wider than a limit, which is as large as fits.
+        let limited = |limit: f64| widths.iter().zip(&least).map(move |(width, least)| width.min(limit).max(*least));
         let (mut low, mut high) = (0.0, room);
         for _ in 0..50 {
             let limit = 0.5 * (low + high);
-            if widths.iter().map(|width| width.min(limit)).sum::<f64>() <= room { low = limit } else { high = limit }
+            if limited(limit).sum::<f64>() <= room { low = limit } else { high = limit }
         }
-        widths.iter_mut().for_each(|width| *width = width.min(low).max(1.0));
-        widths
+        limited(low).collect()
     }
 
     /// The lines of a row's cells.
@@ -85,6 +94,12 @@ mod tests {
         assert!((widths.iter().sum::<f64>() + 20.0) <= 300.0 + 1e-6);
         assert!(widths[0] >= width("state", 9.0) && widths[1] >= width("τ normal", 9.0));
         assert!(table.lines(&table.rows[0], 9.0, &widths)[2].len() > 2);
+        // A long word stays whole, whatever the others say.
+        let mut long = Table::of(["figure", "1", "2"]);
+        let cells = ["Beleuchtungsstärke / lx".to_owned(), "a b c d e f g ".repeat(9), "a b c d e f g ".repeat(9)];
+        long.row(cells);
+        let widths = long.widths(9.0, 10.0, 240.0);
+        assert!(widths[0] >= width("Beleuchtungsstärke", 9.0) && widths.iter().sum::<f64>() + 20.0 <= 240.0 + 1e-6);
         // A narrow table fills the line.
         let small = Table::of(["a", "b"]);
         assert!((small.widths(9.0, 10.0, 300.0).iter().sum::<f64>() - 290.0).abs() < 1e-6);

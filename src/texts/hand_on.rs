@@ -189,6 +189,8 @@ texts! {
     const TITLE = "Title" | "Titel";
     const WITH_COMPARISON = "Comparison" | "Vergleich";
     const WITH_COMPARISON_TIP = "The tray's candidates: figures, the compared tile side by side, differences with sign" | "Die Kandidaten der Vergleichsliste: Kennzahlen, die verglichene Kachel nebeneinander, Differenzen mit Vorzeichen";
+    const EULUMDAT = "EULUMDAT" | "EULUMDAT";
+    const LM_63 = "IES LM-63-2002" | "IES LM-63-2002";
     const XML_TIP = "BSDF XML of LBNL WINDOW" | "BSDF-XML von LBNL WINDOW";
     const TEXT_TIP = "Text, as goniophotometers write" | "Text, wie Goniophotometer ihn schreiben";
     const FOR_PRINTERS = "For printers" | "Für Drucker";

@@ -286,7 +286,14 @@ fn reports_and_pictures_speak_german_where_they_are_asked_to() {
         ),
         (
             "sheet.pdf",
-            &["Produktblatt", "Wohin das Licht geht", "Stellungen", "Im Einsatz", "Ausschreibungstext", "Hersteller"],
+            &[
+                "Produktblatt",
+                "Wohin das Licht geht",
+                "Stellungen",
+                "Im Einsatz",
+                "Ausschreibungstext",
+                "Lichttransmissionsgrad",
+            ],
             &["Product sheet", "Where light goes", "In use", "Tender text", "normal incidence", "Manufacturer"],
         ),
     ];

@@ -8,6 +8,8 @@ use cfs::app::compare::{Act, Look};
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::jobs::Lane;
+use cfs::app::language::LanguageChoice;
+use cfs::app::room_look::{RoomLook, RoomView};
 use cfs::app::session::{Kept, Snapshot};
 use cfs::app::state::{Settings, State};
 use cfs::app::tiles::TILES;
@@ -15,7 +17,7 @@ use cfs::compute::estimate::{Estimate, Progress};
 use cfs::study::SceneFile;
 use cfs::study::accuracy::Accuracy;
 use cfs::study::comparison::label;
-use cfs::study::scene_file::SystemKeys;
+use cfs::study::scene_file::{CompareKeys, SystemKeys};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -268,4 +270,87 @@ fn products_like_the_shown_one_are_listed_with_their_distance() {
     settle(&mut harness);
     assert!(harness.state().state.found.like.is_none());
     assert!(harness.query_all_by_label_contains("Compare: ").all(|node| !node.accesskit_node().is_disabled()));
+}
+
+/// A system that a file describes, without the catalogue.
+fn of_file(name: &str) -> CompareKeys {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/systems/clear-double.system.toml");
+    CompareKeys {
+        name: name.to_owned(),
+        system: Some(SystemKeys::File { path, state: None }),
+        ..CompareKeys::default()
+    }
+}
+
+#[test]
+fn a_candidate_from_a_file_has_its_tiles_and_the_other_one_its_surfaces() {
+    let mut harness = harness(services(memory_shelf));
+    coarsen(&mut harness, [2, 3]);
+    settle(&mut harness);
+    act(&mut harness, Act::AddProduct("ideal-diffuser".to_owned()));
+    harness.state_mut().state.document.scene.compare.push(of_file("Of a file"));
+    for tile in ["BTDF", "Transmittance", "Sky", "LID", "Room"] {
+        act(&mut harness, Act::Tile(tile));
+        harness.run_steps(2);
+        let column = &harness.state().compare.list[1];
+        assert!(column.error().is_none() && column.state.dataset.value.is_some(), "{tile}: {:?}", column.error());
+    }
+    act(&mut harness, Act::Tile("BTDF"));
+    assert_eq!(harness.query_all_by_label("Emergent hemisphere").count(), 2);
+    // The same as the same system in the catalogue.
+    act(&mut harness, Act::AddProduct("clear-double".to_owned()));
+    act(&mut harness, Act::Look(Look::Figures));
+    let rows = harness.state().rows();
+    let tau = &rows.iter().find(|row| row.figure.key == "tau_hemispherical").unwrap().values;
+    let [file, product] = [tau[1].unwrap(), tau[2].unwrap()];
+    assert!((file.value - product.value).abs() < 1e-3, "{file:?} {product:?}");
+    // In perspective the other one shows its own surfaces.
+    apply(&mut harness, Command::RoomLook(RoomLook { view: RoomView::Perspective, ..RoomLook::default() }));
+    act(&mut harness, Act::SwapWith(1));
+    let app = harness.state();
+    let (state, results) = app.compare.shown(&app.state, &app.results);
+    assert_eq!(state.settings.room.view, RoomView::Perspective);
+    let flux = |results: &cfs::app::state::Results| results.surfaces.value.as_ref().map(|one| one.light.flux.value);
+    let (other, own) = (flux(results).expect("surfaces of the other one"), flux(&app.results).unwrap());
+    assert!((other / own - 1.0).abs() > 1e-3, "{other} {own}");
+}
+
+#[test]
+fn one_legend_stands_for_all_and_its_kind_is_chosen_for_all() {
+    let (mut harness, _) = two();
+    let tile = |title: &str| TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == title).unwrap();
+    let logs = |harness: &mut Harness<'_, App>, title: &str| -> Vec<bool> {
+        let columns = &mut harness.state_mut().compare.list;
+        columns.iter_mut().map(|column| *column.bench.log(tile(title)).unwrap()).collect()
+    };
+    for (title, log) in [("Room", true), ("BTDF", false)] {
+        act(&mut harness, Act::Tile(title));
+        harness.run_steps(2);
+        assert_eq!(harness.query_all_by_label("Scale of all tiles").count(), 1, "{title}");
+        act(&mut harness, Act::Log(log));
+        harness.run_steps(2);
+        assert_eq!(logs(&mut harness, title), [log; 2], "{title}");
+    }
+    act(&mut harness, Act::Tile("Control"));
+    harness.run_steps(2);
+    assert_eq!(harness.query_all_by_label("Scale of all tiles").count(), 0);
+}
+
+#[test]
+fn the_comparison_speaks_german() {
+    let (mut harness, _) = two();
+    act(&mut harness, Act::Look(Look::Figures));
+    apply(&mut harness, Command::Language(LanguageChoice::German));
+    for label in ["Nebeneinander", "Kennzahlen", "Tauschen", "Schließen", "Als CSV kopieren", "Besser"] {
+        assert!(harness.query_all_by_label(label).count() > 0, "{label}");
+    }
+    assert!(harness.query_all_by_label_contains("Dunkelster Messpunkt / lx").count() > 0);
+    assert!(harness.query_by_label("Kandidat 1 Clear opening").is_some());
+    for english in ["Side by side", "Figures", "Swap", "Copy as CSV", "Better"] {
+        assert_eq!(harness.query_all_by_label(english).count(), 0, "{english}");
+    }
+    // What programs read stays English.
+    let app = harness.state();
+    let table = cfs::study::comparison::csv(&app.rows(), &app.compare.names());
+    assert!(table.contains("more is better") && !table.contains("besser"), "{table}");
 }

@@ -118,8 +118,8 @@ fn tiles(ui: &mut Ui, choices: &mut Choices) {
 
 fn luminaire(ui: &mut Ui, ies: &mut bool) {
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(ies, false, ".ldt").on_hover_text("EULUMDAT");
-        ui.selectable_value(ies, true, ".ies").on_hover_text("IES LM-63-2002");
+        ui.selectable_value(ies, false, ".ldt").on_hover_text(texts::EULUMDAT);
+        ui.selectable_value(ies, true, ".ies").on_hover_text(texts::LM_63);
     });
 }
 

@@ -1,6 +1,6 @@
 //! The same tile for each candidate, all on one scale.
 
-use super::places::{missing, places, tile};
+use super::places::{kind, missing, places, tile};
 use crate::app::command::Command;
 use crate::app::compare::{Act, Part};
 use crate::app::compare_columns::{Column, Columns};
@@ -13,6 +13,7 @@ use crate::app::theme;
 use crate::app::tiles::TileInput;
 use crate::app::window::App;
 use crate::drawing::ticks::{fine_ceil, si, tick};
+use crate::report::TileKind;
 use crate::study::comparison::scales;
 use crate::texts::compare as texts;
 use egui::{Label, RichText, Sense, Stroke, StrokeKind, Ui, UiBuilder, vec2};
@@ -27,14 +28,15 @@ const LEAST: f64 = 1e-4;
 /// Draws the tiles.
 pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let Some(tile) = tile(&app.state) else { return };
+    let kind = kind(&app.state);
     let key = app.compare.key(tile.title);
     let Columns { list, scale: known, .. } = &mut app.compare;
-    let scale = *known.get(key, || scale(list, tile));
+    let scale = *known.get(key, || scale(list, kind));
     let log =
         list.first_mut().and_then(|column| column.bench.log(tile)).map(|own| app.state.compare.log.unwrap_or(*own));
-    let factor = tile.title == "Room" && app.state.settings.room.daylight_factor;
+    let factor = kind == Some(TileKind::Room) && app.state.settings.room.daylight_factor;
     if let Some(range) = scale.filter(|_| !factor) {
-        legend(ui, tile, range, log, commands);
+        legend(ui, kind, range, log, commands);
     }
     let held = ui.input(|input| input.pointer.any_down());
     let stopped = app.compare.stopped;
@@ -63,13 +65,13 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 }
 
 /// The scale of all tiles, with one choice of its kind for all of them.
-fn legend(ui: &mut Ui, tile: Tile, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
-    let (unit, always) = match tile.title {
-        "BTDF" => ("q / (1/sr)", false),
-        "Transmittance" => ("τ", false),
-        "Sky" => ("cd/m²", true),
-        "Room" => ("lx", false),
-        "LID" => {
+fn legend(ui: &mut Ui, kind: Option<TileKind>, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
+    let (unit, always) = match kind {
+        Some(TileKind::Btdf) => ("q / (1/sr)", false),
+        Some(TileKind::Transmittance) => ("τ", false),
+        Some(TileKind::Sky) => ("cd/m²", true),
+        Some(TileKind::Room) => ("lx", false),
+        Some(TileKind::Lid) => {
             ui.label(texts::one_scale(texts::common_scale_is(tick(0.0), si(fine_ceil(hi), "cd"), "")).trim_end());
             return;
         }
@@ -115,7 +117,7 @@ fn one(
         ui.centered_and_justified(|ui| ui.label(missing(column)));
         return;
     }
-    if tile.title == "Control" && column.state.product.is_none() {
+    if TileKind::titled(tile.title) == Some(TileKind::Control) && column.state.product.is_none() {
         ui.centered_and_justified(|ui| ui.label(texts::NOTHING_MOVES));
         return;
     }
@@ -126,20 +128,22 @@ fn one(
 
 /// Lowest and highest value of a scale that holds all candidates; `None` for tiles whose scales are fixed, and before there
 /// is anything.
-fn scale(columns: &[Column], tile: Tile) -> Option<[f64; 2]> {
+fn scale(columns: &[Column], kind: Option<TileKind>) -> Option<[f64; 2]> {
     let data =
         || columns.iter().filter_map(|column| Some((column, column.state.dataset.value.as_ref()?.transmission()?)));
-    match tile.title {
-        "BTDF" => scales::of_q(data().map(|(column, btdf)| (btdf, column.incident()))),
-        "Transmittance" => scales::of_tau(data().map(|(_, btdf)| btdf)),
-        "LID" => scales::of_lids(columns.iter().filter_map(|column| Some(&column.results.lid.value.as_ref()?.lid))),
-        "Room" => {
+    match kind? {
+        TileKind::Btdf => scales::of_q(data().map(|(column, btdf)| (btdf, column.incident()))),
+        TileKind::Transmittance => scales::of_tau(data().map(|(_, btdf)| btdf)),
+        TileKind::Lid => {
+            scales::of_lids(columns.iter().filter_map(|column| Some(&column.results.lid.value.as_ref()?.lid)))
+        }
+        TileKind::Room => {
             let rooms = columns.iter().filter_map(|column| column.results.room.value.as_ref());
             scales::of_illuminances(rooms.flat_map(|room| room.totals().map(|one| one.value)))
         }
-        "Sky" => {
+        TileKind::Sky => {
             scales::of_skies(columns.iter().filter_map(|column| Some(&column.state.daylight.value.as_ref()?.outside)))
         }
-        _ => None,
+        TileKind::Control => None,
     }
 }

@@ -1,6 +1,6 @@
 //! Curves of all candidates in one plot, told apart by colour and dashes.
 
-use super::places::{short, tile_words};
+use super::places::{kind, short, tile_words};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::control::rule_curve;
 use crate::app::paint::palette::Palette;
@@ -9,6 +9,7 @@ use crate::app::paint::tile;
 use crate::app::window::App;
 use crate::compute::estimate::Estimate;
 use crate::drawing::plot::Plot;
+use crate::report::TileKind;
 use crate::study::comparison::curves::{Grid, of_controls, of_lids, of_rooms, of_transmittances};
 use crate::texts::compare as texts;
 use crate::texts::language;
@@ -16,11 +17,11 @@ use egui::Ui;
 
 /// Draws the plots.
 pub(super) fn show(ui: &mut Ui, app: &mut App) {
-    let tile = app.state.compare.tile();
+    let (tile, kind) = (app.state.compare.tile(), kind(&app.state));
     let whole = ui.available_rect_before_wrap();
     let wide = whole.width() > whole.height();
     // Two plots side by side leave half of the width to the names.
-    let room = if wide && tile == "LID" { 0.5 * whole.width() } else { whole.width() };
+    let room = if wide && kind == Some(TileKind::Lid) { 0.5 * whole.width() } else { whole.width() };
     let most = ((room - 70.0) / 8.0).max(8.0) as usize;
     let names: Vec<String> = app.compare.names().iter().map(|name| short(name, most)).collect();
     // Rules are in the names of the scene's keys: with them the curves of control change; the axes with the language.
@@ -28,12 +29,14 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let key =
         (app.compare.key(tile), 0, names.iter().cloned().chain(rules).chain([format!("{:?}", language())]).collect());
     let Columns { list, plots, .. } = &mut app.compare;
-    let plots = plots.get(key, || make(tile, list, &names));
+    let plots = plots.get(key, || make(kind, list, &names));
     if plots.is_empty() {
         let words = list.iter().find_map(Column::error).map_or_else(
-            || match tile {
-                "LID" | "Room" | "BTDF" | "Transmittance" => texts::COMPUTING.into(),
-                "Control" => texts::NO_CURVES.into(),
+            || match kind {
+                Some(TileKind::Lid | TileKind::Room | TileKind::Btdf | TileKind::Transmittance) => {
+                    texts::COMPUTING.into()
+                }
+                Some(TileKind::Control) => texts::NO_CURVES.into(),
                 _ => texts::CURVES_OF.into(),
             },
             str::to_owned,
@@ -60,14 +63,14 @@ fn known<'a, T>(list: &'a [Column], names: &[String], of: impl Fn(&'a Column) ->
     list.iter().zip(names).filter_map(|(column, name)| Some((name.clone(), of(column)?))).collect()
 }
 
-fn make(tile: &str, list: &[Column], names: &[String]) -> Vec<Plot> {
+fn make(kind: Option<TileKind>, list: &[Column], names: &[String]) -> Vec<Plot> {
     let transmission = |column: &'_ Column| column.state.dataset.value.clone();
-    match tile {
-        "LID" => {
+    match kind {
+        Some(TileKind::Lid) => {
             let lids = known(list, names, |column| column.results.lid.value.as_deref().map(|figures| &figures.lid));
             if lids.is_empty() { Vec::new() } else { of_lids(&lids).into() }
         }
-        "Room" => {
+        Some(TileKind::Room) => {
             let rooms = known(list, names, |column| {
                 let room = column.results.room.value.as_deref()?;
                 Some((column.scene().room.depth, room.grid?, room.totals().collect::<Vec<Estimate>>()))
@@ -78,13 +81,13 @@ fn make(tile: &str, list: &[Column], names: &[String]) -> Vec<Plot> {
                 .collect();
             if grids.is_empty() { Vec::new() } else { vec![of_rooms(&grids)] }
         }
-        "BTDF" | "Transmittance" => {
+        Some(TileKind::Btdf | TileKind::Transmittance) => {
             let data = known(list, names, transmission);
             let data: Vec<_> =
                 data.iter().filter_map(|(name, dataset)| Some((name.clone(), dataset.transmission()?))).collect();
             if data.is_empty() { Vec::new() } else { vec![of_transmittances(&data)] }
         }
-        "Control" => {
+        Some(TileKind::Control) => {
             let curves = known(list, names, |column| {
                 let product = column.state.product.as_deref().filter(|product| product.states.len() > 1)?;
                 rule_curve(product, &column.state.control_keys(), &column.state.base())

@@ -1,6 +1,6 @@
 //! Each candidate less the base, with sign, all on one scale.
 
-use super::places::{missing, places, short};
+use super::places::{kind, missing, places, short};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::paint::hemisphere::Side;
 use crate::app::paint::tile::Status;
@@ -8,6 +8,7 @@ use crate::app::theme;
 use crate::app::views::difference::{self, Picture};
 use crate::app::window::App;
 use crate::compute::estimate::Estimate;
+use crate::report::TileKind;
 use crate::study::comparison::difference::{of_q, of_rooms, of_tau};
 use crate::texts::compare as texts;
 use egui::{Stroke, StrokeKind, Ui, UiBuilder};
@@ -17,10 +18,12 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let tile = app.state.compare.tile();
     let names = app.compare.names();
     let base = app.state.compare.base.min(names.len().saturating_sub(1));
-    if !["BTDF", "Transmittance", "Room"].contains(&tile) {
+    let drawn =
+        kind(&app.state).filter(|kind| [TileKind::Btdf, TileKind::Transmittance, TileKind::Room].contains(kind));
+    let Some(kind) = drawn else {
         ui.centered_and_justified(|ui| ui.label(texts::DIFFERENCES_OF));
         return;
-    }
+    };
     if names.len() < 2 {
         ui.centered_and_justified(|ui| ui.label(texts::TAKES_TWO));
         return;
@@ -28,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let key = (app.compare.key(tile), base, Vec::new());
     let stopped = app.compare.stopped;
     let Columns { list, differences, .. } = &mut app.compare;
-    let pictures = differences.get(key, || list.iter().map(|one| picture(tile, one, &list[base])).collect());
+    let pictures = differences.get(key, || list.iter().map(|one| picture(kind, one, &list[base])).collect());
     let reach = pictures.iter().flatten().map(Picture::reach).fold(0.0, f64::max);
     let scale = difference::scale(reach);
     let less = texts::less_base(&names[base]);
@@ -36,18 +39,18 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let rects = places(ui.available_rect_before_wrap(), others.len());
     // Another base is another picture.
     let base_results = list[base].revisions().into_iter().fold(base as u64, |all, one| all.rotate_left(13) ^ one);
-    let base_is_there = is_there(tile, &list[base]);
+    let base_is_there = is_there(kind, &list[base]);
     for (place, rect) in others.into_iter().zip(rects) {
         let column = &mut list[place];
         let palette = theme::palette(ui);
         ui.painter().rect(rect, 6, palette.surface, Stroke::new(1.0, palette.line), StrokeKind::Inside);
-        let words = match base_is_there && is_there(tile, column) {
-            true if tile == "Room" => texts::OTHER_SENSORS.into(),
+        let words = match base_is_there && is_there(kind, column) {
+            true if kind == TileKind::Room => texts::OTHER_SENSORS.into(),
             true => texts::NO_TRANSMISSION.into(),
             false => missing(column),
         };
         let title = short(&names[place], ((rect.width() - 60.0) / 9.0).max(4.0) as usize);
-        let stale = column.state.dataset.stale || (tile == "Room" && column.results.room.stale);
+        let stale = column.state.dataset.stale || (kind == TileKind::Room && column.results.room.stale);
         let results = column.revisions().into_iter().fold(0_u64, |all, one| all.rotate_left(16) ^ one);
         let incidence = column.incident().0.vector().to_array().into_iter();
         let input = difference::Input {
@@ -65,13 +68,13 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     }
 }
 
-fn is_there(tile: &str, column: &Column) -> bool {
-    if tile == "Room" { column.results.room.value.is_some() } else { column.state.dataset.value.is_some() }
+fn is_there(kind: TileKind, column: &Column) -> bool {
+    if kind == TileKind::Room { column.results.room.value.is_some() } else { column.state.dataset.value.is_some() }
 }
 
 /// The difference of a candidate from the base; `None` while one of them is not known, or where they have nothing in common.
-fn picture(tile: &str, column: &Column, base: &Column) -> Option<Picture> {
-    if tile == "Room" {
+fn picture(kind: TileKind, column: &Column, base: &Column) -> Option<Picture> {
+    if kind == TileKind::Room {
         let of = |column: &Column| {
             let room = column.results.room.value.clone()?;
             let totals: Vec<Estimate> = room.totals().collect();
@@ -85,8 +88,8 @@ fn picture(tile: &str, column: &Column, base: &Column) -> Option<Picture> {
     let btdf = |column: &Column| column.state.dataset.value.clone();
     let (one, other) = (btdf(column)?, btdf(base)?);
     let (one, other) = (one.transmission()?, other.transmission()?);
-    Some(match tile {
-        "BTDF" => Picture::Disk { side: Side::Emergent, cells: of_q(one, other, column.incident()) },
+    Some(match kind {
+        TileKind::Btdf => Picture::Disk { side: Side::Emergent, cells: of_q(one, other, column.incident()) },
         _ => Picture::Disk { side: Side::Incident, cells: of_tau(one, other) },
     })
 }

@@ -24,6 +24,11 @@ pub(super) fn tile_words(title: &str) -> String {
     TileKind::titled(title).map_or_else(|| title.to_owned(), |kind| kind.words().into())
 }
 
+/// Which of the tiles that are compared and handed on the compared one is.
+pub(super) fn kind(state: &State) -> Option<TileKind> {
+    TileKind::titled(state.compare.tile())
+}
+
 /// The tile that is compared.
 pub(super) fn tile(state: &State) -> Option<Tile> {
     TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == state.compare.tile())
