@@ -33,9 +33,11 @@ pub fn fine_ceil(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
     }
-    let decade = 10_f64.powf(value.log10().floor());
+    let exponent = value.log10().floor() as i32;
+    // A power of ten below one is not exact, a division by one above it is: 0.6, not 0.6000000000000001.
+    let scaled = |m: f64| if exponent < 0 { m / 10_f64.powi(-exponent) } else { m * 10_f64.powi(exponent) };
     let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
-    steps.into_iter().find(|m| value / decade <= m * (1.0 + 1e-9)).unwrap_or(10.0) * decade
+    scaled(steps.into_iter().find(|m| value <= scaled(*m) * (1.0 + 1e-9)).unwrap_or(10.0))
 }
 
 /// Marks of a logarithmic axis within lo … hi, about `count`: 1-2-5 steps where they fit, else decades, else every

@@ -268,8 +268,10 @@ fn older_file(path: &Path, new: &Path) {
     db.execute_batch(include_str!("../../migrations/0001_products.sql")).unwrap();
     db.execute_batch(include_str!("../../migrations/0002_system.sql")).unwrap();
     db.execute("ATTACH ? AS new", [new.to_str().unwrap()]).unwrap();
-    db.execute_batch(
-        "INSERT INTO product SELECT * FROM new.product p
+    let columns = "SELECT group_concat(name) FROM pragma_table_info('product', 'main')";
+    let columns: String = db.query_row(columns, [], |row| row.get(0)).unwrap();
+    db.execute_batch(&format!(
+        "INSERT INTO product SELECT {columns} FROM new.product p
            WHERE NOT EXISTS (SELECT 1 FROM new.state s WHERE s.product = p.id AND s.dataset IS NULL);
          INSERT INTO dataset SELECT * FROM new.dataset;
          INSERT INTO state SELECT product, position, key, label, value, dataset, tau_normal, tau_hemispherical, tau_profile
@@ -279,8 +281,8 @@ fn older_file(path: &Path, new: &Path) {
          INSERT INTO meta SELECT * FROM new.meta;
          INSERT INTO product_text (rowid, name, manufacturer, kind, description, tags)
            SELECT id, name, manufacturer, kind, description, '' FROM main.product;
-         PRAGMA user_version = 2;",
-    )
+         PRAGMA user_version = 2;"
+    ))
     .unwrap();
 }
 
