@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.separator();
     let beside = ui.available_width() > NARROW && !import.products.is_empty();
     if beside {
-        egui::Panel::right("import detail").default_size(300.0).size_range(260.0..=460.0).show(ui, |ui| {
+        egui::Panel::right("import-detail").default_size(300.0).size_range(260.0..=460.0).show(ui, |ui| {
             ScrollArea::vertical().id_salt("detail").auto_shrink([false, false]).show(ui, |ui| {
                 detail::show(ui, import, commands);
             });
