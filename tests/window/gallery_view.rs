@@ -41,7 +41,8 @@ fn add(harness: &mut Harness<'_, App>, count: usize) {
     };
     let all: Vec<Addition> = (0..count).map(one).collect();
     state(harness).shelf().unwrap().add_all(&all).unwrap();
-    apply(harness, Command::Find(Query { text: "screen".to_owned(), ..Query::default() }));
+    let own = Query { text: "screen".to_owned(), builtin: Some(false), ..Query::default() };
+    apply(harness, Command::Find(own));
 }
 
 fn focused(harness: &Harness<'_, App>, label: &str) -> bool {
