@@ -4,7 +4,7 @@
 //! draws. Both work in an axis' *coordinate*, the value itself or, on a logarithmic axis, its decimal logarithm.
 
 use super::ticks;
-use crate::texts::{Text, tiles as say};
+use crate::texts::{tiles as say, words::MONTHS};
 
 /// What the numbers of an axis are counted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,21 +172,6 @@ impl Axis {
     }
 }
 
-/// Short names of the months.
-pub const MONTHS: [Text; 12] = [
-    say::JAN,
-    say::FEB,
-    say::MAR,
-    say::APR,
-    say::MAY,
-    say::JUN,
-    say::JUL,
-    say::AUG,
-    say::SEP,
-    say::OCT,
-    say::NOV,
-    say::DEC,
-];
 /// First days of the months, from 0.
 const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
 

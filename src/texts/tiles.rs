@@ -168,18 +168,6 @@ texts! {
     fn split_line(ceiling, eye, work, floor) = "ceiling {ceiling} · eye zone {eye} · work zone {work} · floor {floor} %" | "Decke {ceiling} · Augenhöhe {eye} · Arbeitsbereich {work} · Boden {floor} %";
     fn split_line_short(ceiling, eye, work, floor) = "ceiling {ceiling}, eye {eye}, work {work}, floor {floor} %" | "Decke {ceiling}, Augen {eye}, Arbeit {work}, Boden {floor} %";
     fn split_most(share, all, zone) = "{share} of {all} % to the {zone}" | "{share} von {all} %: {zone}";
-    const JAN = "Jan" | "Jan";
-    const FEB = "Feb" | "Feb";
-    const MAR = "Mar" | "Mär";
-    const APR = "Apr" | "Apr";
-    const MAY = "May" | "Mai";
-    const JUN = "Jun" | "Jun";
-    const JUL = "Jul" | "Jul";
-    const AUG = "Aug" | "Aug";
-    const SEP = "Sep" | "Sep";
-    const OCT = "Oct" | "Okt";
-    const NOV = "Nov" | "Nov";
-    const DEC = "Dec" | "Dez";
 
     fn day_month(day, month) = "{day} {month}" | "{day}. {month}";
 
