@@ -33,9 +33,24 @@ impl Numbered {
     }
 }
 
+/// A text so that numbers in it sort by their size: "blind 80" before "blind 100".
+fn by_numbers(text: &str) -> String {
+    let mut key = String::with_capacity(text.len() + 8);
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let digits = rest[start..].bytes().take_while(u8::is_ascii_digit).count();
+        let number = &rest[start..start + digits];
+        key.push_str(&rest[..start]);
+        key.push_str(&format!("{number:0>12}"));
+        rest = &rest[start + digits..];
+    }
+    key.push_str(rest);
+    key
+}
+
 /// Places of products in the order of a text.
 pub(super) fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec<usize> {
-    let texts: Vec<String> = products.iter().map(of).collect();
+    let texts: Vec<String> = products.iter().map(|product| by_numbers(&of(product))).collect();
     let mut order: Vec<usize> = (0..products.len()).collect();
     order.sort_by(|a, b| texts[*a].cmp(&texts[*b]));
     let mut places = vec![0; products.len()];
@@ -65,5 +80,17 @@ pub(super) fn words_of(text: &str, join: bool, put: &mut dyn FnMut(&str, bool)) 
                 put(&joined, true);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_sort_by_their_size() {
+        let mut names = ["blind 100", "blind 80", "blind 80 b", "blind", "2 panes", "10 panes"];
+        names.sort_by_key(|name| by_numbers(name));
+        assert_eq!(names, ["2 panes", "10 panes", "blind", "blind 80", "blind 80 b", "blind 100"]);
     }
 }

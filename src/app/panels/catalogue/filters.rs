@@ -6,6 +6,7 @@ use crate::app::shelf::{Found, Query};
 use crate::app::state::State;
 use crate::app::theme;
 use crate::catalogue::{Facet, Figure, Filter, Origin, Sort};
+use crate::drawing::ticks::number;
 use crate::texts::{Text, catalogue as text};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{ComboBox, PopupCloseBehavior, RichText, ScrollArea, Ui, vec2};
@@ -150,7 +151,9 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     let found = &*state.found;
     ui.horizontal(|ui| {
         let (shown, total) = (found.entries.len(), found.total);
-        ui.weak(text::count_of(shown, total)).on_hover_text(text::products_fit(shown, total));
+        // Large numbers have no room beside the order.
+        let count = if total < 1000 { text::count_of(shown, total) } else { number(shown as f64, 7) };
+        ui.weak(count).on_hover_text(text::products_fit(shown, total));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let (arrow, name) = if query.descending { ("↓", text::FALLING) } else { ("↑", text::RISING) };
             let tip = text::turn_round(name);
