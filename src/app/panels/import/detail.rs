@@ -1,7 +1,7 @@
 //! Beside the table of what was found: words about the products that are chosen, and the row that is shown, as it will be
 //! stored.
 
-use super::findings::{counts, diagnoses, picture, seen};
+use super::findings::{counts, diagnoses, picture, repair_words, seen};
 use crate::app::command::Command;
 use crate::app::import::{Import, Proposed, Row, number};
 use crate::app::import_steps::{Step, Word};
@@ -78,7 +78,7 @@ fn state(ui: &mut Ui, (own, place): Row, product: &Proposed, commands: &mut Vec<
         }
     });
     if !repairs.is_empty() {
-        let words: Vec<String> = repairs.iter().map(|repair| repair.label()).collect();
+        let words: Vec<String> = repairs.iter().copied().map(repair_words).collect();
         let words = words.join("; ");
         let line = if product.wished.is_some() { text::repairing(words) } else { text::repaired(words) };
         ui.add(egui::Label::new(line).wrap());

@@ -5,7 +5,7 @@ use crate::app::state::State;
 use crate::app::theme;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::direction::{Dir, Incident};
-use crate::compute::doctor::{Diagnosis, Repair, Ways, sun_from_above};
+use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways, sun_from_above};
 use crate::texts::{Text, take_in as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -24,6 +24,28 @@ pub(super) fn counts(list: &[Diagnosis]) -> String {
     let words: Vec<String> =
         words.filter(|(count, ..)| *count > 0).map(|(count, one, more)| number(count, one, more)).collect();
     words.join(", ")
+}
+
+/// A repair as buttons say it; the functions that it is for stay as findings name them.
+pub(super) fn repair_words(repair: Repair) -> String {
+    use RepairKind::*;
+    let kind = match repair.kind {
+        TurnUpsideDown => text::TURN,
+        MirrorLeftRight => text::MIRROR,
+        TurnHalfRound => text::TURN_HALF,
+        SwapSides => text::SWAP_SIDES,
+        Transpose => text::TRANSPOSE,
+        DivideBy100 => text::DIVIDE_100,
+        MultiplyBy100 => text::MULTIPLY_100,
+        RemoveCosine => text::DIVIDE_COSINE,
+        MultiplyCosine => text::MULTIPLY_COSINE,
+        RemoveSolidAngle => text::DIVIDE_ANGLE,
+        MultiplySolidAngle => text::MULTIPLY_ANGLE,
+        DropBlock => text::DROP_BLOCK,
+        DeriveByReciprocity => text::DERIVE,
+        ClampNegative => text::CLAMP,
+    };
+    repair.label().replacen(repair.kind.label(), kind.get(), 1)
 }
 
 /// The worst of them.
@@ -60,7 +82,7 @@ pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut as
             }
             if let Some(repair) = repair.filter(|repair| !made.contains(repair)) {
                 // The same repair may be offered by several findings.
-                let button = ui.push_id((finding.code, repair), |ui| ui.button(repair.label())).inner;
+                let button = ui.push_id((finding.code, repair), |ui| ui.button(repair_words(repair))).inner;
                 let tip = if *sure { text::SURE } else { text::UNSURE };
                 if button.on_hover_text(tip).clicked() {
                     ask(repair);
