@@ -32,7 +32,7 @@ impl App {
             return;
         }
         let Some(btdf) = dataset.transmission() else { return };
-        let compute = state.document.scene.compute.clone();
+        let compute = state.document.scene.compute;
         let incident = Incidence::shown(state.incident, &state.document.scene).direction;
         let key = FormKey::of(btdf, state.dataset.revision, incident, (look.form, compute.diffuse_interpolation));
         let engine = self.services.engine.clone();

@@ -74,7 +74,8 @@ texts! {
     const COMPACT = "Compact" | "Komprimiert";
     const COMPACT_TIP = "Compressed by wavelets, as the catalogue keeps large datasets" | "Durch Wavelets komprimiert, wie der Katalog große Datensätze aufbewahrt";
     fn data_offer(form) = "BTDF data: {form}" | "BTDF-Daten: {form}";
-    const FORM_TIP = "In which form the data are shown" | "In welcher Form die Daten gezeigt werden";
+    const DATA = "Data" | "Daten";
+    const FORM_TIP = "In which form the data are shown, and the map of schemes" | "In welcher Form die Daten gezeigt werden, und die Karte der Schemata";
     const FORM_COMING = "computing…" | "wird berechnet…";
     fn foot_filtered(scheme, in_force, largest, moved) = "{scheme} ({in_force}) · differs by up to {largest} 1/sr · {moved} % of the flux moved" | "{scheme} ({in_force}) · Abweichung bis {largest} 1/sr · {moved} % des Lichtstroms verschoben";
     fn foot_filtered_short(largest, moved) = "filtered · up to {largest} 1/sr · {moved} % moved" | "gefiltert · bis {largest} 1/sr · {moved} % verschoben";

@@ -43,7 +43,7 @@ impl Drawn for Drawing {
         // Until data of this incidence are there in the form that is looked at, those of the last one stay.
         let (look, shown) = (state.data_look, &seen.results.form);
         let result = shown.value.as_deref().filter(|made| made.key.form == look.form);
-        let form = (look.form != DataForm::Measured).then(|| FormInput {
+        let form = (look.form != DataForm::Measured).then_some(FormInput {
             form: look.form,
             result,
             error: shown.error.as_deref(),

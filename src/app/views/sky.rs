@@ -81,6 +81,9 @@ pub enum Action {
     SunReleased,
 }
 
+/// What the dome hangs on: sky, place, scale, façade, and whether it is dark and fine.
+type DomeKey = (u64, Disk, ColourScale, u64, (bool, bool));
+
 /// The tile's own settings and pictures.
 #[derive(Debug, Clone, Default)]
 pub struct State {
@@ -90,7 +93,7 @@ pub struct State {
     pub hold: bool,
     scale: Option<ColourScale>,
     extent: Cache<u64, [f64; 2]>,
-    dome: Cache<(u64, Disk, ColourScale, u64, (bool, bool)), Arc<Mesh>>,
+    dome: Cache<DomeKey, Arc<Mesh>>,
     section: Cache<(u64, u64), Vec<[f64; 2]>>,
     dragging: bool,
 }

@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
         let id = ui.scope_id().with(("compared curves", tile, k));
         let look = Look { dashed: true, legend_of, left: 56.0, ..Look::tile(id, &colours, palette.second) };
         let shown = plot::show(ui, rect.shrink(4.0), one, &look, |_| {});
-        tile::name(ui, &shown.response, &texts::curves_name(tile_words(tile)), &names.join("; "));
+        tile::name(ui, &shown.response, texts::curves_name(tile_words(tile)), &names.join("; "));
         legend_of = legend_of.or(Some(id));
     }
 }

@@ -5,7 +5,7 @@ use crate::app::paint::tile::Foot;
 use crate::drawing::ticks::number;
 use crate::study::data_form::{DataForm, Formed, How, NoForm};
 use crate::texts::{Text, fixed, tiles as say};
-use egui::{ComboBox, Ui};
+use egui::Ui;
 
 /// What a form is called, and one sentence.
 pub const fn words(form: DataForm) -> [Text; 2] {
@@ -19,19 +19,20 @@ pub const fn words(form: DataForm) -> [Text; 2] {
 /// The choice of the form and of the map of schemes, in the tile's head.
 pub(super) fn choice(ui: &mut Ui, input: &Input<'_>, actions: &mut Vec<Action>) {
     let now = input.form.map_or(DataForm::Measured, |form| form.form);
-    let combo = ComboBox::from_id_salt("form").width(96.0).selected_text(words(now)[0]).show_ui(ui, |ui| {
+    let menu = ui.menu_button(say::DATA, |ui| {
         for form in DataForm::ALL {
             let [word, tip] = words(form);
             if ui.selectable_label(form == now, word).on_hover_text(tip).clicked() && form != now {
                 actions.push(Action::Form(form));
             }
         }
+        ui.separator();
+        let mut schemes = input.schemes.is_some();
+        if ui.toggle_value(&mut schemes, say::SCHEMES).on_hover_text(say::SCHEMES_TIP).changed() {
+            actions.push(Action::Schemes);
+        }
     });
-    combo.response.on_hover_text(say::FORM_TIP);
-    let mut schemes = input.schemes.is_some();
-    if ui.toggle_value(&mut schemes, say::SCHEMES).on_hover_text(say::SCHEMES_TIP).changed() {
-        actions.push(Action::Schemes);
-    }
+    menu.response.on_hover_text(say::FORM_TIP);
 }
 
 impl<'a> FormInput<'a> {

@@ -80,8 +80,11 @@ fn free_place(area: Rect, size: Vec2, lines: &[Vec<Pos2>], things: &[Rect]) -> O
     let grid = (0..=STEPS).rev().flat_map(|x| (0..=STEPS).rev().map(move |y| (share(x), share(y))));
     let covered = |place: &Rect| {
         let near = place.expand(2.0);
-        lines.iter().filter(|line| runs_through(line, near)).count()
-            + 3 * things.iter().filter(|thing| thing.intersects(near)).count()
+        let through = |place: Rect| lines.iter().filter(|line| runs_through(line, place)).count();
+        // Names stand on lines: they want room beside the bar too.
+        through(place.expand(11.0))
+            + 4 * through(near)
+            + 8 * things.iter().filter(|thing| thing.intersects(near)).count()
     };
     corners.into_iter().chain(grid).map(|(x, y)| at(x, y)).min_by_key(covered)
 }

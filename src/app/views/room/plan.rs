@@ -74,7 +74,8 @@ pub(super) fn show(
     }
     let mut on_plan: Vec<Vec<Pos2>> = named.iter().flat_map(|(_, lines)| lines.iter().cloned()).collect();
     on_plan.push(dashes.to_vec());
-    used.push(scale_bar(ui, plan.area, plan.scale, &on_plan, &things(plan, input)));
+    let bar = scale_bar(ui, plan.area, plan.scale, &on_plan, &things(plan, input));
+    used.push(bar);
     // The names come over all lines, those of the levels that are asked for first.
     named.sort_by_key(|(level, _)| !ASKED_FOR.contains(level));
     for (level, lines) in &named {
@@ -87,7 +88,10 @@ pub(super) fn show(
         if asked_for && !done {
             let longest = lines.iter().max_by_key(|points| points.len());
             if let Some(points) = longest {
-                label_line(ui, points, *level, scale, plan.area, &mut vec![]);
+                let beside = label_line(ui, points, *level, scale, plan.area, &mut vec![bar]);
+                if !beside {
+                    label_line(ui, points, *level, scale, plan.area, &mut vec![]);
+                }
             }
         }
     }
