@@ -35,13 +35,10 @@ pub fn fill(template: &str, fields: &Fields) -> Result<Vec<String>, ReportError>
         let (mut text, mut known, mut unknown) = (String::new(), 0, 0);
         let mut rest = line;
         while let Some((before, after)) = rest.split_once('{') {
-            let (name, behind) =
-                after.split_once('}').ok_or_else(|| wrong(texts::open_brace("{", "}", "{name}")))?;
+            let (name, behind) = after.split_once('}').ok_or_else(|| wrong(texts::open_brace("{", "}", "{name}")))?;
             let names = || fields.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-            let (_, value) = fields
-                .iter()
-                .find(|(one, _)| *one == name)
-                .ok_or_else(|| wrong(texts::no_field(name, names())))?;
+            let (_, value) =
+                fields.iter().find(|(one, _)| *one == name).ok_or_else(|| wrong(texts::no_field(name, names())))?;
             text.push_str(before);
             if value.is_empty() {
                 unknown += 1;
