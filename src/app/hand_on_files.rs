@@ -143,6 +143,7 @@ impl Order {
             kind: product.kind.clone(),
             description: product.description.clone(),
             provenance: product.provenance.clone(),
+            license: product.license.clone(),
             tags: product.tags.clone(),
             states: product.states.iter().map(name).collect(),
             control_curve: product.control_curve.clone(),

@@ -1,6 +1,6 @@
 //! Why nothing can be handed on.
 
-use crate::texts::Text;
+use crate::texts::{Text, hand_on as texts};
 
 /// Why nothing can be handed on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,12 +9,12 @@ pub enum ReportError {
     #[error("{0}: {1}")]
     Nothing(Text, String),
     /// A size that is none: as typed, and why.
-    #[error("size \"{0}\": {1}; expected e.g. 1600x1200 (pixels) or 160x120mm")]
-    Size(String, &'static str),
+    #[error("{}", texts::wrong_size(.0, .1))]
+    Size(String, Text),
     /// A tender text that is no template: its line (from 1), and what is wrong.
-    #[error("tender text, line {0}: {1}")]
+    #[error("{}", texts::wrong_template(.0, .1))]
     Template(usize, String),
     /// The PDF could not be made.
-    #[error("the PDF could not be made: {0}")]
+    #[error("{}", texts::no_pdf(.0))]
     Pdf(String),
 }

@@ -4,7 +4,7 @@ use super::ReportError;
 use super::picture::PROGRAM;
 use crate::drawing::font::{DEJAVU, MIDDLE, width};
 use crate::drawing::{Drawing, Point as Place, Rgb, Shape};
-use crate::texts::{Language, language};
+use crate::texts::{Language, Text, hand_on as texts, language};
 use krilla::Document;
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Point, Transform};
@@ -20,8 +20,8 @@ use krilla::text::{Font, TextDirection};
 /// # Errors
 /// What the encoder refuses.
 pub fn write(pages: &[Drawing], title: &str) -> Result<Vec<u8>, ReportError> {
-    let wrong = |what: &str| ReportError::Pdf(what.to_owned());
-    let font = Font::new(DEJAVU.into(), 0).ok_or_else(|| wrong("the font cannot be read"))?;
+    let wrong = |what: Text| ReportError::Pdf(what.into());
+    let font = Font::new(DEJAVU.into(), 0).ok_or_else(|| wrong(texts::NO_FONT))?;
     let mut document = Document::new();
     let language = match language() {
         Language::English => "en",
@@ -31,7 +31,7 @@ pub fn write(pages: &[Drawing], title: &str) -> Result<Vec<u8>, ReportError> {
     document.set_metadata(metadata);
     for drawing in pages {
         let size = PageSettings::from_wh(drawing.width as f32, drawing.height as f32);
-        let mut page = document.start_page_with(size.ok_or_else(|| wrong("a page without an extent"))?);
+        let mut page = document.start_page_with(size.ok_or_else(|| wrong(texts::NO_EXTENT))?);
         let mut surface = page.surface();
         for shape in &drawing.shapes {
             draw(&mut surface, shape, &font);

@@ -349,6 +349,7 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
             add(texts::DATE, &from.date);
             add(texts::FILE, &from.source_file);
             add(texts::HASH, &from.source_hash);
+            add(texts::LICENCE, &product.license);
             add(texts::INSIDE_FACE, &from.inside_face);
             add(texts::KEY, &product.key);
         }
@@ -382,10 +383,13 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
     }
 }
 
-/// Addresses that description and method name.
+/// Addresses that the words about the product name.
 fn links(subject: &Subject) -> Vec<String> {
     let Some(product) = &subject.product else { return Vec::new() };
-    let words = product.description.split_whitespace().chain(product.provenance.method.split_whitespace());
+    let from = &product.provenance;
+    let words = [&product.description, &from.method, &from.author, &from.source_file, &product.license]
+        .into_iter()
+        .flat_map(|text| text.split_whitespace());
     let address = |word: &str| word.trim_matches(|c: char| "()<>,.;\"'".contains(c)).to_owned();
     let mut list: Vec<String> =
         words.map(address).filter(|word| word.starts_with("https://") || word.starts_with("http://")).collect();

@@ -2,6 +2,7 @@
 
 use super::error::ReportError;
 use crate::drawing::Drawing;
+use crate::texts::hand_on as texts;
 use std::fmt;
 use std::str::FromStr;
 
@@ -53,10 +54,10 @@ impl Size {
         let wrong = |why| Err(ReportError::Size(size.to_string(), why));
         let pixels = size.pixels();
         if !pixels.iter().all(|side| *side >= LEAST) {
-            return wrong("too small for its words (240 pixels, 21 mm at least)");
+            return wrong(texts::TOO_SMALL);
         }
         if pixels.iter().any(|side| *side > MOST) {
-            return wrong("larger than 8000 pixels, 677 mm");
+            return wrong(texts::TOO_LARGE);
         }
         Ok(size)
     }
@@ -112,7 +113,7 @@ impl FromStr for Size {
             let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
             Some((number(width)?, number(height)?))
         });
-        let (width, height) = parts.ok_or_else(|| ReportError::Size(text.to_owned(), "not two numbers"))?;
+        let (width, height) = parts.ok_or_else(|| ReportError::Size(text.to_owned(), texts::NOT_TWO_NUMBERS))?;
         Self::new(width, height, unit)
     }
 }

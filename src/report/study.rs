@@ -180,8 +180,7 @@ fn accuracy(pages: &mut Pages, subject: &Subject) {
     let mut table = Table::of([texts::STAGE, texts::WHAT_WAS_DONE].map(Text::get));
     table.columns[1].align = crate::drawing::Align::Start;
     // What was kept from before says nothing about this study.
-    let kept = |reason: &str| reason.starts_with("reused") || reason == "not there yet";
-    for stage in room.plan.stages.iter().filter(|stage| !kept(&stage.reason)) {
+    for stage in room.plan.stages.iter().filter(|stage| !stage.is_kept()) {
         let done = if stage.runs { texts::stage_computed(&stage.reason) } else { texts::stage_left_out(&stage.reason) };
         table.row([stage_words(stage.name), done]);
     }

@@ -1,7 +1,7 @@
 //! Tender texts: a template with named fields, filled with a product's figures.
 
 use super::ReportError;
-use crate::texts::{Language, language};
+use crate::texts::{Language, hand_on as texts, language};
 
 /// The template that is shipped, as a start for one's own.
 pub const TEMPLATE: &str = include_str!("../../assets/tender.txt");
@@ -35,13 +35,10 @@ pub fn fill(template: &str, fields: &Fields) -> Result<Vec<String>, ReportError>
         let (mut text, mut known, mut unknown) = (String::new(), 0, 0);
         let mut rest = line;
         while let Some((before, after)) = rest.split_once('{') {
-            let (name, behind) =
-                after.split_once('}').ok_or_else(|| wrong("a { without its }; expected {name}".to_owned()))?;
+            let (name, behind) = after.split_once('}').ok_or_else(|| wrong(texts::open_brace("{", "}", "{name}")))?;
             let names = || fields.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-            let (_, value) = fields
-                .iter()
-                .find(|(one, _)| *one == name)
-                .ok_or_else(|| wrong(format!("{{{name}}} is no field; fields are {}", names())))?;
+            let (_, value) =
+                fields.iter().find(|(one, _)| *one == name).ok_or_else(|| wrong(texts::no_field(name, names())))?;
             text.push_str(before);
             if value.is_empty() {
                 unknown += 1;

@@ -17,6 +17,13 @@ pub struct Stage {
     pub time: Duration,
 }
 
+impl Stage {
+    /// Was its result kept from before, so that it says nothing about this computation?
+    pub fn is_kept(&self) -> bool {
+        self.reason.starts_with("reused") || self.reason == "not there yet"
+    }
+}
+
 /// The list of stages.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plan {

@@ -235,5 +235,18 @@ texts! {
     const COMPUTE_FIRST = "Compute the system first" | "Zuerst das System berechnen";
     const OF_BEFORE = "what is shown is of before the last change" | "was zu sehen ist, ist von vor der letzten Änderung";
     fn lid_not_written(why) = "The LID is not written: {why}" | "Die LVK wird nicht geschrieben: {why}";
-    const LICENCE = "licence" | "Lizenz";
+    const LICENCE = "license" | "Lizenz";
+
+    // What is wrong.
+    fn wrong_size(typed, why) = "size \"{typed}\": {why}; expected e.g. 1600x1200 (pixels) or 160x120mm" | "Größe „{typed}“: {why}; erwartet z. B. 1600x1200 (Pixel) oder 160x120mm";
+    const TOO_SMALL = "too small for its words (240 pixels, 21 mm at least)" | "zu klein für ihre Wörter (mindestens 240 Pixel, 21 mm)";
+    const TOO_LARGE = "larger than 8000 pixels, 677 mm" | "größer als 8000 Pixel, 677 mm";
+    const NOT_TWO_NUMBERS = "not two numbers" | "keine zwei Zahlen";
+    fn wrong_template(line, what) = "tender text, line {line}: {what}" | "Ausschreibungstext, Zeile {line}: {what}";
+    fn open_brace(open, close, name) = "a {open} without its {close}; expected {name}" | "eine {open} ohne ihre {close}; erwartet {name}";
+    fn no_field(name, names) = "{{{name}}} is no field; fields are {names}" | "{{{name}}} ist kein Feld; Felder sind {names}";
+    fn no_pdf(why) = "the PDF could not be made: {why}" | "das PDF konnte nicht gemacht werden: {why}";
+    const NO_FONT = "the font cannot be read" | "die Schrift ist nicht lesbar";
+    const NO_EXTENT = "a page without an extent" | "eine Seite ohne Ausdehnung";
+    fn no_tile(words) = "no tile; expected one of {words}" | "keine Kachel; erwartet eine von {words}";
 }

@@ -259,7 +259,10 @@ fn what_is_handed_on_speaks_the_language_of_the_window() {
     harness.get_by_label("Vorschau");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("raum.svg");
-    apply(&mut harness, Command::Write(PathUse::HandOn, path.clone()));
+    // By its button: a job speaks what the window speaks as it starts it.
+    apply(&mut harness, Command::EditPath(path.display().to_string()));
+    harness.get_by_label("Schreiben").click();
+    settle(&mut harness);
     let svg = std::fs::read_to_string(&path).unwrap();
     let room = harness.state().results.room.value.clone().unwrap();
     let mean = room.totals().map(|total| total.value).sum::<f64>() / room.totals().count() as f64;

@@ -41,14 +41,7 @@ impl TileKind {
 
     /// The title of the tile in the window's own books.
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::Btdf => "BTDF",
-            Self::Transmittance => "Transmittance",
-            Self::Sky => "Sky",
-            Self::Lid => "LID",
-            Self::Room => "Room",
-            Self::Control => "Control",
-        }
+        self.words().english()
     }
 
     /// The same for people.
@@ -96,7 +89,7 @@ impl FromStr for TileKind {
     fn from_str(text: &str) -> Result<Self, String> {
         let words = || Self::ALL.map(Self::word).join(", ");
         let found = Self::ALL.into_iter().find(|kind| kind.word() == text);
-        found.ok_or_else(|| format!("no tile; expected one of {}", words()))
+        found.ok_or_else(|| texts::no_tile(words()))
     }
 }
 

@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let rects = if plots.len() > 1 { vec![halves.0, halves.1] } else { vec![whole] };
     let mut legend_of = None;
     for (k, (one, rect)) in plots.iter().zip(rects).enumerate() {
-        let id = ui.scope_id().with(("compared curves", tile, k));
+        let id = ui.scope_id().with(("curves", tile, k));
         let look = Look { dashed: true, legend_of, left: 56.0, ..Look::tile(id, &colours, palette.second) };
         let shown = plot::show(ui, rect.shrink(4.0), one, &look, |_| {});
         tile::name(ui, &shown.response, texts::curves_name(tile_words(tile)), &names.join("; "));
