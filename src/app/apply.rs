@@ -27,10 +27,13 @@ impl App {
     /// Does what a command says. What it changes in the document is a step of its own, however soon it follows on the one
     /// before it; only what is dragged or stepped through is one step when it has come to rest.
     pub fn apply(&mut self, command: Command) {
-        let before = command.is_step().then(|| self.state.document.clone());
+        let step = command.is_step();
+        // What is there already is not added twice: some commands do it themselves.
+        if step {
+            self.undoer.add_undo(&self.state.document);
+        }
         self.act_on(command);
-        if let Some(before) = before.filter(|before| *before != self.state.document) {
-            self.undoer.add_undo(&before);
+        if step {
             self.undoer.add_undo(&self.state.document);
         }
     }

@@ -4,7 +4,7 @@ use crate::texts::{Text, scene as texts};
 use jiff::civil::Date;
 use jiff::{Timestamp, Zoned};
 
-/// Months, shortened where that is usual.
+/// Months: by name in English, by number in German, as short dates are written.
 const MONTHS: [Text; 12] = [
     texts::JANUARY,
     texts::FEBRUARY,

@@ -326,6 +326,12 @@ pub fn of(command: &Command) -> Option<&'static Offer> {
     offers().iter().find(|offer| offer.command == *command)
 }
 
+/// Does a command open something to type in?
+const fn opens_field(command: &Command) -> bool {
+    use Command::{Open, OpenFolder, Palette, SaveScene, Search, Sheet};
+    matches!(command, Open | OpenFolder | Palette | SaveScene | Search | Sheet(Some(state::Sheet::HandOn)))
+}
+
 /// The commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard, an open
 /// list among others: its arrow keys do not move the clock.
 pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
@@ -341,8 +347,13 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     // Egui matches Ctrl+Z also while Shift is down: ask for the longer combination first.
     list.sort_by_key(|(keys, _)| std::cmp::Reverse((keys.modifiers.command, keys.modifiers.shift)));
     ctx.input_mut(|input| {
-        let pressed = list.into_iter().filter(|(keys, _)| input.consume_shortcut(keys));
-        let mut commands: Vec<Command> = pressed.map(|(_, command)| command.clone()).collect();
+        let mut pressed: Vec<(KeyboardShortcut, &Command)> =
+            list.into_iter().filter(|(keys, _)| input.consume_shortcut(keys)).collect();
+        // What is typed after it, in a frame that takes its time, is meant for the field that it opens.
+        if pressed.iter().any(|(_, command)| opens_field(command)) {
+            pressed.retain(|(keys, _)| keys.modifiers.command);
+        }
+        let mut commands: Vec<Command> = pressed.into_iter().map(|(_, command)| command.clone()).collect();
         // Where the plus is above the equals sign, nobody holds Shift for it.
         if input.consume_key(CTRL, Key::Equals) {
             commands.push(Command::TextSize(Size::Larger));

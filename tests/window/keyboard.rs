@@ -146,6 +146,24 @@ fn the_palette_walks_its_rows_and_finds_products() {
 }
 
 #[test]
+fn letters_of_the_frame_that_opens_a_field_are_no_commands() {
+    let mut harness = window();
+    let scene = harness.state().state.document.scene.clone();
+    // A slow frame takes in the keys and what is typed after them.
+    harness.input_mut().events.extend([Key::K, Key::C, Key::A].map(|key| Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: if key == Key::K { Modifiers::COMMAND } else { Modifiers::NONE },
+    }));
+    harness.run_steps(3);
+    let state = &harness.state().state;
+    assert_eq!((state.palette.as_deref(), state.sheet), (Some(""), None));
+    assert_eq!(state.document.scene, scene);
+}
+
+#[test]
 fn text_grows_and_shrinks_by_keys_within_bounds() {
     let mut harness = window();
     let size = |harness: &Harness<'_, App>| harness.state().state.settings.text_size;
