@@ -159,7 +159,7 @@ texts! {
     const LEAVING_TO = "leaving to / %" | "Austritt nach / %";
     const CEILING = "ceiling" | "Decke";
     const EYE_ZONE = "eye zone" | "Augenhöhe";
-    const WORK_ZONE = "work zone" | "Arbeitsbereich";
+    const WORK_ZONE = "work zone" | "Arbeit";
     const FLOOR = "floor" | "Boden";
     const NOTHING_TRANSMITTED = "Nothing is transmitted." | "Nichts wird durchgelassen.";
     fn of_transmitted_ceiling(all, share) = "Of {all} % transmitted, {share} goes to the ceiling." | "Von {all} % gehen {share} zur Decke.";
@@ -216,7 +216,7 @@ texts! {
     fn peak_to(value, to) = "peak {value} to {to}" | "Spitze {value} nach {to}";
     fn peak_alone(value) = "peak {value}" | "Spitze {value}";
     const NO_BEAM = "no unscattered sun" | "keine ungestreute Sonne";
-    const NO_BEAM_SHORT = "no sun's beam" | "kein Sonnenbündel";
+    const NO_BEAM_SHORT = "no sun's beam" | "kein Strahl";
     fn beam_flux_to(to, flux) = "sun's beam, to {to}, {flux} (not to scale)" | "Sonnenbündel nach {to}, {flux} (nicht maßstäblich)";
     fn beam_flux_most(to, flux) = "sun's beam, most to {to}, {flux} (not to scale)" | "Sonnenbündel, meist nach {to}, {flux} (nicht maßstäblich)";
     fn beam_value_flux(value, to, flux) = "sun's beam {value}, to {to}, {flux} (not to scale)" | "Sonnenbündel {value}, nach {to}, {flux} (nicht maßstäblich)";

@@ -192,10 +192,13 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
     let palette = Palette::of(ui.visuals());
     let mut head = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
     let with_controls = words.empty.is_none() && words.controls_width > 0.0;
-    let wide = rect.width() > words.controls_width + 190.0;
+    // German words are longer.
+    let longer = if language() == Language::German { 1.2 } else { 1.0 };
+    let controls_width = longer * words.controls_width;
+    let wide = rect.width() > controls_width + 190.0;
     // Where title and two buttons do not fit side by side, one menu holds all.
     let title = width(ui, words.title, TITLE);
-    let narrow = with_controls && !wide && title + BUTTONS > rect.width();
+    let narrow = with_controls && !wide && title + longer * BUTTONS > rect.width();
     // German nouns keep their capitals.
     let about = match language() {
         Language::English => say::about(words.title.to_lowercase()),
@@ -213,7 +216,7 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
         if with_controls && wide {
             // Laid out from the right: reversed here, so that the closure writes them in reading order.
             head.allocate_ui_with_layout(
-                egui::vec2(words.controls_width, HEAD),
+                egui::vec2(controls_width, HEAD),
                 Layout::left_to_right(Align::Center),
                 controls,
             );

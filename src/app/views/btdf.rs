@@ -252,6 +252,8 @@ fn incident_side(
     let with_key = map.is_some() && place.legend.is_none();
     if with_key && let Some((corner, align)) = place.corner {
         disk.rim(ui.painter(), projection, &palette);
+        // Below "up", which stands over the disk.
+        let corner = if align.y() == egui::Align::TOP { corner.with_min_y(corner.top() + 16.0) } else { corner };
         schemes::legend(ui, corner, align, input, &palette);
     } else {
         frame(ui, place, projection, [say::OUTSIDE.get(), &from], &palette);
@@ -446,6 +448,8 @@ fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Inc
     let left = Align2::RIGHT_CENTER.anchor_size(at - egui::vec2(9.0, 0.0), galley.size());
     let over = Align2::CENTER_BOTTOM.anchor_size(at - egui::vec2(0.0, 9.0), galley.size());
     let fits = |place: &Rect| place.left() >= rect.left() + 2.0 && place.right() <= rect.right() - 2.0;
+    let most = (rect.right() - 2.0 - galley.size().x).max(rect.left() + 2.0);
+    let over = over.translate(egui::vec2(over.left().clamp(rect.left() + 2.0, most) - over.left(), 0.0));
     let place = [right, left].into_iter().find(fits).unwrap_or(over);
     ui.painter().rect_filled(place.expand(2.0), 3, palette.face);
     ui.painter().galley(place.min, galley, palette.ink);
