@@ -65,14 +65,20 @@ impl App {
             }
         }
         self.toasts.info(text::deleted(&name));
-        self.change(Change::Deleted { key, name });
+        // With the neighbour that is shown instead: one step.
+        self.note_change(Change::Deleted { key, name });
     }
 
     /// A change to the catalogue as a step of its own.
     pub(super) fn change(&mut self, change: Change) {
+        self.undoer.add_undo(&self.state.document);
+        self.note_change(change);
+    }
+
+    /// A change to the catalogue with all that the document became since its last step, as one step.
+    fn note_change(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
-        self.undoer.add_undo(&self.state.document);
         self.state.document.changes.push(number);
         self.undoer.add_undo(&self.state.document);
         self.make_change(number, true);

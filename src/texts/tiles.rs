@@ -84,6 +84,7 @@ texts! {
     fn foot_compact(kept, cells, largest, moved, allowed) = "compact: {kept} of {cells} numbers · differs by up to {largest} 1/sr · {moved} % of the flux misplaced, {allowed} % allowed · the catalogue keeps these data without loss" | "komprimiert: {kept} von {cells} Zahlen · Abweichung bis {largest} 1/sr · {moved} % des Lichtstroms verlagert, {allowed} % erlaubt · der Katalog bewahrt diese Daten verlustfrei";
     fn foot_compact_middle(kept, cells, largest, moved, allowed) = "compact: {kept} of {cells} numbers · up to {largest} 1/sr · {moved} % misplaced ({allowed} % allowed)" | "komprimiert: {kept} von {cells} Zahlen · bis {largest} 1/sr · {moved} % verlagert ({allowed} % erlaubt)";
     fn foot_compact_short(kept, cells) = "compact: {kept} of {cells} numbers" | "komprimiert: {kept} von {cells} Zahlen";
+    fn foot_compact_shortest(kept) = "compact: {kept}" | "komprimiert: {kept}";
     fn foot_kept_compact(kept, cells, allowed) = "compact: {kept} of {cells} numbers · {allowed} % of the flux may be misplaced · the catalogue keeps these data so" | "komprimiert: {kept} von {cells} Zahlen · {allowed} % des Lichtstroms dürfen verlagert sein · so bewahrt der Katalog diese Daten";
     const NO_FORM_VALUES = "No values to filter or compress: these data are a closed form." | "Keine Werte zum Filtern oder Komprimieren: die Daten sind eine geschlossene Form.";
     const NO_FORM_MEANS = "Not filtered: these data are means over incident cells already." | "Nicht gefiltert: die Daten sind bereits Mittel über Einfallszellen.";
@@ -104,6 +105,7 @@ texts! {
     const WHY_BLENDED = "Bases blended: no corner has a lobe" | "Grundanteile gemischt: keine Ecke hat eine Keule";
     const WHY_DARK = "Dark: nothing gets through at the corners" | "Dunkel: an den Ecken gelangt nichts hindurch";
     fn why_asked(scheme) = "“{scheme}”, as the scene asks" | "„{scheme}“, wie die Szene es verlangt";
+    fn stated_alone(own) = "misplaces about {own} % here" | "verlagert hier etwa {own} %";
     fn stated(own, rest) = "misplaces about {own} % here ({rest})" | "verlagert hier etwa {own} % ({rest})";
     const NO_SCHEMES_DIRECTIONS = "No map of schemes: these data are means over cells, taken at their word." | "Keine Karte: die Daten sind Mittel über Zellen und gelten, wie sie sind.";
     const NO_SCHEMES_PATCHES = "No map of schemes: the scene takes every direction for its patch." | "Keine Karte: die Szene nimmt jede Richtung für ihr Feld.";

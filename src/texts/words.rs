@@ -89,7 +89,7 @@ texts! {
     const USER = "User" | "Nutzer";
     const USER_DOES = "by the user's clock" | "nach der Uhr des Nutzers";
     const USER_TIP = "A state by hours of the day; the hours are set in the scene file" | "Eine Stellung nach Tagesstunden; die Stunden stehen in der Szenendatei";
-    const SLAT_ANGLE = "slat angle / °" | "Lamellenwinkel / °";
+    const SLAT_ANGLE = "slat angle / °" | "Lamelle / °";
     const STATE_ANGLE = "state / °" | "Stellung / °";
     const STATE = "state" | "Stellung";
 

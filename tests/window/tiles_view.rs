@@ -94,7 +94,8 @@ fn the_map_of_schemes_says_why_under_the_cursor() {
     let disk = harness.get_by_label("Incident hemisphere").rect();
     harness.hover_at(disk.center() + vec2(0.2, -0.3) * disk.width());
     harness.run_steps(3);
-    harness.get_by_label_contains("misplaces about");
+    let told = cfs::app::paint::tile::pointed_foot(&harness.ctx).expect("a line under the tile");
+    assert!(told.contains("misplaces about") && told.contains('%'), "{told}");
     crate::driven::select(&mut harness, |entry| entry.name == "Ideal diffuser");
     assert_eq!(harness.state().results.schemes.value.as_ref().unwrap().made, Err(NoSchemes::NoDirections));
     harness.get_by_label_contains("No map of schemes");
@@ -143,7 +144,8 @@ fn scales_that_are_held_stay_when_the_light_changes() {
     let marks = |harness: &Harness<'_, App>| {
         // The scale under the dome: its marks are painted words.
         let dome = harness.get_by_label("Sky dome").rect();
-        let legend = egui::Rect::from_x_y_ranges(dome.x_range().expand(60.0), dome.bottom()..=dome.bottom() + 40.0);
+        let legend =
+            egui::Rect::from_x_y_ranges(dome.x_range().expand(60.0), dome.bottom() + 20.0..=dome.bottom() + 110.0);
         crate::legible::inspect::words_within(harness, legend)
     };
     harness.get_by_label("Hold").click();

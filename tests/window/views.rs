@@ -298,6 +298,10 @@ fn a_click_on_the_incident_hemisphere_chooses_that_cell() {
     assert!(next.0.vector().y > chosen.0.vector().y + 0.05);
     assert_eq!(cell(h.state().incident), cell(next));
     // And the toggle asks, but does not do.
+    if h.query_by_label("Follow the sun").is_none() {
+        h.query_all_by_label("View").last().expect("the tile's menu").click();
+        h.run();
+    }
     h.get_by_label("Follow the sun").click();
     h.run();
     assert_eq!(h.state().btdf.1.last(), Some(&btdf::Action::FollowSun(true)));

@@ -82,10 +82,12 @@ impl<'a> FormInput<'a> {
                 say::foot_compact(kept, cells, &largest, &moved, percent(allowed)),
                 say::foot_compact_middle(kept, cells, largest, moved, percent(allowed)),
                 say::foot_compact_short(kept, cells),
+                say::foot_compact_shortest(kept),
             ]),
             (How::Wavelets { kept, cells, allowed, .. }, None) => Foot::from([
                 say::foot_kept_compact(kept, cells, percent(allowed)),
                 say::foot_compact_short(kept, cells),
+                say::foot_compact_shortest(kept),
             ]),
             (How::Filter { .. }, None) => return None,
         })

@@ -80,8 +80,9 @@ impl<'a> SchemesInput<'a> {
         };
         let of = |scheme: &SunScheme| format!("{} {} %", scheme.key(), percent(one.stated[*scheme as usize]));
         let others: Vec<String> = SunScheme::ALL.iter().filter(|scheme| **scheme != own).map(of).collect();
-        let stated = say::stated(percent(one.stated[own as usize]), others.join(", "));
-        Foot::from([format!("{way} · {stated}"), way, word(one.way).into()])
+        let share = percent(one.stated[own as usize]);
+        let (stated, alone) = (say::stated(&share, others.join(", ")), say::stated_alone(share));
+        Foot::from([format!("{way} · {stated}"), format!("{way} · {alone}"), way, word(one.way).into()])
     }
 }
 
