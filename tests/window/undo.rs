@@ -85,7 +85,7 @@ fn every_offered_command_that_changes_something_is_taken_back() {
         "Next state",
         "Reset the scene",
         "Delete product",
-        "Add to compare",
+        "Add to compare with this moment",
         "Empty the tray",
     ] {
         assert!(changing.contains(&expected), "{expected} changed nothing: {changing:?}");
