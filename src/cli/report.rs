@@ -55,7 +55,7 @@ pub struct ReportArgs {
     /// Language of the report: en or de
     #[arg(long, default_value = "en", value_name = "en|de")]
     pub language: ReportLanguage,
-    /// Tile that is drawn of each of the scene's candidates ([[compare]]): btdf, transmittance, sky, lid, room or control
+    /// Tile that is drawn of each of the scene's candidates (`[[compare]]`): btdf, transmittance, sky, lid, room or control
     #[arg(long, value_name = "TILE", default_value = "room")]
     pub compared: TileKind,
     /// Number of the candidate that the others are less, from 1

@@ -25,11 +25,11 @@ macro_rules! texts {
 /// One text of [`texts!`].
 macro_rules! text {
     (const $name:ident = $english:literal | $german:literal) => {
-        #[doc = concat!("“", $english, "”")]
+        #[doc = concat!("`", $english, "`")]
         pub const $name: $crate::texts::Text = $crate::texts::Text::new($english, $german);
     };
     (fn $name:ident ($($arg:ident),+) = $english:literal | $german:literal) => {
-        #[doc = concat!("“", $english, "”")]
+        #[doc = concat!("`", $english, "`")]
         pub fn $name($($arg: impl std::fmt::Display),+) -> String {
             match $crate::texts::language() {
                 $crate::texts::Language::English => format!($english),
