@@ -70,6 +70,19 @@ pub struct Palette {
     pub sun: Color32,
 }
 
+impl Palette {
+    /// Behind a row or card of a list.
+    pub fn behind(&self, chosen: bool, response: &egui::Response) -> Color32 {
+        if chosen {
+            self.chosen
+        } else if response.hovered() || response.has_focus() {
+            self.raised
+        } else {
+            self.surface
+        }
+    }
+}
+
 /// Warm paper and ink.
 pub const LIGHT: Palette = Palette {
     ground: Color32::from_rgb(0xE9, 0xEA, 0xEC),

@@ -73,13 +73,7 @@ fn one(
     }
     state.focus_list |= entry::arrows(ui, &response, (found, place), gallery.columns, commands);
     let painter = ui.painter_at(rect);
-    let fill = if chosen {
-        palette.chosen
-    } else if response.hovered() || response.has_focus() {
-        palette.raised
-    } else {
-        palette.surface
-    };
+    let fill = palette.behind(chosen, &response);
     painter.rect_filled(rect, 4, fill);
     let (left, width) = (rect.left() + 6.0, rect.width() - 12.0);
     let side = PICTURE.min(width - 20.0);

@@ -73,13 +73,7 @@ fn row(ui: &mut Ui, state: &mut State, (found, place): (&Found, usize), height: 
     state.focus_list |= entry::arrows(ui, &response, (found, place), 1, commands);
     let apart = found.like.as_ref().and_then(|like| like.apart.get(place));
     let painter = ui.painter_at(rect);
-    let fill = if chosen {
-        palette.chosen
-    } else if response.hovered() || response.has_focus() {
-        palette.raised
-    } else {
-        palette.surface
-    };
+    let fill = palette.behind(chosen, &response);
     painter.rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4, fill);
     let side = theme::ROW_HEIGHT - 14.0;
     let picture = Rect::from_min_size(pos2(rect.left() + 5.0, rect.center().y - 0.5 * side), Vec2::splat(side));

@@ -121,13 +121,7 @@ fn option(ui: &Ui, rect: Rect, chosen: bool, words: (&str, &str), palette: &Pale
     let (shown, label) = words;
     let response = ui.interact(rect, ui.scope_id().with("row"), Sense::click());
     response.widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, true, chosen, label));
-    let fill = if chosen {
-        palette.chosen
-    } else if response.hovered() || response.has_focus() {
-        palette.raised
-    } else {
-        palette.surface
-    };
+    let fill = palette.behind(chosen, &response);
     ui.painter().rect_filled(rect.shrink2(vec2(0.0, 1.0)), 3, fill);
     let width = rect.right() - left - 4.0;
     let text = theme::one_line(ui.painter(), shown, FontId::proportional(13.5), palette.text, width);
