@@ -6,9 +6,12 @@ use crate::app::panels::fields::{lines, number, typed};
 use crate::app::theme;
 use crate::app::typing::{read_clock, read_date};
 use crate::study::scene_file::SceneFile;
+use crate::study::sun_position::RiseSet;
 use crate::texts::scene as texts;
+use egui::cache::{ComputerMut, FrameCache};
 use egui::{Slider, Stroke, Ui, WidgetInfo};
 use std::cmp::Ordering;
+use std::hash::{Hash, Hasher};
 
 /// Steps of the time's slider. \[min\]
 const STEP: i32 = 5;
@@ -54,9 +57,35 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     sun(ui, scene);
 }
 
+/// The day of a scene, as what sunrise and sunset hang on.
+#[derive(Clone, Copy)]
+struct Day<'a>(&'a SceneFile);
+
+impl Hash for Day<'_> {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        let site = &self.0.site;
+        [site.latitude, site.longitude, site.utc_offset].map(|number| number.map(f64::to_bits)).hash(hasher);
+        moment::of(self.0).map(|time| time.date()).hash(hasher);
+    }
+}
+
+/// Sunrise and sunset, sought once a day: finding them costs more than the rest of the panel.
+#[derive(Default)]
+struct SunHours;
+
+impl ComputerMut<Day<'_>, Option<RiseSet>> for SunHours {
+    fn compute(&mut self, day: Day<'_>) -> Option<RiseSet> {
+        moment::sun_hours(day.0)
+    }
+}
+
+fn sun_hours(ui: &Ui, scene: &SceneFile) -> Option<RiseSet> {
+    ui.memory_mut(|memory| *memory.caches.cache::<FrameCache<Option<RiseSet>, SunHours>>().get(Day(scene)))
+}
+
 /// When the sun rises and sets, and where it stands.
 fn sun(ui: &mut Ui, scene: &SceneFile) {
-    let day = match moment::sun_hours(scene).map(|hours| (hours.rise, hours.set)) {
+    let day = match sun_hours(ui, scene).map(|hours| (hours.rise, hours.set)) {
         Some((Some(rise), Some(set))) => texts::rise_and_set(moment::clock(rise), moment::clock(set)),
         Some((Some(rise), None)) => texts::no_set(moment::clock(rise)),
         Some((None, Some(set))) => texts::no_rise(moment::clock(set)),
@@ -104,7 +133,7 @@ fn angles(ui: &mut Ui, scene: &mut SceneFile) {
 
 /// Sunrise and sunset as ticks under the time's slider.
 fn sun_marks(ui: &Ui, scene: &SceneFile, rect: egui::Rect) {
-    let Some(hours) = moment::sun_hours(scene) else { return };
+    let Some(hours) = sun_hours(ui, scene) else { return };
     let colour = theme::palette(ui).sun;
     // The handle's radius is kept free at both ends of a slider.
     let margin = rect.height() / 2.5;
