@@ -2,15 +2,22 @@
 //! a display. Prints our code's time a frame on the thread that draws, apart by tile, and what egui takes beside it to turn
 //! shapes into triangles.
 //!
-//! `cargo run --release --example frame_times [FRAMES]`; 240 frames unless told otherwise. Medians: a frame in which the
-//! machine did something else counts as one.
+//! Then what it costs to scroll the list of products, and how long a letter in its search field takes to its result.
+//!
+//! `cargo run --release --example frame_times [FRAMES] [CATALOGUE]`; 240 frames unless told otherwise, and the built-in
+//! products; `large_catalogue` writes larger ones. Medians: a frame in which the machine did something else counts as one.
 
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::command::Command;
+use cfs::app::error::AppError;
 use cfs::app::moment;
-use egui::{Event, Modifiers, PointerButton, RawInput, Rect, pos2, vec2};
+use cfs::app::shelf::Shelf;
+use egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, Rect, TouchPhase, pos2, vec2,
+};
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -80,6 +87,54 @@ impl Window {
     }
 }
 
+/// The catalogue that is named, or a new one.
+fn shelf() -> Result<Arc<dyn Shelf>, AppError> {
+    std::env::args_os().nth(2).map_or_else(memory_shelf, |path| open_shelf(Some(Path::new(&path))))
+}
+
+/// Our code's time of each of so many frames in which the list of products is scrolled.
+fn scroll(window: &mut Window, frames: usize) -> Vec<Duration> {
+    let over = pos2(120.0, 400.0);
+    window.frame(vec![Event::PointerMoved(over)]);
+    let wheel = |delta| Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        delta: vec2(0.0, delta),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    };
+    let mut ours = Vec::new();
+    for number in 0..frames {
+        // Through all of the list and back, as far as it is.
+        let down = number < frames / 2;
+        let frame = window.frame(vec![wheel(if down { -400.0 } else { 400.0 })]);
+        ours.push(frame.logic + frame.draw);
+        std::thread::sleep(Duration::from_millis(8));
+    }
+    ours
+}
+
+/// From each letter typed into the search field to the list that answers it.
+fn search(window: &mut Window) -> anyhow::Result<Vec<Duration>> {
+    let key =
+        |pressed| Event::Key { key: Key::F, physical_key: None, pressed, repeat: false, modifiers: Modifiers::COMMAND };
+    window.frame(vec![key(true)]);
+    window.frame(vec![key(false)]);
+    let mut times = Vec::new();
+    for letter in "venetian".chars() {
+        let before = window.app.state.found.clone();
+        let start = Instant::now();
+        window.frame(vec![Event::Text(letter.to_string())]);
+        while Arc::ptr_eq(&before, &window.app.state.found) {
+            anyhow::ensure!(start.elapsed() < PATIENCE, "no answer to a letter within {PATIENCE:?}");
+            std::thread::sleep(Duration::from_millis(1));
+            window.frame(vec![]);
+        }
+        times.push(start.elapsed());
+    }
+    Ok(times)
+}
+
 fn milliseconds(mut list: Vec<Duration>) -> String {
     list.sort_unstable();
     let at = |share: f64| list.get(((list.len() as f64 * share) as usize).min(list.len().saturating_sub(1)));
@@ -90,7 +145,7 @@ fn milliseconds(mut list: Vec<Duration>) -> String {
 fn main() -> anyhow::Result<()> {
     let frames: usize = std::env::args().nth(1).map_or(Ok(240), |text| text.parse())?;
     let engine = Arc::new(StudyEngine::default());
-    let mut window = Window { ctx: egui::Context::default(), app: App::with_shelf(engine, memory_shelf), time: 0.0 };
+    let mut window = Window { ctx: egui::Context::default(), app: App::with_shelf(engine, shelf), time: 0.0 };
     window.settle()?;
     let at = pos2(1276.0, 716.0);
     let press =
@@ -126,5 +181,12 @@ fn main() -> anyhow::Result<()> {
         println!("    {title:<13}{}", milliseconds(times));
     }
     println!("tessellation   {}", milliseconds(tessellate));
+    let release =
+        Event::PointerButton { pos: at, button: PointerButton::Primary, pressed: false, modifiers: Modifiers::NONE };
+    window.frame(vec![release]);
+    window.settle()?;
+    println!("scrolling      {}", milliseconds(scroll(&mut window, frames)));
+    println!("a letter       {}", milliseconds(search(&mut window)?));
+    println!("products       {} found", window.app.state.found.entries.len());
     Ok(())
 }

@@ -37,9 +37,25 @@ impl Specimen for Stack {
             RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
         };
         let mut before: Option<Measured> = None;
+        let mut mirror = None;
         for parts in 1..=MOST_PARTS {
             let cells = if parts == 1 { base.clone() } else { base.refined(parts) };
-            let whole = self.on_cells(&cells, setting, progress)?;
+            let whole = if parts == 1 {
+                let layers = self.on_cells(&cells, setting, progress).collect::<Result<Vec<_>, _>>()?;
+                mirror = MIRRORS.into_iter().find(|mirror| {
+                    mirror_images(&cells, mirror)
+                        .is_some_and(|map| layers.iter().all(|layer| Halves::fits(&map, layer)))
+                });
+                sum(&cells, mirror, layers.into_iter().map(Ok))?
+            } else {
+                sum(&cells, mirror, self.on_cells(&cells, setting, progress))?
+            };
+            let whole = match whole {
+                Some(whole) => whole,
+                None => {
+                    sum(&cells, None, self.on_cells(&cells, setting, progress))?.expect("nothing is asked of layers")
+                }
+            };
             let mut made = averaged(&whole, setting);
             let Some(last) = &before else {
                 before = Some(made);
@@ -91,43 +107,57 @@ impl Stack {
         Self { layers, singles: Singles::default() }
     }
 
-    /// All layers on the same cells, incident and emergent.
-    fn on_cells(
-        &self,
-        cells: &RingBasis,
-        setting: &Setting<'_>,
-        progress: &dyn Progress,
-    ) -> Result<Measured, Cancelled> {
+    /// All layers, the outermost first, on the same cells, incident and emergent: each measured when it is asked for.
+    fn on_cells<'a>(
+        &'a self,
+        cells: &'a RingBasis,
+        setting: &'a Setting<'_>,
+        progress: &'a dyn Progress,
+    ) -> impl Iterator<Item = Result<Measured, Cancelled>> + 'a {
+        let count = self.layers.len();
         let share = Setting {
             incident: cells,
             emergent: cells,
-            error: setting.error / (2.0 * self.layers.len() as f64),
+            error: setting.error / (2.0 * count as f64),
             seed: setting.seed,
         };
-        let mut layers = Vec::with_capacity(self.layers.len());
-        for (k, layer) in self.layers.iter().enumerate() {
-            progress.advance("layers", k, self.layers.len());
-            if progress.cancelled() {
-                return Err(Cancelled);
-            }
-            layers.push(layer.measure(&share, progress)?);
-        }
-        // Left and right alike, as nearly all systems are, or up and down.
-        let mirrors = [mirror_images(cells, |phi| PI - phi), mirror_images(cells, |phi| -phi)];
-        let mirror = mirrors.into_iter().flatten().find(|map| layers.iter().all(|layer| Halves::fits(map, layer)));
-        let halves = mirror.map_or_else(|| Halves::none(cells.len()), |map| Halves::new(&map));
-        let turn = turned(cells).expect("chosen so that it can be turned");
-        let mut sum: Option<Layered> = None;
-        for measured in layers {
-            let next = Layered::new(&measured, &turn, &halves);
-            sum = Some(match sum {
-                None => next,
-                Some(outer) => outer.before(&next),
-            });
-        }
-        let sum = sum.expect("a stack has layers");
-        Ok(sum.measured(cells, &turn, &halves))
+        self.layers.iter().enumerate().map(move |(k, layer)| {
+            progress.advance("layers", k, count);
+            if progress.cancelled() { Err(Cancelled) } else { layer.measure(&share, progress) }
+        })
     }
+}
+
+/// Azimuth of the image of a direction.
+type Mirror = fn(f64) -> f64;
+
+/// Left and right alike, as nearly all systems are, or up and down.
+const MIRRORS: [Mirror; 2] = [|phi| PI - phi, |phi| -phi];
+
+/// What layers are together; `None` where one of them does not look the same in the mirror. A layer's whole matrices
+/// are let go before the next one is measured: on fine cells they are what memory is needed for.
+fn sum(
+    cells: &RingBasis,
+    mirror: Option<Mirror>,
+    layers: impl Iterator<Item = Result<Measured, Cancelled>>,
+) -> Result<Option<Measured>, Cancelled> {
+    let map = mirror.and_then(|mirror| mirror_images(cells, mirror));
+    let halves = map.as_ref().map_or_else(|| Halves::none(cells.len()), |map| Halves::new(map));
+    let turn = turned(cells).expect("chosen so that it can be turned");
+    let mut sum: Option<Layered> = None;
+    for measured in layers {
+        let measured = measured?;
+        if map.as_ref().is_some_and(|map| !Halves::fits(map, &measured)) {
+            return Ok(None);
+        }
+        let next = Layered::new(&measured, &turn, &halves);
+        drop(measured);
+        sum = Some(match sum {
+            None => next,
+            Some(outer) => outer.before(next),
+        });
+    }
+    Ok(sum.map(|sum| sum.measured(cells, &turn, &halves)))
 }
 
 /// The cell that each cell becomes when turned by 180° about the normal; `None` where that is no cell.
@@ -162,29 +192,36 @@ impl Layered {
     }
 
     /// This layer outside, another one inside.
-    fn before(&self, inner: &Self) -> Self {
-        let (t1, r1) = (&self.t, &self.r);
-        let (t2, r2) = (&inner.t, &inner.r);
-        // Inward and outward light in the gap for light from outside, then for light from inside, of which what goes
-        // outward is what came through and what the inner layer throws back.
-        let series = r1[1].times(&r2[0]).series();
-        let inward = series.of(&t1[0]);
-        let outward = r2[0].times(&inward);
-        let inward_back = series.of(&r1[1].times(&t2[1]));
-        let outward_back = t2[1].plus(&r2[0].times(&inward_back));
+    fn before(self, inner: Self) -> Self {
+        let [t1, t1_back] = self.t;
+        let [t2, t2_back] = inner.t;
+        let (r1, r2) = (self.r, inner.r);
+        let (absorbed, error) = (self.absorbed, self.error);
         let in_gap = |own: &[f64], inward: &Flux, outward: &Flux, outer: &[f64], within: &[f64]| -> Vec<f64> {
             let gap = outward.weighted(outer).into_iter().zip(inward.weighted(within));
             own.iter().zip(gap).map(|(own, (a, b))| own + a + b).collect()
         };
-        let list = |of: fn(&Self) -> &[Vec<f64>; 2]| {
-            let (a, b) = (of(self), of(inner));
-            [in_gap(&a[0], &inward, &outward, &a[1], &b[0]), in_gap(&b[1], &inward_back, &outward_back, &a[1], &b[0])]
-        };
+        // Inward and outward light in the gap for light from outside, then for light from inside, of which what goes
+        // outward is what came through and what the inner layer throws back.
+        let series = r1[1].times(&r2[0]).series();
+        let inward = series.of(&t1);
+        drop(t1);
+        let outward = r2[0].times(&inward);
+        let from_outside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&a[0], &inward, &outward, &a[1], &b[0]);
+        let (absorbed_front, error_front) =
+            (from_outside(&absorbed, &inner.absorbed), from_outside(&error, &inner.error));
+        let (t, r) = (t2.times(&inward), r1[0].plus(&t1_back.times(&outward)));
+        drop((t2, inward, outward));
+        let inward = series.of(&r1[1].times(&t2_back));
+        drop((series, r1));
+        let outward = t2_back.plus(&r2[0].times(&inward));
+        let from_inside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&b[1], &inward, &outward, &a[1], &b[0]);
+        let (absorbed_back, error_back) = (from_inside(&absorbed, &inner.absorbed), from_inside(&error, &inner.error));
         Self {
-            t: [t2[0].times(&inward), t1[1].times(&outward_back)],
-            r: [r1[0].plus(&t1[1].times(&outward)), r2[1].plus(&t2[0].times(&inward_back))],
-            absorbed: list(|layer| &layer.absorbed),
-            error: list(|layer| &layer.error),
+            t: [t, t1_back.times(&outward)],
+            r: [r, r2[1].plus(&t2_back.times(&inward))],
+            absorbed: [absorbed_front, absorbed_back],
+            error: [error_front, error_back],
         }
     }
 
