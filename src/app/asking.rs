@@ -13,6 +13,9 @@ use crate::study::scene_file::SceneFile;
 /// being dragged.
 const AT_ONCE: usize = 96;
 
+/// Relative error that such a picture may have: what the coarsest mesh reaches.
+const DRAGGED: f64 = 0.1;
+
 impl App {
     /// After a change of the document: what is under way for the old one is withdrawn, and all is to be computed anew.
     pub(super) fn owe_results(&mut self) {
@@ -96,7 +99,7 @@ impl App {
         }
     }
 
-    /// While geometry is dragged, fewer sensors; true if so.
+    /// While geometry is dragged, fewer sensors on a coarser mesh; true if so.
     fn coarsen(&mut self, scene: &mut SceneFile) -> bool {
         let geometry = Geometry::of(scene);
         let moved = self.due.geometry.as_ref().is_some_and(|old| *old != geometry);
@@ -105,6 +108,7 @@ impl App {
             && self.held()
         {
             (plane.nx, plane.ny) = (plane.nx.div_ceil(2), plane.ny.div_ceil(2));
+            scene.compute.error_target = Some(scene.compute.error_target.unwrap_or_default().max(DRAGGED));
             self.due.coarse = true;
             return true;
         }

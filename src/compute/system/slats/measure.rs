@@ -13,7 +13,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::{Measured, OneSide, Setting, Side};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Mat, MatMut, Par};
 use rayon::prelude::*;
 
 /// Coarse strips a slat to begin with, and at most.
@@ -104,10 +104,12 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         matmul(&mut sent, Accum::Replace, &balance.response, from, std::f64::consts::FRAC_1_PI, Par::Seq);
         let block = |rows: &[Vec<f64>], turned| {
             let to = landed(&emergent, setting.emergent, rows, turned);
-            let mut q: Mat<f64> = Mat::zeros(to.ncols(), sent.ncols());
-            matmul(&mut q, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
+            let mut q = vec![0.0; to.ncols() * sent.ncols()];
+            let sum = MatMut::from_column_major_slice_mut(&mut q, to.ncols(), sent.ncols());
+            matmul(sum, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
             // The extrapolation to endless strips may fall below 0 where nothing arrives.
-            (0..q.ncols()).flat_map(|i| q.col_as_slice(i).iter().map(|q| q.max(0.0)).collect::<Vec<_>>()).collect()
+            q.iter_mut().for_each(|q| *q = q.max(0.0));
+            q
         };
         let (transmitted, reflected): (Vec<f64>, Vec<f64>) = rayon::join(|| block(other, false), || block(own, true));
         OneSide { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }

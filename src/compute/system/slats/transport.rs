@@ -143,22 +143,6 @@ impl Transport {
     ) -> Result<Self, Cancelled> {
         let nodes: Vec<usize> = (0..grid.len()).collect();
         let size = section.faces.len();
-        let parts: Vec<Option<Chunk>> = nodes
-            .par_chunks(CHUNK)
-            .map(|chunk| {
-                if progress.cancelled() {
-                    return None;
-                }
-                let exchange = [Exchange::new(size), Exchange::new(size)];
-                let mut part = Chunk { exchange, length: vec![0.0; size], nodes: vec![] };
-                for &node in chunk {
-                    let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
-                    let done = tracer.node(&mut part, Sequence::new(seed, node as u64));
-                    part.nodes.push(done);
-                }
-                Some(part)
-            })
-            .collect();
         let mut all = Self {
             exchange: Exchange::new(size),
             length: vec![0.0; size],
@@ -167,8 +151,20 @@ impl Transport {
             rough: None,
         };
         let mut second = Second { exchange: Exchange::new(size), landed: [vec![], vec![]] };
-        for part in parts {
-            let part = part.ok_or(Cancelled)?;
+        let chunk = |chunk: &[usize]| {
+            let exchange = [Exchange::new(size), Exchange::new(size)];
+            let mut part = Chunk { exchange, length: vec![0.0; size], nodes: vec![] };
+            for &node in chunk {
+                let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
+                let done = tracer.node(&mut part, Sequence::new(seed, node as u64));
+                part.nodes.push(done);
+            }
+            part
+        };
+        // A few chunks for every thread at a time, added in their order: their matrices are large, and the sum is the
+        // same however many threads there are.
+        let together = CHUNK * 4 * rayon::current_num_threads();
+        let mut added = |part: Chunk| {
             all.exchange.add_all(&part.exchange[0]);
             second.exchange.add_all(&part.exchange[1]);
             all.length.iter_mut().zip(&part.length).for_each(|(sum, x)| *sum += x);
@@ -181,6 +177,12 @@ impl Transport {
                     all.thrown[side].push(thrown);
                 }
             }
+        };
+        for wave in nodes.chunks(together) {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            wave.par_chunks(CHUNK).map(chunk).collect::<Vec<_>>().into_iter().for_each(&mut added);
         }
         let matt = |face: usize| section.faces[face].surface.diffuse > 0.0;
         for i in 0..size {

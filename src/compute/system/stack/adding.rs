@@ -68,8 +68,10 @@ impl Specimen for Stack {
             for side in Side::BOTH {
                 let (t, r) = (made.shares(&made.seen(side).transmitted), made.shares(&made.seen(side).reflected));
                 let (t0, r0) = (last.shares(&last.seen(side).transmitted), last.shares(&last.seen(side).reflected));
-                for (i, error) in made.seen_mut(side).error.iter_mut().enumerate() {
-                    *error += left * (t[i] - t0[i]).abs().max((r[i] - r0[i]).abs());
+                let OneSide { absorbed, error, .. } = made.seen_mut(side);
+                for (i, (error, absorbed)) in error.iter_mut().zip(absorbed).enumerate() {
+                    *error +=
+                        left * (t[i] - t0[i]).abs().max((r[i] - r0[i]).abs()) + (t[i] + r[i] + *absorbed - 1.0).abs();
                     worst = worst.max(*error);
                 }
             }
@@ -211,7 +213,7 @@ impl Layered {
         let (absorbed_front, error_front) =
             (from_outside(&absorbed, &inner.absorbed), from_outside(&error, &inner.error));
         let (t, r) = (t2.times(&inward), r1[0].plus(&t1_back.times(&outward)));
-        drop((t2, inward, outward));
+        drop((inward, outward));
         let inward = series.of(&r1[1].times(&t2_back));
         drop((series, r1));
         let outward = t2_back.plus(&r2[0].times(&inward));
@@ -219,7 +221,7 @@ impl Layered {
         let (absorbed_back, error_back) = (from_inside(&absorbed, &inner.absorbed), from_inside(&error, &inner.error));
         Self {
             t: [t, t1_back.times(&outward)],
-            r: [r, r2[1].plus(&t2_back.times(&inward))],
+            r: [r, r2[1].plus(&t2.times(&inward))],
             absorbed: [absorbed_front, absorbed_back],
             error: [error_front, error_back],
         }
