@@ -116,7 +116,10 @@ impl App {
         self.state.sheet = Some(Sheet::Path(PathUse::Subscribe));
         let dialogs = self.services.dialogs.clone();
         self.start(Lane::Dialog, move |_| {
-            Outcome::Target(PathUse::Subscribe, dialogs.open_folder().map(|paths| paths.into_iter().next()))
+            Outcome::Target(
+                PathUse::Subscribe,
+                dialogs.open_folder(words::SUBSCRIBE_TITLE).map(|paths| paths.into_iter().next()),
+            )
         });
     }
 

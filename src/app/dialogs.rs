@@ -2,15 +2,15 @@
 
 use super::error::AppError;
 use super::state::PathUse;
-use crate::texts::shell;
+use crate::texts::{Text, shell};
 use std::path::{Path, PathBuf};
 
 /// Asks the user for paths.
 pub trait FileDialogs: Send + Sync {
     /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
     fn open(&self) -> Result<Vec<PathBuf>, AppError>;
-    /// Folders to open; empty when the user changed their mind.
-    fn open_folder(&self) -> Result<Vec<PathBuf>, AppError> {
+    /// Folders to open; empty when the user changed their mind. `title`: what for.
+    fn open_folder(&self, _title: Text) -> Result<Vec<PathBuf>, AppError> {
         Err(AppError::NoDialog)
     }
     /// Where to write; folder and name to start from. The dialog itself asks before a file is replaced.
@@ -26,8 +26,8 @@ impl FileDialogs for NativeDialogs {
         Ok(dialog.pick_files().unwrap_or_default())
     }
 
-    fn open_folder(&self) -> Result<Vec<PathBuf>, AppError> {
-        Ok(rfd::FileDialog::new().set_title(shell::DIALOG_FOLDER).pick_folders().unwrap_or_default())
+    fn open_folder(&self, title: Text) -> Result<Vec<PathBuf>, AppError> {
+        Ok(rfd::FileDialog::new().set_title(title).pick_folders().unwrap_or_default())
     }
 
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError> {

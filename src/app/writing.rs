@@ -26,7 +26,7 @@ impl App {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
         let dialogs = self.services.dialogs.clone();
-        self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open_folder()));
+        self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open_folder(crate::texts::shell::DIALOG_FOLDER)));
     }
 
     pub(super) fn ask_target(&mut self, what: PathUse) {

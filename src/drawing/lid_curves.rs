@@ -1,8 +1,8 @@
 //! Cuts through a luminous-intensity distribution, as polar diagrams draw them.
 
 use crate::compute::direction::{Emergent, Surface};
-use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peak, Peaks};
+use crate::compute::lid::{EmergentLuminance, Lid};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A cut through the distribution.
@@ -84,11 +84,20 @@ pub fn sample(lid: &Lid, planes: &[LidPlane]) -> Curves {
     sample_at(lid, planes, SAMPLES)
 }
 
-/// The same with another number of samples.
+/// The same with another number of samples. Luminances on fine cells are means over them, constant inside; times the
+/// cosine they would be drawn as the teeth of a saw. A mean over the width of a cell is what they tell.
 pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     let aim = Aim::of(lid.surface);
+    let (fine, rest): (Vec<_>, Vec<_>) = lid.parts.iter().cloned().partition(|part| cell_width(part) <= FINE);
+    let width = fine.iter().map(cell_width).fold(0.0, f64::max);
+    let part = |parts| Lid { parts, beams: Vec::new(), ..lid.clone() };
+    let (fine, rest) = (part(fine), part(rest));
     let cut = |section: LidPlane| -> Vec<f64> {
-        (0..count).map(|k| intensity(lid, section.direction(aim, TAU * k as f64 / count as f64))).collect()
+        let of = |lid: &Lid| -> Vec<f64> {
+            (0..count).map(|k| intensity(lid, section.direction(aim, TAU * k as f64 / count as f64))).collect()
+        };
+        let smooth = moving_mean(&of(&fine), (0.5 * width / TAU * count as f64).round() as usize);
+        smooth.into_iter().zip(of(&rest)).map(|(a, b)| a + b).collect()
     };
     let vertical: Vec<_> = planes.iter().map(|plane| (*plane, cut(*plane))).collect();
     let horizontal = cut(LidPlane::Horizontal);
@@ -97,7 +106,74 @@ pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     Curves { vertical, horizontal, max }
 }
 
+/// Wider cells are drawn as the steps that they are: the data know no better. \[rad\]
+const FINE: f64 = 4.0 * PI / 180.0;
+
+/// Width of the narrowest ring of cells; without end for what is not on cells. \[rad\]
+fn cell_width(part: &EmergentLuminance) -> f64 {
+    let EmergentLuminance::Cells { basis, .. } = part else { return f64::INFINITY };
+    basis.cells().map(|cell| cell.theta_max - cell.theta_min).fold(f64::INFINITY, f64::min)
+}
+
+/// Means over `half` samples to either side, the outermost by half, around a whole turn.
+fn moving_mean(values: &[f64], half: usize) -> Vec<f64> {
+    let n = values.len();
+    let half = half.min(n / 2);
+    if half == 0 {
+        return values.to_vec();
+    }
+    let weight = |away: usize| if away == half { 0.5 } else { 1.0 };
+    let mean = |k: usize| -> f64 {
+        (0..=2 * half).map(|j| weight(j.abs_diff(half)) * values[(k + n + j - half) % n]).sum::<f64>()
+            / (2 * half) as f64
+    };
+    (0..n).map(mean).collect()
+}
+
 /// Intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. \[cd\]
 pub fn diffuser(flux: f64, d: Emergent) -> f64 {
     flux / PI * (-d.0.vector().z).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
+    use std::sync::Arc;
+
+    /// Rings of so many degrees, each with the luminance of its middle.
+    fn on_rings(degrees: f64, luminance: fn(f64) -> f64) -> Lid {
+        let step = degrees.to_radians();
+        let ring = |i: u32| {
+            let theta_min = f64::from(i) * step;
+            Ring { theta_min, theta_max: theta_min + step, sectors: 1, first_phi: 0.0 }
+        };
+        let rings: Vec<Ring> = (0..(90.0 / degrees) as u32).map(ring).collect();
+        let luminance = rings.iter().map(|ring| luminance(0.5 * (ring.theta_min + ring.theta_max))).collect();
+        let basis = Arc::new(RingBasis::new("rings", rings, AzimuthMap::FACADE).unwrap());
+        let parts = vec![EmergentLuminance::Cells { basis, luminance }];
+        Lid { surface: Surface::Facade, size: [1.0, 1.0], parts, beams: vec![] }
+    }
+
+    /// Half-plane from straight down to the horizontal into the room.
+    fn down(lid: &Lid) -> Vec<f64> {
+        sample(lid, &[LidPlane::Vertical(0)]).vertical[0].1[..=SAMPLES / 4].to_vec()
+    }
+
+    #[test]
+    fn fine_cells_are_drawn_as_the_smooth_light_that_they_tell() {
+        // θ = 90° − γ: I = cos²θ = sin²γ.
+        let drawn = down(&on_rings(3.0, f64::cos));
+        for (k, value) in drawn.iter().enumerate().skip(10).take(160) {
+            let gamma = TAU * k as f64 / SAMPLES as f64;
+            assert!((value - gamma.sin().powi(2)).abs() < 0.012, "{k}: {value}");
+        }
+        assert!(drawn[10..170].is_sorted(), "no teeth");
+    }
+
+    #[test]
+    fn coarse_cells_are_drawn_as_steps() {
+        let drawn = down(&on_rings(10.0, f64::cos));
+        assert!(!drawn[10..170].is_sorted(), "data know no better");
+    }
 }

@@ -103,7 +103,8 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
         {
             wrong.push(format!("src/{file}:{}: {} must not use {text}", path.line, layer.name));
         }
-        if layer.forbidden.iter().any(|name| text == *name || text.starts_with(&format!("{name}::"))) {
+        if layer.forbidden.iter().copied().flatten().any(|name| text == *name || text.starts_with(&format!("{name}::")))
+        {
             wrong.push(format!("src/{file}:{}: {} must not use {text}", path.line, layer.name));
         }
     }
