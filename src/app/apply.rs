@@ -6,7 +6,7 @@ use super::jobs::Lane;
 use super::moment;
 use super::scene::{Selection, fill, first_scene, rule, set_rule};
 use super::state::{Document, PathUse, Sheet};
-use super::window::App;
+use super::window::{App, end_step};
 use super::{control, title};
 use crate::catalogue::{FirstRule, Product};
 use crate::study::control::year::CONTROLLED;
@@ -30,11 +30,11 @@ impl App {
         let step = command.is_step();
         // What is there already is not added twice: some commands do it themselves.
         if step {
-            self.undoer.add_undo(&self.state.document);
+            end_step(&mut self.undoer, &self.state.document);
         }
         self.act_on(command);
         if step {
-            self.undoer.add_undo(&self.state.document);
+            end_step(&mut self.undoer, &self.state.document);
         }
     }
 
@@ -94,7 +94,7 @@ impl App {
             Command::Language(choice) => {
                 state.settings.language = choice;
                 // What was said of results in the other language is said anew with them.
-                self.asked = None;
+                self.respoken = self.asked.take().is_some();
             }
             Command::TextSize(change) => self.change_text_size(change),
             Command::Tour(act) => self.tour(act),
@@ -120,10 +120,19 @@ impl App {
                 }
                 if lane == Lane::Import {
                     state.under_way = None;
+                }
+                if lane == Lane::Arrange {
                     self.stop_arranging();
                 }
                 if lane == Lane::Compare {
                     self.compare.stop();
+                }
+                // Asked for again when it is chosen again.
+                if lane == Lane::DataForm {
+                    self.results.form.error = Some(shell::stopped(lane.word()));
+                }
+                if lane == Lane::Schemes {
+                    self.results.schemes.error = Some(shell::stopped(lane.word()));
                 }
                 if lane == Lane::Product {
                     // They wait for the same data, and would compute them themselves.
@@ -137,7 +146,9 @@ impl App {
                     Lane::Builtin => shell::STOPPED_BUILTIN.into(),
                     Lane::Product => shell::STOPPED_PRODUCT.into(),
                     Lane::Lid if !self.results.lid.stale => shell::STOPPED_PEAK.into(),
-                    Lane::Import | Lane::Mend | Lane::Dialog | Lane::Export => shell::stopped(lane.word()),
+                    Lane::Import | Lane::Arrange | Lane::Mend | Lane::Dialog | Lane::Export => {
+                        shell::stopped(lane.word())
+                    }
                     _ => shell::stopped_older(lane.word()),
                 };
                 // The job may have ended between the picture and the click: then nothing was lost, and nothing is said.
@@ -249,19 +260,19 @@ impl App {
 
     /// Chooses a product, moved by its own rule or in the state that stands for it: one step.
     fn choose(&mut self, product: String, rule: FirstRule, state: Option<&str>) {
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         first_choice(&mut self.state.document, product, rule, state);
         self.state.control_of = None;
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
     }
 
     fn select(&mut self, selection: Selection) {
         let document = &mut self.state.document;
         if document.selection != selection {
-            self.undoer.add_undo(document);
+            end_step(&mut self.undoer, document);
             document.selection = selection;
             fill(&mut document.scene, &document.selection);
-            self.undoer.add_undo(document);
+            end_step(&mut self.undoer, document);
         }
     }
 
@@ -309,7 +320,7 @@ impl App {
             || rule(&document.scene, self.state.control_of.unwrap_or(0)).map(|old| old.mode) != Some(keys.mode);
         // A change of rule is a step of its own; a curve that is dragged is one step when it comes to rest.
         if change {
-            self.undoer.add_undo(document);
+            end_step(&mut self.undoer, document);
         }
         if document.selection.state != CONTROLLED {
             document.selection.state = CONTROLLED.to_owned();
@@ -323,7 +334,7 @@ impl App {
             aperture.control = rule;
         }
         if change {
-            self.undoer.add_undo(document);
+            end_step(&mut self.undoer, document);
         }
     }
 

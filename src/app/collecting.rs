@@ -7,7 +7,7 @@ use super::jobs::Lane;
 use super::shelf::{Query, Sets};
 use super::shelving::Shelving;
 use super::state::{PathUse, Sheet};
-use super::window::App;
+use super::window::{App, end_step};
 use super::work::Outcome;
 use crate::study::subscriptions::folder_of;
 use crate::texts::catalogue as words;
@@ -92,9 +92,9 @@ impl App {
     fn mark(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         self.state.document.marks.push(number);
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         self.make_change(number, true);
     }
 

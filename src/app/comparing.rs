@@ -11,7 +11,7 @@ use super::scene::{rule, selection_of};
 use super::shelf_library::WindowLibrary;
 use super::state::{Daylight, Document, State};
 use super::tiles::TILES;
-use super::window::App;
+use super::window::{App, end_step};
 use super::work::{Compared, Outcome, Shelved, take_from_shelf};
 use super::{control, title};
 use crate::compute::btdf::Dataset;
@@ -144,7 +144,7 @@ impl App {
 
     /// A candidate becomes the scene: one step.
     fn take_candidate(&mut self, place: usize) {
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         let document = &mut self.state.document;
         let own = candidate(&document.scene, &document.scene.compare[place]);
         let compare = std::mem::take(&mut document.scene.compare);
@@ -152,7 +152,7 @@ impl App {
         if let Some(selection) = selection_of(&document.scene) {
             document.selection = selection;
         }
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         (self.state.compare.open, self.state.compare.swapped) = (false, None);
     }
 
@@ -171,9 +171,9 @@ impl App {
 
     /// Changes the tray: one step.
     fn edit_tray(&mut self, change: impl FnOnce(&mut Vec<CompareKeys>)) {
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         change(&mut self.state.document.scene.compare);
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         let left = self.state.document.scene.compare.len();
         let view = &mut self.state.compare;
         (view.open, view.naming, view.swapped, view.other) = (view.open && left > 0, None, None, None);
@@ -298,6 +298,7 @@ impl App {
             | Command::RoomLook(_)
             | Command::ExportTile(_)
             | Command::CopyTile(_)
+            | Command::CopyValue
             | Command::Maximise(_) => Some(command),
             _ => None,
         }));

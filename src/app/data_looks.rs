@@ -54,8 +54,10 @@ pub type SchemesKey = (u64, SunScheme, Interpolation);
 /// Why there is no map of schemes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoSchemes {
-    /// The data are no list of directions: nothing is interpolated.
+    /// The data are means over cells: nothing is interpolated.
     NoDirections,
+    /// Nothing is scattered, or by a closed form.
+    ClosedForm,
     /// The scene takes the data at their word.
     Patches,
     /// The directions have no triangles between them.

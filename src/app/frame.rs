@@ -66,6 +66,7 @@ impl App {
             self.apply(command);
             ui.ctx().request_repaint();
         }
+        self.in_field = ui.ctx().memory(|memory| memory.focused().is_some());
         // Now, not with the next frame: a slow one would take its time from the second that may be lost.
         self.keep_session();
         let title = title::title(&self.state);

@@ -4,7 +4,7 @@ use super::import::{Arranged, Arrangement, Import, Row};
 use super::import_arranging::{catch_up, rearranged};
 use super::import_steps::{Choose, Step};
 use super::jobs::Lane;
-use super::window::App;
+use super::window::{App, end_step};
 use crate::catalogue::Grouping;
 use crate::texts::take_in as text;
 use std::collections::BTreeSet;
@@ -118,9 +118,9 @@ impl App {
         if before != after {
             let number = self.state.arranged.len();
             self.state.arranged.push(Arranged { paths: import.paths.clone(), before, after });
-            self.undoer.add_undo(&self.state.document);
+            end_step(&mut self.undoer, &self.state.document);
             self.state.document.arranged.push(number);
-            self.undoer.add_undo(&self.state.document);
+            end_step(&mut self.undoer, &self.state.document);
         }
     }
 
@@ -184,6 +184,6 @@ impl App {
         import.arranging = true;
         let import = import.clone();
         let shelf = self.state.shelf();
-        self.start(Lane::Import, move |job| rearranged(import, shelf.as_deref(), job));
+        self.start(Lane::Arrange, move |job| rearranged(import, shelf.as_deref(), job));
     }
 }

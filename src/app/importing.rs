@@ -7,7 +7,7 @@ use super::jobs::Lane;
 use super::reading::{Asked, read_files};
 use super::shelf::Addition;
 use super::state::{Added, CatalogueState, Sheet};
-use super::window::App;
+use super::window::{App, end_step};
 use crate::catalogue::Grouping;
 use crate::compute::doctor::Repair;
 use crate::texts::take_in as text;
@@ -108,10 +108,10 @@ impl App {
         };
         let Some(gone) = gone else { return };
         self.toasts.info(text::discarded(&gone.name));
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         self.state.document.discarded.push(self.state.discarded.len());
         self.state.discarded.push(gone);
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
     }
 
     /// After a step back or forth: drafts that are back, and those that are gone again.
@@ -189,7 +189,9 @@ impl App {
 
     /// Stores all products that are wanted and about which nothing is open, as one step. The others stay in the sheet.
     pub(super) fn add_import(&mut self) {
-        let Some(mut import) = self.state.import.take_if(|import| import.products.iter().any(Proposed::ready)) else {
+        let Some(mut import) =
+            self.state.import.take_if(|import| !import.arranging && import.products.iter().any(Proposed::ready))
+        else {
             return;
         };
         // Until it is stored the session holds it: nothing is lost if the program ends in between.
@@ -214,7 +216,7 @@ impl App {
     /// Stores products as a step of its own, and closes the sheet that they came from.
     pub(super) fn add_to_catalogue(&mut self, additions: Vec<Addition>) {
         self.state.sheet = None;
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         let mut numbered = Vec::new();
         for addition in additions {
             let number = self.state.additions.len();

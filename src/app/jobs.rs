@@ -26,6 +26,8 @@ pub enum Lane {
     Palette,
     /// Reading files that the user opened.
     Import,
+    /// Taking what was read for other products.
+    Arrange,
     /// Repairs of what was read.
     Mend,
     /// Asking the desktop for paths.
@@ -77,6 +79,7 @@ impl Lane {
             Self::Catalogue => shell::LANE_CATALOGUE,
             Self::Palette => shell::LANE_PALETTE,
             Self::Import => shell::LANE_IMPORT,
+            Self::Arrange => shell::LANE_ARRANGE,
             Self::Mend => shell::LANE_MEND,
             Self::Dialog => shell::LANE_DIALOG,
             Self::Findings => products::LANE_FINDINGS,

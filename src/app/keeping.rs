@@ -6,7 +6,7 @@ use super::editing::look;
 use super::error::AppError;
 use super::jobs::Lane;
 use super::state::Sheet;
-use super::window::App;
+use super::window::{App, end_step};
 use super::work::Outcome;
 use crate::catalogue::Deleted;
 use crate::study::subscriptions::Report;
@@ -52,7 +52,7 @@ impl App {
         let entries = self.state.found.clone();
         let place = entries.entries.iter().position(|entry| entry.key == key);
         let name = place.map_or_else(|| key.clone(), |place| entries.entries[place].name.clone());
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         if self.state.document.selection.product == key
             && let Some(place) = place
         {
@@ -71,7 +71,7 @@ impl App {
 
     /// A change to the catalogue as a step of its own.
     pub(super) fn change(&mut self, change: Change) {
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         self.note_change(change);
     }
 
@@ -80,7 +80,7 @@ impl App {
         let number = self.state.changes.len();
         self.state.changes.push(change);
         self.state.document.changes.push(number);
-        self.undoer.add_undo(&self.state.document);
+        end_step(&mut self.undoer, &self.state.document);
         self.make_change(number, true);
     }
 
@@ -119,9 +119,9 @@ impl App {
         let number = self.state.document.changes.iter().copied().rfind(of_this_session);
         match number {
             Some(number) => {
-                self.undoer.add_undo(&self.state.document);
+                end_step(&mut self.undoer, &self.state.document);
                 self.state.document.changes.retain(|&other| other != number);
-                self.undoer.add_undo(&self.state.document);
+                end_step(&mut self.undoer, &self.state.document);
                 self.make_change(number, false);
             }
             None => self.queue(move |shelf| Outcome::Changed(usize::MAX, false, shelf.restore(&key))),

@@ -64,7 +64,8 @@ impl App {
                         let list = triangles(model, &LeftOut::new(model));
                         if list.is_empty() { Err(NoSchemes::NoTriangles) } else { Ok(list) }
                     }
-                    _ => Err(NoSchemes::NoDirections),
+                    Some(Scattered::Cells(_) | Scattered::Tree(_)) => Err(NoSchemes::NoDirections),
+                    Some(Scattered::Lambert(_)) | None => Err(NoSchemes::ClosedForm),
                 };
                 Outcome::Schemes(SchemesResult { key, made })
             });

@@ -9,7 +9,7 @@ use super::scene::selection_of;
 use super::shelf::{Addition, Query, Shelf};
 use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
 use super::tiles;
-use super::window::{App, fresh_undoer};
+use super::window::{App, end_step, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
 use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
@@ -126,6 +126,10 @@ impl App {
                         Lane::Year => self.results.year.error = Some(text),
                         Lane::Catalogue => self.state.search_error = Some(text),
                         Lane::Compare => self.compare.fail(text),
+                        Lane::Arrange => self.stop_arranging(),
+                        // What asks in every frame would fail in every frame.
+                        Lane::Findings => self.state.sheet = None,
+                        Lane::Gallery => self.state.settings.gallery = false,
                         _ => {}
                     }
                 }
@@ -209,7 +213,7 @@ impl App {
             Outcome::Read(import) => self.take_import(*import),
             Outcome::Mended(files, mended) => self.take_mended(&files, mended),
             Outcome::ReadScene(path, Ok(scene)) => {
-                self.undoer.add_undo(&self.state.document);
+                end_step(&mut self.undoer, &self.state.document);
                 self.state.document.scene = *scene;
                 self.state.scene_path = Some(path);
                 self.adopt_selection();
@@ -319,7 +323,7 @@ impl App {
             let state = first.states.get(place).filter(|_| first.states.len() > 1);
             let state = state.map(|state| state.key.as_str());
             first_choice(&mut self.state.document, first.key.clone(), rule, state);
-            self.undoer.add_undo(&self.state.document);
+            end_step(&mut self.undoer, &self.state.document);
         }
         self.search();
     }
@@ -433,7 +437,8 @@ impl App {
         self.state.daylight.stale = true;
         self.results.lid.stale = true;
         self.results.room.stale = true;
-        self.results.accuracy.stale = true;
+        // What was measured holds in every language.
+        self.results.accuracy.stale |= !std::mem::take(&mut self.respoken);
         self.results.surfaces.stale = true;
         self.ask_scene();
         self.owe_results();

@@ -85,8 +85,8 @@ pub fn rows(state: &State, text: &str) -> Vec<Row> {
             let fit = if name.is_empty() {
                 misfit(&row.text, &row.tip, &wanted)
             } else {
-                // The catalogue knows more words than are shown, and has looked: what it found fits in any case.
-                misfit(name, &row.tip, &wanted).or(Some(100))
+                // The catalogue knows more words than are shown: what it found of these words fits in any case.
+                misfit(name, &row.tip, &wanted).or((state.palette_hits_of == text).then_some(100))
             };
             Some((fit?, row))
         })
@@ -138,7 +138,17 @@ impl App {
     /// Products for the palette have come.
     pub(super) fn take_hits(&mut self, found: Result<Found, super::error::AppError>) {
         match found {
-            Ok(found) => self.state.palette_hits = hits(found),
+            Ok(found) => {
+                let state = &mut self.state;
+                let text = state.palette.clone().unwrap_or_default();
+                let chosen = rows(state, &text).into_iter().nth(state.palette_row).filter(|_| state.palette_row > 0);
+                state.palette_hits = hits(found);
+                state.palette_hits_of.clone_from(&text);
+                // What was gone to with the arrow keys stays chosen, wherever it stands now.
+                if let Some(chosen) = chosen {
+                    state.palette_row = rows(state, &text).iter().position(|row| *row == chosen).unwrap_or(0);
+                }
+            }
             Err(error) => {
                 self.state.palette_hits.clear();
                 self.tell(&error);
@@ -158,6 +168,7 @@ mod tests {
         let hit =
             |name: &&str| Hit { key: (*name).to_owned(), name: (*name).to_owned(), about: "Maker, blind".to_owned() };
         state.palette_hits = hits.iter().map(hit).collect();
+        state.palette_hits_of = words.to_owned();
         rows(&state, words).into_iter().map(|row| row.text).collect()
     }
 

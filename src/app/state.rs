@@ -284,6 +284,8 @@ pub struct State {
     pub palette_row: usize,
     /// Products of the catalogue that the palette's words fit.
     pub palette_hits: Vec<Hit>,
+    /// The words that they are of.
+    pub palette_hits_of: String,
     /// The search field wants the keyboard, until it has it.
     pub focus_search: bool,
     /// The sheet that was opened wants the keyboard for the field to type in, until that has it.
@@ -368,6 +370,7 @@ impl State {
             palette: None,
             palette_row: 0,
             palette_hits: Vec::new(),
+            palette_hits_of: String::new(),
             focus_search: false,
             wants_keyboard: false,
             focus_list: false,

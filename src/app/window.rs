@@ -65,6 +65,10 @@ pub struct App {
     /// Additions that are being stored.
     pub(super) adding: BTreeSet<usize>,
     pub(super) undoer: Undoer<Document>,
+    /// Is all asked again for the language alone?
+    pub(super) respoken: bool,
+    /// Did something have the keyboard when the last frame ended?
+    pub(super) in_field: bool,
     pub(super) asked: Option<Document>,
     pub(super) asked_year: Option<YearKey>,
     pub(super) asked_form: Option<FormKey>,
@@ -130,6 +134,13 @@ impl Opened {
     }
 }
 
+/// Ends a step of undo where the document stands. What was undone before a new step is not to be redone after it, which
+/// the undoer sees only when it is fed.
+pub(super) fn end_step(undoer: &mut Undoer<Document>, document: &Document) {
+    undoer.feed_state(0.0, document);
+    undoer.add_undo(document);
+}
+
 /// A history that begins here.
 pub(super) fn fresh_undoer(document: &Document) -> Undoer<Document> {
     let mut undoer = Undoer::default();
@@ -143,6 +154,8 @@ impl App {
         let state = State::new(settings);
         Self {
             undoer: fresh_undoer(&state.document),
+            in_field: false,
+            respoken: false,
             state,
             results: Results::default(),
             services,

@@ -1,5 +1,6 @@
 //! Products into the catalogue, and packages of them in and out.
 
+use super::collections::leave_all;
 use super::described::described_state;
 use super::history::{note, set_paths};
 use super::record::{Record, prepare};
@@ -121,6 +122,9 @@ pub(super) fn add(tx: &Transaction, mut record: Record) -> Result<Imported, Cata
         }
     }
     record.product.key = free_key(tx, &record.product.key)?;
+    // What an ended subscription's product of this key has left behind is not this one's.
+    leave_all(tx, &record.product.key)?;
+    tx.execute("DELETE FROM favourite WHERE product_key = ?", [&record.product.key])?;
     insert(tx, &record, USER_RANK)?;
     let key = &record.product.key;
     set_paths(tx, key, &record.paths)?;

@@ -77,6 +77,8 @@ pub enum NoForm {
     NoValues,
     /// They are means over incident cells, which are no wider than the light they stand for.
     Means,
+    /// They are a tensor tree, compact already.
+    Tree,
     /// Their directions are no lattice of patches.
     NoLattice,
     /// Values that cannot be compressed.
@@ -141,6 +143,9 @@ pub fn filtered(
 /// # Errors
 /// Why they have no such form.
 pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
+    if matches!(btdf.scattered, Some(Scattered::Tree(_))) {
+        return Err(NoForm::Tree);
+    }
     let row = row_of(btdf, incident).ok_or(NoForm::NoValues)?;
     let (basis, rows, values) = match &btdf.scattered {
         Some(Scattered::Cells(matrix)) => (matrix.emergent(), matrix.compact_rows(), matrix.row(row)),

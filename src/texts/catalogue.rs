@@ -145,7 +145,7 @@ texts! {
     const ADD = "Add" | "Hinzufügen";
     const ADD_TIP = "A new collection with this product in it" | "Neue Sammlung mit diesem Produkt";
     fn members(name, count) = "{name}  {count}" | "{name}  {count}";
-    const NO_COLLECTION = "No collection yet: name one, and the product below is its first." | "Noch keine Sammlung: einen Namen eingeben, das Produkt unten ist ihr erstes.";
+    const NO_COLLECTION = "No collection yet: name one, and the product above is its first." | "Noch keine Sammlung: einen Namen eingeben, das Produkt oben ist ihr erstes.";
     const COLLECTIONS_HELP = "A mark: this product is in the collection. Products of a collection are found by the facet of the same name." | "Ein Haken: Das Produkt gehört zur Sammlung. Der gleichnamige Filter zeigt die Produkte einer Sammlung.";
     const DISBAND = "Disband" | "Auflösen";
     const DISBAND_TIP = "Take all products out of it; they stay in the catalogue, and Ctrl+Z brings the collection back" | "Alle Produkte herausnehmen; sie bleiben im Katalog, und Strg+Z holt die Sammlung zurück";

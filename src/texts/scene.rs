@@ -144,7 +144,7 @@ texts! {
     const ILLUMINANCES = "Illuminances" | "Beleuchtungsstärken";
     const TURBIDITY = "Turbidity (Linke)" | "Trübung (Linke)";
     const DIFFUSE_HORIZONTAL = "Diffuse horizontal" | "Diffus horizontal";
-    const DIRECT_NORMAL = "Direct normal" | "Direkt senkrecht";
+    const DIRECT_NORMAL = "Direct normal" | "Direkt normal";
     const DIRECT_HORIZONTAL = "Direct horizontal" | "Direkt horizontal";
     const NIGHT = "No daylight: the sun is below the horizon." | "Kein Tageslicht: die Sonne ist unter dem Horizont.";
     const TYPED_NIGHT = "As typed; no direct light while the sun is below the horizon." | "Wie eingegeben; kein direktes Licht bei Sonne unter dem Horizont.";

@@ -101,6 +101,7 @@ texts! {
     const LANE_CATALOGUE = "catalogue" | "Katalog";
     const LANE_PALETTE = "palette" | "Befehlspalette";
     const LANE_IMPORT = "reading files" | "Dateien lesen";
+    const LANE_ARRANGE = "arranging" | "Zuordnung";
     const LANE_MEND = "repairing" | "Reparatur";
     const LANE_DIALOG = "file dialog" | "Dateidialog";
     const LANE_STORE = "storing" | "Speichern";

@@ -88,6 +88,7 @@ texts! {
     fn foot_kept_compact(kept, cells, allowed) = "compact: {kept} of {cells} numbers · {allowed} % of the flux may be misplaced · the catalogue keeps these data so" | "komprimiert: {kept} von {cells} Zahlen · {allowed} % des Lichtstroms dürfen verlagert sein · so bewahrt der Katalog diese Daten";
     const NO_FORM_VALUES = "No values to filter or compress: these data are a closed form." | "Keine Werte zum Filtern oder Komprimieren: die Daten sind eine geschlossene Form.";
     const NO_FORM_MEANS = "Not filtered: these data are means over incident cells already." | "Nicht gefiltert: die Daten sind bereits Mittel über Einfallszellen.";
+    const NO_FORM_TREE = "Not compressed: a tensor tree is compact already." | "Nicht komprimiert: ein Tensorbaum ist es bereits.";
     const NO_FORM_LATTICE = "Not filtered: the incident directions are no lattice of patches." | "Nicht gefiltert: die Einfallsrichtungen sind kein Raster von Feldern.";
     fn no_form_values(why) = "Not compressed: {why}." | "Nicht komprimiert: {why}.";
 
@@ -108,6 +109,7 @@ texts! {
     fn stated_alone(own) = "misplaces about {own} % here" | "verlagert hier etwa {own} %";
     fn stated(own, rest) = "misplaces about {own} % here ({rest})" | "verlagert hier etwa {own} % ({rest})";
     const NO_SCHEMES_DIRECTIONS = "No map of schemes: these data are means over cells, taken at their word." | "Keine Karte: die Daten sind Mittel über Zellen und gelten, wie sie sind.";
+    const NO_SCHEMES_CLOSED = "No map of schemes: these data are a closed form, right for every direction." | "Keine Karte: die Daten sind eine geschlossene Form und gelten für jede Richtung.";
     const NO_SCHEMES_PATCHES = "No map of schemes: the scene takes every direction for its patch." | "Keine Karte: die Szene nimmt jede Richtung für ihr Feld.";
     const NO_SCHEMES_TRIANGLES = "No map of schemes: the directions have no triangles between them." | "Keine Karte: zwischen den Richtungen liegen keine Dreiecke.";
     const SCHEMES_COMING = "Leaving out each direction in turn…" | "Jede Richtung wird einmal ausgelassen…";

@@ -46,8 +46,11 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             commands.push(Command::Tour(TourAct::Leave));
         }
     });
-    // What lies over the window takes the key first.
-    let free = app.state.sheet.is_none() && app.state.palette.is_none() && !egui::Popup::is_any_open(ui.ctx());
+    // What lies over the window takes the key first, and what is typed into.
+    let free = !app.in_field
+        && app.state.sheet.is_none()
+        && app.state.palette.is_none()
+        && !egui::Popup::is_any_open(ui.ctx());
     if free && ui.input(|input| input.key_pressed(Key::Escape)) {
         commands.push(Command::Tour(TourAct::Leave));
     }

@@ -22,6 +22,10 @@ pub struct Drawing {
 }
 
 impl Drawn for Drawing {
+    fn log(&mut self) -> Option<&mut bool> {
+        Some(&mut self.view.log)
+    }
+
     fn lanes(&self) -> &'static [Lane] {
         &[Lane::Lid]
     }

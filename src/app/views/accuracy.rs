@@ -8,13 +8,13 @@ use crate::app::paint::tile;
 use crate::drawing::plot::Plot;
 use crate::study::accuracy::{Accuracy, words};
 use crate::study::accuracy_plot::{name, plots};
-use crate::texts::{fixed, tiles as say};
+use crate::texts::{Language, fixed, language, tiles as say};
 use egui::{Button, Label, ProgressBar, Sense, Ui, vec2};
 
 /// What only this view knows.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    plots: Cache<u64, [Plot; 2]>,
+    plots: Cache<(u64, Language), [Plot; 2]>,
 }
 
 /// What is shown.
@@ -84,7 +84,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let (above, below) = rect.with_max_x(rect.right() - 8.0).split_top_bottom_at_fraction(0.53);
     for (((place, plot), look), tip) in [above, below]
         .into_iter()
-        .zip(state.plots.get(input.revision, || plots(accuracy)))
+        .zip(state.plots.get((input.revision, language()), || plots(accuracy)))
         .zip([first, second])
         .zip(tips)
     {

@@ -85,10 +85,10 @@ pub enum Action {
 type DomeKey = (u64, Disk, ColourScale, u64, (bool, bool));
 
 /// The tile's own settings and pictures.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct State {
-    /// Linear colours instead of logarithmic ones.
-    pub linear: bool,
+    /// Logarithmic colours.
+    pub log: bool,
     /// The scale stays as it is.
     pub hold: bool,
     scale: Option<ColourScale>,
@@ -96,6 +96,20 @@ pub struct State {
     dome: Cache<DomeKey, Arc<Mesh>>,
     section: Cache<(u64, u64), Vec<[f64; 2]>>,
     dragging: bool,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self {
+            log: true,
+            hold: false,
+            scale: None,
+            extent: Cache::default(),
+            dome: Cache::default(),
+            section: Cache::default(),
+            dragging: false,
+        }
+    }
 }
 
 /// Width from which the three illuminances stand in one line. \[points\]
@@ -137,7 +151,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         empty: input.luminance.is_none().then_some(say::SKY_EMPTY.get()),
         controls_width: 104.0,
     };
-    let (mut log, mut hold) = (!state.linear, state.hold);
+    let (mut log, mut hold) = (state.log, state.hold);
     tile::show(
         ui,
         &words,
@@ -151,7 +165,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
             None => Foot::default(),
         },
     );
-    (state.linear, state.hold) = (!log, hold);
+    (state.log, state.hold) = (log, hold);
     actions
 }
 
@@ -180,7 +194,7 @@ fn picture(
         (rest, None)
     };
     let moving = input.status.hold_scale || state.dragging;
-    let log = !state.linear;
+    let log = state.log;
     let held = state.scale.clone().filter(|scale| (moving || state.hold) && scale.log == log);
     // Not looked for while the scale is held: every moment of a drag has another sky.
     let mut own = || match (log, *state.extent.get(input.revision, || extent(luminance))) {

@@ -37,12 +37,12 @@ fn in_or_out(list: &mut Vec<String>, value: &str) {
     }
 }
 
-fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>) {
+fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>, words: fn(&str) -> String) {
     if facets.is_empty() {
         ui.weak(text::NOBODY_TELLS.get());
     }
     for facet in facets {
-        let words = if facet.value.is_empty() { text::NOT_TOLD.into() } else { facet.value.replace('-', " ") };
+        let words = if facet.value.is_empty() { text::NOT_TOLD.into() } else { words(&facet.value) };
         if value(ui, chosen.contains(&facet.value), &words, facet.count) {
             in_or_out(chosen, &facet.value);
         }
@@ -91,10 +91,10 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
             query.recent = !query.recent;
         }
         menu(ui, [text::KIND, text::KIND_FACET], query.has(Filter::Kinds), |ui| {
-            list(ui, &found.facets.kinds, &mut query.kinds);
+            list(ui, &found.facets.kinds, &mut query.kinds, |kind| kind.replace('-', " "));
         });
         menu(ui, [text::MAKER, text::MAKER_FACET], query.has(Filter::Manufacturers), |ui| {
-            list(ui, &found.facets.manufacturers, &mut query.manufacturers);
+            list(ui, &found.facets.manufacturers, &mut query.manufacturers, str::to_owned);
         });
         menu(ui, [text::MOVES, text::MOVES_FACET], query.has(Filter::Moving), |ui| {
             either(ui, [text::MOVING, text::FIXED], found.facets.moving, &mut query.moving);
@@ -114,11 +114,11 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
         menu(ui, [text::FIGURES, text::FIGURES_FACET], ranges, |ui| figures(ui, found, query));
         if !found.facets.collections.is_empty() {
             menu(ui, [text::COLLECTIONS, text::COLLECTIONS_FACET], query.has(Filter::Collections), |ui| {
-                list(ui, &found.facets.collections, &mut query.collections);
+                list(ui, &found.facets.collections, &mut query.collections, str::to_owned);
             });
         }
         menu(ui, [text::TAGS, text::TAGS_FACET], query.has(Filter::Tags), |ui| {
-            list(ui, &found.facets.tags, &mut query.tags);
+            list(ui, &found.facets.tags, &mut query.tags, str::to_owned);
         });
     });
     chosen(ui, query);

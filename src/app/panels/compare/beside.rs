@@ -66,19 +66,23 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 
 /// The scale of all tiles, with one choice of its kind for all of them.
 fn legend(ui: &mut Ui, kind: Option<TileKind>, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
-    let (unit, always) = match kind {
-        Some(TileKind::Btdf) => ("q / (1/sr)", false),
-        Some(TileKind::Transmittance) => ("τ", false),
-        Some(TileKind::Sky) => ("cd/m²", true),
-        Some(TileKind::Room) => ("lx", false),
+    let unit = match kind {
+        Some(TileKind::Btdf) => "q / (1/sr)",
+        Some(TileKind::Transmittance) => "τ",
+        Some(TileKind::Sky) => "cd/m²",
+        Some(TileKind::Room) => "lx",
         Some(TileKind::Lid) => {
             ui.label(texts::one_scale(texts::common_scale_is(tick(0.0), si(fine_ceil(hi), "cd"), "")).trim_end());
             return;
         }
         _ => return,
     };
-    let logarithmic = always || log.unwrap_or(false);
-    let lo = if logarithmic { lo.max(hi * LEAST) } else { lo };
+    let logarithmic = log.unwrap_or(false);
+    let lo = match kind {
+        _ if logarithmic => lo.max(hi * LEAST),
+        Some(TileKind::Sky) => 0.0,
+        _ => lo,
+    };
     let scale = ColourScale { lo, hi, log: logarithmic, map: ColourMap::Sequential };
     ui.horizontal(|ui| {
         if let Some(mut log) = log

@@ -58,6 +58,7 @@ impl<'a> FormInput<'a> {
         match self.result.map(|result| &result.made) {
             Some(Err(NoForm::NoValues)) => say::NO_FORM_VALUES.into(),
             Some(Err(NoForm::Means)) => say::NO_FORM_MEANS.into(),
+            Some(Err(NoForm::Tree)) => say::NO_FORM_TREE.into(),
             Some(Err(NoForm::NoLattice)) => say::NO_FORM_LATTICE.into(),
             Some(Err(NoForm::Values(why))) => say::no_form_values(why),
             _ => say::FORM_COMING.into(),

@@ -54,6 +54,7 @@ impl<'a> SchemesInput<'a> {
         }
         match self.result.map(|result| &result.made) {
             Some(Err(NoSchemes::NoDirections)) => say::NO_SCHEMES_DIRECTIONS.into(),
+            Some(Err(NoSchemes::ClosedForm)) => say::NO_SCHEMES_CLOSED.into(),
             Some(Err(NoSchemes::Patches)) => say::NO_SCHEMES_PATCHES.into(),
             Some(Err(NoSchemes::NoTriangles)) => say::NO_SCHEMES_TRIANGLES.into(),
             _ => say::SCHEMES_COMING.into(),
