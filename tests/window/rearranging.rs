@@ -60,7 +60,7 @@ fn two_steps_without_waiting_are_both_done() {
     for command in apart(0).into_iter().chain(apart(1)) {
         h.state_mut().apply(command);
     }
-    assert!(h.state().works_in(Lane::Import));
+    assert!(h.state().works_in(Lane::Arrange));
     settle(&mut h);
     assert_eq!(import(&h).products.len(), 6, "{:?}", products(&h));
     // A step back is the last one alone.

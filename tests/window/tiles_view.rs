@@ -97,7 +97,7 @@ fn the_map_of_schemes_says_why_under_the_cursor() {
     let told = cfs::app::paint::tile::pointed_foot(&harness.ctx).expect("a line under the tile");
     assert!(told.contains("misplaces about") && told.contains('%'), "{told}");
     crate::driven::select(&mut harness, |entry| entry.name == "Ideal diffuser");
-    assert_eq!(harness.state().results.schemes.value.as_ref().unwrap().made, Err(NoSchemes::NoDirections));
+    assert_eq!(harness.state().results.schemes.value.as_ref().unwrap().made, Err(NoSchemes::ClosedForm));
     harness.get_by_label_contains("No map of schemes");
 }
 
