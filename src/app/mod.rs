@@ -45,6 +45,7 @@ pub mod importing;
 pub mod incidence;
 pub mod jobs;
 pub mod keeping;
+pub mod lane;
 pub mod language;
 mod looking;
 pub mod measuring;
