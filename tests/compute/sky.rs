@@ -195,6 +195,22 @@ proptest! {
     }
 }
 
+#[test]
+fn a_sun_near_the_zenith_is_not_missed() {
+    // What is stated holds, without the rounding that is granted to any sun.
+    for (sky_type, altitude, bearing) in
+        [(7, 89.237_541_3, 214.072_84), (7, 89.9, 33.0), (12, 89.99, 120.0), (3, 86.0, 5.0)]
+    {
+        let got = irradiance(&cie(sky_type, altitude, bearing), toward(90.0, 0.0));
+        assert!(
+            (got.value - 10_000.0).abs() < 1e-4 + got.error,
+            "{sky_type} {altitude}: {} ± {}",
+            got.value,
+            got.error
+        );
+    }
+}
+
 /// Keys of a scene as a user writes them.
 fn keys(sky: &str, site: &str) -> Result<(Outside, Option<Sun>), String> {
     let sky: cfs::study::scene_file::SkyKeys = toml::from_str(sky).map_err(|error| error.to_string())?;

@@ -48,16 +48,38 @@ fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f
     )
 }
 
-/// The open sky over one strip of azimuths between knots.
-fn sky_strip(
+/// A sun nearer to the pole than this is small in θ and yet wide in φ. \[rad\]
+const NEAR_POLE: f64 = 0.1;
+
+/// The open sky over one strip of azimuths between knots. Around a pole near the sun the luminance changes within a small
+/// part of the strip, which a rule for all of it could miss: pieces then grow with the distance from the pole.
+fn sky_strip(outside: &Outside, region: &Region, phi: (f64, f64), weight: Weight, tolerance: Tolerance) -> Estimate {
+    let sun = outside.sun_direction().map_or(PI, |sun| region.frame.angles(sun.vector()).0);
+    if !(1e-9..NEAR_POLE).contains(&sun) {
+        return sky_piece(outside, region, phi, region.theta, weight, tolerance);
+    }
+    let mut cuts = vec![region.theta.0];
+    let grown = std::iter::successors(Some(3.0 * sun), |cut| Some(3.0 * cut)).take_while(|cut| *cut < region.theta.1);
+    cuts.extend(grown.filter(|cut| *cut > region.theta.0));
+    cuts.push(region.theta.1);
+    cuts.windows(2).map(|pair| sky_piece(outside, region, phi, (pair[0], pair[1]), weight, tolerance)).sum()
+}
+
+/// Of a strip what lies between two angles from the pole.
+fn sky_piece(
     outside: &Outside,
     region: &Region,
     (phi_min, phi_max): (f64, f64),
+    (theta_min, theta_max): (f64, f64),
     weight: Weight,
     tolerance: Tolerance,
 ) -> Estimate {
-    let limits = |phi: f64| region.above(phi, outside.skyline_sine);
-    if outside.scale == 0.0 || limits(0.5 * (phi_min + phi_max)).is_none() {
+    let limits = |phi: f64| {
+        let (low, high) = region.above(phi, outside.skyline_sine)?;
+        let (low, high) = (low.max(theta_min), high.min(theta_max));
+        (low < high).then_some((low, high))
+    };
+    if outside.scale == 0.0 || region.above(0.5 * (phi_min + phi_max), outside.skyline_sine).is_none() {
         return Estimate::default();
     }
     let width = phi_max - phi_min;
