@@ -80,9 +80,6 @@ class Day:
     def products(self):
         return [p["key"] for p in json.loads(self.desk.command("catalogue", "list", "--json").stdout) if not p["builtin"]]
 
-    def sees(self, name, wait=10.0):
-        return self.desk.need(self.words.pattern(name), wait=wait)
-
     def take_in(self):
         folder = os.path.join(self.home, "incoming")
         shutil.copytree(os.path.join(self.given.data, "data/bsdf/tt_slats_b"), folder)
@@ -103,8 +100,6 @@ class Day:
         time.sleep(1.5)
         self.picture("gallery")
         self.desk.key("ctrl+g")
-        self.command("Transmittance" if self.given.language == "en" else "Transmission")
-        self.desk.quiet()
         self.desk.key("0")
         for number in "15":
             self.desk.key(number)

@@ -91,11 +91,7 @@ impl App {
                 state.settings.theme = choice;
                 choice.apply(&self.ctx);
             }
-            Command::Language(choice) => {
-                state.settings.language = choice;
-                // What was said of results in the other language is said anew with them.
-                self.respoken = self.asked.take().is_some();
-            }
+            Command::Language(choice) => state.settings.language = choice,
             Command::TextSize(change) => self.change_text_size(change),
             Command::Tour(act) => self.tour(act),
             Command::ResetScene => {

@@ -8,6 +8,7 @@ use super::state::Sheet;
 use super::window::App;
 use super::work::Outcome;
 use crate::study::scene_file::SceneFile;
+use crate::texts::language;
 
 /// A plane of more sensors than this is computed with half as many along both sides while room, openings or sensors are
 /// being dragged.
@@ -43,7 +44,7 @@ impl App {
         ];
         // Without a product nothing is asked for.
         let nothing = self.state.shelf().is_none() || self.state.document.selection.product.is_empty();
-        (nothing || self.asked.as_ref().is_some_and(|asked| asked.asks_the_same(&self.state.document)))
+        (nothing || self.asked_last() == Some(language()))
             && !LANES.into_iter().any(|lane| self.jobs.busy(lane))
             && !self.due.lanes.iter().any(|lane| self.is_wanted(*lane))
     }

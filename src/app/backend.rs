@@ -25,6 +25,7 @@ use crate::study::subscriptions::{Report, sync};
 use crate::study::{Library, Scene, Session, StudyError};
 use crate::texts::shell;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -133,13 +134,24 @@ impl Shelf for CatalogueShelf {
 
     fn fill_one(&self, order: &[String], progress: &dyn Progress) -> Result<[usize; 2], AppError> {
         let Some(filler) = &self.filler else { return Ok([0; 2]) };
-        let (mut waiting, all) = {
+        let (waiting, all) = {
             let mut filler = lock(filler);
             // Of what older programs stored it may not be known where light goes; found out once, it is nothing to do.
             filler.fill_figures(progress)?;
-            (filler.waiting()?, filler.builtin_states()?)
+            let (mut waiting, all) = (filler.waiting()?, filler.builtin_states()?);
+            let before = waiting.len();
+            waiting.retain(|one| !self.failing.lock().unwrap_or_else(PoisonError::into_inner).contains(one));
+            let mut products = BTreeMap::new();
+            for one in &waiting {
+                if !products.contains_key(&one.product) {
+                    products.insert(one.product.clone(), filler.product(&one.product)?);
+                }
+            }
+            waiting
+                .retain(|one| order.first() == Some(&one.product) || products[&one.product].may_represent(&one.state));
+            let all = all - (before - waiting.len());
+            (waiting, all)
         };
-        waiting.retain(|one| !self.failing.lock().unwrap_or_else(PoisonError::into_inner).contains(one));
         let place = |one: &StateKey| order.iter().position(|key| *key == one.product).unwrap_or(order.len());
         // The first of equals stays first, as the catalogue has them.
         let Some(one) = waiting.iter().min_by_key(|one| place(one)) else { return Ok([0, all]) };

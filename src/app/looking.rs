@@ -20,6 +20,13 @@ impl App {
     /// Looks at the data otherwise, and brings the tile into sight.
     pub(super) fn look_at_data(&mut self, change: impl FnOnce(&mut DataLook)) {
         change(&mut self.state.data_look);
+        // What was stopped is asked for again.
+        if self.results.form.error.is_some() {
+            self.asked_form = None;
+        }
+        if self.results.schemes.error.is_some() {
+            self.asked_schemes = None;
+        }
         self.bring_up(TILE);
     }
 

@@ -7,7 +7,7 @@ use super::error::AppError;
 use super::jobs::Lane;
 use super::scene::selection_of;
 use super::shelf::{Addition, Query, Shelf};
-use super::state::{CatalogueState, Daylight, PathUse, Sheet, Shown};
+use super::state::{CatalogueState, Daylight, Document, PathUse, Sheet, Shown};
 use super::tiles;
 use super::window::{App, end_step, fresh_undoer};
 use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
@@ -15,7 +15,7 @@ use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
-use crate::texts::shell;
+use crate::texts::{Language, language, shell};
 use std::sync::Arc;
 
 /// After so many failures built-in products are no longer computed before they are asked for.
@@ -38,13 +38,17 @@ impl App {
     }
 
     /// Computes data of built-in products that nobody has asked for yet, while nothing else is computed: those of the chosen
-    /// product first, then those of the list as it is, then the rest. Stopped, it goes on when the catalogue is opened next.
+    /// product, then those that stand for the products of the list as it is, then for the rest. Stopped, it goes on when
+    /// another product is chosen.
     pub(super) fn fill_catalogue(&mut self) {
         if !self.fill_due || !self.jobs.views().is_empty() {
             return;
         }
         let Some(shelf) = self.state.shelf() else { return };
         self.fill_due = false;
+        if self.fill_failures >= FILL_FAILURES {
+            return;
+        }
         let chosen = std::iter::once(self.state.document.selection.product.clone());
         let order: Vec<String> = chosen.chain(self.state.found.entries.iter().map(|entry| entry.key.clone())).collect();
         self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, &order, progress)));
@@ -177,7 +181,7 @@ impl App {
                 self.toasts.warning(shell::builtin_failed(error));
                 // What failed is left out from now on; a catalogue that cannot be written to fails for good.
                 self.fill_failures += 1;
-                self.fill_due = self.fill_failures < FILL_FAILURES;
+                self.fill_due = true;
             }
             Outcome::Opened(Err(error)) => self.state.catalogue = CatalogueState::Failed(error.to_string()),
             Outcome::Found(Ok(found)) => {
@@ -419,16 +423,25 @@ impl App {
         });
     }
 
-    /// Asks for everything that the document's change since the last call affects.
+    /// In which language the document as it is was asked for; `None` if another one was, or nothing.
+    pub(super) fn asked_last(&self) -> Option<Language> {
+        let (asked, language) = self.asked.as_ref()?;
+        asked.asks_the_same(&self.state.document).then_some(*language)
+    }
+
+    /// Asks for everything that the document's change since the last call affects; results in another language say it
+    /// anew.
     pub fn refresh(&mut self) {
         let document = &self.state.document;
-        if self.state.shelf().is_none()
-            || document.selection.product.is_empty()
-            || self.asked.as_ref().is_some_and(|asked| asked.asks_the_same(document))
-        {
+        let asked = self.asked_last();
+        if self.state.shelf().is_none() || document.selection.product.is_empty() || asked == Some(language()) {
             return;
         }
-        self.asked = Some(document.clone());
+        let chosen = |document: &Document| document.selection.product.clone();
+        self.fill_due |= self.asked.as_ref().map(|(asked, _)| chosen(asked)) != Some(chosen(document));
+        // What was measured holds in every language.
+        self.results.accuracy.stale |= asked.is_none();
+        self.asked = Some((document.clone(), language()));
         self.note_shown();
         // What is in sight has the computer to itself.
         self.fill_due |= self.jobs.cancel(Lane::Builtin);
@@ -437,8 +450,6 @@ impl App {
         self.state.daylight.stale = true;
         self.results.lid.stale = true;
         self.results.room.stale = true;
-        // What was measured holds in every language.
-        self.results.accuracy.stale |= !std::mem::take(&mut self.respoken);
         self.results.surfaces.stale = true;
         self.ask_scene();
         self.owe_results();

@@ -197,6 +197,16 @@ mod tests {
     }
 
     #[test]
+    fn what_was_found_of_other_words_has_to_fit_by_itself() {
+        let mut state = State::new(Settings::default());
+        state.palette_hits =
+            vec![Hit { key: "k".to_owned(), name: "Blind 80".to_owned(), about: "Maker, blind".to_owned() }];
+        state.palette_hits_of = "xyz".to_owned();
+        let listed = |words: &str| rows(&state, words).iter().any(|row| row.text.contains("Blind 80"));
+        assert!(listed("xyz") && listed("blind") && !listed("xyzz"));
+    }
+
+    #[test]
     fn words_are_those_of_the_language() {
         let _german = speak(Language::German);
         assert_eq!(texts("rückgängig", &[])[0], "Rückgängig");

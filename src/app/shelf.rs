@@ -110,8 +110,9 @@ pub trait Shelf: Send + Sync {
     fn provide(&self, _product: &str, _state: Option<&str>, _progress: &dyn Progress) -> Result<(), AppError> {
         Ok(())
     }
-    /// Computes and keeps one state that nobody has asked for yet, of the first of these products that has one, else of any;
-    /// how many are left, and how many there are in all.
+    /// Computes and keeps one state that nobody has asked for yet: any of the first of these products, else one that may
+    /// stand for its product, of the next of these that has one, else of any. How many such states are left, and how many
+    /// there are with all that were computed before. The others are for who asks for them.
     fn fill_one(&self, _order: &[String], _progress: &dyn Progress) -> Result<[usize; 2], AppError> {
         Ok([0; 2])
     }

@@ -65,11 +65,10 @@ pub struct App {
     /// Additions that are being stored.
     pub(super) adding: BTreeSet<usize>,
     pub(super) undoer: Undoer<Document>,
-    /// Is all asked again for the language alone?
-    pub(super) respoken: bool,
     /// Did something have the keyboard when the last frame ended?
     pub(super) in_field: bool,
-    pub(super) asked: Option<Document>,
+    /// What was asked for last, and in which language.
+    pub(super) asked: Option<(Document, Language)>,
     pub(super) asked_year: Option<YearKey>,
     pub(super) asked_form: Option<FormKey>,
     pub(super) asked_schemes: Option<SchemesKey>,
@@ -155,7 +154,6 @@ impl App {
         Self {
             undoer: fresh_undoer(&state.document),
             in_field: false,
-            respoken: false,
             state,
             results: Results::default(),
             services,

@@ -62,6 +62,13 @@ impl Product {
         let numbers = |state: &super::State| Numbers { value: state.value, tau_hemispherical: state.tau_hemispherical };
         representative(&self.states.iter().map(numbers).collect::<Vec<_>>(), &self.control_curve, &self.system)
     }
+
+    /// May a state turn out to stand for it? Where a rule decides, one does, whatever the data are.
+    pub fn may_represent(&self, state: &str) -> bool {
+        let values: Option<Vec<f64>> = self.states.iter().map(|one| one.value.filter(|v| v.is_finite())).collect();
+        by_rule(values.as_deref(), &self.control_curve, &self.system)
+            .is_none_or(|(_, place)| self.states[place].key == state)
+    }
 }
 
 fn by_rule(values: Option<&[f64]>, curve: &[CurvePoint], system: &str) -> Option<(FirstRule, usize)> {

@@ -84,29 +84,68 @@ pub fn sample(lid: &Lid, planes: &[LidPlane]) -> Curves {
     sample_at(lid, planes, SAMPLES)
 }
 
-/// The same with another number of samples. Luminances on fine cells are means over them, constant inside; times the
-/// cosine they would be drawn as the teeth of a saw. A mean over the width of a cell is what they tell.
+/// The same with another number of samples.
 pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
-    let aim = Aim::of(lid.surface);
-    let (fine, rest): (Vec<_>, Vec<_>) = lid.parts.iter().cloned().partition(|part| cell_width(part) <= FINE);
-    let width = fine.iter().map(cell_width).fold(0.0, f64::max);
-    let part = |parts| Lid { parts, beams: Vec::new(), ..lid.clone() };
-    let (fine, rest) = (part(fine), part(rest));
-    let half = (0.5 * width / TAU * count as f64).round() as usize;
-    let cut = |section: LidPlane| -> Vec<f64> {
-        let of = |lid: &Lid, ahead: f64| -> Vec<f64> {
-            let angle = |k: usize| TAU * (k as f64 + ahead) / count as f64;
-            (0..count).map(|k| intensity(lid, section.direction(aim, angle(k)))).collect()
-        };
-        // Between the samples: edges of cells lie on even angles.
-        let smooth = if half == 0 { of(&fine, 0.0) } else { moving_mean(&of(&fine, 0.5), half) };
-        smooth.into_iter().zip(of(&rest, 0.0)).map(|(a, b)| a + b).collect()
-    };
-    let vertical: Vec<_> = planes.iter().map(|plane| (*plane, cut(*plane))).collect();
-    let horizontal = cut(LidPlane::Horizontal);
+    let cuts = Cuts::of(lid, count);
+    let vertical: Vec<_> = planes.iter().map(|plane| (*plane, cuts.along(*plane, 1))).collect();
+    let horizontal = cuts.along(LidPlane::Horizontal, 1);
     let all = vertical.iter().flat_map(|(_, values)| values).chain(&horizontal).copied();
     let max = all.filter(|v| v.is_finite()).fold(0.0, f64::max);
     Curves { vertical, horizontal, max }
+}
+
+/// Intensities as the curves show them, every `step` degrees (a divisor of 180): a list over γ from 0° to 180° for each C
+/// from 0° on. \[cd\]
+pub fn table(lid: &Lid, step: u16) -> Vec<Vec<f64>> {
+    let turn = usize::from(360 / step);
+    // Whole multiples of the samples of a curve, about as many.
+    let every = SAMPLES.div_ceil(turn);
+    let cuts = Cuts::of(lid, turn * every);
+    let planes = (0..180).step_by(usize::from(step));
+    let cut: Vec<Vec<f64>> = planes.map(|c| cuts.along(LidPlane::Vertical(c), every)).collect();
+    let here = cut.iter().map(|all| all[..=turn / 2].to_vec());
+    let opposite = cut.iter().map(|all| (0..=turn / 2).map(|k| all[(turn - k) % turn]).collect());
+    here.chain(opposite).collect()
+}
+
+/// A distribution that is cut. Luminances on fine cells are means over them, constant inside; times the cosine they would
+/// be drawn as the teeth of a saw. A mean over the width of a cell is what they tell.
+struct Cuts {
+    /// What is on fine cells.
+    fine: Lid,
+    rest: Lid,
+    /// Samples of a turn.
+    count: usize,
+    /// Of them in half a cell.
+    half: usize,
+}
+
+impl Cuts {
+    fn of(lid: &Lid, count: usize) -> Self {
+        let (fine, rest): (Vec<_>, Vec<_>) = lid.parts.iter().cloned().partition(|part| cell_width(part) <= FINE);
+        let width = fine.iter().map(cell_width).fold(0.0, f64::max);
+        let part = |parts| Lid { parts, beams: Vec::new(), ..lid.clone() };
+        let half = (0.5 * width / TAU * count as f64).round() as usize;
+        Self { fine: part(fine), rest: part(rest), count, half }
+    }
+
+    /// Every `every`-th sample of a cut.
+    fn along(&self, section: LidPlane, every: usize) -> Vec<f64> {
+        let aim = Aim::of(self.fine.surface);
+        let of = |lid: &Lid, ahead: f64, every: usize| -> Vec<f64> {
+            if lid.parts.is_empty() {
+                return vec![0.0; self.count.div_ceil(every)];
+            }
+            let angle = |k: usize| TAU * (k as f64 + ahead) / self.count as f64;
+            (0..self.count).step_by(every).map(|k| intensity(lid, section.direction(aim, angle(k)))).collect()
+        };
+        // Between the samples: edges of cells lie on even angles.
+        let smooth = match self.half {
+            0 => of(&self.fine, 0.0, every),
+            half => moving_mean(&of(&self.fine, 0.5, 1), half, every),
+        };
+        smooth.into_iter().zip(of(&self.rest, 0.0, every)).map(|(a, b)| a + b).collect()
+    }
 }
 
 /// Wider cells are drawn as the steps that they are: the data know no better. \[rad\]
@@ -118,11 +157,11 @@ fn cell_width(part: &EmergentLuminance) -> f64 {
     basis.cells().map(|cell| cell.theta_max - cell.theta_min).fold(f64::INFINITY, f64::min)
 }
 
-/// Means over so many samples before and after each place; samples lie half a step after the places.
-fn moving_mean(values: &[f64], half: usize) -> Vec<f64> {
+/// Means over `half` samples before and after every `every`-th place; samples lie half a step after the places.
+fn moving_mean(values: &[f64], half: usize, every: usize) -> Vec<f64> {
     let n = values.len();
     let around = |k: usize| (0..2 * half).map(move |j| (k + n * half + j - half) % n);
-    (0..n).map(|k| around(k).map(|at| values[at]).sum::<f64>() / (2 * half) as f64).collect()
+    (0..n).step_by(every).map(|k| around(k).map(|at| values[at]).sum::<f64>() / (2 * half) as f64).collect()
 }
 
 /// Intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. \[cd\]
@@ -164,6 +203,25 @@ mod tests {
             assert!((value - 0.5 * (2.0 * gamma).sin()).abs() < 2e-3, "{k}: {value}");
         }
         assert!(drawn[10..85].is_sorted(), "no teeth");
+    }
+
+    #[test]
+    fn tables_hold_what_the_curves_show() {
+        let lid = on_rings(3.0, f64::sin);
+        for step in [3, 5] {
+            let table = table(&lid, step);
+            assert_eq!((table.len(), table[0].len()), (360 / usize::from(step), 180 / usize::from(step) + 1));
+            for c in [0, 30, 45, 90] {
+                let drawn = &sample(&lid, &[LidPlane::Vertical(c)]).vertical[0].1;
+                let list = &table[usize::from(c / step)];
+                let opposite = &table[usize::from((c + 180) / step)];
+                for k in 0..list.len() {
+                    let at = 2 * k * usize::from(step);
+                    assert!((list[k] - drawn[at]).abs() < 1e-12, "C {c}° {at}");
+                    assert!((opposite[k] - drawn[(SAMPLES - at) % SAMPLES]).abs() < 1e-12, "C {c}° + 180° {at}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -258,4 +258,12 @@ mod tests {
         assert_eq!(filtered(&lambert, d, DiffuseScheme::Auto, none), Err(NoForm::NoValues));
         assert_eq!(compressed(&lambert, d), Err(NoForm::NoValues));
     }
+
+    #[test]
+    fn a_tree_is_told_to_be_one() {
+        use crate::compute::btdf::{TensorTree, TreeAxes, TreeNode, TreeRank};
+        let tree = TensorTree::new(TreeRank::Three, TreeAxes::Front, vec![TreeNode::Leaf(0.1)]).unwrap();
+        let btdf = Btdf { regular: None, scattered: Some(Scattered::Tree(Box::new(tree))) };
+        assert_eq!(compressed(&btdf, Incident(Dir::from_theta_phi(0.5, 0.0))).unwrap_err(), NoForm::Tree);
+    }
 }

@@ -166,3 +166,22 @@ fn a_subscribed_folder_is_listed_read_only_and_read_again_when_it_changes() {
     assert!(rows(&catalogue).is_empty());
     assert!(matches!(catalogue.unsubscribe(&place), Err(CatalogueError::NotSubscribed(_))));
 }
+
+#[test]
+fn what_was_put_to_a_product_of_an_ended_subscription_is_not_inherited() {
+    let folder = tempfile::tempdir().unwrap();
+    package(folder.path(), "one.cfsp", "Shared one", 0.3);
+    let place = folder_of(folder.path()).unwrap();
+    let mut catalogue = Catalogue::empty_in_memory().unwrap();
+    catalogue.subscribe(&place).unwrap();
+    sync(&mut catalogue, &Silent).unwrap();
+    let key = "shared-one".to_owned();
+    catalogue.set_favourite(&key, true).unwrap();
+    catalogue.collect("Atrium", std::slice::from_ref(&key), true).unwrap();
+    catalogue.unsubscribe(&place).unwrap();
+    let mut own = state("", 0.4);
+    own.name = "Shared one".to_owned();
+    assert_eq!(catalogue.import(&[own], NewProduct::default()).unwrap().key, key);
+    assert!(!catalogue.search(&Query::default()).unwrap()[0].favourite);
+    assert!(catalogue.collections().unwrap().iter().all(|one| one.products.is_empty()));
+}

@@ -7,6 +7,7 @@ use cfs::app::command::Command;
 use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::error::AppError;
 use cfs::app::jobs::Lane;
+use cfs::app::language::LanguageChoice;
 use cfs::app::state::Sheet;
 use cfs::app::views::accuracy as view;
 use cfs::compute::estimate::{Cancelled, Progress};
@@ -125,6 +126,12 @@ fn a_key_opens_the_sheet_and_a_button_measures() {
     let picture = harness.get_by_label("Error against run time");
     assert!(picture.value().unwrap().contains("keeps to its stated error at"));
     assert!(harness.query_by_label("of an earlier scene").is_none());
+    // It holds in any language.
+    for language in [LanguageChoice::German, LanguageChoice::English] {
+        harness.state_mut().apply(Command::Language(language));
+        wait(&mut harness, |app| !app.busy());
+        assert!(!harness.state().results.accuracy.stale);
+    }
     // Another scene: the picture stays, and says whose it is.
     harness.state_mut().apply(Command::Hour(1));
     wait(&mut harness, |app| !app.busy());

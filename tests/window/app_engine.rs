@@ -84,10 +84,17 @@ fn the_first_data_filled_in_are_those_of_the_chosen_product_then_of_the_list() {
     assert_eq!((waiting("opal-light"), waiting("clear-double"), left), (0, 1, all - 3));
     shelf.fill_one(&order, &Silent).unwrap();
     assert_eq!(waiting("clear-double"), 0);
-    // Nothing of the order left: the others in the catalogue's own.
+    // Nothing of the order left: the others in the catalogue's own, of each the state that stands for it.
     let before = waiting("venetian-80-72");
-    shelf.fill_one(&order, &Silent).unwrap();
+    let [left, _] = shelf.fill_one(&order, &Silent).unwrap();
     assert_eq!(waiting("venetian-80-72"), before - 1);
+    assert!(shelf.is_ready("venetian-80-72", None).unwrap());
+    let [less, _] = shelf.fill_one(&order, &Silent).unwrap();
+    assert_eq!((waiting("venetian-80-72"), less), (before - 1, left - 1));
+    // All of them for who has chosen it.
+    let order = ["venetian-80-72".to_owned()];
+    let [left, _] = shelf.fill_one(&order, &Silent).unwrap();
+    assert_eq!((waiting("venetian-80-72"), left), (before - 2, less + before - 2));
 }
 
 #[test]

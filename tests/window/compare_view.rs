@@ -323,7 +323,7 @@ fn one_legend_stands_for_all_and_its_kind_is_chosen_for_all() {
         let columns = &mut harness.state_mut().compare.list;
         columns.iter_mut().map(|column| *column.bench.log(tile(title)).unwrap()).collect()
     };
-    for (title, log) in [("Room", true), ("BTDF", false)] {
+    for (title, log) in [("Room", true), ("BTDF", false), ("Sky", false)] {
         act(&mut harness, Act::Tile(title));
         harness.run_steps(2);
         assert_eq!(harness.query_all_by_label("Scale of all tiles").count(), 1, "{title}");

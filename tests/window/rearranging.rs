@@ -69,6 +69,33 @@ fn two_steps_without_waiting_are_both_done() {
 }
 
 #[test]
+fn nothing_is_stored_that_is_still_being_arranged() {
+    let (_folder, mut h) = blinds();
+    let stored = h.state().state.found.total;
+    for command in apart(0) {
+        h.state_mut().apply(command);
+    }
+    h.state_mut().apply(Command::AddImport);
+    settle(&mut h);
+    assert_eq!(import(&h).products.len(), 4);
+    assert_eq!(h.state().state.found.total, stored);
+}
+
+#[test]
+fn files_under_way_still_come_when_an_arrangement_is_undone() {
+    let (folder, mut h) = blinds();
+    apart(0).into_iter().for_each(|command| apply(&mut h, command));
+    let more = folder.path().join("more.xml");
+    std::fs::write(&more, sheet("more", 0.3)).unwrap();
+    h.state_mut().apply(Command::OpenPaths(vec![more]));
+    assert!(h.state().works_in(Lane::Import));
+    h.state_mut().apply(Command::Undo);
+    settle(&mut h);
+    let sources: Vec<String> = products(&h).concat();
+    assert!(sources.iter().any(|source| source.ends_with("more.xml")), "{sources:?}");
+}
+
+#[test]
 fn words_that_are_typed_while_files_are_arranged_stay() {
     let (_folder, mut h) = blinds();
     for command in apart(0) {

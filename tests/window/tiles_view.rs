@@ -7,6 +7,7 @@ use cfs::app::arrange::{Arrange, Preset};
 use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
 use cfs::app::data_looks::NoSchemes;
+use cfs::app::jobs::Lane;
 use cfs::app::language::LanguageChoice;
 use cfs::app::shelf::Addition;
 use cfs::app::state::{Settings, Tile};
@@ -83,6 +84,31 @@ fn the_btdf_tile_shows_data_filtered_and_compressed_and_tells_how_far_they_are_o
     assert!(harness.query_all_by_label_contains("No values to filter or compress").next().is_some());
     apply(&mut harness, Command::DataForm(DataForm::Measured));
     assert!(harness.query_all_by_label_contains("No values to filter or compress").next().is_none());
+}
+
+#[test]
+fn what_was_stopped_says_so_and_is_asked_for_again() {
+    let mut harness = window("BTDF");
+    harness.state_mut().apply(Command::DataForm(DataForm::Filtered));
+    harness.state_mut().apply(Command::Cancel(Lane::DataForm));
+    harness.state_mut().apply(Command::SchemeMap);
+    harness.state_mut().apply(Command::Cancel(Lane::Schemes));
+    // Before the first frame nothing has begun: they are asked for all the same.
+    settle(&mut harness);
+    assert!(harness.state().results.form.value.is_some() && harness.state().results.schemes.value.is_some());
+    let before = harness.state().results.form.value.clone().unwrap();
+    // Stopped while it is made.
+    harness.state_mut().apply(Command::Incidence(Some(Incident(Dir::from_theta_phi(0.7, 0.2)))));
+    while !harness.state().works_in(Lane::DataForm) {
+        harness.step();
+    }
+    harness.state_mut().apply(Command::Cancel(Lane::DataForm));
+    settle(&mut harness);
+    let form = &harness.state().results.form;
+    assert!(form.error.is_some() && Arc::ptr_eq(&before, form.value.as_ref().unwrap()));
+    apply(&mut harness, Command::DataForm(DataForm::Filtered));
+    let form = &harness.state().results.form;
+    assert!(form.error.is_none() && !Arc::ptr_eq(&before, form.value.as_ref().unwrap()));
 }
 
 #[test]

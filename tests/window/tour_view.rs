@@ -74,6 +74,21 @@ fn escape_leaves_it_and_it_goes_on_where_it_was_left() {
 }
 
 #[test]
+fn escape_in_a_field_leaves_the_field_and_not_the_tour() {
+    let mut harness = window();
+    apply(&mut harness, Command::Tour(TourAct::Start));
+    apply(&mut harness, Command::Search);
+    assert!(harness.ctx.memory(|memory| memory.focused().is_some()));
+    harness.key_press(Key::Escape);
+    settle(&mut harness);
+    assert_eq!(stop(&harness), Some(Stop::Product));
+    assert!(harness.ctx.memory(|memory| memory.focused().is_none()));
+    harness.key_press(Key::Escape);
+    settle(&mut harness);
+    assert_eq!(stop(&harness), None);
+}
+
+#[test]
 fn it_is_offered_at_the_first_start_alone_and_may_be_declined() {
     let folder = tempfile::tempdir().unwrap();
     let begin = || {

@@ -1,7 +1,7 @@
 //! Every command that menus, palette and keys offer: what it changes in the study or the catalogue is taken back by
 //! Ctrl+Z, to the same study and the same catalogue.
 
-use crate::driven::{Idle, frames, settle};
+use crate::driven::{Idle, apply, frames, settle};
 use cfs::app::backend::memory_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
@@ -114,4 +114,23 @@ fn steps_that_follow_on_each_other_at_once_are_taken_back_one_by_one() {
         settle(&mut harness);
         assert_eq!(kept(&harness).document, *before);
     }
+}
+
+#[test]
+fn nothing_is_redone_after_a_new_step() {
+    let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
+    settle(&mut harness);
+    let star = |harness: &Harness<'_, App>| {
+        let entry = harness.state().state.found.entries.first().unwrap().clone();
+        Command::Favourite(entry.key.clone(), !entry.favourite)
+    };
+    let command = star(&harness);
+    apply(&mut harness, command);
+    assert!(kept(&harness).products[0].2);
+    apply(&mut harness, Command::Undo);
+    apply(&mut harness, Command::Hour(2));
+    let now = kept(&harness);
+    assert!(!now.products[0].2);
+    apply(&mut harness, Command::Redo);
+    assert_eq!(kept(&harness), now);
 }

@@ -10,7 +10,7 @@ use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::direction::Surface;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
-use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, intensity, sample_at, vertical_planes};
+use crate::drawing::lid_curves::{Curves, LidPlane, SAMPLES, diffuser, sample_at, table, vertical_planes};
 use crate::drawing::ticks::{number, si};
 use crate::texts::tiles as say;
 use egui::{Color32, FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
@@ -301,16 +301,14 @@ fn legend_ui(
     }
 }
 
-/// Intensities every 5° of C and γ. \[cd\]
+/// Intensities every 5° of C and γ, as the curves show them. \[cd\]
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("c_deg,gamma_deg,intensity_cd\n");
     let Some(lid) = input.lid else { return out };
-    let aim = Aim::of(lid.surface);
-    for c in (0..360).step_by(5) {
-        for gamma in (0..=180).step_by(5) {
-            let d = aim.direction(f64::from(c).to_radians(), f64::from(gamma).to_radians());
-            let _ = writeln!(out, "{c},{gamma},{:.6}", intensity(lid, d));
+    for (c, list) in table(lid, 5).into_iter().enumerate() {
+        for (gamma, value) in list.into_iter().enumerate() {
+            let _ = writeln!(out, "{},{},{value:.6}", 5 * c, 5 * gamma);
         }
     }
     out

@@ -152,7 +152,8 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     ui.horizontal(|ui| {
         let (shown, total) = (found.entries.len(), found.total);
         // Large numbers have no room beside the order.
-        let count = if total < 1000 { text::count_of(shown, total) } else { number(shown as f64, 7) };
+        let count =
+            if total < 1000 { text::count_of(shown, total) } else { number(shown as f64, shown.to_string().len()) };
         ui.weak(count).on_hover_text(text::products_fit(shown, total));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let (arrow, name) = if query.descending { ("↓", text::FALLING) } else { ("↑", text::RISING) };

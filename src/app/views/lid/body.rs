@@ -9,14 +9,16 @@ use crate::app::views::Cache;
 use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Peaks};
-use crate::drawing::lid_curves::intensity;
+use crate::drawing::lid_curves::table;
 use crate::texts::tiles as say;
 use egui::{Rect, Sense, Shape, Stroke, Ui};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Steps of γ and of C: 3 degrees.
-const STEPS: [usize; 2] = [60, 120];
+/// Step of γ and of C. \[°\]
+const STEP: u16 = 3;
+/// Steps of γ and of C.
+const STEPS: [usize; 2] = [180 / STEP as usize, 360 / STEP as usize];
 /// From the side, a little from above.
 const FIRST: Camera = Camera::from(-0.45, 0.3);
 /// A node so near to the cursor is meant. \[points\]
@@ -26,12 +28,12 @@ const REACH: f32 = 14.0;
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
-    body: Cache<u64, (Body, f64)>,
+    solid: Cache<u64, Solid>,
 }
 
 impl Default for State {
     fn default() -> Self {
-        Self { camera: FIRST, body: Cache::default() }
+        Self { camera: FIRST, solid: Cache::default() }
     }
 }
 
@@ -57,21 +59,30 @@ fn into_room(surface: Surface, to: Emergent) -> DVec3 {
     surface.room_from_facade(to.0.vector())
 }
 
-/// Intensities over the largest of them, and that. \[cd\]
-fn make(lid: &Lid) -> (Body, f64) {
-    let aim = Aim::of(lid.surface);
-    let to = |node: usize| {
-        let (c, gamma) = angles(node);
-        aim.direction(c, gamma)
-    };
-    let all: Vec<f64> = (0..(STEPS[0] + 1) * STEPS[1]).map(|node| intensity(lid, to(node))).collect();
-    let largest = all.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
-    let body = Body::new(STEPS[0], STEPS[1], |row, column| {
-        let node = row * STEPS[1] + column;
-        let share = if largest > 0.0 { all[node] / largest } else { 0.0 };
-        (share * into_room(lid.surface, to(node)), ColourMap::Sequential.at(share as f32))
-    });
-    (body, largest)
+/// Intensities over the largest of them.
+#[derive(Debug, Clone)]
+struct Solid {
+    body: Body,
+    /// Of every node. \[cd\]
+    values: Vec<f64>,
+    /// \[cd\]
+    largest: f64,
+}
+
+impl Solid {
+    fn of(lid: &Lid) -> Self {
+        let aim = Aim::of(lid.surface);
+        let table = table(lid, STEP);
+        let values: Vec<f64> = (0..=STEPS[0]).flat_map(|gamma| table.iter().map(move |list| list[gamma])).collect();
+        let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let body = Body::new(STEPS[0], STEPS[1], |row, column| {
+            let node = row * STEPS[1] + column;
+            let (c, gamma) = angles(node);
+            let share = if largest > 0.0 { values[node] / largest } else { 0.0 };
+            (share * into_room(lid.surface, aim.direction(c, gamma)), ColourMap::Sequential.at(share as f32))
+        });
+        Self { body, values, largest }
+    }
 }
 
 /// Draws it; words on what is under the cursor.
@@ -87,7 +98,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
     let lid = input.lid;
     let view = state.camera.view(DVec3::ZERO, 1.15, rect);
     let painter = ui.painter_at(rect);
-    let (body, largest) = state.body.get(input.revision, || make(lid));
+    let Solid { body, values, largest } = state.solid.get(input.revision, || Solid::of(lid));
     let ray = |to: DVec3, stroke: Stroke, word: &str, colour| {
         if let (Some((from, _)), Some((end, _))) = (view.screen(DVec3::ZERO), view.screen(to)) {
             painter.line_segment([from, end], stroke);
@@ -129,7 +140,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
     painter.circle(place, 3.5, palette.ink, Stroke::new(1.5, palette.face));
     let (c, gamma) = angles(node);
     let to = aim.direction(c, gamma);
-    let value = input.scaling.text(intensity(lid, to));
+    let value = input.scaling.text(values[node]);
     Some(Foot::from([format!("{} · {value}", towards(lid.surface, to)), value]))
 }
 
@@ -143,7 +154,7 @@ mod tests {
         for surface in [Surface::Facade, Surface::Roof] {
             let parts = vec![EmergentLuminance::Uniform(1000.0)];
             let lid = Lid { surface, size: [2.0, 1.5], parts, beams: Vec::new() };
-            let (body, largest) = make(&lid);
+            let Solid { body, largest, .. } = Solid::of(&lid);
             assert!((largest - 3000.0).abs() < 1e-6, "{largest}");
             let inward = if surface == Surface::Facade { DVec3::Y } else { -DVec3::Z };
             for node in 0..(STEPS[0] + 1) * STEPS[1] {

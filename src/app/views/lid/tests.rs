@@ -3,6 +3,7 @@
 use super::*;
 use crate::compute::lid::EmergentLuminance;
 use crate::compute::lid::c_gamma::{Peak, Step};
+use crate::drawing::lid_curves::intensity;
 use std::f64::consts::FRAC_PI_2;
 
 fn lambert(surface: Surface) -> Lid {

@@ -95,7 +95,6 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         return Err(Cancelled);
     }
 
-    let mut measured = Measured::dark(setting);
     let scattered = |side: Side| {
         let (from, own) = (&from[index(side)], &transport.landed[index(side)]);
         let other = &transport.landed[1 - index(side)];
@@ -115,7 +114,7 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         OneSide { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
     };
     let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
-    (measured.front, measured.back) = (front, back);
+    let mut measured = Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back };
     progress.advance(STAGE, 3, 4);
     add_direct(array, setting, &mut measured);
     if transport.thrown.iter().flatten().any(|thrown| !(thrown.through.is_empty() && thrown.back.is_empty())) {

@@ -7,7 +7,7 @@
 
 use super::halves::{Flux, Halves};
 use super::single::Singles;
-use crate::compute::basis::{AzimuthMap, RingBasis, same_cells};
+use crate::compute::basis::{AzimuthMap, Resampling, RingBasis, same_cells};
 use crate::compute::btdf::{CellMatrix, resample_matrix};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -40,23 +40,26 @@ impl Specimen for Stack {
         let mut mirror = None;
         for parts in 1..=MOST_PARTS {
             let cells = if parts == 1 { base.clone() } else { base.refined(parts) };
-            let whole = if parts == 1 {
+            let mut whole = None;
+            if parts == 1 {
                 let layers = self.on_cells(&cells, setting, progress).collect::<Result<Vec<_>, _>>()?;
                 mirror = MIRRORS.into_iter().find(|mirror| {
                     mirror_images(&cells, mirror)
                         .is_some_and(|map| layers.iter().all(|layer| Halves::fits(&map, layer)))
                 });
-                sum(&cells, mirror, layers.into_iter().map(Ok))?
-            } else {
-                sum(&cells, mirror, self.on_cells(&cells, setting, progress))?
-            };
-            let whole = match whole {
+                whole = sum(&cells, mirror, layers.into_iter().map(Ok), setting)?;
+            } else if mirror.is_some() {
+                whole = sum(&cells, mirror, self.on_cells(&cells, setting, progress), setting)?;
+            }
+            let mut made = match whole {
                 Some(whole) => whole,
                 None => {
-                    sum(&cells, None, self.on_cells(&cells, setting, progress))?.expect("nothing is asked of layers")
+                    // Finer cells have shown that the two sides of the mirror are not alike.
+                    mirror = None;
+                    sum(&cells, None, self.on_cells(&cells, setting, progress), setting)?
+                        .expect("a stack has layers, and without a mirror they are not asked to look alike in it")
                 }
             };
-            let mut made = averaged(&whole, setting);
             let Some(last) = &before else {
                 before = Some(made);
                 continue;
@@ -136,12 +139,13 @@ type Mirror = fn(f64) -> f64;
 /// Left and right alike, as nearly all systems are, or up and down.
 const MIRRORS: [Mirror; 2] = [|phi| PI - phi, |phi| -phi];
 
-/// What layers are together; `None` where one of them does not look the same in the mirror. A layer's whole matrices
-/// are let go before the next one is measured: on fine cells they are what memory is needed for.
+/// What layers are together, as means over the cells of the setting; `None` where one of them does not look the same in
+/// the mirror. On fine cells whole matrices are what memory is needed for: each is let go as soon as it has been used.
 fn sum(
     cells: &RingBasis,
     mirror: Option<Mirror>,
     layers: impl Iterator<Item = Result<Measured, Cancelled>>,
+    setting: &Setting<'_>,
 ) -> Result<Option<Measured>, Cancelled> {
     let map = mirror.and_then(|mirror| mirror_images(cells, mirror));
     let halves = map.as_ref().map_or_else(|| Halves::none(cells.len()), |map| Halves::new(map));
@@ -152,14 +156,13 @@ fn sum(
         if map.as_ref().is_some_and(|map| !Halves::fits(map, &measured)) {
             return Ok(None);
         }
-        let next = Layered::new(&measured, &turn, &halves);
-        drop(measured);
+        let next = Layered::new(measured, &turn, &halves);
         sum = Some(match sum {
             None => next,
             Some(outer) => outer.before(next),
         });
     }
-    Ok(sum.map(|sum| sum.measured(cells, &turn, &halves)))
+    Ok(sum.map(|sum| sum.measured(cells, &turn, &halves, setting)))
 }
 
 /// The cell that each cell becomes when turned by 180° about the normal; `None` where that is no cell.
@@ -177,17 +180,16 @@ struct Layered {
 }
 
 impl Layered {
-    fn new(measured: &Measured, turn: &[usize], halves: &Halves) -> Self {
+    fn new(Measured { emergent, front: f, back: b, .. }: Measured, turn: &[usize], halves: &Halves) -> Self {
         let n = turn.len();
-        let weight = measured.emergent.projected_solid_angles();
-        let front = |q: &[f64]| halves.matrix(|o, i| q[i * n + o] * weight[o]);
-        let back = |q: &[f64]| halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]);
+        let weight = emergent.projected_solid_angles();
+        let front = |q: Vec<f64>| halves.matrix(|o, i| q[i * n + o] * weight[o]);
+        let back = |q: Vec<f64>| halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]);
         let own = |list: &[f64]| halves.list(|k| list[k]);
         let named = |list: &[f64]| halves.list(|k| list[turn[k]]);
-        let (f, b) = (&measured.front, &measured.back);
         Self {
-            t: [front(&f.transmitted), back(&b.transmitted)],
-            r: [front(&f.reflected), back(&b.reflected)],
+            t: [front(f.transmitted), back(b.transmitted)],
+            r: [front(f.reflected), back(b.reflected)],
             absorbed: [own(&f.absorbed), named(&b.absorbed)],
             error: [own(&f.error), named(&b.error)],
         }
@@ -227,20 +229,27 @@ impl Layered {
         }
     }
 
-    fn measured(&self, cells: &RingBasis, turn: &[usize], halves: &Halves) -> Measured {
+    /// As means over the cells of the setting.
+    fn measured(&self, cells: &RingBasis, turn: &[usize], halves: &Halves, setting: &Setting<'_>) -> Measured {
         let n = turn.len();
         let weight = cells.projected_solid_angles();
-        let at = |m: &Flux, o: usize, i: usize| halves.entry(m, o, i).max(0.0);
-        let front = |m: &Flux| (0..n * n).map(|k| at(m, k % n, k / n) / weight[k % n]).collect();
-        let back = |m: &Flux| (0..n * n).map(|k| at(m, turn[k % n], turn[k / n]) / weight[k % n]).collect();
-        let own = |list: &[f64]| halves.unfolded(list);
+        let mean = Resampling::new(cells, setting.incident);
+        let averaged = |at: &dyn Fn(usize, usize) -> f64| {
+            let q = (0..n * n).map(|k| at(k % n, k / n).max(0.0) / weight[k % n]).collect();
+            let matrix =
+                CellMatrix::new(cells.clone(), cells.clone(), q).expect("as many values as pairs of these cells");
+            resample_matrix(&matrix, setting.incident, setting.emergent).values().into_owned()
+        };
+        let front = |m: &Flux| averaged(&|o, i| halves.entry(m, o, i));
+        let back = |m: &Flux| averaged(&|o, i| halves.entry(m, turn[o], turn[i]));
+        let own = |list: &[f64]| mean.apply(&halves.unfolded(list));
         let named = |list: &[f64]| {
-            let list = own(list);
-            turn.iter().map(|&k| list[k]).collect()
+            let list = halves.unfolded(list);
+            mean.apply(&turn.iter().map(|&k| list[k]).collect::<Vec<_>>())
         };
         Measured {
-            incident: cells.clone(),
-            emergent: cells.clone(),
+            incident: setting.incident.clone(),
+            emergent: setting.emergent.clone(),
             front: OneSide {
                 transmitted: front(&self.t[0]),
                 reflected: front(&self.r[0]),
@@ -254,28 +263,6 @@ impl Layered {
                 error: named(&self.error[1]),
             },
         }
-    }
-}
-
-/// Means over the cells of the setting.
-fn averaged(fine: &Measured, setting: &Setting<'_>) -> Measured {
-    let on = |q: &[f64]| {
-        let matrix = CellMatrix::new(fine.incident.clone(), fine.emergent.clone(), q.to_vec())
-            .expect("values are counted by these cells");
-        resample_matrix(&matrix, setting.incident, setting.emergent).values().into_owned()
-    };
-    let mean = |list: &[f64]| crate::compute::basis::Resampling::new(&fine.incident, setting.incident).apply(list);
-    let seen = |seen: &OneSide| OneSide {
-        transmitted: on(&seen.transmitted),
-        reflected: on(&seen.reflected),
-        absorbed: mean(&seen.absorbed),
-        error: mean(&seen.error),
-    };
-    Measured {
-        incident: setting.incident.clone(),
-        emergent: setting.emergent.clone(),
-        front: seen(&fine.front),
-        back: seen(&fine.back),
     }
 }
 
