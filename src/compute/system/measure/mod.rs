@@ -159,17 +159,29 @@ pub struct Quality {
     pub error: f64,
 }
 
+/// Zeros for a matrix on fine cells, whose pages are there when they are written to and gone when it is dropped: the C
+/// library of Linux keeps freed blocks below 32 MiB to itself once it has seen one of their size, and a window that
+/// computes one stack after the other held twice what it used. What is reserved beyond `count` is never touched.
+pub fn zeros(count: usize) -> Vec<f64> {
+    const LARGE: usize = 1 << 18;
+    const OWN_PAGES: usize = (32 << 20) / size_of::<f64>() + LARGE;
+    let mut block = vec![0.0; if cfg!(target_os = "linux") && count >= LARGE { count.max(OWN_PAGES) } else { count }];
+    block.truncate(count);
+    block
+}
+
 impl Measured {
     /// Nothing yet on the cells of a setting: every value 0.
     pub fn dark(setting: &Setting<'_>) -> Self {
         let (n, m) = (setting.incident.len(), setting.emergent.len());
-        let seen = OneSide {
-            transmitted: vec![0.0; n * m],
-            reflected: vec![0.0; n * m],
+        let seen = || OneSide {
+            transmitted: zeros(n * m),
+            reflected: zeros(n * m),
             absorbed: vec![0.0; n],
             error: vec![0.0; n],
         };
-        Self { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front: seen.clone(), back: seen }
+        let [front, back] = [seen(), seen()];
+        Self { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back }
     }
 
     /// Light from one side.

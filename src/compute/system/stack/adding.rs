@@ -12,7 +12,7 @@ use crate::compute::btdf::{CellMatrix, resample_matrix};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
-use crate::compute::system::measure::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen, zeros};
 use std::f64::consts::PI;
 
 /// Layers from outside to inside.
@@ -199,7 +199,7 @@ impl Layered {
     fn before(self, inner: Self) -> Self {
         let [t1, t1_back] = self.t;
         let [t2, t2_back] = inner.t;
-        let (r1, r2) = (self.r, inner.r);
+        let ([r1, r1_back], [r2, r2_back]) = (self.r, inner.r);
         let (absorbed, error) = (self.absorbed, self.error);
         let in_gap = |own: &[f64], inward: &Flux, outward: &Flux, outer: &[f64], within: &[f64]| -> Vec<f64> {
             let gap = outward.weighted(outer).into_iter().zip(inward.weighted(within));
@@ -207,23 +207,24 @@ impl Layered {
         };
         // Inward and outward light in the gap for light from outside, then for light from inside, of which what goes
         // outward is what came through and what the inner layer throws back.
-        let series = r1[1].times(&r2[0]).series();
+        let series = r1_back.times(&r2).series();
         let inward = series.of(&t1);
         drop(t1);
-        let outward = r2[0].times(&inward);
+        let outward = r2.times(&inward);
         let from_outside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&a[0], &inward, &outward, &a[1], &b[0]);
         let (absorbed_front, error_front) =
             (from_outside(&absorbed, &inner.absorbed), from_outside(&error, &inner.error));
-        let (t, r) = (t2.times(&inward), r1[0].plus(&t1_back.times(&outward)));
-        drop((inward, outward));
-        let inward = series.of(&r1[1].times(&t2_back));
-        drop((series, r1));
-        let outward = t2_back.plus(&r2[0].times(&inward));
+        let (t, r) = (t2.times(&inward), r1.plus(&t1_back.times(&outward)));
+        drop((inward, outward, r1));
+        let inward = series.of(&r1_back.times(&t2_back));
+        drop((series, r1_back));
+        let outward = t2_back.plus(&r2.times(&inward));
+        drop((t2_back, r2));
         let from_inside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&b[1], &inward, &outward, &a[1], &b[0]);
         let (absorbed_back, error_back) = (from_inside(&absorbed, &inner.absorbed), from_inside(&error, &inner.error));
         Self {
             t: [t, t1_back.times(&outward)],
-            r: [r, r2[1].plus(&t2.times(&inward))],
+            r: [r, r2_back.plus(&t2.times(&inward))],
             absorbed: [absorbed_front, absorbed_back],
             error: [error_front, error_back],
         }
@@ -235,7 +236,10 @@ impl Layered {
         let weight = cells.projected_solid_angles();
         let mean = Resampling::new(cells, setting.incident);
         let averaged = |at: &dyn Fn(usize, usize) -> f64| {
-            let q = (0..n * n).map(|k| at(k % n, k / n).max(0.0) / weight[k % n]).collect();
+            let mut q = zeros(n * n);
+            for (k, q) in q.iter_mut().enumerate() {
+                *q = at(k % n, k / n).max(0.0) / weight[k % n];
+            }
             let matrix =
                 CellMatrix::new(cells.clone(), cells.clone(), q).expect("as many values as pairs of these cells");
             resample_matrix(&matrix, setting.incident, setting.emergent).values().into_owned()
