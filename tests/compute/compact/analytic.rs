@@ -1,6 +1,8 @@
 //! Systems in closed form at the 145 façade-Tregenza incidences, by which the compact form is tried: a lobe that goes
 //! straight on, one that is redirected, a smooth part.
 
+#![allow(dead_code, reason = "each test takes what it needs")]
+
 use cfs::compute::basis::{AzimuthMap, Ring, RingBasis};
 use cfs::compute::btdf::Indicatrices;
 use cfs::compute::direction::{Dir, Facade, Incident};
