@@ -6,6 +6,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun, irradiance};
+use crate::compute::surroundings::skyline::Skyline;
 use crate::study::files;
 use crate::study::sky::{illuminances, outside_from_keys};
 use anyhow::anyhow;
@@ -82,7 +83,10 @@ fn table(outside: &Outside) -> Vec<Row> {
 /// Beam on the façade: the disc's share above horizon and skyline, centre in front of the plane. \[lx\]
 fn facade_beam(outside: &Outside, sun: Option<&Sun>, facade: Dir<World>) -> f64 {
     sun.map_or(0.0, |sun| {
-        sun.direct_normal * sun.direction.dot(facade).max(0.0) * sun.share_above(outside.skyline_altitude())
+        let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
+        let own = |skyline: &Skyline| skyline.altitude(sun.direction.bearing().radians());
+        let altitude = skyline.map_or(outside.skyline_altitude(), own);
+        sun.direct_normal * sun.direction.dot(facade).max(0.0) * sun.share_above(altitude)
     })
 }
 

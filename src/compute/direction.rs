@@ -145,8 +145,22 @@ impl Orientation {
 
     /// The inverse turn.
     pub fn world_from_room(self, d: Dir<Room>) -> Dir<World> {
-        let v = d.vector();
-        Dir::from_unit(DVec3::new(-self.cos * v.x - self.sin * v.y, self.sin * v.x - self.cos * v.y, v.z))
+        Dir::from_unit(self.to_world(d.vector()))
+    }
+
+    /// A vector or a point of the room in the world's axes, from the room's own origin.
+    pub fn to_world(self, v: DVec3) -> DVec3 {
+        DVec3::new(-self.cos * v.x - self.sin * v.y, self.sin * v.x - self.cos * v.y, v.z)
+    }
+
+    /// A vector or a point of the world's axes in the room's.
+    pub fn to_room(self, v: DVec3) -> DVec3 {
+        DVec3::new(-self.cos * v.x + self.sin * v.y, -self.sin * v.x - self.cos * v.y, v.z)
+    }
+
+    /// Cosine and sine of the angle by which the room is turned in the world, counter-clockwise seen from above.
+    pub fn turn(self) -> [f64; 2] {
+        [-self.cos, self.sin]
     }
 }
 

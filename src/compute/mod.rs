@@ -56,5 +56,7 @@ pub mod room;
 pub mod scaling;
 pub mod sequence;
 pub mod sky;
+pub mod surroundings;
+pub mod sweep;
 pub mod system;
 pub mod wavelet;

@@ -1,8 +1,9 @@
 //! The scene that everything starts with: of a first start of the window, and for a product alone.
 
 use super::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, DEFAULT_TURBIDITY, IlluminanceKey, PlaneKeys, ReflectanceKeys,
-    RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys, TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, DEFAULT_TURBIDITY, DstKey, IlluminanceKey, PlaneKeys,
+    ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
+    TimeKey,
 };
 
 /// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
@@ -21,13 +22,17 @@ pub fn first_scene() -> SceneFile {
             system: SystemKeys::Catalogue { key: String::new(), state: None },
             reflectance: ApertureReflectance::default(),
             structure: None,
+            frame: 0.0,
+            dirt: 1.0,
             control: None,
         }],
+        outside: Vec::new(),
         site: SiteKeys {
             azimuth: 180.0,
             latitude: Some(48.78),
             longitude: Some(9.18),
             utc_offset: Some(1.0),
+            dst: DstKey::None,
             elevation: 252.0,
             ground_reflectance: 0.2,
         },
@@ -43,6 +48,7 @@ pub fn first_scene() -> SceneFile {
             diffuse_horizontal_irradiance: None,
             file: None,
             obstruction: None,
+            skyline: None,
         },
         sensors: SensorKeys {
             plane: Some(PlaneKeys { z: 0.85, nx: 16, ny: 24, normal: [0.0, 0.0, 1.0] }),

@@ -8,7 +8,7 @@ use crate::texts::{Text, fixed, words as texts};
 use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
 
-/// The scene's local standard time; `None` when it is given by sun angles or is no time.
+/// The scene's local time by the clock; `None` when it is given by sun angles or is no time.
 pub fn of(scene: &SceneFile) -> Option<DateTime> {
     parse_local_time(&scene.sky.time.as_ref()?.text()).ok()
 }
@@ -34,18 +34,27 @@ pub fn place(scene: &SceneFile) -> Option<Place> {
     Place::new(site.latitude?, site.longitude?, site.utc_offset?).ok()
 }
 
-/// Sunrise and sunset of the scene's day.
+/// Local standard time of what the scene's clock shows.
+fn standard(scene: &SceneFile, clock: DateTime) -> DateTime {
+    scene.site.dst.standard(clock, scene.site.utc_offset.unwrap_or(0.0))
+}
+
+/// Sunrise and sunset of the scene's day, by the clock.
 pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
     let time = of(scene)?;
-    rise_set(&place(scene)?, time.year(), time.month(), time.day()).ok()
+    let hours = rise_set(&place(scene)?, time.year(), time.month(), time.day()).ok()?;
+    // By the clock that the day is read by; it changes at night.
+    let noon = time.date().at(12, 0, 0, 0);
+    let ahead = if standard(scene, noon) == noon { 0.0 } else { 1.0 };
+    Some(RiseSet { rise: hours.rise.map(|hour| hour + ahead), set: hours.set.map(|hour| hour + ahead) })
 }
 
 /// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment.
 pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
     match (of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
-        (Some(time), _, _) => {
-            sun_position(&place(scene)?, time).ok().map(|(altitude, bearing)| (altitude, bearing.degrees()))
-        }
+        (Some(time), _, _) => sun_position(&place(scene)?, standard(scene, time))
+            .ok()
+            .map(|(altitude, bearing)| (altitude, bearing.degrees())),
         (None, Some(altitude), Some(azimuth)) => Some((altitude.to_radians(), azimuth)),
         _ => None,
     }
@@ -71,8 +80,9 @@ pub fn set_clock(scene: &mut SceneFile, hour: i8, minute: i8) -> bool {
 pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -> bool {
     let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };
     let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
+    let (dst, offset) = (scene.site.dst, scene.site.utc_offset.unwrap_or(0.0));
     let miss = |time: DateTime| {
-        sun_position(&place, time).map_or(f64::INFINITY, |(altitude, bearing)| {
+        sun_position(&place, dst.standard(time, offset)).map_or(f64::INFINITY, |(altitude, bearing)| {
             // A sun below the horizon is the last choice.
             let hidden = if altitude < 0.0 { 2.0 } else { 0.0 };
             hidden + 1.0 - Dir::<World>::from_altitude_bearing(altitude, bearing).dot(aim)

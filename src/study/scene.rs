@@ -4,6 +4,7 @@ use super::control::ControlQuestion;
 use super::control::year::CONTROLLED;
 use super::error::StudyError;
 use super::near_field::near_field;
+use super::outside::{behind_boxes, boxes};
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
     SurfaceKey, SystemKeys,
@@ -43,6 +44,8 @@ pub struct SceneAperture {
     pub structure: Option<f64>,
     /// The room side reflects by its dataset's own cells instead.
     pub directional: bool,
+    /// Share of the light that frame and dirt leave.
+    pub clear: f64,
     /// The state that a control picked; `None` where the scene names it.
     pub controlled: Option<String>,
 }
@@ -76,7 +79,7 @@ pub struct Scene {
     pub orientation: Orientation,
     /// Bearing of the façade's outward normal.
     pub facade: Bearing,
-    /// Sky, ground, skyline.
+    /// Sky, ground, skyline, and boxes before them.
     pub outside: Outside,
     /// The disc, if it shines.
     pub sun: Option<Sun>,
@@ -126,6 +129,8 @@ impl Scene {
         let facade = Bearing::from_degrees(file.site.azimuth);
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
+        let solids = boxes(&file.outside, &room)?;
+        let outside = behind_boxes(outside, sun.as_ref(), &solids, &room, orientation, &geometry);
         let (sensors, grid) = sensors(&file.sensors, &room)?;
         let hour = hour(file)?;
         let mut list = Vec::with_capacity(geometry.len());
@@ -175,7 +180,10 @@ impl Scene {
                     // What falls on an aperture straight from another is known as an illuminance, not by cells.
                     BackReflectionMode::Auto => file.aperture.iter().all(|other| other.surface == keys.surface),
                 };
-            list.push(SceneAperture { aperture, system, reflectance, structure, directional, controlled: picked });
+            let frame = within(&format!("aperture[{}].frame", index + 1), keys.frame, 0.0, 0.95, "")?;
+            let clear = (1.0 - frame) * within(&format!("aperture[{}].dirt", index + 1), keys.dirt, 0.0, 1.0, "")?;
+            let controlled = picked;
+            list.push(SceneAperture { aperture, system, reflectance, structure, directional, clear, controlled });
         }
         if let Some(target) = file.compute.error_target {
             within("compute.error_target", target, 1e-8, 1.0, "")?;

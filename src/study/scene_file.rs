@@ -3,12 +3,16 @@
 //! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². What the keys mean together is
 //! [`super::scene`]'s business.
 
+mod dst;
+mod outside;
 mod sky;
 
+pub use self::dst::DstKey;
 pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
 pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
+pub use outside::{BoxKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -20,6 +24,9 @@ pub struct SceneFile {
     pub room: RoomKeys,
     /// Windows and rooflights.
     pub aperture: Vec<ApertureKeys>,
+    /// Boxes before the façade and above the roof.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<OutsideKeys>,
     /// Place and ground.
     #[serde(default)]
     pub site: SiteKeys,
@@ -122,6 +129,12 @@ pub struct ApertureKeys {
     /// Period of the visible structure (pitch of slats or cuts) where the dataset does not say or says it wrong. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub structure: Option<f64>,
+    /// Share of the area that is opaque frame, spread evenly; 0 … 0.95.
+    #[serde(default, skip_serializing_if = "outside::is_none")]
+    pub frame: f64,
+    /// Factor on all light that comes in, 0 … 1.
+    #[serde(default = "outside::clean", skip_serializing_if = "outside::is_clean")]
+    pub dirt: f64,
     /// What chooses the state here, instead of the scene's `[control]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
@@ -281,6 +294,9 @@ pub struct SiteKeys {
     /// Hours ahead of UTC.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub utc_offset: Option<f64>,
+    /// When `sky.time` and schedules are summer time.
+    #[serde(skip_serializing_if = "DstKey::is_none")]
+    pub dst: DstKey,
     /// Above the sea, for clear-sky illuminances. \[m\]
     pub elevation: f64,
     /// Uniform ground, 0 … 1.
@@ -294,6 +310,7 @@ impl Default for SiteKeys {
             latitude: None,
             longitude: None,
             utc_offset: None,
+            dst: DstKey::None,
             elevation: 0.0,
             ground_reflectance: 0.0,
         }

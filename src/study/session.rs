@@ -1,9 +1,12 @@
 //! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
+mod behind;
 mod emission;
 pub(super) mod interreflected;
+mod lights;
 pub(super) mod responses;
+mod split;
 mod surfaces;
 mod through_room;
 mod thrown_back;
@@ -28,6 +31,7 @@ use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
+use lights::Lights;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
@@ -163,9 +167,12 @@ impl Session {
     /// The light of one aperture (eq 5). `aperture` counts from 0 and must exist.
     pub fn lid(&self, scene: &Scene, aperture: usize, progress: &dyn Progress) -> Result<LidResult, StudyError> {
         check(progress)?;
+        let geometry = &scene.apertures[aperture].aperture;
+        if scene.outside.surroundings().is_some() {
+            return Ok(self.split(scene, aperture).lid(scene, aperture));
+        }
         let facing = scene.facing(aperture);
         let emission = self.emission(scene, aperture);
-        let geometry = &scene.apertures[aperture].aperture;
         Ok(LidResult {
             lid: emission.lid(&facing, geometry.size),
             flux: emission.exitance(&facing) * geometry.area(),
@@ -177,12 +184,12 @@ impl Session {
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
-        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect();
-        let flux: Estimate = emissions
-            .iter()
-            .enumerate()
-            .map(|(i, emission)| emission.exitance(&scene.facing(i)) * scene.apertures[i].aperture.area())
-            .sum();
+        let lights = self.lights(scene)?;
+        let Lights { emissions, splits } = &lights;
+        let flux = lights.flux(scene);
+        for word in splits.iter().flat_map(|split| &split.words) {
+            plan.note("outside", true, word);
+        }
         plan.spend("emission", clock.elapsed());
         for note in emissions.iter().flat_map(|emission| &emission.notes) {
             plan.note("interpolation", true, note);
@@ -191,13 +198,17 @@ impl Session {
         progress.advance("direct light", 1, STEPS);
 
         let clock = Instant::now();
-        let reused = self.holds_receptions(scene, &emissions);
-        let direct = self.direct(scene, &emissions, progress)?;
+        let reused = self.holds_receptions(scene, emissions);
+        let direct = if splits.is_empty() {
+            self.direct(scene, emissions, progress)?
+        } else {
+            self.direct_behind(scene, splits, progress)?
+        };
         plan.spend("direct", clock.elapsed());
-        if scene.near_field == NearField::SolidAngle {
+        if splits.is_empty() && scene.near_field == NearField::SolidAngle {
             let reason = if reused { "reused: sensors, apertures and cells are the same" } else { "not there yet" };
             plan.note("receptions", !reused, reason);
-            self.note_unseen(scene, &emissions, &mut plan, progress)?;
+            self.note_unseen(scene, emissions, &mut plan, progress)?;
         }
         progress.advance("interreflection", 2, STEPS);
 
@@ -206,7 +217,7 @@ impl Session {
             let reused = self.holds_room(scene);
             let reason = if reused { "reused: room, apertures and reflectances are the same" } else { "not there yet" };
             plan.note("room factors", !reused, reason);
-            self.interreflected(scene, &emissions, &direct.iter().map(|one| one.all).collect::<Vec<_>>(), progress)?
+            self.interreflected(scene, &lights, &direct.iter().map(|one| one.all).collect::<Vec<_>>(), progress)?
         } else {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
         };

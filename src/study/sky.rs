@@ -10,6 +10,7 @@ use self::illuminance::of_sun;
 use self::keys::{check_model_keys, check_ranges, sun_direction, wrong};
 use super::files;
 use super::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
+use super::skyline::{behind_skyline, skyline};
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::perez::PerezState;
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Scan, Sun, cie};
@@ -55,6 +56,13 @@ pub fn outside_from_keys(
         .map_err(|error| wrong("site.ground_reflectance", error.to_string()))?
         .with_skyline(obstruction.0, obstruction.1)
         .map_err(|error| wrong("sky.obstruction", error.to_string()))?;
+    let outside = match &sky.skyline {
+        Some(_) if sky.obstruction.is_some() => {
+            return Err(wrong("sky.skyline", "given together with sky.obstruction: give one of them"));
+        }
+        Some(keys) => behind_skyline(outside, skyline(keys).map_err(|(key, message)| wrong(key, message))?),
+        None => outside,
+    };
     Ok((outside, beam))
 }
 

@@ -104,6 +104,8 @@ const SKY: ClearSky = ClearSky::Air { turbidity: 3.0, elevation: 0.0 };
 fn situation(latitude: f64, facade: f64) -> Situation {
     Situation {
         place: Place::new(latitude, 9.2, 1.0).unwrap(),
+        utc_offset: 1.0,
+        dst: cfs::study::scene_file::DstKey::None,
         year: 2026,
         facade: cfs::compute::angle::Bearing::from_degrees(facade),
         ground_reflectance: 0.2,

@@ -9,6 +9,7 @@ mod control;
 mod luminaire_daylight;
 mod method;
 mod near_field;
+mod outside;
 mod plan;
 mod reference_kit;
 mod rooms;

@@ -165,6 +165,12 @@ fn extreme_openings() {
     every_sensor("extreme", |_| Some(Bar { relative: 5e-3, absolute: 0.0 }));
 }
 
+/// Boxes before façade and roof, a skyline by bearing, frame and dirt.
+#[test]
+fn what_stands_outside() {
+    every_sensor("outside", |_| Some(Bar { relative: 5e-3, absolute: 0.05 }));
+}
+
 #[test]
 fn matrices_of_makers() {
     every_sensor("systems", |name| {

@@ -18,6 +18,14 @@ impl AngularTransmittance {
         Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
     }
 
+    /// All values times a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Self::Constant(tau) => Self::Constant(factor * tau),
+            Self::Table(values) => Self::Table(values.iter().map(|tau| factor * tau).collect()),
+        }
+    }
+
     /// τ where it is the same for every incidence.
     pub const fn constant(&self) -> Option<f64> {
         if let Self::Constant(tau) = self { Some(*tau) } else { None }

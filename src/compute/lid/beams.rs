@@ -23,6 +23,11 @@ pub struct BeamLight {
 }
 
 impl BeamLight {
+    /// The same with its light times a factor.
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { exitance: factor * self.exitance, normal: factor * self.normal, ..self }
+    }
+
     /// What a regular transmittance makes of the sun; `None` without sun.
     pub fn regular(tau: Option<&AngularTransmittance>, facing: &Facing<'_>) -> Option<Self> {
         let incident = facing.sun_illuminance();

@@ -30,8 +30,14 @@ impl Facing<'_> {
     }
 
     /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
-    /// the aperture's frame.
+    /// the aperture's frame. Boxes are not among them: they hide it from some points.
     pub fn sun_edges(&self) -> [Edge; 2] {
+        let skyline = self.outside.surroundings().and_then(|surroundings| surroundings.skyline.as_ref());
+        if let (Some(skyline), Some(sun)) = (skyline, self.sun) {
+            let up = self.orientation.to_room(skyline.plane(sun.direction.bearing().radians()));
+            let edge = Edge::great_circle(self.surface.facade_from_room(up));
+            return [edge, Edge::great_circle(DVec3::Z)];
+        }
         let zenith = self.surface.facade_from_room(DVec3::Z);
         let offset = self.outside.skyline_altitude().sin();
         [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]

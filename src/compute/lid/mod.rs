@@ -6,6 +6,7 @@ mod emission;
 mod facing;
 mod interpolated;
 mod leaf_doubt;
+mod mixed;
 pub mod peaks;
 mod sky_through;
 mod sun_through;

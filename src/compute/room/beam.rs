@@ -1,16 +1,15 @@
 //! The sun's unscattered beam on the surfaces of the room: parallel projection of the opening, exact areas.
 
-use super::aperture::Aperture;
 use super::mesh::{Mesh, Wall};
 use super::outline::Outline;
 use crate::compute::polygon::{area, cut_by_all};
 use glam::{DVec2, DVec3};
 
-/// Light that crosses an aperture in one direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Light that crosses an opening in one direction.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Beam {
-    /// The opening.
-    pub aperture: Aperture,
+    /// The convex opening: an aperture, or what of it the sun reaches. Room frame. \[m\]
+    pub opening: Vec<DVec3>,
     /// Unit vector against the light, room frame.
     pub from: DVec3,
     /// \[lm\]
@@ -47,7 +46,8 @@ impl Beam {
                 DVec2::new(hit[wall.along[0]], hit[wall.along[1]])
             };
             let whole = [0, 1].map(|side| [wall.lines[side][0], wall.lines[side][wall.lines[side].len() - 1]]);
-            let corners = overlap(&self.aperture.corners().map(project), whole);
+            let thrown: Vec<DVec2> = self.opening.iter().map(|corner| project(*corner)).collect();
+            let corners = overlap(&thrown, whole);
             if corners.len() >= 3 {
                 landed += area(&corners).abs() * towards;
                 lit.push(Lit { wall: number, corners, illuminance: towards });
@@ -114,14 +114,14 @@ pub fn merged(beams: &[Beam]) -> Vec<Beam> {
         let mut groups: Vec<(Beam, DVec3)> = Vec::new();
         for beam in beams {
             let near = |(own, sum): &&mut (Beam, DVec3)| {
-                own.aperture == beam.aperture && sum.normalize_or_zero().distance(beam.from) < width
+                own.opening == beam.opening && sum.normalize_or_zero().distance(beam.from) < width
             };
             match groups.iter_mut().find(near) {
                 Some((own, sum)) => {
                     own.flux += beam.flux;
                     *sum += beam.flux * beam.from;
                 }
-                None => groups.push((*beam, beam.flux * beam.from)),
+                None => groups.push((beam.clone(), beam.flux * beam.from)),
             }
         }
         if groups.len() <= MOST_BEAMS || width > 0.2 {
@@ -165,6 +165,7 @@ fn overlap(polygon: &[DVec2], extent: [[f64; 2]; 2]) -> Vec<DVec2> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::aperture::Aperture;
     use super::super::mesh::{BoxRoom, Nested};
     use super::*;
     use crate::compute::direction::Surface;
@@ -180,7 +181,7 @@ mod tests {
             let mesh = Nested::with_about(&room, &[aperture], &[0.0], 600).unwrap().fine;
             for sun in [DVec3::new(0.1, -0.8, 0.5), DVec3::new(-0.9, -0.2, 0.3), DVec3::new(0.7, -0.7, 0.05)] {
                 let sun = sun.normalize();
-                let beam = Beam { aperture, from: sun, flux: 100.0 };
+                let beam = Beam { opening: aperture.corners().to_vec(), from: sun, flux: 100.0 };
                 let mut illuminance = vec![0.0; mesh.patches.len()];
                 beam.add_to(&mesh, &mut illuminance);
                 let landed: f64 = illuminance.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.area).sum();
@@ -206,7 +207,7 @@ mod tests {
             .map(|k| {
                 let rise = 0.1 + 0.006 * f64::from(k);
                 Beam {
-                    aperture,
+                    opening: aperture.corners().to_vec(),
                     from: DVec3::new(0.2, -rise.cos(), -rise.sin()).normalize(),
                     flux: 1.0 + f64::from(k % 7),
                 }
@@ -231,7 +232,8 @@ mod tests {
         let roof = Aperture { surface: Surface::Roof, corner: DVec3::new(0.5, 0.2, 3.0), size: [3.0, 3.0] };
         let mesh = Nested::with_about(&room, &[facade, roof], &[0.1, 0.4], 600).unwrap().fine;
         // Thrown up by a mirror: onto the ceiling and the light in it.
-        let beam = Beam { aperture: facade, from: DVec3::new(0.1, -0.7, -0.8).normalize(), flux: 50.0 };
+        let beam =
+            Beam { opening: facade.corners().to_vec(), from: DVec3::new(0.1, -0.7, -0.8).normalize(), flux: 50.0 };
         let mut illuminance = vec![0.0; mesh.patches.len()];
         beam.add_to(&mesh, &mut illuminance);
         let by_patches: f64 = illuminance.iter().zip(&mesh.patches).map(|(e, p)| e * p.area * p.reflectance).sum();

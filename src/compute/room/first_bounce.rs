@@ -268,6 +268,15 @@ impl FirstLight {
                 *sum += exitance * e;
             }
         }
+        self.add_cells(emission, weights);
+        if let Some(tau) = &emission.regular {
+            self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
+        }
+        emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam));
+    }
+
+    /// Adds light that lies on cells or bands. `weights`: what the patches receive by the cells of a basis.
+    pub fn add_cells(&mut self, emission: &Emission, weights: &dyn Fn(&Arc<RingBasis>) -> Arc<PatchWeights>) {
         for light in &emission.cells {
             let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
             let part = if light.basis.len() > MOST_CELLS {
@@ -284,23 +293,43 @@ impl FirstLight {
             let luminance: Vec<f64> = bands.light.on(merged).iter().map(|q| q * bands.illuminance).collect();
             self.add_diffuse(weights(merged).illuminance(&luminance));
         }
-        if let Some(tau) = &emission.regular {
-            self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
-        }
-        emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam));
     }
 
     /// Adds a beam of the sun through one aperture.
     pub fn add_beam(&mut self, aperture: &Aperture, beam: &BeamLight) {
         if beam.to.vector().z > 0.0 {
             let from = aperture.surface.room_dir(beam.to).vector();
-            self.beams.push(Beam { aperture: *aperture, from, flux: beam.exitance * aperture.area() });
+            let opening = aperture.corners().to_vec();
+            self.beams.push(Beam { opening, from, flux: beam.exitance * aperture.area() });
         }
     }
 
     /// What the beams light, as sharp as the room reflects it: those of a wide fan together.
     pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         merged(&self.beams).iter().flat_map(|beam| beam.lit(mesh)).collect()
+    }
+
+    /// Adds a beam through the convex pieces of an aperture that the sun reaches; room frame.
+    pub fn add_beam_through(&mut self, aperture: &Aperture, pieces: &[Vec<DVec3>], beam: &BeamLight) {
+        if beam.to.vector().z > 0.0 {
+            let from = aperture.surface.room_dir(beam.to).vector();
+            for piece in pieces {
+                let flux = beam.exitance * area_of(piece);
+                self.beams.push(Beam { opening: piece.clone(), from, flux });
+            }
+        }
+    }
+
+    /// Adds scattered light that is even over a convex piece of a wall with an aperture in it. \[lm/m²\]
+    pub fn add_outlines(&mut self, mesh: &Mesh, outlines: &[Outline]) {
+        self.add_diffuse(thrown_on_patches(mesh, outlines));
+    }
+
+    /// Adds the outside seen straight through an aperture by light at points of the patches, scaled to the flux that
+    /// enters. \[lm\]
+    pub fn add_seen(&mut self, mesh: &Mesh, aperture: &Aperture, flux: f64, at: impl Fn(&Sensor) -> f64 + Sync) {
+        let rules = rules(3);
+        self.add_diffuse(scaled_to(mesh, flux, seen_on_patches(mesh, aperture, &rules, at)));
     }
 
     /// Where the beams land; `None` without any.
@@ -339,24 +368,37 @@ fn outside_seen(
     tau: &AngularTransmittance,
 ) -> (Vec<f64>, f64) {
     let rules = rules(8);
-    let mut first: Vec<f64> = mesh
-        .patches
-        .par_iter()
-        .map(|patch| {
-            let wall = &mesh.walls[patch.wall];
-            samples(patch, wall, &rules, points_a_side(patch, wall, aperture))
-                .map(|(position, share)| {
-                    let view = aperture.view(position, wall.normal);
-                    view.map_or(0.0, |view| share * seen_from(&view, facing, tau, &rules))
-                })
-                .sum()
-        })
-        .collect();
+    let first = seen_on_patches(mesh, aperture, &rules, |sensor| {
+        let view = aperture.view(sensor.position, sensor.normal);
+        view.map_or(0.0, |view| seen_from(&view, facing, tau, &rules))
+    });
     // What goes straight on, without the beam and what scatters.
     let mut straight = emission.clone();
     (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), Vec::new());
     straight.uniform = Estimate::default();
-    let flux = straight.exitance(facing).value * aperture.area();
+    scaled_to(mesh, straight.exitance(facing).value * aperture.area(), first)
+}
+
+/// Means over every patch of the light at its points.
+fn seen_on_patches(
+    mesh: &Mesh,
+    aperture: &Aperture,
+    rules: &[Vec<(f64, f64)>],
+    at: impl Fn(&Sensor) -> f64 + Sync,
+) -> Vec<f64> {
+    mesh.patches
+        .par_iter()
+        .map(|patch| {
+            let wall = &mesh.walls[patch.wall];
+            samples(patch, wall, rules, points_a_side(patch, wall, aperture))
+                .map(|(position, share)| share * at(&Sensor { position, normal: wall.normal }))
+                .sum()
+        })
+        .collect()
+}
+
+/// Scaled to the flux that enters \[lm\], and by how much that was, relative.
+fn scaled_to(mesh: &Mesh, flux: f64, mut first: Vec<f64>) -> (Vec<f64>, f64) {
     let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
     if received <= 0.0 {
         return (first, 0.0);
@@ -364,6 +406,12 @@ fn outside_seen(
     let scale = flux / received;
     first.iter_mut().for_each(|e| *e *= scale);
     (first, (scale - 1.0).abs())
+}
+
+/// Area of a plane convex polygon in space. \[m²\]
+fn area_of(corners: &[DVec3]) -> f64 {
+    let Some((&apex, rest)) = corners.split_first() else { return 0.0 };
+    0.5 * rest.windows(2).map(|pair| (pair[0] - apex).cross(pair[1] - apex)).sum::<DVec3>().length()
 }
 
 /// Illuminance at a point that has all of the opening in front of it: ground in closed form where nothing depends on

@@ -4,6 +4,7 @@ pub mod aperture;
 pub mod back_reflection;
 pub mod band_weights;
 pub mod beam;
+pub mod beams_past;
 pub mod cell_weights;
 pub mod direct;
 pub mod exchange;

@@ -12,11 +12,13 @@ use crate::compute::estimate::Estimate;
 use crate::compute::lid::Facing;
 use crate::compute::polygon::{clip, projected_solid_angle};
 use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};
+use crate::compute::sky::irradiance_through;
 use glam::DVec3;
 use std::f64::consts::PI;
 
 /// Illuminance at a sensor from the outside seen through the opening, each direction weighted by τ(θ) of the system.
-/// \[lx\] Where it does not depend on θ, parts of constant luminance have a closed form.
+/// \[lx\] Where it does not depend on θ, parts of constant luminance have a closed form. Behind boxes the outside must be
+/// the one that is seen from the sensor.
 pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> Estimate {
     let to_room = |v: DVec3| facing.surface.room_from_facade(v);
     let uniform_tau = tau.constant();
@@ -27,6 +29,16 @@ pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance,
         return Estimate::default();
     }
     let outside = facing.outside;
+    if outside.surroundings().is_some() {
+        let world = |v: DVec3| facing.orientation.to_world(v);
+        let corners: Vec<DVec3> = polygon.iter().map(|corner| world(*corner)).collect();
+        let weight = |d: DVec3| {
+            uniform_tau.unwrap_or_else(|| {
+                tau.at(facing.surface.facade_from_room(facing.orientation.to_room(d)).z.clamp(-1.0, 1.0).acos())
+            })
+        };
+        return irradiance_through(outside, &corners, Dir::from_unit(world(normal)), weight, tolerance);
+    }
     let mut sum = Estimate::default();
     let mut above = polygon.clone();
     if let Some(tau) = uniform_tau {

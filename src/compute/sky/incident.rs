@@ -1,7 +1,8 @@
 //! Illuminance of an aperture from each cell of a division of its hemisphere: the outside as a vector over a basis.
 
 use super::integral::integrate_region;
-use super::outside::Outside;
+use super::outside::{Before, Outside};
+use super::prospect::{Parts, Prospect};
 use super::region::{Frame, Region, Weight};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Estimate;
@@ -26,6 +27,9 @@ pub fn incident_illuminances_within(
     frame: &Frame,
     relative: f64,
 ) -> Vec<Estimate> {
+    if let Some(before) = &outside.before {
+        return past(outside, before, basis, frame, relative);
+    }
     (0..basis.len())
         .into_par_iter()
         .map(|index| {
@@ -49,3 +53,56 @@ pub fn incident_illuminances_within(
         })
         .collect()
 }
+
+/// Past what stands before sky and ground: the open sky's light, changed where something hides it.
+fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<Estimate> {
+    let open = outside.open();
+    let compute = || incident_illuminances_within(&open, basis, frame, relative);
+    let free = before.kept.get(basis, frame, relative, compute);
+    let prospect = Prospect::lit(&open, &before.surroundings, before.eye);
+    let whole: f64 = free.iter().map(|e| e.value).sum();
+    (0..basis.len())
+        .into_par_iter()
+        .with_min_len(16)
+        .map(|index| {
+            let cell = basis.cell(index);
+            let free = free[index];
+            // Wide cells in quarters, as without anything before them.
+            let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
+            let step = cell.width / pieces;
+            let absolute = PAST * whole * cell.projected_solid_angle() / PI / pieces;
+            let (mut sum, mut error, mut met) = (Parts::default(), 0.0, false);
+            let mut untouched = 0.0;
+            for piece in 0..pieces as usize {
+                let from = cell.phi - 0.5 * cell.width + piece as f64 * step;
+                let region =
+                    Region { frame: *frame, theta: (cell.theta_min, cell.theta_max), phi: (from, from + step) };
+                match prospect.over(&region, Weight::Projected, PAST, absolute) {
+                    Some((parts, off)) => {
+                        met = true;
+                        sum.before += parts.before;
+                        sum.doubt += parts.doubt;
+                        sum.behind += parts.behind;
+                        sum.open += parts.open;
+                        error += off;
+                    }
+                    None => untouched += 1.0,
+                }
+            }
+            if !met {
+                return free;
+            }
+            // By the same points what is hidden and what there was: their ratio knows a cell that is hidden altogether.
+            // Where little is hidden, its difference is nearer.
+            let left = if untouched == 0.0 && sum.behind > 0.5 * sum.open {
+                free.value * (1.0 - sum.behind / sum.open).max(0.0)
+            } else {
+                (free.value - sum.behind).max(0.0)
+            };
+            Estimate::new(left + sum.before, free.error + error + sum.doubt)
+        })
+        .collect()
+}
+
+/// Accuracy asked of what things that stand before sky and ground change, relative.
+const PAST: f64 = 5e-4;

@@ -5,6 +5,7 @@
 
 use super::outside::Outside;
 use super::patches::Patch;
+use super::prospect::Prospect;
 use super::region::{Frame, Region, Weight};
 use super::scan_region;
 use crate::compute::direction::{Dir, World};
@@ -136,7 +137,17 @@ fn tip(
     (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
 }
 
-/// Illuminance of an unobstructed plane from sky, skyline and ground, without the beam. \[lx\]
+/// What things that stand before sky and ground change of a region's integral.
+fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
+    let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
+    let open = outside.open();
+    let found = Prospect::lit(&open, surroundings, eye).over(region, weight, 1e-5, 0.0);
+    found.map_or_else(Estimate::default, |(parts, error)| {
+        Estimate::new(parts.before - parts.behind, error + parts.doubt)
+    })
+}
+
+/// Illuminance of a plane from sky, skyline and ground and what stands before them, without the beam. \[lx\]
 pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     let frame = Frame::facing(normal);
     // Quarters: shorter pieces, and the knots of a façade's horizon among them.
@@ -146,6 +157,7 @@ pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
             let region = Region { frame, theta: (0.0, FRAC_PI_2), phi: (from, from + FRAC_PI_2) };
             let tolerance = Tolerance { relative: 1e-7, ..Tolerance::absolute(1e-9 * outside.diffuse_horizontal) };
             integrate_region(outside, &region, Weight::Projected, tolerance)
+                + changed(outside, &region, Weight::Projected)
         })
         .sum()
 }
@@ -161,7 +173,7 @@ pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
             let from = patch.bearing - 0.5 * patch.width + f64::from(piece) * step;
             let theta = (FRAC_PI_2 - patch.altitude_max, FRAC_PI_2 - patch.altitude_min);
             let region = Region { frame: Frame::DOME, theta, phi: (from, from + step) };
-            integrate_region(outside, &region, Weight::Solid, tolerance)
+            integrate_region(outside, &region, Weight::Solid, tolerance) + changed(outside, &region, Weight::Solid)
         })
         .sum();
     flux * (1.0 / patch.solid_angle())

@@ -10,6 +10,8 @@
 //! | `outside` | a scaled sky over ground, behind a skyline |
 //! | `region` | regions of the sphere and how horizon and skyline cut them |
 //! | `integral`, `scan_region` | integrals over regions, smooth and measured skies |
+//! | `prospect`, `opening` | what stands before sky and ground: seen from a point, through an opening |
+//! | `faces` | the light on what stands there |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |
@@ -20,13 +22,17 @@ pub mod availability;
 pub mod cie;
 pub mod clear_sky;
 mod distribution;
+pub mod faces;
 mod gradated;
 mod horizontal;
 mod incident;
 mod integral;
+mod open_cells;
+mod opening;
 mod outside;
 pub mod patches;
 pub mod perez;
+mod prospect;
 mod region;
 mod samples;
 mod scan;
@@ -37,6 +43,7 @@ pub mod sun_disc;
 pub use distribution::Distribution;
 pub use incident::{incident_illuminances, incident_illuminances_within};
 pub use integral::{irradiance, mean_luminance};
+pub use opening::irradiance_through;
 pub use outside::{Outside, SkyError};
 pub use region::Frame;
 pub use samples::SkySamples;

@@ -1,11 +1,14 @@
-//! Diffuse light from outside: a scaled sky over ground, behind a skyline.
+//! Diffuse light from outside: a scaled sky over ground, behind a skyline and what else stands before it.
 
 use super::distribution::{Distribution, Model};
 use super::horizontal;
+use super::open_cells::OpenCells;
 use super::scan::Scan;
 use crate::compute::direction::{Dir, World};
+use crate::compute::surroundings::Surroundings;
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Why there is no such sky.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -40,6 +43,23 @@ pub struct Outside {
     pub(super) skyline_altitude: f64,
     pub(super) skyline_sine: f64,
     pub(super) skyline_luminance: f64,
+    pub(super) before: Option<Before>,
+}
+
+/// What stands before sky and ground, and from where it is seen.
+#[derive(Debug, Clone)]
+pub(super) struct Before {
+    pub surroundings: Arc<Surroundings>,
+    /// Without a point boxes do not count: what is left has directions alone.
+    pub eye: Option<DVec3>,
+    /// The open sky on cells, the same from all points.
+    pub kept: Arc<OpenCells>,
+}
+
+impl PartialEq for Before {
+    fn eq(&self, other: &Self) -> bool {
+        self.surroundings == other.surroundings && self.eye == other.eye
+    }
 }
 
 impl Outside {
@@ -67,6 +87,7 @@ impl Outside {
             skyline_altitude: 0.0,
             skyline_sine: 0.0,
             skyline_luminance: 0.0,
+            before: None,
         })
     }
 
@@ -82,6 +103,7 @@ impl Outside {
             skyline_altitude: 0.0,
             skyline_sine: 0.0,
             skyline_luminance: 0.0,
+            before: None,
         }
     }
 
@@ -120,13 +142,49 @@ impl Outside {
         ] {
             *luminance *= factor;
         }
+        if let Some(before) = &self.before {
+            let surroundings = Arc::new(before.surroundings.scaled(factor));
+            outside.before = Some(Before { surroundings, eye: before.eye, kept: Arc::default() });
+        }
         outside
     }
 
-    /// Luminance seen in a direction. \[cd/m²\] Altitude below 0: ground; below the skyline: skyline; else sky.
+    /// The same behind boxes and a skyline; boxes show once there is a point to see them from.
+    pub fn behind(self, surroundings: Arc<Surroundings>) -> Self {
+        Self { before: Some(Before { surroundings, eye: None, kept: Arc::default() }), ..self }
+    }
+
+    /// The same as it is seen from a point: in the world's axes from the room's own origin. \[m\]
+    pub fn seen_from(&self, eye: DVec3) -> Self {
+        let before = self.before.as_ref().map(|before| Before { eye: Some(eye), ..before.clone() });
+        Self { before, ..self.clone() }
+    }
+
+    /// Sky, ground and flat skyline without what stands before them.
+    pub fn open(&self) -> Self {
+        Self { before: None, ..self.clone() }
+    }
+
+    /// What stands before sky and ground, and from where it is seen.
+    pub(super) fn foreground(&self) -> Option<(&Surroundings, Option<DVec3>)> {
+        self.before.as_ref().map(|before| (&*before.surroundings, before.eye))
+    }
+
+    /// What stands before sky and ground.
+    pub fn surroundings(&self) -> Option<&Surroundings> {
+        self.before.as_ref().map(|before| &*before.surroundings)
+    }
+
+    /// Luminance seen in a direction. \[cd/m²\] What stands before it; else altitude below 0: ground; below the skyline:
+    /// skyline; else sky.
     #[inline]
     pub fn luminance(&self, d: Dir<World>) -> f64 {
         let v = d.vector();
+        if let Some((surroundings, eye)) = self.foreground()
+            && let Some(seen) = surroundings.seen(eye, v)
+        {
+            return surroundings.luminance(seen, eye, v);
+        }
         if v.z < 0.0 {
             self.ground_luminance
         } else if v.z < self.skyline_sine {
@@ -152,6 +210,7 @@ impl Outside {
         self.diffuse_horizontal > 0.0
             || self.ground_luminance > 0.0
             || (self.skyline_luminance > 0.0 && self.skyline_sine > 0.0)
+            || self.surroundings().is_some_and(Surroundings::is_lit)
     }
 
     /// Where the circumsolar part peaks; `None` for skies without one.
@@ -184,7 +243,9 @@ impl Outside {
             Model::Gradated(sky, _) => sky.symmetric() && sky.a == 0.0,
             Model::Overcast | Model::Scan(_) => false,
         } || self.scale == 0.0;
-        uniform_sky && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
+        uniform_sky
+            && self.before.is_none()
+            && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
     }
 
     /// Luminance is constant over the band cells of Tregenza's lattice of the dome (measured skies), with jumps at

@@ -4,7 +4,7 @@
 //! plane that touches the sphere at the sun's centre.
 
 use super::sun::SUN_HALF_ANGLE;
-use crate::compute::polygon::cut_by_all;
+use crate::compute::polygon::{cut, cut_by_all};
 use glam::{DVec2, DVec3};
 
 /// One edge: directions ω with `normal · ω ≥ offset` are free.
@@ -30,6 +30,12 @@ const CORNERS: usize = 180;
 /// cosine to the receiver's normal. Exact `receiver · sun` for a free disc, 0 for a hidden one; between them within
 /// 1e-4. The receiver's own plane must be among the edges.
 pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>) -> f64 {
+    share_past(sun, receiver, edges, &[])
+}
+
+/// The same where convex bodies hide parts of the disc, too: each by the normals of the planes through the receiver that
+/// hold it, so that it is seen in directions ω with n·ω > 0 for all of them.
+pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]) -> f64 {
     let radius = SUN_HALF_ANGLE.tan();
     let (u, v) = sun.any_orthonormal_pair();
     let mut crossing: Vec<(DVec2, f64)> = Vec::new();
@@ -44,7 +50,29 @@ pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>)
             crossing.push((slope, height));
         }
     }
-    if crossing.is_empty() {
+    // Of every body the borders that cross the disc; those that leave all of it inside do not matter.
+    let mut holes: Vec<Vec<(DVec2, f64)>> = Vec::new();
+    for body in bodies.iter().filter(|body| !body.is_empty()) {
+        let mut borders = Vec::new();
+        let mut beside = false;
+        for normal in body {
+            let height = normal.dot(sun);
+            let slope = DVec2::new(normal.dot(u), normal.dot(v));
+            let reach = slope.length() * radius;
+            beside |= height <= -reach;
+            if height < reach {
+                borders.push((slope, height));
+            }
+        }
+        if beside {
+            continue;
+        }
+        if borders.is_empty() {
+            return 0.0;
+        }
+        holes.push(borders);
+    }
+    if crossing.is_empty() && holes.is_empty() {
         return receiver.dot(sun).max(0.0);
     }
     // A regular polygon of the disc's area.
@@ -53,12 +81,18 @@ pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>)
     let mut polygon: Vec<DVec2> = (0..CORNERS).map(|i| outer * DVec2::from_angle(i as f64 * step)).collect();
     let borders = crossing.into_iter().map(|(slope, height)| move |p: DVec2| slope.dot(p) + height);
     cut_by_all(&mut polygon, borders, &mut Vec::with_capacity(CORNERS + 8));
+    let mut pieces = vec![polygon];
+    for hole in &holes {
+        pieces = outside_of(pieces, hole);
+    }
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
-    for (i, &p) in polygon.iter().enumerate() {
-        let q = polygon[(i + 1) % polygon.len()];
-        let cross = p.perp_dot(q);
-        area += 0.5 * cross;
-        moment += (p + q) * (cross / 6.0);
+    for polygon in &pieces {
+        for (i, &p) in polygon.iter().enumerate() {
+            let q = polygon[(i + 1) % polygon.len()];
+            let cross = p.perp_dot(q);
+            area += 0.5 * cross;
+            moment += (p + q) * (cross / 6.0);
+        }
     }
     if area <= 0.0 {
         return 0.0;
@@ -66,6 +100,27 @@ pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>)
     let centroid = moment / area;
     let cosine = receiver.dot(sun + u * centroid.x + v * centroid.y).max(0.0);
     (area / (std::f64::consts::PI * radius * radius)).min(1.0) * cosine
+}
+
+/// What of convex pieces lies outside of a body: beyond its first border, or within that and beyond the second, …
+fn outside_of(pieces: Vec<Vec<DVec2>>, borders: &[(DVec2, f64)]) -> Vec<Vec<DVec2>> {
+    let mut left = Vec::with_capacity(pieces.len());
+    for mut piece in pieces {
+        for &(slope, height) in borders {
+            let inside = |p: DVec2| slope.dot(p) + height;
+            let (mut outer, mut inner) = (Vec::new(), Vec::new());
+            cut(&piece, |p| -inside(p), &mut outer);
+            cut(&piece, inside, &mut inner);
+            if outer.len() >= 3 {
+                left.push(outer);
+            }
+            piece = inner;
+            if piece.len() < 3 {
+                break;
+            }
+        }
+    }
+    left
 }
 
 /// The edges of a convex opening given by its corners as vectors from the receiver.
@@ -91,6 +146,20 @@ mod tests {
         assert_eq!(share(sun, DVec3::Z, [Edge::great_circle(DVec3::NEG_Z)]), 0.0);
         let half = Edge::great_circle(DVec3::X);
         assert!((share(sun, DVec3::Z, [half]) - 0.4).abs() < 1e-5);
+    }
+
+    #[test]
+    fn bodies_hide_what_lies_behind_them() {
+        let sun = DVec3::new(0.0, 0.6, 0.8);
+        let above = || [Edge::great_circle(DVec3::Z)];
+        let half = vec![DVec3::X, DVec3::Z];
+        assert!((share_past(sun, DVec3::Z, above(), std::slice::from_ref(&half)) - 0.4).abs() < 1e-5);
+        // The same body twice hides no more, and its other half the rest.
+        assert!((share_past(sun, DVec3::Z, above(), &[half.clone(), half.clone()]) - 0.4).abs() < 1e-5);
+        let rest = vec![DVec3::NEG_X, DVec3::Z];
+        assert!(share_past(sun, DVec3::Z, above(), &[half, rest]).abs() < 1e-12);
+        assert_eq!(share_past(sun, DVec3::Z, above(), &[vec![DVec3::Y, DVec3::Z]]), 0.0);
+        assert_eq!(share_past(sun, DVec3::Z, above(), &[vec![DVec3::NEG_Z]]), 0.8);
     }
 
     #[test]

@@ -17,7 +17,7 @@ impl Coefficients {
         let mut first = dark(self);
         for (index, part) in self.parts.iter().enumerate() {
             let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
-            let illuminance = facing.sun_illuminance();
+            let illuminance = part.clear * facing.sun_illuminance();
             let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
             part.transport.sun(direction, sensors, &mut sums, illuminance);
             add_beam(self, index, &facing, &mut first, &mut sums);
@@ -39,7 +39,7 @@ impl Coefficients {
         let mut first = dark(self);
         for (index, part) in self.parts.iter().enumerate() {
             let facing = Facing { sun: Some(light), ..self.scene.facing(index) };
-            let illuminance = facing.sun_illuminance();
+            let illuminance = part.clear * facing.sun_illuminance();
             let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
             let column = part.transport.for_direction(direction, sensors);
             let mut own = vec![0.0; sensors];
@@ -80,6 +80,7 @@ fn landing(all: &Coefficients, first: Option<FirstLight>) -> Option<(&Responses,
 /// The unscattered sun through one aperture: at the sensors, and on the surfaces.
 fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut Option<FirstLight>, sums: &mut [f64]) {
     let Some(beam) = BeamLight::regular(all.parts[index].regular.as_ref(), facing) else { return };
+    let beam = beam.scaled(all.parts[index].clear);
     let aperture = &all.scene.apertures[index].aperture;
     for (sum, sensor) in sums.iter_mut().zip(&all.scene.sensors) {
         *sum += beams_through(sensor, aperture, &[beam], facing).beam;

@@ -54,6 +54,11 @@ impl Coefficients {
                 "coefficients need the solid-angle method; leave the key out",
             ));
         }
+        if let Some(around) = scene.outside.surroundings() {
+            let key = if around.solids.is_empty() { "sky.skyline" } else { "outside" };
+            let message = "coefficients know a horizontal skyline alone: leave the key out, or compute single hours";
+            return Err(StudyError::key(key, message));
+        }
         let reflects = scene.room.floor > 0.0
             || scene.room.walls > 0.0
             || scene.room.ceiling > 0.0

@@ -42,6 +42,8 @@ pub(super) struct AperturePart {
     seen: Vec<SensorView>,
     /// Mean relative gap of flux of the regular part.
     pub gap: f64,
+    /// Share of the light that frame and dirt leave.
+    pub clear: f64,
 }
 
 /// The outside as one sensor sees it straight through.
@@ -147,6 +149,7 @@ impl AperturePart {
             regular: btdf.regular.clone(),
             seen,
             gap: straight.map_or(0.0, |(_, views)| views.gap),
+            clear: scene.apertures[index].clear,
         })
     }
 
@@ -167,6 +170,7 @@ impl AperturePart {
         }
         e.push(outside.ground_luminance());
         e.push(if smooth { outside.skyline_luminance() } else { 0.0 });
+        e.iter_mut().for_each(|e| *e *= self.clear);
         e
     }
 
@@ -184,7 +188,8 @@ impl AperturePart {
         if smooth {
             for (sum, seen) in out.iter_mut().zip(&self.seen) {
                 let sky: f64 = seen.directions.iter().map(|(d, weight)| weight * outside.luminance(*d)).sum();
-                *sum += sky + seen.ground * outside.ground_luminance() + seen.skyline * outside.skyline_luminance();
+                let seen = sky + seen.ground * outside.ground_luminance() + seen.skyline * outside.skyline_luminance();
+                *sum += self.clear * seen;
             }
         } else {
             let exact: Vec<Estimate> = scene
@@ -192,7 +197,7 @@ impl AperturePart {
                 .par_iter()
                 .map(|sensor| seen_exactly(scene, index, sensor, tau, outside, EXACT))
                 .collect();
-            out.iter_mut().zip(exact).for_each(|(sum, e)| *sum += e.value);
+            out.iter_mut().zip(exact).for_each(|(sum, e)| *sum += self.clear * e.value);
         }
     }
 

@@ -19,7 +19,7 @@ use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
 use crate::study::error::StudyError;
-use crate::study::scene_file::{IlluminanceKey, SceneFile, SurfaceKey, SystemKeys};
+use crate::study::scene_file::{DstKey, IlluminanceKey, SceneFile, SurfaceKey, SystemKeys};
 use crate::study::sky::{CLEANEST, HAZIEST, HIGHEST, LOWEST};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 use jiff::ToSpan;
@@ -163,6 +163,10 @@ pub fn moving(
 pub struct Situation {
     /// Where the sun is seen from.
     pub place: Place,
+    /// Hours that its standard time is ahead of UTC.
+    pub utc_offset: f64,
+    /// When schedules are summer time.
+    pub dst: DstKey,
     /// Which year.
     pub year: i16,
     /// Bearing of the façade's outward normal.
@@ -198,6 +202,13 @@ impl Situation {
             }
             None => 2026,
         };
+        for (key, given) in [("sky.skyline", file.sky.skyline.is_some()), ("outside", !file.outside.is_empty())] {
+            if given {
+                let message =
+                    "a year of controls knows a horizontal skyline alone: leave the key out, or ask for single hours";
+                return Err(StudyError::key(key, message));
+            }
+        }
         let skyline = file.sky.obstruction.map_or(0.0, |keys| keys.altitude);
         for (key, value, [min, max]) in [
             ("site.azimuth", site.azimuth, [-360.0, 360.0]),
@@ -212,6 +223,8 @@ impl Situation {
         }
         Ok(Self {
             place,
+            utc_offset: offset,
+            dst: site.dst,
             year,
             facade: Bearing::from_degrees(site.azimuth),
             ground_reflectance: site.ground_reflectance,
@@ -303,7 +316,9 @@ impl Stepper<'_> {
             .and_then(|outside| outside.with_skyline(here.skyline, 0.0))
             .map_err(|error| at_site(&error))?;
         let sun = Sun { direction: Dir::from_altitude_bearing(altitude, bearing), direct_normal: direct };
-        let hour = f64::from(time.hour()) + f64::from(time.minute()) / 60.0 + f64::from(time.second()) / 3600.0;
+        // Schedules go by the clock on the wall.
+        let clock = here.dst.clock(time, here.utc_offset);
+        let hour = f64::from(clock.hour()) + f64::from(clock.minute()) / 60.0 + f64::from(clock.second()) / 3600.0;
         let mut list = Vec::with_capacity(self.moving.len());
         for (one, controller) in self.moving.iter().zip(&mut self.controllers) {
             let facing = Facing {

@@ -1,5 +1,6 @@
 //! `[sky]` as typed: model, sun, and the illuminances that both are scaled to.
 
+use super::outside::SkylineKeys;
 use crate::texts::words as texts;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -89,7 +90,7 @@ pub struct SkyKeys {
     /// The sun by angles, and its beam.
     #[serde(default)]
     pub sun: SunKeys,
-    /// Local standard time of `site.utc_offset`, `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
+    /// Local time by the clock (`site.utc_offset`, `site.dst`), `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeKey>,
     /// Perez: direct irradiance on the horizontal plane. \[W/m²\]
@@ -104,6 +105,9 @@ pub struct SkyKeys {
     /// A horizontal skyline over the whole azimuth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub obstruction: Option<ObstructionKeys>,
+    /// A skyline that rises and falls with the bearing, instead of `obstruction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skyline: Option<SkylineKeys>,
 }
 
 /// Linke turbidity of usual air.

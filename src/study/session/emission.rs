@@ -11,17 +11,27 @@ use crate::study::system::{System, VerySystem};
 use std::sync::Arc;
 
 impl Session {
-    /// What an aperture emits under the scene's outside.
+    /// What an aperture emits under the scene's outside, frame and dirt counted.
     pub(super) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
+        self.emission_under(scene, aperture, &scene.facing(aperture))
+    }
+
+    /// The same under an outside of one's own.
+    pub(super) fn emission_under(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
+        let clear = scene.apertures[aperture].clear;
+        let emission = self.of_system(scene, aperture, facing);
+        if clear == 1.0 { emission } else { emission.scaled(clear) }
+    }
+
+    fn of_system(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
         let system = &scene.apertures[aperture].system;
-        let facing = scene.facing(aperture);
         match system.very.as_ref().filter(|_| scene.beams) {
             Some(very) => {
-                let mut emission = self.diffuse(scene, system, very, &Facing { sun: None, ..facing });
-                emission.add_sun_through(&self.sun_through(very, &facing).1);
+                let mut emission = self.diffuse(scene, system, very, &Facing { sun: None, ..*facing });
+                emission.add_sun_through(&self.sun_through(very, facing).1);
                 emission
             }
-            None => self.by_data(scene, &system.dataset, &facing),
+            None => self.by_data(scene, &system.dataset, facing),
         }
     }
 

@@ -1,9 +1,9 @@
 //! Light that reaches the sensors after at least one reflection.
 
+use super::lights::Lights;
 use super::{STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
-use crate::compute::lid::Emission;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::{BackReflection, settled_light};
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
@@ -46,7 +46,7 @@ impl Session {
     pub(super) fn interreflected(
         &self,
         scene: &Scene,
-        emissions: &[Emission],
+        lights: &Lights,
         direct: &[Estimate],
         progress: &dyn Progress,
     ) -> Result<(Vec<Estimate>, f64), StudyError> {
@@ -57,7 +57,7 @@ impl Session {
         for (turn, count) in PATCHES.into_iter().take(turns).enumerate() {
             check(progress)?;
             progress.advance("interreflection", (2 + turn).min(STEPS - 1), STEPS);
-            result = self.reflected(scene, emissions, count, progress)?;
+            result = self.reflected(scene, lights, count, progress)?;
             let total = |i: usize| direct[i].value + result.0[i].value;
             let mean = (0..direct.len()).map(total).sum::<f64>() / direct.len() as f64;
             let stated = |i: usize| direct[i].error + result.0[i].error;
@@ -128,7 +128,7 @@ impl Session {
     pub(super) fn first_light(
         &self,
         scene: &Scene,
-        emissions: &[Emission],
+        lights: &Lights,
         count: usize,
         progress: &dyn Progress,
     ) -> Result<FirstLight, StudyError> {
@@ -137,7 +137,12 @@ impl Session {
         let radiosity = self.radiosity(scene, count)?;
         let mesh = &radiosity.nested.fine;
         let mut first = FirstLight::dark(mesh.patches.len());
-        for (index, emission) in emissions.iter().enumerate() {
+        for (index, split) in lights.splits.iter().enumerate() {
+            check(progress)?;
+            let of_part = |part: &Aperture, basis: &Arc<RingBasis>| self.weights_of_part(&key, mesh, part, basis);
+            split.add_to(&mut first, mesh, &geometry[index], &scene.facing(index), &of_part);
+        }
+        for (index, emission) in lights.emissions.iter().enumerate().filter(|_| lights.splits.is_empty()) {
             check(progress)?;
             let weights = |basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
             first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
@@ -145,11 +150,24 @@ impl Session {
         Ok(first)
     }
 
+    /// The same of a part of an aperture.
+    fn weights_of_part(&self, key: &Key, mesh: &Mesh, part: &Aperture, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
+        let mut key = key.clone();
+        key.extend(bits(part.corner.to_array()).chain(bits(part.size)));
+        key.push(part.surface as u64);
+        key.extend(basis_key(Some(basis)));
+        let weights = || Ok::<_, std::convert::Infallible>(PatchWeights::new(mesh, part, Arc::clone(basis)));
+        match self.patches.get(key, weights) {
+            Ok(weights) => weights,
+            Err(never) => match never {},
+        }
+    }
+
     /// With about so many fine patches.
     fn reflected(
         &self,
         scene: &Scene,
-        emissions: &[Emission],
+        lights: &Lights,
         count: usize,
         progress: &dyn Progress,
     ) -> Result<(Vec<Estimate>, f64), StudyError> {
@@ -160,7 +178,7 @@ impl Session {
         let mesh = &radiosity.nested.fine;
         let gather = self.gathering(scene, count, &radiosity)?;
         let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
-        let first = self.first_light(scene, emissions, count, progress)?;
+        let first = self.first_light(scene, lights, count, progress)?;
         check(progress)?;
         // What the beams light reflects as the sharp outlines that they are, to sensors and patches; the balance begins
         // with what these receive.
@@ -185,11 +203,7 @@ impl Session {
             }
         }
         // What is not known of the emission is not known of its reflections.
-        let emitted: Estimate = emissions
-            .iter()
-            .enumerate()
-            .map(|(index, emission)| emission.exitance(&scene.facing(index)) * geometry[index].area())
-            .sum();
+        let emitted = lights.flux(scene);
         let emitted_error = if emitted.value > 0.0 { emitted.error / emitted.value } else { 0.0 };
         let estimates = scene
             .sensors

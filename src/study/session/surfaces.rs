@@ -55,13 +55,12 @@ impl Session {
     /// What makes the scene impossible to compute, in words; or that it was withdrawn.
     pub fn surfaces(&self, scene: &Scene, progress: &dyn Progress) -> Result<SurfaceLight, StudyError> {
         progress.advance("surfaces", 0, STEPS);
-        let emissions: Vec<Emission> = (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect();
+        let lights = self.lights(scene)?;
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let of_aperture = |(index, emission): (usize, &Emission)| {
-            let area = geometry[index].area();
-            (emission.exitance(&scene.facing(index)) * area, emission.exitance_doubt() * area)
+            (lights.flux_through(scene, index), emission.exitance_doubt() * geometry[index].area())
         };
-        let fluxes: Vec<_> = emissions.iter().enumerate().map(of_aperture).collect();
+        let fluxes: Vec<_> = lights.emissions.iter().enumerate().map(of_aperture).collect();
         let flux: Estimate = fluxes.iter().map(|(flux, _)| *flux).sum();
         let doubted: f64 = fluxes.iter().map(|(_, doubt)| doubt).sum();
         check(progress)?;
@@ -69,7 +68,7 @@ impl Session {
         let radiosity = self.radiosity(scene, count)?;
         let mesh = &radiosity.nested.fine;
         progress.advance("surfaces", 1, STEPS);
-        let first = self.first_light(scene, &emissions, count, progress)?;
+        let first = self.first_light(scene, &lights, count, progress)?;
         let landing = first.landing(mesh);
         let beams = landing.as_ref().map_or_else(|| vec![0.0; mesh.patches.len()], |landing| landing.direct.clone());
         let lit = first.lit(mesh);

@@ -95,6 +95,7 @@ pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir
     let utc_offset = need("site.utc_offset", site.utc_offset)?;
     let place = Place::new(latitude, longitude, utc_offset).map_err(|error| wrong("site", error.to_string()))?;
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
-    let (altitude, bearing) = sun_position(&place, time).map_err(|error| wrong("sky.time", error.to_string()))?;
+    let standard = site.dst.standard(time, utc_offset);
+    let (altitude, bearing) = sun_position(&place, standard).map_err(|error| wrong("sky.time", error.to_string()))?;
     Ok(Some(Dir::from_altitude_bearing(altitude, bearing)))
 }

@@ -1,0 +1,72 @@
+//! The sun's beams through an aperture that boxes shade in part: with sharp edges, and the penumbra of what goes straight.
+
+use super::aperture::Aperture;
+use super::direct::{DirectLight, Sensor};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::{BeamLight, Facing};
+use crate::compute::sky::sun_disc::{self, Edge};
+use crate::compute::surroundings::Surroundings;
+use crate::compute::surroundings::shading::lit_pieces;
+use crate::compute::surroundings::solid::Face;
+use glam::DVec3;
+
+/// What of an aperture the middle of the sun's disc reaches, as convex pieces with their corners in the room frame; and
+/// their share of its area.
+pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (Vec<Vec<DVec3>>, f64) {
+    let Some(sun) = facing.sun else { return (Vec::new(), 0.0) };
+    let world = |v: DVec3| facing.orientation.to_world(v);
+    let axis = |v: DVec3| world(aperture.surface.room_from_facade(v));
+    let face = Face {
+        origin: world(aperture.corner),
+        normal: axis(DVec3::Z),
+        u: axis(DVec3::X),
+        v: axis(DVec3::Y),
+        limits: [[0.0, aperture.size[0]], [0.0, aperture.size[1]]],
+    };
+    let pieces = lit_pieces(&face, around.solids.iter(), sun.direction.vector());
+    let share = pieces.iter().map(|piece| crate::compute::polygon::area(piece).abs()).sum::<f64>() / aperture.area();
+    let corner = |p: &glam::DVec2| facing.orientation.to_room(face.point(p.x, p.y));
+    (pieces.iter().map(|piece| piece.iter().map(corner).collect()).collect(), share)
+}
+
+/// What a sensor gets from the sun's beams through an aperture. A straight beam is the part of the disc that the sensor
+/// sees past the boxes; a turned one comes from the pieces that the sun reaches, `lit`.
+pub fn beams_past(
+    sensor: &Sensor,
+    aperture: &Aperture,
+    lit: &[Vec<DVec3>],
+    beams: &[BeamLight],
+    facing: &Facing<'_>,
+    around: &Surroundings,
+) -> DirectLight {
+    let Some(view) = aperture.view(sensor.position, sensor.normal).filter(|_| !beams.is_empty()) else {
+        return DirectLight::default();
+    };
+    let surface = aperture.surface;
+    let own = [Edge::great_circle(DVec3::Z), Edge::great_circle(view.normal)];
+    let mut bodies: Option<Vec<Vec<DVec3>>> = None;
+    let (mut sum, mut data_error) = (Estimate::default(), 0.0);
+    for beam in beams {
+        let to = beam.to.vector();
+        let e = if beam.straight {
+            let bodies = bodies.get_or_insert_with(|| {
+                let eye = facing.orientation.to_world(sensor.position);
+                let turned = |n: DVec3| surface.facade_from_room(facing.orientation.to_room(n));
+                around.solids.iter().map(|solid| solid.cone(eye).into_iter().map(turned).collect()).collect()
+            });
+            let edges = sun_disc::opening(&view.corners()).into_iter().chain(own).chain([facing.sun_edges()[0]]);
+            sun_disc::share_past(to, view.normal, edges, bodies)
+        } else {
+            let through = |piece: &Vec<DVec3>| {
+                let corners: Vec<DVec3> =
+                    piece.iter().map(|corner| surface.facade_from_room(*corner - sensor.position)).collect();
+                sun_disc::share(to, view.normal, sun_disc::opening(&corners).into_iter().chain(own))
+            };
+            lit.iter().map(through).sum()
+        };
+        let e = beam.normal * e;
+        sum += Estimate::new(e, e * beam.error);
+        data_error += e * beam.doubt;
+    }
+    DirectLight { all: sum, beam: sum.value, data_error }
+}

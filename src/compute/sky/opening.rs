@@ -1,0 +1,104 @@
+//! The outside past what stands before it, seen through an opening.
+//!
+//! Azimuths are swept about the zenith: there the horizon, the skyline, upright edges and the sun's altitude are simple.
+
+use super::outside::Outside;
+use super::prospect::Prospect;
+use super::region::Frame;
+use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::Estimate;
+use crate::compute::quadrature::Tolerance;
+use crate::compute::sweep::{rule, sweep};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Illuminance from the outside that is seen through a convex opening, every direction weighted by `tau`. \[lx\]
+///
+/// `corners`: of the opening as vectors from the point that the outside is seen from ([`Outside::seen_from`]), all of
+/// them before the receiver whose unit normal is `normal`.
+pub fn irradiance_through(
+    outside: &Outside,
+    corners: &[DVec3],
+    normal: Dir<World>,
+    tau: impl Fn(DVec3) -> f64,
+    tolerance: Tolerance,
+) -> Estimate {
+    let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
+    let open = outside.open();
+    let prospect = Prospect::lit(&open, surroundings, eye);
+    let normal = normal.vector();
+    let middle = corners.iter().sum::<DVec3>().normalize_or_zero();
+    let rim: Vec<[DVec3; 2]> = (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]).collect();
+    let planes: Vec<DVec3> = rim
+        .iter()
+        .filter_map(|[a, b]| {
+            let plane = a.cross(*b).try_normalize()?;
+            Some(if plane.dot(middle) >= 0.0 { plane } else { -plane })
+        })
+        .collect();
+    let within = |d: DVec3| planes.iter().all(|plane| plane.dot(d) >= 0.0);
+    let frame = Frame::DOME;
+    // Azimuths from the middle's on, so that the opening does not lie across the ends.
+    let reference = frame.angles(middle).1;
+    let turned = |v: DVec3| {
+        let from = frame.angles(v).1 - reference;
+        from - 2.0 * PI * (from / (2.0 * PI)).round()
+    };
+    let all_round = within(DVec3::Z) || within(DVec3::NEG_Z);
+    let (mut low, mut high) = (-PI, PI);
+    if !all_round {
+        let places = || corners.iter().map(|corner| turned(*corner));
+        (low, high) = (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
+    }
+    let mut knots = vec![low, high];
+    let mut add = |v: DVec3| {
+        let phi = turned(v);
+        if phi > low + 1e-12 && phi < high - 1e-12 {
+            knots.push(phi);
+        }
+    };
+    corners.iter().for_each(|corner| add(*corner));
+    surroundings.skyline.iter().flat_map(|skyline| skyline.corners()).for_each(&mut add);
+    let sun = outside.sun_direction().map(Dir::vector);
+    sun.into_iter().for_each(&mut add);
+    for end in eye.into_iter().flat_map(|eye| surroundings.edges_from(eye)).flatten() {
+        add(end);
+    }
+    if all_round {
+        [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].into_iter().for_each(&mut add);
+    }
+    knots.sort_unstable_by(f64::total_cmp);
+    let sun_theta = sun.map(|sun| frame.angles(sun).0);
+    let mut breaks = Vec::with_capacity(24);
+    let line = |phi: f64| {
+        let phi = phi + reference;
+        prospect.breaks(&frame, phi, (0.0, PI), &rim, &mut breaks);
+        if let Some(theta) = sun_theta {
+            breaks.insert(breaks.partition_point(|other| *other < theta), theta);
+        }
+        let mut sum = [0.0; 2];
+        for pair in breaks.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
+            let (from, width) = (pair[0], pair[1] - pair[0]);
+            let middle = frame.direction(from + 0.5 * width, phi);
+            if !within(middle) {
+                continue;
+            }
+            let met = prospect.met(middle);
+            let mut part = 0.0;
+            for &(x, share) in rule(4 + (width / 0.12) as usize) {
+                let theta = from + width * x;
+                let d = frame.direction(theta, phi);
+                let luminance = match met {
+                    Some(met) => prospect.luminance(met, d),
+                    None => prospect.open_luminance(d),
+                };
+                part += share * width * theta.sin() * normal.dot(d).max(0.0) * tau(d) * luminance;
+            }
+            sum[0] += part;
+            sum[1] += met.map_or(0.0, |met| prospect.doubt(met)) * part;
+        }
+        sum
+    };
+    let ([value, doubt], error) = sweep(line, &knots, tolerance.relative, tolerance.absolute);
+    Estimate::new(value, error + doubt)
+}

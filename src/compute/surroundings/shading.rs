@@ -1,0 +1,200 @@
+//! What of a rectangle the sun reaches past boxes: convex pieces with the shadows' edges as borders.
+//!
+//! Shadows are those of the middle of the sun's disc.
+
+use super::solid::{Face, Solid};
+use crate::compute::polygon::{area, cut};
+use glam::{DVec2, DVec3};
+
+/// Pieces smaller than this share of the rectangle are nothing.
+const NOTHING: f64 = 1e-12;
+/// Nearer to a plane is in it. \[m\]
+const TOUCHING: f64 = 1e-9;
+
+/// The convex shadow of a box on a plane in the plane's coordinates, counter-clockwise; fewer than three corners where it
+/// throws none. `sun` points to the sun, before the plane.
+fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
+    let towards = face.normal.dot(sun);
+    let height = |p: DVec3| face.normal.dot(p - face.origin);
+    let corners = solid.corners();
+    // What only touches the plane from behind shades nothing.
+    if corners.iter().all(|p| height(*p) < TOUCHING) {
+        return Vec::new();
+    }
+    // Only what stands before the plane shades it: corners there, and where edges come through.
+    let mut points: Vec<DVec3> = corners.iter().copied().filter(|p| height(*p) >= 0.0).collect();
+    if points.len() < corners.len() {
+        for i in 0..8_usize {
+            for axis in [1, 2, 4].into_iter().filter(|axis| i & axis == 0) {
+                let (a, b) = (corners[i], corners[i | axis]);
+                let (p, q) = (height(a), height(b));
+                if (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0) {
+                    points.push(a + (b - a) * (p / (p - q)));
+                }
+            }
+        }
+    }
+    let thrown = points.into_iter().map(|p| DVec2::from_array(face.coordinates(p - sun * (height(p) / towards))));
+    hull(thrown.collect())
+}
+
+/// Convex hull, counter-clockwise (Andrew's chains).
+fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup_by(|a, b| a.distance(*b) < 1e-12);
+    if points.len() < 3 {
+        return Vec::new();
+    }
+    let chain = |points: &mut dyn Iterator<Item = DVec2>| {
+        let mut chain: Vec<DVec2> = Vec::new();
+        for p in points {
+            while let [.., a, b] = chain[..]
+                && (b - a).perp_dot(p - b) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut lower = chain(&mut points.iter().copied());
+    lower.extend(chain(&mut points.iter().rev().copied()));
+    lower
+}
+
+/// Takes a convex, counter-clockwise polygon out of convex pieces; what remains is convex pieces again.
+pub fn without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2], least: f64) -> Vec<Vec<DVec2>> {
+    let mut left = Vec::with_capacity(pieces.len());
+    for mut piece in pieces {
+        for (k, &from) in hole.iter().enumerate() {
+            let along = hole[(k + 1) % hole.len()] - from;
+            let inside = |p: DVec2| along.perp_dot(p - from);
+            let mut outer = Vec::new();
+            cut(&piece, |p| -inside(p), &mut outer);
+            if outer.len() >= 3 && area(&outer).abs() > least {
+                left.push(outer);
+            }
+            let mut inner = Vec::new();
+            cut(&piece, inside, &mut inner);
+            piece = inner;
+            if piece.len() < 3 || area(&piece).abs() <= least {
+                break;
+            }
+        }
+    }
+    left
+}
+
+/// What of a face the sun reaches past boxes, in the face's coordinates; nothing where it turns away from the sun.
+pub fn lit_pieces<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<Vec<DVec2>> {
+    if face.normal.dot(sun) <= 1e-9 {
+        return Vec::new();
+    }
+    let [[a, b], [c, d]] = face.limits;
+    let whole = vec![DVec2::new(a, c), DVec2::new(b, c), DVec2::new(b, d), DVec2::new(a, d)];
+    let least = NOTHING * (b - a) * (d - c);
+    solids.fold(vec![whole], |pieces, solid| {
+        let hole = shadow(solid, face, sun);
+        if hole.len() < 3 { pieces } else { without(pieces, &hole, least) }
+    })
+}
+
+/// Edges of the shadows that boxes throw on a face, as far as they lie on it.
+pub fn shadow_edges<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<[DVec3; 2]> {
+    if face.normal.dot(sun) <= 1e-6 {
+        return Vec::new();
+    }
+    let mut edges = Vec::new();
+    for solid in solids {
+        let outline = shadow(solid, face, sun);
+        for (k, &from) in outline.iter().enumerate() {
+            let to = outline[(k + 1) % outline.len()];
+            let (mut first, mut last) = (0.0_f64, 1.0_f64);
+            for axis in 0..2 {
+                let [low, high] = face.limits[axis];
+                let (p, q) = (from[axis], to[axis]);
+                if (q - p).abs() < 1e-12 {
+                    // On the rim itself a shadow begins or ends with the face.
+                    if p <= low + 1e-9 || p >= high - 1e-9 {
+                        last = -1.0;
+                    }
+                    continue;
+                }
+                let (s, t) = ((low - p) / (q - p), (high - p) / (q - p));
+                first = first.max(s.min(t));
+                last = last.min(s.max(t));
+            }
+            if last - first > 1e-9 {
+                edges.push([first, last].map(|t| {
+                    let at = from + t * (to - from);
+                    face.point(at.x, at.y)
+                }));
+            }
+        }
+    }
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A window 3 × 2 m in the plane y = 0 that looks to −y.
+    fn window() -> Face {
+        Face {
+            origin: DVec3::new(0.5, 0.0, 0.9),
+            normal: DVec3::NEG_Y,
+            u: DVec3::X,
+            v: DVec3::Z,
+            limits: [[0.0, 3.0], [0.0, 2.0]],
+        }
+    }
+
+    fn share(solids: &[Solid], sun: DVec3) -> f64 {
+        lit_pieces(&window(), solids.iter(), sun).iter().map(|piece| area(piece).abs()).sum::<f64>() / 6.0
+    }
+
+    #[test]
+    fn an_overhang_shades_what_its_depth_and_the_sun_say() {
+        // 1.2 m deep, its underside flush with the window's head: the shadow reaches 1.2·tan(profile angle) down.
+        let overhang = Solid::new(DVec3::new(-9.0, -1.2, 2.9), DVec3::new(13.0, 0.0, 3.0), 0.0);
+        let sun = DVec3::new(0.3, -1.0, 0.8).normalize();
+        assert!((share(&[overhang], sun) - (1.0 - 1.2 * 0.8 / 2.0)).abs() < 1e-12);
+        // What stands behind the plane shades nothing.
+        let behind = Solid::new(DVec3::new(-9.0, 0.0, 0.0), DVec3::new(13.0, 4.0, 9.0), 0.0);
+        assert_eq!(share(&[behind], sun), 1.0);
+        assert_eq!(share(&[overhang], DVec3::new(0.0, 1.0, 1.0).normalize()), 0.0);
+    }
+
+    #[test]
+    fn shadows_that_overlap_count_once_and_agree_with_rays() {
+        let solids = [
+            Solid::new(DVec3::new(0.0, -1.2, 2.4), DVec3::new(4.0, 0.0, 2.5), 0.0),
+            Solid::new(DVec3::new(1.0, -0.9, 0.5), DVec3::new(1.1, 0.0, 2.8), 0.0),
+            Solid::new(DVec3::new(2.0, -3.0, 1.0), DVec3::new(2.6, -2.0, 3.0), 0.5),
+        ];
+        let sun = DVec3::new(-0.5, -0.9, 0.45).normalize();
+        let n = 400;
+        let lit = (0..n * n).filter(|i| {
+            let (u, v) = ((f64::from(i % n) + 0.5) / f64::from(n), (f64::from(i / n) + 0.5) / f64::from(n));
+            let p = window().point(3.0 * u, 2.0 * v);
+            solids.iter().all(|solid| solid.enter(p, sun).is_none())
+        });
+        let by_rays = lit.count() as f64 / f64::from(n * n);
+        assert!((share(&solids, sun) - by_rays).abs() < 2e-3, "{} {by_rays}", share(&solids, sun));
+        assert!(by_rays > 0.2 && by_rays < 0.8);
+    }
+
+    #[test]
+    fn edges_lie_on_the_face_where_light_changes() {
+        let fin = Solid::new(DVec3::new(1.0, -0.9, 0.0), DVec3::new(1.1, 0.0, 4.0), 0.0);
+        let sun = DVec3::new(-1.0, -1.0, 0.2).normalize();
+        let edges = shadow_edges(&window(), [fin].iter(), sun);
+        // From the fin's foot to 0.9 m beside it; the other side of the shadow is the fin's own.
+        assert!(edges.iter().any(|[a, b]| (a.x - 2.0).abs() < 1e-9 && (b.x - 2.0).abs() < 1e-9), "{edges:?}");
+        for edge in edges.iter().flatten() {
+            assert!(edge.y.abs() < 1e-12 && edge.z > 0.9 - 1e-9 && edge.z < 2.9 + 1e-9);
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! An upright box, turned about the vertical.
+
+use glam::{DVec2, DVec3};
+
+/// A box that stands upright.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solid {
+    centre: DVec2,
+    half: DVec2,
+    z: [f64; 2],
+    /// Cosine and sine of the turn.
+    turn: [f64; 2],
+}
+
+/// One face of a box: a rectangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// A point of its plane from which `u` and `v` are counted.
+    pub origin: DVec3,
+    /// Outward.
+    pub normal: DVec3,
+    /// First axis.
+    pub u: DVec3,
+    /// Second axis.
+    pub v: DVec3,
+    /// From and to along both axes. \[m\]
+    pub limits: [[f64; 2]; 2],
+}
+
+impl Face {
+    /// A point of the plane by its two coordinates.
+    pub fn point(&self, u: f64, v: f64) -> DVec3 {
+        self.origin + u * self.u + v * self.v
+    }
+
+    /// The coordinates of a point of the plane.
+    pub fn coordinates(&self, point: DVec3) -> [f64; 2] {
+        let from = point - self.origin;
+        [from.dot(self.u), from.dot(self.v)]
+    }
+
+    /// In order.
+    pub fn corners(&self) -> [DVec3; 4] {
+        let [[a, b], [c, d]] = self.limits;
+        [self.point(a, c), self.point(b, c), self.point(b, d), self.point(a, d)]
+    }
+}
+
+/// A ray that meets less of a box than this only touches it. \[m\]
+const TOUCH: f64 = 1e-9;
+/// A box that is left nearer than this lies behind the ray's start. \[m\]
+const BEHIND: f64 = 1e-7;
+
+impl Solid {
+    /// From two opposite corners of the unturned box; `turn` \[rad\] about the vertical through its centre,
+    /// counter-clockwise seen from above.
+    pub fn new(from: DVec3, to: DVec3, turn: f64) -> Self {
+        let (low, high) = (from.min(to), from.max(to));
+        let (sin, cos) = turn.sin_cos();
+        Self {
+            centre: 0.5 * (low + high).truncate(),
+            half: 0.5 * (high - low).truncate(),
+            z: [low.z, high.z],
+            turn: [cos, sin],
+        }
+    }
+
+    /// The whole turned about the vertical through the origin; cosine and sine of the angle.
+    pub fn turned(self, [cos, sin]: [f64; 2]) -> Self {
+        let by = DVec2::new(cos, sin);
+        let turn = by.rotate(DVec2::from_array(self.turn));
+        Self { centre: by.rotate(self.centre), turn: turn.to_array(), ..self }
+    }
+
+    /// A vector in the box's own axes.
+    fn local(&self, v: DVec3) -> DVec3 {
+        let [cos, sin] = self.turn;
+        DVec3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)
+    }
+
+    /// Out of the box's own axes.
+    fn world(&self, v: DVec3) -> DVec3 {
+        let [cos, sin] = self.turn;
+        DVec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
+    }
+
+    /// Middle of the box.
+    pub fn middle(&self) -> DVec3 {
+        self.centre.extend(0.5 * (self.z[0] + self.z[1]))
+    }
+
+    /// From the middle to a corner. \[m\]
+    pub fn radius(&self) -> f64 {
+        self.half.extend(0.5 * (self.z[1] - self.z[0])).length()
+    }
+
+    /// Distance at which a ray enters, and through which face; 0 where it starts inside. A box that is only touched, and
+    /// one that lies behind, do not count.
+    pub fn enter(&self, from: DVec3, direction: DVec3) -> Option<(f64, usize)> {
+        let start = self.local(from - self.centre.extend(0.0));
+        let along = self.local(direction);
+        let limits = [[-self.half.x, self.half.x], [-self.half.y, self.half.y], self.z];
+        let (mut near, mut far, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 0);
+        for axis in 0..3 {
+            let [low, high] = limits[axis];
+            let (o, d) = (start[axis], along[axis]);
+            if d.abs() < 1e-14 {
+                if o <= low + TOUCH || o >= high - TOUCH {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((low - o) / d, (high - o) / d);
+            let (a, b, side) = if d > 0.0 { (a, b, 2 * axis) } else { (b, a, 2 * axis + 1) };
+            if a > near {
+                (near, face) = (a, side);
+            }
+            far = far.min(b);
+        }
+        (far > BEHIND && far - near.max(0.0) > TOUCH).then_some((near.max(0.0), face))
+    }
+
+    /// Corner by three bits: x, y, z.
+    fn corner(&self, bits: usize) -> DVec3 {
+        let side = |bit: usize, half: f64| if bits >> bit & 1 == 1 { half } else { -half };
+        self.centre.extend(0.0)
+            + self.world(DVec3::new(side(0, self.half.x), side(1, self.half.y), self.z[bits >> 2 & 1]))
+    }
+
+    /// All eight.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|bits| self.corner(bits))
+    }
+
+    /// Faces 0 … 5 look along −x, +x, −y, +y, −z, +z of the box's own axes.
+    pub fn face(&self, number: usize) -> Face {
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| self.world(axis));
+        let sign = if number % 2 == 1 { 1.0 } else { -1.0 };
+        let ground = self.centre.extend(0.0);
+        let [a, b] = [self.half.x, self.half.y].map(|half| [-half, half]);
+        match number / 2 {
+            0 => Face { origin: ground + sign * a[1] * x, normal: sign * x, u: y, v: z, limits: [b, self.z] },
+            1 => Face { origin: ground + sign * b[1] * y, normal: sign * y, u: x, v: z, limits: [a, self.z] },
+            _ => Face { origin: ground + self.z[number % 2] * z, normal: sign * z, u: x, v: y, limits: [a, b] },
+        }
+    }
+
+    /// Is a face turned to a point?
+    fn faces(&self, number: usize, eye: DVec3) -> bool {
+        let face = self.face(number);
+        face.normal.dot(eye - face.origin) > 0.0
+    }
+
+    /// Every edge with the two faces that meet in it.
+    fn edges(&self) -> [([DVec3; 2], [usize; 2]); 12] {
+        std::array::from_fn(|index| {
+            let (axis, place) = (index / 4, index % 4);
+            let [one, two] = [(axis + 1) % 3, (axis + 2) % 3];
+            let bits = (place & 1) << one | (place >> 1) << two;
+            let ends = [self.corner(bits), self.corner(bits | 1 << axis)];
+            (ends, [2 * one + (place & 1), 2 * two + (place >> 1)])
+        })
+    }
+
+    /// Edges of faces that are turned to a point.
+    pub fn visible_edges(&self, eye: DVec3) -> impl Iterator<Item = [DVec3; 2]> + use<> {
+        let turned: [bool; 6] = std::array::from_fn(|number| self.faces(number, eye));
+        self.edges().into_iter().filter(move |(_, [a, b])| turned[*a] || turned[*b]).map(|(ends, _)| ends)
+    }
+
+    /// Normals of the planes through a point that hold the box: directions d with n·d > 0 for all of them meet it. Empty
+    /// where the point lies inside, or on a face with nothing of the box before it.
+    pub fn cone(&self, eye: DVec3) -> Vec<DVec3> {
+        let turned: [bool; 6] = std::array::from_fn(|number| self.faces(number, eye));
+        let middle = self.middle() - eye;
+        let outline = self.edges().into_iter().filter(|(_, [a, b])| turned[*a] != turned[*b]);
+        outline
+            .filter_map(|([a, b], _)| {
+                let normal = (a - eye).cross(b - eye).try_normalize()?;
+                Some(if normal.dot(middle) >= 0.0 { normal } else { -normal })
+            })
+            .collect()
+    }
+
+    /// The least gap to the box round some points, each along the world's axes. \[m\]
+    pub fn gap_to(&self, points: &[DVec3]) -> f64 {
+        let bounds = |points: &[DVec3]| {
+            let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+            (low, points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max))
+        };
+        let ((a, b), (c, d)) = (bounds(&self.corners()), bounds(points));
+        (c - b).max(a - d).max(DVec3::ZERO).length()
+    }
+
+    /// Do two boxes share more than a touch? \[m\]
+    pub fn overlaps(&self, other: &Self, slack: f64) -> bool {
+        if self.z[0].max(other.z[0]) >= self.z[1].min(other.z[1]) - slack {
+            return false;
+        }
+        // Two rectangles are apart if one of their four axes parts them.
+        let own = |solid: &Self| [0b000, 0b001, 0b011, 0b010].map(|bits| solid.corner(bits).truncate());
+        let axes = |solid: &Self| {
+            let [cos, sin] = solid.turn;
+            [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
+        };
+        let span = |corners: &[DVec2; 4], axis: DVec2| {
+            let along = corners.map(|corner| corner.dot(axis));
+            [along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+        };
+        let (one, two) = (own(self), own(other));
+        axes(self).into_iter().chain(axes(other)).all(|axis| {
+            let ([a, b], [c, d]) = (span(&one, axis), span(&two, axis));
+            a.max(c) < b.min(d) - slack
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned_box() -> Solid {
+        Solid::new(DVec3::new(1.0, -4.0, 0.0), DVec3::new(3.0, -2.0, 5.0), 30_f64.to_radians())
+    }
+
+    #[test]
+    fn a_ray_enters_through_the_face_that_it_meets() {
+        let unturned = Solid::new(DVec3::new(1.0, -4.0, 0.0), DVec3::new(3.0, -2.0, 5.0), 0.0);
+        assert_eq!(unturned.enter(DVec3::new(2.0, 0.0, 1.0), DVec3::NEG_Y), Some((2.0, 3)));
+        assert_eq!(unturned.enter(DVec3::new(2.0, 0.0, 1.0), DVec3::Y), None);
+        assert_eq!(unturned.enter(DVec3::new(2.0, -3.0, 9.0), DVec3::NEG_Z), Some((4.0, 5)));
+        // Along a face it only touches.
+        assert_eq!(unturned.enter(DVec3::new(3.0, 0.0, 1.0), DVec3::NEG_Y), None);
+        // Turned by 30° about its middle (2, −3): the half width along y is cos 30° + ... at x = 2 it is 1 / cos 30°.
+        let (distance, face) = turned_box().enter(DVec3::new(2.0, 0.0, 1.0), DVec3::NEG_Y).unwrap();
+        assert!((distance - (3.0 - 1.0 / 30_f64.to_radians().cos())).abs() < 1e-12 && face == 3, "{distance} {face}");
+    }
+
+    #[test]
+    fn faces_hold_their_corners_and_look_outwards() {
+        let solid = turned_box();
+        for number in 0..6 {
+            let face = solid.face(number);
+            assert!(face.normal.dot(face.origin - solid.middle()) > 0.0 || number / 2 == 2);
+            for corner in face.corners() {
+                assert!(solid.corners().iter().any(|c| c.distance(corner) < 1e-12), "{number} {corner}");
+                assert!(face.normal.dot(corner - solid.middle()) > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn the_cone_holds_exactly_the_rays_that_meet_the_box() {
+        let solid = turned_box();
+        let eye = DVec3::new(0.5, 0.0, 1.5);
+        let cone = solid.cone(eye);
+        let mut met = 0;
+        for i in 0..200 {
+            for k in 0..60 {
+                let (phi, h) = (f64::from(i) * 0.0314, f64::from(k) * 0.05 - 1.5);
+                let d = DVec3::new(h.cos() * phi.cos(), h.cos() * phi.sin(), h.sin());
+                let inside = cone.iter().all(|n| n.dot(d) > 0.0);
+                assert_eq!(inside, solid.enter(eye, d).is_some(), "{d}");
+                met += usize::from(inside);
+            }
+        }
+        assert!(met > 200);
+    }
+
+    #[test]
+    fn boxes_that_touch_do_not_overlap() {
+        let room = Solid::new(DVec3::ZERO, DVec3::new(4.0, 6.0, 3.0), 0.0);
+        let solid = |from: [f64; 3], to: [f64; 3], turn: f64| {
+            Solid::new(DVec3::from_array(from), DVec3::from_array(to), f64::to_radians(turn))
+        };
+        assert!(!room.overlaps(&solid([0.0, -1.2, 2.75], [4.0, 0.0, 2.9], 0.0), 1e-9));
+        assert!(room.overlaps(&solid([0.0, -1.2, 2.75], [4.0, 0.01, 2.9], 0.0), 1e-9));
+        assert!(room.overlaps(&solid([1.0, -1.2, 1.0], [2.0, -0.05, 2.0], 45.0), 1e-9));
+        assert!(!room.overlaps(&solid([1.0, -1.2, 1.0], [2.0, -0.25, 2.0], 45.0), 1e-9));
+        assert!(!room.overlaps(&solid([1.0, 1.0, 3.0], [2.0, 2.0, 4.0], 10.0), 1e-9));
+    }
+}

@@ -1,0 +1,186 @@
+//! `site.dst`: when the clock that the scene is read by is an hour ahead of local standard time.
+
+use jiff::ToSpan;
+use jiff::civil::{Date, DateTime, Weekday, date};
+use serde::{Deserialize, Serialize};
+
+/// Rule of summer time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(try_from = "DstAsTyped", into = "DstAsTyped")]
+pub enum DstKey {
+    /// The clock shows local standard time all the year.
+    #[default]
+    None,
+    /// From the last Sunday of March to the last Sunday of October, changed at 01:00 UTC.
+    Eu,
+    /// From the second Sunday of March to the first Sunday of November, changed at 02:00 by the clock.
+    Us,
+    /// From the first to the last day named, both as a whole.
+    Days(Date, Date),
+}
+
+/// A word, or two days.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+enum DstAsTyped {
+    Word(String),
+    Days(Vec<String>),
+}
+
+const RIGHT: &str = "\"none\", \"eu\", \"us\", or the first and the last day, e.g. [\"2026-03-29\", \"2026-10-25\"]";
+
+impl TryFrom<DstAsTyped> for DstKey {
+    type Error = String;
+
+    fn try_from(typed: DstAsTyped) -> Result<Self, String> {
+        let days = match typed {
+            DstAsTyped::Word(word) => {
+                return match word.as_str() {
+                    "none" => Ok(Self::None),
+                    "eu" => Ok(Self::Eu),
+                    "us" => Ok(Self::Us),
+                    _ => Err(format!("site.dst: \"{word}\" is no rule of summer time (allowed: {RIGHT})")),
+                };
+            }
+            DstAsTyped::Days(days) => days,
+        };
+        let [first, last] = days.as_slice() else {
+            return Err(format!("site.dst: {} days (allowed: {RIGHT})", days.len()));
+        };
+        let day = |text: &String| {
+            text.parse::<Date>()
+                .map_err(|_| format!("site.dst: \"{text}\" is no day of the calendar; write YYYY-MM-DD"))
+        };
+        let (first, last) = (day(first)?, day(last)?);
+        if last < first {
+            return Err(format!("site.dst: the last day, {last}, is before the first, {first}"));
+        }
+        Ok(Self::Days(first, last))
+    }
+}
+
+impl From<DstKey> for DstAsTyped {
+    fn from(key: DstKey) -> Self {
+        match key {
+            DstKey::None => Self::Word("none".to_owned()),
+            DstKey::Eu => Self::Word("eu".to_owned()),
+            DstKey::Us => Self::Word("us".to_owned()),
+            DstKey::Days(first, last) => Self::Days(vec![first.to_string(), last.to_string()]),
+        }
+    }
+}
+
+/// The Sunday on or after a day of the calendar.
+fn sunday_from(year: i16, month: i8, day: i8) -> Date {
+    // Months and days of the rules are of every year's calendar.
+    let from = date(year, month, day);
+    let ahead = i32::from(Weekday::Sunday.since(from.weekday()));
+    from.saturating_add(ahead.days())
+}
+
+impl DstKey {
+    /// Nothing that the file needs to say.
+    pub(super) fn is_none(&self) -> bool {
+        *self == Self::None
+    }
+
+    /// Is it summer time at a moment of local standard time? `utc_offset`: hours that standard time is ahead of UTC.
+    fn is_summer(self, standard: DateTime, utc_offset: f64) -> bool {
+        let year = standard.year();
+        let at = |day: Date, hours: f64| day.to_datetime(jiff::civil::Time::midnight()).saturating_add(minutes(hours));
+        let (from, to) = match self {
+            Self::None => return false,
+            Self::Eu => {
+                let hour = 1.0 + utc_offset;
+                (at(sunday_from(year, 3, 25), hour), at(sunday_from(year, 10, 25), hour))
+            }
+            Self::Us => (at(sunday_from(year, 3, 8), 2.0), at(sunday_from(year, 11, 1), 1.0)),
+            // Whole days by the clock: the hour between the two midnights belongs to them.
+            Self::Days(first, last) => (at(first, -1.0), at(last, 23.0)),
+        };
+        from <= standard && standard < to
+    }
+
+    /// Local standard time of what the clock shows. Of the hour that a clock shows twice in autumn, the first.
+    pub fn standard(self, clock: DateTime, utc_offset: f64) -> DateTime {
+        let ahead = clock.saturating_sub(minutes(1.0));
+        if self.is_summer(ahead, utc_offset) { ahead } else { clock }
+    }
+
+    /// What the clock shows at a moment of local standard time.
+    pub fn clock(self, standard: DateTime, utc_offset: f64) -> DateTime {
+        if self.is_summer(standard, utc_offset) { standard.saturating_add(minutes(1.0)) } else { standard }
+    }
+}
+
+/// Hours as a span, to the minute: offsets are not always whole.
+fn minutes(hours: f64) -> jiff::Span {
+    ((60.0 * hours).round() as i64).minutes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(text: &str) -> Result<DstKey, String> {
+        #[derive(Deserialize)]
+        struct Site {
+            dst: DstKey,
+        }
+        toml::from_str::<Site>(&format!("dst = {text}")).map(|site| site.dst).map_err(|error| error.to_string())
+    }
+
+    fn standard(key: DstKey, clock: &str, offset: f64) -> String {
+        key.standard(clock.parse().unwrap(), offset).strftime("%m-%d %H:%M").to_string()
+    }
+
+    #[test]
+    fn clocks_change_when_the_calendar_says() {
+        let eu = key("\"eu\"").unwrap();
+        // 2026: 29 March and 25 October, 2:00 and 3:00 in Central Europe, an hour earlier in Portugal.
+        for (clock, is) in [
+            ("2026-03-29T01:59", "03-29 01:59"),
+            ("2026-03-29T03:00", "03-29 02:00"),
+            ("2026-07-01T00:30", "06-30 23:30"),
+            ("2026-10-25T02:59", "10-25 01:59"),
+            ("2026-10-25T03:00", "10-25 03:00"),
+            ("2026-12-21T12:00", "12-21 12:00"),
+        ] {
+            assert_eq!(standard(eu, clock, 1.0), is, "{clock}");
+        }
+        assert_eq!(standard(eu, "2026-03-29T02:00", 0.0), "03-29 01:00");
+        let us = key("\"us\"").unwrap();
+        assert_eq!(standard(us, "2026-03-08T01:59", -8.0), "03-08 01:59");
+        assert_eq!(standard(us, "2026-03-08T03:00", -8.0), "03-08 02:00");
+        assert_eq!(standard(us, "2026-11-01T01:30", -8.0), "11-01 00:30");
+        assert_eq!(standard(us, "2026-11-01T02:00", -8.0), "11-01 02:00");
+    }
+
+    #[test]
+    fn named_days_count_as_a_whole_and_the_way_back_is_the_same() {
+        let days = key("[\"2026-04-01\", \"2026-09-30\"]").unwrap();
+        for (clock, is) in [
+            ("2026-03-31T23:59", "03-31 23:59"),
+            ("2026-04-01T00:00", "03-31 23:00"),
+            ("2026-09-30T23:59", "09-30 22:59"),
+            ("2026-10-01T00:00", "10-01 00:00"),
+        ] {
+            assert_eq!(standard(days, clock, 1.0), is, "{clock}");
+        }
+        for key in [days, DstKey::Eu, DstKey::Us, DstKey::None] {
+            for time in ["2026-01-10T08:00", "2026-06-10T08:00", "2026-10-10T23:30"] {
+                let time: DateTime = time.parse().unwrap();
+                assert_eq!(key.standard(key.clock(time, 1.0), 1.0), time);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_rule_says_what_would_be_one() {
+        for text in
+            ["\"summer\"", "[\"2026-03-29\"]", "[\"2026-02-30\", \"2026-10-25\"]", "[\"2026-10-25\", \"2026-03-29\"]"]
+        {
+            assert!(key(text).unwrap_err().contains("site.dst"), "{text}");
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What all apertures of a scene send into the room.
+
+use super::Session;
+use super::behind::Split;
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::Emission;
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+
+/// The light of all apertures.
+pub(super) struct Lights {
+    /// Of every aperture as a whole.
+    pub emissions: Vec<Emission>,
+    /// The same part by part; empty where nothing stands outside.
+    pub splits: Vec<Split>,
+}
+
+impl Session {
+    /// The light of all apertures.
+    pub(super) fn lights(&self, scene: &Scene) -> Result<Lights, StudyError> {
+        let splits = self.splits(scene)?;
+        let emissions = if splits.is_empty() {
+            (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect()
+        } else {
+            splits.iter().map(|split| split.whole.clone()).collect()
+        };
+        Ok(Lights { emissions, splits })
+    }
+}
+
+impl Lights {
+    /// Flux that enters through one aperture. \[lm\]
+    pub fn flux_through(&self, scene: &Scene, index: usize) -> Estimate {
+        let exitance = match self.splits.get(index) {
+            Some(split) => split.exitance,
+            None => self.emissions[index].exitance(&scene.facing(index)),
+        };
+        exitance * scene.apertures[index].aperture.area()
+    }
+
+    /// Flux that enters through all apertures. \[lm\]
+    pub fn flux(&self, scene: &Scene) -> Estimate {
+        (0..self.emissions.len()).map(|index| self.flux_through(scene, index)).sum()
+    }
+}

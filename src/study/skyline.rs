@@ -1,0 +1,58 @@
+//! From `sky.skyline` to a skyline that rises and falls with the bearing.
+
+use super::scene_file::SkylineKeys;
+use crate::compute::sky::Outside;
+use crate::compute::surroundings::Surroundings;
+use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::surroundings::solid::Solid;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// A key that is wrong, and what is wrong and would be right.
+pub type Wrong = (&'static str, String);
+
+/// Judges `sky.skyline`.
+pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
+    let wrong = |key, message: String| Err((key, message));
+    if !(keys.luminance >= 0.0 && keys.luminance.is_finite()) {
+        let message = format!("{} cd/m² is out of range (allowed: 0 and above)", keys.luminance);
+        return wrong("sky.skyline.luminance", message);
+    }
+    for [bearing, altitude] in &keys.altitudes {
+        if !(-360.0..=360.0).contains(bearing) {
+            let message = format!("a compass bearing of {bearing}° (allowed: -360 to 360°)");
+            return wrong("sky.skyline.altitudes", message);
+        }
+        if !(0.0..=89.999).contains(altitude) {
+            let message = format!("{altitude}° at the bearing {bearing}° (allowed: 0 to 89.999°)");
+            return wrong("sky.skyline.altitudes", message);
+        }
+    }
+    let mut bearings: Vec<f64> = keys.altitudes.iter().map(|[bearing, _]| bearing.rem_euclid(360.0)).collect();
+    bearings.sort_by(f64::total_cmp);
+    if let Some(pair) = bearings.windows(2).find(|pair| pair[0] == pair[1]) {
+        let message = format!("two altitudes at the bearing {}°: give one", pair[0]);
+        return wrong("sky.skyline.altitudes", message);
+    }
+    let knots = keys.altitudes.iter().map(|knot| knot.map(f64::to_radians));
+    match Skyline::new(knots, keys.luminance) {
+        Some(skyline) => Ok(skyline),
+        None => {
+            let message = "empty: give at least one pair of compass bearing and altitude, e.g. [[0.0, 10.0]]";
+            wrong("sky.skyline.altitudes", message.to_owned())
+        }
+    }
+}
+
+/// An outside behind a skyline that has no boxes before it.
+pub fn behind_skyline(outside: Outside, skyline: Skyline) -> Outside {
+    let nowhere = Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0);
+    outside.behind(Arc::new(Surroundings {
+        solids: Vec::new(),
+        room: nowhere,
+        faces: Vec::new(),
+        sun: None,
+        shadow_edges: Vec::new(),
+        skyline: Some(skyline),
+    }))
+}

@@ -1,0 +1,195 @@
+//! What stands outside: which keys are refused, and what must hold without any reference.
+
+use cfs::compute::direction::Dir;
+use cfs::compute::estimate::Silent;
+use cfs::compute::sky::faces::{Finish, surroundings};
+use cfs::compute::sky::{Distribution, Outside, irradiance};
+use cfs::compute::surroundings::solid::Solid;
+use cfs::study::scene_file::SceneFile;
+use cfs::study::{Library, RoomResult, Scene, Session};
+use glam::DVec3;
+use std::path::Path;
+use std::sync::Arc;
+
+const DIFFUSE: &str = "system = { ideal = \"diffuse\", transmittance = 0.5 }";
+const CLEAR: &str = "system = { ideal = \"transparent\", transmittance = 0.8 }";
+const OVERCAST: &str = "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0";
+const BLACK: &str = "model = \"uniform\"\ndiffuse_horizontal = 0.0";
+
+fn text(aperture: &str, sky: &str, outside: &str) -> String {
+    format!(
+        "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\nreflectance = {{ floor = 0.0, walls = 0.0, ceiling = 0.0 }}\n\
+         [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\n{aperture}\n{outside}\n\
+         [site]\nazimuth = 180.0\nground_reflectance = 0.2\n[sky]\n{sky}\n\
+         [sensors]\npoints = [[0.9, 0.6, 0.85], [2.6, 1.7, 0.85], [2.0, 4.0, 0.85]]\nnormal = [0.0, 0.0, 1.0]\n\
+         [compute]\ninterreflection = false\n"
+    )
+}
+
+fn a_box(from: [f64; 3], to: [f64; 3], more: &str) -> String {
+    format!("[[outside]]\nbox = {{ from = {from:?}, to = {to:?} }}\n{more}\n")
+}
+
+fn resolve(text: &str) -> Result<Scene, String> {
+    let file = SceneFile::parse(text).map_err(|error| error.to_string())?;
+    Scene::resolve(&file, Path::new("."), &Library::default()).map_err(|error| error.to_string())
+}
+
+fn room(text: &str) -> RoomResult {
+    Session::new().room(&resolve(text).unwrap(), &Silent).unwrap()
+}
+
+fn totals(text: &str) -> Vec<f64> {
+    room(text).sensors.iter().map(|sensor| sensor.total().value).collect()
+}
+
+fn words(text: &str) -> String {
+    let stages = room(text).plan.stages;
+    stages.iter().filter(|stage| stage.name == "outside").map(|stage| stage.reason.clone()).collect()
+}
+
+#[test]
+fn wrong_keys_name_their_place() {
+    let skyline = |keys: &str| format!("{OVERCAST}\nskyline = {{ {keys} }}");
+    let inside = a_box([1.0, -1.0, 0.0], [2.0, 0.5, 1.0], "");
+    for (aperture, sky, outside, place) in [
+        (CLEAR.to_owned(), OVERCAST.to_owned(), inside, "outside[1].box"),
+        (CLEAR.to_owned(), OVERCAST.to_owned(), a_box([1.0, -1.0, 0.0], [2.0, -2.0, 1.0], ""), "outside[1].box"),
+        (
+            CLEAR.to_owned(),
+            OVERCAST.to_owned(),
+            a_box([1.0, -2.0, 0.0], [2.0, -1.0, 1.0], "reflectance = 1.2"),
+            "outside[1].reflectance",
+        ),
+        (
+            CLEAR.to_owned(),
+            OVERCAST.to_owned(),
+            a_box([1.0, -2.0, 0.0], [2.0, -1.0, 1.0], "reflectance = 0.2\nluminance = 3.0"),
+            "outside[1].luminance",
+        ),
+        (format!("{CLEAR}\nframe = 0.97"), OVERCAST.to_owned(), String::new(), "aperture[1].frame"),
+        (format!("{CLEAR}\ndirt = -0.1"), OVERCAST.to_owned(), String::new(), "aperture[1].dirt"),
+        (CLEAR.to_owned(), skyline("altitudes = []"), String::new(), "sky.skyline.altitudes"),
+        (CLEAR.to_owned(), skyline("altitudes = [[0.0, 95.0]]"), String::new(), "sky.skyline.altitudes"),
+        (
+            CLEAR.to_owned(),
+            skyline("altitudes = [[0.0, 5.0]], luminance = -1.0"),
+            String::new(),
+            "sky.skyline.luminance",
+        ),
+    ] {
+        let error = resolve(&text(&aperture, &sky, &outside)).unwrap_err();
+        assert!(error.contains(place), "{place}: {error}");
+    }
+}
+
+#[test]
+fn frame_and_dirt_leave_their_share() {
+    let whole = totals(&text(CLEAR, OVERCAST, ""));
+    let less = totals(&text(&format!("{CLEAR}\nframe = 0.2\ndirt = 0.9"), OVERCAST, ""));
+    for (a, b) in whole.iter().zip(&less) {
+        assert!((b / a - 0.72).abs() < 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn a_wall_on_the_window_takes_all_light_and_one_that_shines_gives_its_own() {
+    let wall = |luminance: f64| a_box([-50.0, -2.0, -50.0], [54.0, -0.01, 50.0], &format!("luminance = {luminance:?}"));
+    for system in [CLEAR, DIFFUSE] {
+        let open = totals(&text(system, OVERCAST, ""));
+        let dark = totals(&text(system, OVERCAST, &wall(0.0)));
+        assert!(open.iter().zip(&dark).all(|(a, b)| *a > 10.0 && *b < 1e-3 * a), "{open:?} {dark:?}");
+        let [one, two] = [100.0, 200.0].map(|l| totals(&text(system, BLACK, &wall(l))));
+        assert!(one.iter().zip(&two).all(|(a, b)| *a > 0.1 && (b / a - 2.0).abs() < 1e-6), "{one:?} {two:?}");
+    }
+}
+
+#[test]
+fn a_flat_skyline_by_bearings_is_the_horizontal_one() {
+    let flat = format!("{OVERCAST}\nobstruction = {{ altitude = 20.0, luminance = 300.0 }}");
+    let bearings = format!("{OVERCAST}\nskyline = {{ altitudes = [[10.0, 20.0], [200.0, 20.0]], luminance = 300.0 }}");
+    for system in [CLEAR, DIFFUSE] {
+        let [a, b] = [&flat, &bearings].map(|sky| totals(&text(system, sky, "")));
+        assert!(a.iter().zip(&b).all(|(a, b)| (b / a - 1.0).abs() < 2e-3), "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn the_plan_says_what_was_split() {
+    let far = words(&text(DIFFUSE, OVERCAST, &a_box([-9e3, -9e3, 0.0], [9e3, -8e3, 2e3], "")));
+    assert!(far.contains("aperture 1: not split"), "{far}");
+    let fin = words(&text(DIFFUSE, OVERCAST, &a_box([0.3, -0.9, 0.0], [0.5, 0.0, 3.0], "")));
+    assert!(fin.contains("aperture 1: split into"), "{fin}");
+    let through = words(&text(CLEAR, OVERCAST, &a_box([0.3, -0.9, 0.0], [0.5, 0.0, 3.0], "")));
+    assert!(through.contains("every sensor looks straight through"), "{through}");
+    assert!(words(&text(DIFFUSE, OVERCAST, "")).is_empty());
+}
+
+/// Illuminance of a wall that looks to −y from a point at the origin, past one black box. \[lx\]
+fn past(solid: Solid, outside: Outside) -> f64 {
+    let room = Solid::new(DVec3::new(-1e-3, 1e-3, -1e-3), DVec3::new(1e-3, 2e-3, 1e-3), 0.0);
+    let around = surroundings(&outside, None, &[(solid, Finish::Luminance(0.0))], room, None, &[DVec3::ZERO]);
+    let seen = outside.behind(Arc::new(around)).seen_from(DVec3::ZERO);
+    irradiance(&seen, Dir::from_unit(DVec3::NEG_Y)).value
+}
+
+#[test]
+fn endless_overhangs_and_fins_hide_what_their_profile_angle_says() {
+    let sky = || Outside::new(Distribution::uniform(), 10_000.0).unwrap();
+    for (depth, away) in [(1.2_f64, 0.3_f64), (0.5, 0.5), (0.2, 1.5)] {
+        let sine = away / away.hypot(depth);
+        // A uniform sky gives a wall half of what it gives the ground, times the sine of the profile angle where it ends.
+        let overhang = Solid::new(DVec3::new(-5e3, -depth, away), DVec3::new(5e3, 0.0, away + 0.1), 0.0);
+        let found = past(overhang, sky());
+        assert!((found / (5000.0 * sine) - 1.0).abs() < 1e-3, "overhang {depth} {away}: {found}");
+        // Sky and ground of one luminance: one half is whole, the other ends at the fin.
+        let fin = Solid::new(DVec3::new(away, -depth, -5e3), DVec3::new(away + 0.1, 0.0, 5e3), 0.0);
+        let found = past(fin, sky().with_ground(1.0, 0.0).unwrap());
+        assert!((found / (5000.0 * (1.0 + sine)) - 1.0).abs() < 1e-3, "fin {depth} {away}: {found}");
+    }
+}
+
+#[test]
+fn what_enters_under_an_endless_overhang_is_its_mean() {
+    let uniform = "model = \"uniform\"\ndiffuse_horizontal = 10000.0";
+    let overhang = a_box([-5e3, -1.2, 2.7], [5e3, 0.0, 2.8], "luminance = 0.0");
+    let found = room(&text(DIFFUSE, uniform, &overhang)).flux.value;
+    // Mean of h / √(h² + d²) over the height of the window; the ground gives half of 0.2 · 10 klx all over.
+    let mean = (1.8_f64.hypot(1.2) - 1.2) / 1.8;
+    let exact = 0.5 * 3.0 * 1.8 * (5000.0 * mean + 1000.0);
+    assert!((found / exact - 1.0).abs() < 3e-3, "{found} {exact}");
+}
+
+#[test]
+fn an_overhang_ends_the_sun_on_the_floor_where_geometry_says() {
+    let sun = format!("{BLACK}\nsun = {{ altitude = 35.0, azimuth = 180.0, direct_normal = 50000.0 }}");
+    let overhang = a_box([-9.0, -0.8, 2.7], [13.0, 0.0, 2.8], "luminance = 0.0");
+    // From the plane 0.85 m up to the overhang's lower front edge, 0.8 m before the façade.
+    let edge = (2.7 - 0.85) / 35_f64.to_radians().tan() - 0.8;
+    let beams = |outside: &str| {
+        let own = text(CLEAR, &sun, outside);
+        let points = [-0.05, 0.0, 0.05].map(|by| format!("[2.0, {:.6}, 0.85]", edge + by)).join(", ");
+        let own = own.replace("[0.9, 0.6, 0.85], [2.6, 1.7, 0.85], [2.0, 4.0, 0.85]", &points);
+        room(&own).sensors.iter().map(|sensor| sensor.beam).collect::<Vec<_>>()
+    };
+    let whole = 0.8 * 50_000.0 * 35_f64.to_radians().sin();
+    let open = beams("");
+    assert!(open.iter().all(|beam| (beam / whole - 1.0).abs() < 1e-3), "{open:?} {whole}");
+    let [before, at, behind] = beams(&overhang).try_into().unwrap();
+    assert!((before / whole - 1.0).abs() < 1e-3 && behind == 0.0, "{before} {behind} {whole}");
+    // The disc's middle is on the edge: half of it is seen.
+    assert!((at / whole - 0.5).abs() < 0.02, "{at} {whole}");
+}
+
+#[test]
+fn summer_time_is_an_hour_behind() {
+    let place = "[site]\nlatitude = 48.8\nlongitude = 9.2\nutc_offset = 1.0\n";
+    let at = |time: &str, dst: &str| {
+        let sky = format!("model = \"cie\"\ntype = 12\ndiffuse_horizontal = 9e3\ntime = \"{time}\"");
+        let own = text(CLEAR, &sky, "").replace("[site]\n", &format!("{place}{dst}\n"));
+        resolve(&own).unwrap().outside.sun_direction().unwrap().altitude()
+    };
+    assert_eq!(at("2026-07-01T13:00", "dst = \"eu\""), at("2026-07-01T12:00", ""));
+    assert_eq!(at("2026-12-01T13:00", "dst = \"eu\""), at("2026-12-01T13:00", ""));
+    assert!(at("2026-07-01T13:00", "dst = \"eu\"") > at("2026-07-01T13:00", ""));
+}
