@@ -9,12 +9,14 @@
 //! - `profile_angle`: directions in the section across slats
 //! - `estimate`: numbers with their error, progress and cancelling
 //! - `quadrature`: integrals with errors
+//! - `sweep`: several quantities integrated along one variable at once, with errors
 //! - `sequence`: random and evenly spread numbers
 //! - `scaling`: matrices scaled to given sums, symmetric ones kept so
 //! - `polygon`: convex polygons cut, their areas and solid angles
 //! - `basis`: divisions of the hemisphere into cells
 //! - `wavelet`: compact rows of values on cells
 //! - `btdf`: the four functions of a system as data
+//! - `surroundings`: boxes and a skyline before the façade, their edges and shadows
 //! - `sky`: luminances outside, the sun and its disc
 //! - `system`: described systems, a room a family, and the goniophotometer that makes data of them
 //! - `incidence`: between incident directions

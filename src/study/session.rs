@@ -31,7 +31,6 @@ use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
-use lights::Lights;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
@@ -48,6 +47,9 @@ fn cubature(error_target: Option<f64>) -> f64 {
 /// Relative error of direct light that costs no digit that anyone sees. Its table is printed by
 /// `examples/stated_errors.rs` (rows "made, direct").
 const SEEN: f64 = 1e-4;
+
+/// What a scene that names no error gets. \[relative\]
+pub(super) const ORDINARY_TARGET: f64 = 0.01;
 
 /// Steps that a room reports: emission, direct light, two meshes.
 const STEPS: usize = 4;
@@ -185,7 +187,7 @@ impl Session {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
         let lights = self.lights(scene)?;
-        let Lights { emissions, splits } = &lights;
+        let (emissions, splits) = (&lights.emissions, &lights.splits);
         let flux = lights.flux(scene);
         for word in splits.iter().flat_map(|split| &split.words) {
             plan.note("outside", true, word);

@@ -22,9 +22,9 @@ mod views;
 
 use super::error::StudyError;
 use super::scene::Scene;
-use super::session::Session;
-use super::session::interreflected::{ORDINARY_TARGET, PATCHES, REST};
+use super::session::interreflected::{PATCHES, REST};
 use super::session::responses::Responses;
+use super::session::{ORDINARY_TARGET, Session};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::Dir;
 use crate::compute::estimate::{Estimate, Progress};

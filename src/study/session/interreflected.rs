@@ -1,7 +1,7 @@
 //! Light that reaches the sensors after at least one reflection.
 
 use super::lights::Lights;
-use super::{STEPS, Session, aperture_key, basis_key, check, sensor_key};
+use super::{ORDINARY_TARGET, STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::aperture::Aperture;
@@ -35,9 +35,6 @@ pub(in crate::study) const DIFFERENCE_ALONE: f64 = 1.6;
 
 /// What taking the light on an aperture as even costs of what it throws back to a sensor, relative.
 pub(in crate::study) const UNEVEN: f64 = 0.1;
-
-/// What a scene that names no error gets. \[relative\]
-pub(in crate::study) const ORDINARY_TARGET: f64 = 0.01;
 
 impl Session {
     /// Interreflected light at every sensor, and the largest gap of flux before it was closed. Refines until the stated

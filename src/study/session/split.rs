@@ -6,7 +6,7 @@
 //! where light hardly changes over the whole aperture, as before things that are far, nothing is split. What goes straight
 //! through needs no parts: every sensor looks for itself.
 
-use super::Session;
+use super::{ORDINARY_TARGET, Session};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
@@ -267,7 +267,7 @@ impl Session {
             .iter()
             .any(|light| light.basis.len() > crate::compute::room::first_bounce::MOST_CELLS);
         let most = if dear { MOST_DEAR_PARTS } else { MOST_PARTS };
-        let target = SHARE * scene.error_target.unwrap_or(super::interreflected::ORDINARY_TARGET);
+        let target = SHARE * scene.error_target.unwrap_or(ORDINARY_TARGET);
         loop {
             let (flux, left): (f64, f64) =
                 leaves.iter().fold((0.0, 0.0), |(flux, left), leaf| (flux + leaf.flux(), left + leaf.left_over()));
