@@ -9,10 +9,10 @@ use super::error::AppError;
 use super::jobs::Lane;
 use super::scene::{rule, selection_of};
 use super::shelf_library::WindowLibrary;
-use super::state::{Daylight, Document, State};
+use super::state::{Document, State};
 use super::tiles::TILES;
 use super::window::{App, end_step};
-use super::work::{Compared, Outcome, Shelved, take_from_shelf};
+use super::work::{Compared, Outcome, Shelved, daylight, take_from_shelf};
 use super::{control, title};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
@@ -21,7 +21,6 @@ use crate::report::TileKind;
 use crate::study::comparison::{DataFacts, FIGURES, Facts, MOST, Row, candidate, compare, csv};
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{CompareKeys, ControlMode, SceneFile, SystemKeys};
-use crate::study::sky::outside_from_keys;
 use crate::study::system::Need;
 use crate::study::{Library, Scene, SystemLibrary as _};
 use crate::texts::{Language, compare as texts, language};
@@ -362,7 +361,7 @@ fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Re
 /// Product, state and dataset of a candidate, computed where the catalogue does not hold them yet; sky and sun.
 fn shelf_part(question: &Question, files: &Library, progress: &dyn Progress) -> Compared {
     let Question { scene, base, shelf } = question;
-    let daylight = outside_from_keys(&scene.sky, &scene.site, base).map(|(outside, sun)| Daylight { outside, sun });
+    let daylight = daylight(scene, base);
     let Some(selection) = selection_of(scene) else {
         return Compared::Own(own_part(question, files, progress), daylight);
     };

@@ -10,11 +10,11 @@ use super::shelf::{Addition, Query, Shelf};
 use super::state::{CatalogueState, Daylight, Document, PathUse, Sheet, Shown};
 use super::tiles;
 use super::window::{App, end_step, fresh_undoer};
-use super::work::{Outcome, Shelved, fill_some, take_from_shelf};
+use super::work::{Outcome, Shelved, daylight, fill_some, take_from_shelf};
 use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::scene_file::{ControlKeys, ControlMode};
-use crate::study::sky::{SkyKeyError, outside_from_keys};
+use crate::study::sky::SkyKeyError;
 use crate::texts::{Language, language, shell};
 use std::sync::Arc;
 
@@ -416,8 +416,7 @@ impl App {
         let (scene, selection, base) = (document.scene.clone(), document.selection.clone(), self.state.base());
         let aperture = self.state.control_aperture();
         self.start(Lane::Scene, move |_| {
-            let daylight =
-                outside_from_keys(&scene.sky, &scene.site, &base).map(|(outside, sun)| Daylight { outside, sun });
+            let daylight = daylight(&scene, &base);
             let place = (aperture, base.as_path());
             Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok(), place), daylight)
         });

@@ -156,6 +156,8 @@ impl Results {
 pub struct Daylight {
     /// Sky, ground, skyline.
     pub outside: Outside,
+    /// The same with what stands before them, as the first aperture sees them; `None` where nothing does.
+    pub seen: Option<Outside>,
     /// Beam, if there is any.
     pub sun: Option<Sun>,
 }

@@ -29,8 +29,9 @@ use crate::study::accuracy::Accuracy;
 use crate::study::comparison::DataFacts;
 use crate::study::control::ControlQuestion;
 use crate::study::control::year::CONTROLLED;
+use crate::study::scene::seen_by_first_aperture;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
-use crate::study::sky::SkyKeyError;
+use crate::study::sky::{SkyKeyError, outside_from_keys};
 use crate::study::subscriptions::Report;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -181,6 +182,14 @@ pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState
             return Ok(left);
         }
     }
+}
+
+/// Sky and sun of a scene, as they are and as its first aperture sees them.
+pub(super) fn daylight(scene: &SceneFile, base: &Path) -> Result<Daylight, SkyKeyError> {
+    let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base)?;
+    // What is wrong with boxes the room's tile says.
+    let seen = seen_by_first_aperture(scene, &outside, sun.as_ref()).ok().flatten();
+    Ok(Daylight { outside, seen, sun })
 }
 
 /// The selection's product, state and dataset.

@@ -229,6 +229,28 @@ impl Scene {
     }
 }
 
+/// Sky and ground with what stands before them, as the middle of the first aperture sees them; `None` where nothing stands
+/// outside.
+///
+/// # Errors
+/// Keys of room, apertures or boxes.
+pub fn seen_by_first_aperture(
+    file: &SceneFile,
+    outside: &Outside,
+    sun: Option<&Sun>,
+) -> Result<Option<Outside>, StudyError> {
+    if file.outside.is_empty() && outside.surroundings().is_none() {
+        return Ok(None);
+    }
+    let room = room(&file.room)?;
+    let geometry = apertures(&file.aperture, &room)?;
+    let solids = boxes(&file.outside, &room)?;
+    let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
+    let Some([low, _, high, _]) = geometry.first().map(Aperture::corners) else { return Ok(None) };
+    let behind = behind_boxes(outside.clone(), sun, &solids, &room, orientation, &geometry);
+    Ok(Some(behind.seen_from(orientation.to_world(0.5 * (low + high)))))
+}
+
 /// Area of all six sides. \[m²\]
 pub(super) fn surface(room: &BoxRoom) -> f64 {
     let s = room.size;

@@ -13,10 +13,12 @@ use cfs::app::shelf::Addition;
 use cfs::app::state::{Settings, Tile};
 use cfs::app::tiles::TILES;
 use cfs::catalogue::NewProduct;
+use cfs::compute::angle::Bearing;
 use cfs::compute::basis::RingBasis;
 use cfs::compute::btdf::{Btdf, Dataset, Indicatrices, Scattered};
 use cfs::compute::direction::{Dir, Facade, Incident};
 use cfs::study::data_form::{DataForm, How, NoForm};
+use cfs::study::scene_file::{BoxKeys, OutsideKeys};
 use egui::{OutputCommand, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -125,6 +127,23 @@ fn the_map_of_schemes_says_why_under_the_cursor() {
     crate::driven::select(&mut harness, |entry| entry.name == "Ideal diffuser");
     assert_eq!(harness.state().results.schemes.value.as_ref().unwrap().made, Err(NoSchemes::ClosedForm));
     harness.get_by_label_contains("No map of schemes");
+}
+
+#[test]
+fn the_dome_shows_boxes_as_the_first_aperture_sees_them() {
+    let mut harness = window("Sky");
+    assert!(harness.state().state.daylight.value.as_ref().unwrap().seen.is_none());
+    let solid = BoxKeys { from: [-50.0, -30.0, 0.0], to: [50.0, -20.0, 40.0], turn: 0.0 };
+    let scene = &mut harness.state_mut().state.document.scene;
+    scene.outside = vec![OutsideKeys { solid, reflectance: None, luminance: Some(500.0) }];
+    let bearing = Bearing::from_degrees(scene.site.azimuth);
+    settle(&mut harness);
+    let daylight = harness.state().state.daylight.value.as_ref().unwrap();
+    let seen = daylight.seen.as_ref().expect("a box before the sky");
+    let at = |altitude: f64| Dir::from_altitude_bearing(altitude.to_radians(), bearing);
+    // From 1.8 m above the ground its top, 20 m away, is 62° high.
+    assert_eq!(seen.luminance(at(61.0)), 500.0);
+    assert_eq!(seen.luminance(at(63.5)), daylight.outside.luminance(at(63.5)));
 }
 
 /// What was put into the clipboard by the last step.

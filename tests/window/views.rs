@@ -194,6 +194,7 @@ fn sky_input<'a>() -> sky::Input<'a> {
         name: "CIE type 12, clear",
         sun: Some(sky::Place { altitude: 0.62, bearing: 2.9 }),
         facade_bearing: PI,
+        behind_boxes: false,
         skyline: 0.0,
         diffuse_horizontal: Some(12_400.0),
         direct_horizontal: Some(38_200.0),

@@ -39,8 +39,9 @@ impl Drawn for Drawing {
         let scene = &state.document.scene;
         let daylight = state.daylight.value.as_deref();
         let luminance = daylight.map(|daylight| {
+            let outside = daylight.seen.as_ref().unwrap_or(&daylight.outside);
             move |altitude: f64, bearing: f64| {
-                daylight.outside.luminance(Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing)))
+                outside.luminance(Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing)))
             }
         });
         let name = title::sky(scene);
@@ -49,6 +50,7 @@ impl Drawn for Drawing {
             luminance: luminance.as_ref().map(|function| function as &dyn Fn(f64, f64) -> f64),
             name: &name,
             sun: moment::sun(scene).map(place),
+            behind_boxes: daylight.is_some_and(|daylight| daylight.seen.is_some()),
             facade_bearing: scene.site.azimuth.to_radians(),
             skyline: daylight.map_or(0.0, |daylight| daylight.outside.skyline_altitude()),
             diffuse_horizontal: daylight.map(|daylight| daylight.outside.diffuse_horizontal()),

@@ -40,6 +40,8 @@ pub struct Input<'a> {
     pub sun: Option<Place>,
     /// Bearing of the façade's outward normal. \[rad\]
     pub facade_bearing: f64,
+    /// Something with edges stands before the sky.
+    pub behind_boxes: bool,
     /// Altitude of a skyline all round, 0 = none. \[rad\]
     pub skyline: f64,
     /// Diffuse horizontal illuminance. \[lx\]
@@ -267,7 +269,14 @@ fn dome(
     // Not of the sky alone: the half behind the façade is faded, into what the theme has as ground.
     let fine = !(input.status.hold_scale || state.dragging);
     let key = (input.revision, disk, scale.clone(), facade.to_bits(), (dark, fine));
-    let mesh = state.dome.get(key, || Arc::new(dome_mesh(&disk, luminance, scale, (facade, fine), &palette)));
+    // Edges want more corners than a sky does.
+    let grid = match (fine, input.behind_boxes) {
+        (true, false) => [30, 36],
+        (false, false) => [15, 18],
+        (true, true) => [120, 144],
+        (false, true) => [45, 54],
+    };
+    let mesh = state.dome.get(key, || Arc::new(dome_mesh(&disk, luminance, scale, (facade, grid), &palette)));
     ui.painter().add(Shape::Mesh(mesh.clone()));
     compass(ui, &disk, input, &palette);
     // The disk ends at the horizon: a sun under it has no place there.
@@ -329,16 +338,15 @@ fn place_text(what: Text, place: Place) -> [String; 3] {
     [say::with_bearing(&place, format!("{bearing:.0}")), place, short]
 }
 
-/// The dome in colours; while something is dragged every other ring and sector do.
+/// The dome in colours, of so many rings and sectors a half.
 fn dome_mesh(
     disk: &Disk,
     luminance: Luminance<'_>,
     scale: &ColourScale,
-    (facade, fine): (f64, bool),
+    (facade, [rings, sectors]): (f64, [u32; 2]),
     palette: &Palette,
 ) -> Mesh {
     // The border between the halves must be sharp: each half is its own fan, turned so that it starts on the border.
-    let (rings, sectors): (u32, u32) = if fine { (30, 36) } else { (15, 18) };
     let mut mesh = Mesh::default();
     for half in 0..2 {
         let first = mesh.vertices.len() as u32;
