@@ -157,7 +157,7 @@ pub struct Daylight {
     /// Sky, ground, skyline.
     pub outside: Outside,
     /// The same with what stands before them, as the first aperture sees them; `None` where nothing does.
-    pub seen: Option<Outside>,
+    pub seen: Option<Box<Outside>>,
     /// Beam, if there is any.
     pub sun: Option<Sun>,
 }

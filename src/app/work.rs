@@ -188,7 +188,7 @@ pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState
 pub(super) fn daylight(scene: &SceneFile, base: &Path) -> Result<Daylight, SkyKeyError> {
     let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base)?;
     // What is wrong with boxes the room's tile says.
-    let seen = seen_by_first_aperture(scene, &outside, sun.as_ref()).ok().flatten();
+    let seen = seen_by_first_aperture(scene, &outside, sun.as_ref()).ok().flatten().map(Box::new);
     Ok(Daylight { outside, seen, sun })
 }
 

@@ -39,7 +39,7 @@ impl Drawn for Drawing {
         let scene = &state.document.scene;
         let daylight = state.daylight.value.as_deref();
         let luminance = daylight.map(|daylight| {
-            let outside = daylight.seen.as_ref().unwrap_or(&daylight.outside);
+            let outside = daylight.seen.as_deref().unwrap_or(&daylight.outside);
             move |altitude: f64, bearing: f64| {
                 outside.luminance(Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing)))
             }
