@@ -34,8 +34,10 @@ pub(super) struct Split {
     regular: Option<(AngularTransmittance, Estimate)>,
     /// Scattered light that is the same in all directions, of sky and ground.
     smooth: Vec<Smooth>,
-    /// Other scattered light, tile by tile.
-    tiles: Vec<(Aperture, Emission)>,
+    /// Parts of which other light of sky and ground comes.
+    leaves: Vec<Leaf>,
+    /// The sun's scattered light: parts of the aperture, from the whole of it downwards.
+    sun: Option<(SunTile, Emission)>,
     /// The same for what the patches of the room can tell apart.
     quarters: Vec<(Aperture, Emission)>,
     /// The sun's beams per area that it reaches.
@@ -49,8 +51,17 @@ pub(super) struct Split {
     pub words: Vec<String>,
 }
 
-/// Tiles on which the sun's scattered light stands lie wholly in light or shade, or are so small a share of a side.
+/// A part of an aperture, what the sun reaches of it, and its halves where that is neither all nor nothing.
+struct SunTile {
+    part: Aperture,
+    lit: f64,
+    halves: Vec<SunTile>,
+}
+
+/// Tiles of scattered sunlight that lie in light and shade are so small a share of a side ...
 const SUN_TILE: f64 = 1.0 / 32.0;
+/// ... or of their distance from a sensor.
+const SUN_TILE_AWAY: f64 = 0.1;
 /// The room's patches see an aperture in so many parts along each side.
 const QUARTERS: usize = 2;
 /// What is seen straight past edges may be off by so much beyond the cubature's own error, relative.
@@ -88,13 +99,8 @@ impl Session {
             regular: leaves[0].any().regular.clone().map(|tau| (tau, Estimate::default())),
             quarters: quarters(&one.aperture, &tiles, same),
             smooth: leaves.iter().map(|leaf| leaf.smooth(&one.aperture)).filter(Smooth::is_lit).collect(),
-            tiles: tiles
-                .iter()
-                .filter(|(_, light)| !(light.cells.is_empty() && light.bands.is_empty()))
-                .map(|(part, light)| {
-                    (part_of(&one.aperture, *part), Emission { uniform: Estimate::default(), ..light.clone() })
-                })
-                .collect(),
+            sun: None,
+            leaves: Vec::new(),
             beams: sun.beams.clone(),
             glow: sun.uniform,
             lit: if share > 0.0 { pieces } else { Vec::new() },
@@ -126,6 +132,7 @@ impl Session {
             split.exitance += through;
         }
         split.whole = whole;
+        split.leaves = leaves;
         split
     }
 
@@ -162,6 +169,36 @@ impl Session {
             Ok(sum)
         };
         scene.sensors.par_iter().map(one).collect()
+    }
+}
+
+impl SunTile {
+    fn of(part: Part, aperture: &Aperture, share: &dyn Fn(Part) -> f64) -> Self {
+        let lit = share(part);
+        let [w, h] = part.map(|[low, high]| high - low);
+        let mut halves = Vec::new();
+        if lit > 1e-9 && lit < 1.0 - 1e-9 && w.max(h) > SUN_TILE {
+            let axis = usize::from(h * aperture.size[1] > w * aperture.size[0]);
+            let cut = 0.5 * (part[axis][0] + part[axis][1]);
+            for half in [[part[axis][0], cut], [cut, part[axis][1]]] {
+                let mut part = part;
+                part[axis] = half;
+                halves.push(Self::of(part, aperture, share));
+            }
+        }
+        Self { part: part_of(aperture, part), lit, halves }
+    }
+
+    /// Tiles that are small enough for an eye, with what the sun reaches of them.
+    fn visit(&self, eye: DVec3, tell: &mut dyn FnMut(&Aperture, f64)) {
+        let small = self.part.size[0].max(self.part.size[1]) <= SUN_TILE_AWAY * self.part.distance(eye);
+        if self.halves.is_empty() || small {
+            if self.lit > 1e-9 {
+                tell(&self.part, self.lit);
+            }
+        } else {
+            self.halves.iter().for_each(|half| half.visit(eye, tell));
+        }
     }
 }
 
@@ -225,25 +262,7 @@ impl Split {
             let own = part_of(aperture, part);
             scene.outside.surroundings().map_or(0.0, |around| lit(&own, &scene.facing(index), around).1)
         };
-        let mut open = vec![WHOLE];
-        while let Some(part) = open.pop() {
-            let lit = share(part);
-            let [w, h] = part.map(|[low, high]| high - low);
-            if lit <= 1e-9 {
-                continue;
-            }
-            if lit >= 1.0 - 1e-9 || w.max(h) <= SUN_TILE {
-                self.tiles.push((part_of(aperture, part), scattered.clone().scaled(lit)));
-                continue;
-            }
-            let axis = usize::from(h * aperture.size[1] > w * aperture.size[0]);
-            let cut = 0.5 * (part[axis][0] + part[axis][1]);
-            for half in [[part[axis][0], cut], [cut, part[axis][1]]] {
-                let mut part = part;
-                part[axis] = half;
-                open.push(part);
-            }
-        }
+        self.sun = Some((SunTile::of(WHOLE, aperture, &share), scattered.clone()));
         let count = if self.lit_share >= 1.0 - 1e-9 { 1 } else { QUARTERS };
         let limits = |at: usize| [at as f64 / count as f64, (at + 1) as f64 / count as f64];
         for k in 0..count * count {
@@ -273,8 +292,8 @@ impl Split {
         let mut sum = DirectLight::default();
         let Some(around) = facing.outside.surroundings() else { return sum };
         let Some(view) = aperture.view(sensor.position, sensor.normal) else { return sum };
-        for (tile, emission) in &self.tiles {
-            let Some(view) = tile.view(sensor.position, sensor.normal) else { continue };
+        let mut add = |tile: &Aperture, emission: &Emission| {
+            let Some(view) = tile.view(sensor.position, sensor.normal) else { return };
             let mut receptions: Vec<Reception> =
                 emission.cells.iter().map(|light| Reception::new(sensor, tile, Some(&light.basis))).collect();
             if receptions.is_empty() {
@@ -284,6 +303,12 @@ impl Split {
             let bands =
                 emission.bands.first().map(|bands| BandWeights::new(&view, bands.light.upright, bands.light.q.len()));
             sum += direct::illuminance(sensor, tile, &own, bands.as_ref(), emission, facing, tolerance);
+        };
+        for (tile, light) in self.leaves.iter().flat_map(|leaf| leaf.tiles_for(aperture, sensor)) {
+            add(&part_of(aperture, tile), &light);
+        }
+        if let Some((tile, light)) = &self.sun {
+            tile.visit(sensor.position, &mut |part, lit| add(part, &light.clone().scaled(lit)));
         }
         for part in &self.smooth {
             sum += DirectLight { all: part.at(sensor), ..DirectLight::default() };

@@ -28,7 +28,7 @@ const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 /// Most parts, where the system's answer costs little ...
 const MOST_PARTS: usize = 100;
 /// ... and where it has to be interpolated anew for every point.
-const MOST_DEAR_PARTS: usize = 10;
+const MOST_DEAR_PARTS: usize = 5;
 /// What parabolas over parts may leave, of the error asked for.
 const SHARE: f64 = 0.01;
 /// Light that changes less than this over the aperture is the same all over.
@@ -124,28 +124,42 @@ impl Leaf {
 
     /// Its tiles: light as it is in their middles.
     pub fn tiles(&self) -> Vec<(Part, Emission)> {
-        let count = self.change.map(|change| (change / STEP).ceil().clamp(1.0, MOST_TILES) as usize);
-        let mut tiles = Vec::with_capacity(count[0] * count[1]);
-        for i in 0..count[0] {
-            for k in 0..count[1] {
-                let place = |axis: usize, at: usize| {
-                    let [low, high] = self.part[axis];
-                    let step = (high - low) / count[axis] as f64;
-                    [low + at as f64 * step, low + (at + 1) as f64 * step]
-                };
-                let local = |at: usize, count: usize| (2 * at + 1) as f64 / count as f64 - 1.0;
-                let mut light = self.at(local(i, count[0]), local(k, count[1]));
-                self.doubt(&mut light, count);
-                tiles.push(([place(0, i), place(1, k)], light));
-            }
+        let count = self.change.map(|change| (change / STEP).ceil().clamp(1.0, MOST_TILES));
+        self.cut(count, self.change.iter().zip(count).map(|(change, count)| change / count / 8.0).sum())
+    }
+
+    /// Its light that is not the same in all directions, in tiles for one sensor; nothing where there is none.
+    pub fn tiles_for(&self, aperture: &Aperture, sensor: &Sensor) -> Vec<(Part, Emission)> {
+        if self.any().cells.is_empty() && self.any().bands.is_empty() {
+            return Vec::new();
         }
+        let part = part_of(aperture, self.part);
+        let (count, left) = TILES_OF_CELLS.of(self.change, part.size, part.distance(sensor.position));
+        let mut tiles = self.cut(count, left);
+        tiles.iter_mut().for_each(|(_, light)| light.uniform = Estimate::default());
         tiles
+    }
+
+    /// So many tiles along both sides, whose steps may cost `steps` at a sensor, relative.
+    fn cut(&self, count: [f64; 2], steps: f64) -> Vec<(Part, Emission)> {
+        let [columns, rows] = count.map(|count| count as usize);
+        let place = |axis: usize, at: usize| {
+            let [low, high] = self.part[axis];
+            let step = (high - low) / count[axis];
+            [low + at as f64 * step, low + (at + 1) as f64 * step]
+        };
+        let local = |axis: usize, at: usize| (2 * at + 1) as f64 / count[axis] - 1.0;
+        let tile = |(i, k): (usize, usize)| {
+            let mut light = self.at(local(0, i), local(1, k));
+            self.doubt(&mut light, steps);
+            ([place(0, i), place(1, k)], light)
+        };
+        (0..columns).flat_map(|i| (0..rows).map(move |k| (i, k))).map(tile).collect()
     }
 
     /// What parabolas and the steps from tile to tile may be off at a sensor that sees little else than one part, near the
     /// glass.
-    fn doubt(&self, light: &mut Emission, count: [usize; 2]) {
-        let steps = self.change.iter().zip(count).map(|(change, count)| change / count as f64 / 8.0).sum::<f64>();
+    fn doubt(&self, light: &mut Emission, steps: f64) {
         let relative = self.rest().iter().sum::<f64>() + steps + AT_POINTS;
         light.uniform.error += relative * light.uniform.value;
         light.cells.iter_mut().for_each(|cells| cells.relative_error += relative);
@@ -180,10 +194,33 @@ pub(super) struct Smooth {
     error: f64,
 }
 
-/// What steps between tiles may cost at a sensor, relative ...
-const STEPS: f64 = 5e-4;
-/// ... if no more tiles than so many along a side are needed for it.
-const MOST_STEPS: f64 = 40.0;
+/// How finely light that changes over a part is cut for a sensor: the finer the nearer it is. Where a tile looks the same
+/// from end to end its change does not count; of the rest, a part of tile over distance is left.
+struct Cut {
+    /// What of it: more of light on cells, of which a sensor sees this one here and that one beside it.
+    part: f64,
+    /// A tile that is larger from there does not cost more: for cells, a cell's width. \[rad\]
+    near: f64,
+    /// What it may cost, relative ...
+    allowed: f64,
+    /// ... if no more tiles than so many along a side are needed for it.
+    most: f64,
+}
+
+const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 5e-4, most: 40.0 };
+const TILES_OF_CELLS: Cut = Cut { part: 1.25, near: 0.2, allowed: 1.5e-3, most: 8.0 };
+
+impl Cut {
+    /// Tiles along both sides, and what their steps still cost.
+    fn of(&self, change: [f64; 2], size: [f64; 2], distance: f64) -> ([f64; 2], f64) {
+        let cost = |axis: usize, count: f64| {
+            let tile = size[axis] / count / distance.max(1e-6);
+            self.part * change[axis] / count * tile.min(self.near)
+        };
+        let count = [0, 1].map(|axis| (cost(axis, 1.0) / self.allowed).sqrt().ceil().clamp(1.0, self.most));
+        (count, cost(0, count[0]) + cost(1, count[1]))
+    }
+}
 
 impl Smooth {
     /// Is there any?
@@ -191,16 +228,10 @@ impl Smooth {
         self.values.iter().any(|value| *value > 0.0)
     }
 
-    /// Illuminance at a sensor: tiles of one luminance, the smaller the nearer the sensor is. A tile's slope does not count
-    /// where it looks equally large from end to end: of its change, about a sixth of tile over distance is left. \[lx\]
+    /// Illuminance at a sensor. \[lx\]
     pub fn at(&self, sensor: &Sensor) -> Estimate {
-        let size = self.part.size;
-        let distance = self.part.distance(sensor.position).max(1e-6);
-        let apart = |axis: usize, count: f64| {
-            let tile = size[axis] / count / distance;
-            self.change[axis] / count * tile.min(3.0) / 6.0
-        };
-        let count = [0, 1].map(|axis| (apart(axis, 1.0) / STEPS).sqrt().ceil().clamp(1.0, MOST_STEPS));
+        let distance = self.part.distance(sensor.position);
+        let (count, steps) = TILES_OF_UNIFORM.of(self.change, self.part.size, distance);
         let corners = self.part.corners().map(|corner| corner - sensor.position);
         let (u, v) = (corners[1] - corners[0], corners[3] - corners[0]);
         let mut sum = 0.0;
@@ -216,7 +247,6 @@ impl Smooth {
                 sum += luminance.max(0.0) * projected_solid_angle(&tile, sensor.normal);
             }
         }
-        let steps: f64 = (0..2).map(|axis| apart(axis, count[axis])).sum();
         Estimate::new(sum, sum * (self.error + steps))
     }
 }
