@@ -60,7 +60,7 @@
 //! | I want to … | edit |
 //! | --- | --- |
 //! | add a dataset format | a file in [`formats`], an arm of [`formats::Format`] and of its dispatch |
-//! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], its extension in [`study::luminaire_file`] |
+//! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], its extension in [`study::luminaire_file`] and [`study::luminaires`] |
 //! | add a sky model | a file in [`compute::sky`], its key and words in [`study::scene_file`], its arm in [`study::sky`] |
 //! | add a family of systems | a room in [`compute::system`] that answers [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
 //! | add a built-in product | a description under `assets/systems`, whose README says how the table of figures follows: all are [`catalogue::SYSTEMS`] |

@@ -14,7 +14,8 @@ use std::path::PathBuf;
 /// Arguments of `cfs info`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct InfoArgs {
-    /// Dataset file of any format that the program reads, or luminaire file (.ldt, .ies).
+    /// Dataset file of any format that the program reads, luminaire file (.ldt, .ies), or index of
+    /// luminaire files (.index.csv).
     pub file: PathBuf,
     /// One JSON object (an array for several states) instead of text.
     #[arg(long)]

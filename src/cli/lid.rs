@@ -2,12 +2,13 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
-use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::ies::IesEdition;
-use crate::formats::luminaire::Description;
-use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::{Session, files, load_scene, read_scene_file, system::SystemLibrary};
+use crate::formats::luminaire_index::{self, Row};
+use crate::study::luminaire_file::{LidFormat, describe};
+use crate::study::luminaire_series::{Member, Series};
+use crate::study::luminaire_set::{LuminaireSet, SetError, Tiles, Wish, make};
+use crate::study::{Scene, Session, files, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -32,6 +33,24 @@ pub struct LidArgs {
     /// Step of C and gamma in degrees, a divisor of 90 from 1 to 15; without it chosen from the data
     #[arg(long, value_name = "DEGREES")]
     pub step: Option<f64>,
+    /// Cut the aperture into luminaires: `auto` (as few as light a room within 1 %), columns x rows as in 8x8, or `none`
+    /// (one file). With tiles NAME_1.ies … are written and NAME.index.csv, which tells where they stand
+    #[arg(long, value_name = "TILES", default_value = "none")]
+    pub tiles: Tiles,
+    /// Leave the straight sunbeam to the host, which draws the sun through by itself; its flux and direction stand in
+    /// the header, in the index and in the summary
+    #[arg(long)]
+    pub without_beam: bool,
+    /// Series: the 21st of these months (1 to 12), comma-separated; the year is that of the scene's sky.time. Its files
+    /// have day, hour and state in their names, and one index lists all of them
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub months: Vec<u8>,
+    /// Series: these hours by the scene's clock, as in 9,12,15.5
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub hours: Vec<f64>,
+    /// Series: these states of the aperture's system
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub states: Vec<String>,
     /// Print a summary as JSON
     #[arg(long)]
     pub json: bool,
@@ -58,75 +77,220 @@ pub enum AimArg {
 }
 
 /// Runs the command.
+///
+/// Options are checked before anything is computed; either all files appear whole or none.
 pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
-    write_distribution(args, |path, index| {
-        let scene = load_scene(path, library)?;
-        let count = scene.apertures.len();
-        if index >= count {
-            bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
+    let wish = wish(args)?;
+    let path = &args.scene;
+    let keys = read_scene_file(path)?;
+    let (index, count) = (args.aperture as usize - 1, keys.aperture.len());
+    if count == 0 {
+        bail!("{}: aperture: the scene needs at least one [[aperture]]", path.display());
+    }
+    if index >= count {
+        bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
+    }
+    let series = Series { months: args.months.clone(), hours: args.hours.clone(), states: args.states.clone() };
+    let (members, dark) = if series.is_empty() {
+        (vec![Member { name: String::new(), tag: String::new(), scene: keys }], Vec::new())
+    } else {
+        series.members(&keys, index).with_context(|| path.display().to_string())?
+    };
+    for time in &dark {
+        eprintln!("note: {time} is left out: the sun is below the horizon");
+    }
+    let mut written = Written::default();
+    match all(args, &wish, &members, library, &mut written) {
+        Ok(summaries) if args.json => {
+            let index = written.index.map(|path| path.to_string_lossy().into_owned());
+            let summary = match <[serde_json::Value; 1]>::try_from(summaries) {
+                Ok([only]) if series.is_empty() => only,
+                Ok(only) => serde_json::json!({ "index": index, "left_out": dark, "members": only }),
+                Err(many) => serde_json::json!({ "index": index, "left_out": dark, "members": many }),
+            };
+            print(&format!("{summary:#}\n"))
         }
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        Ok(_) => Ok(()),
+        Err(error) => {
+            written.undo();
+            Err(error)
+        }
+    }
+}
+
+/// What has appeared so far.
+#[derive(Default)]
+struct Written {
+    files: Vec<PathBuf>,
+    index: Option<PathBuf>,
+}
+
+impl Written {
+    fn put(&mut self, path: PathBuf, bytes: &[u8]) -> Result<()> {
+        files::write(&path, bytes)?;
+        self.files.push(path);
+        Ok(())
+    }
+
+    /// Takes everything away again. What cannot be taken away stays: the error that led here is the one to tell.
+    fn undo(self) {
+        for path in self.files {
+            drop(std::fs::remove_file(path));
+        }
+    }
+}
+
+/// Makes and writes all members of a series, or the scene alone; a summary of each.
+fn all(
+    args: &LidArgs,
+    wish: &Wish,
+    members: &[Member],
+    library: &dyn SystemLibrary,
+    written: &mut Written,
+) -> Result<Vec<serde_json::Value>> {
+    let (session, progress) = (Session::new(), TerminalProgress::new());
+    let (path, index) = (&args.scene, args.aperture as usize - 1);
+    let scene_name = path.file_name().unwrap_or_default().to_string_lossy();
+    let date = jiff::Zoned::now().date().to_string();
+    let base = path.parent().unwrap_or(Path::new("."));
+    let (mut rows, mut summaries): (Vec<Row>, Vec<_>) = (Vec::new(), Vec::with_capacity(members.len()));
+    for member in members {
+        let about = || {
+            if member.name.is_empty() {
+                path.display().to_string()
+            } else {
+                format!("{}, {}", path.display(), member.name)
+            }
+        };
+        let scene = Scene::resolve(&member.scene, base, library).with_context(about)?;
         if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
             eprintln!("note: {note}");
         }
-        let date = jiff::Zoned::now().date().to_string();
-        let text = describe(&name, &read_scene_file(path)?, index, &date);
-        Ok((Session::new().lid(&scene, index, &TerminalProgress::new())?.lid, text))
-    })
+        let text = describe(&scene_name, &member.scene, index, &date);
+        let name = |tile: Option<usize>| file_name(&args.out, &member.tag, tile);
+        let set = make(&session, &scene, index, &text, wish, name, &progress).map_err(|error| match error {
+            SetError::Study(error) => anyhow::Error::from(error).context(about()),
+            SetError::File(error) => anyhow::Error::from(error).context(args.out.display().to_string()),
+        })?;
+        for file in &set.files {
+            written.put(args.out.with_file_name(&file.row.file), &file.bytes)?;
+            rows.push(Row { set: member.name.clone(), ..file.row.clone() });
+        }
+        if !args.json {
+            report(args, &set, member);
+        }
+        summaries.push(summary(args, &set, member));
+    }
+    // A file alone needs none.
+    if wish.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty()) {
+        let path = args.out.with_extension("index.csv");
+        written.put(path.clone(), &luminaire_index::write(&rows))?;
+        if !args.json {
+            eprintln!("{}: index of {} files", path.display(), rows.len());
+        }
+        written.index = Some(path);
+    }
+    Ok(summaries)
 }
 
-/// The command with `distribution` to compute the aperture's light and the file's header from the scene's path and the
-/// aperture's index, counted from 0.
-///
-/// Options are checked before anything is computed; the file appears whole or not at all.
-fn write_distribution(
-    args: &LidArgs,
-    distribution: impl FnOnce(&Path, usize) -> Result<(Lid, Description)>,
-) -> Result<()> {
+/// What is asked for.
+fn wish(args: &LidArgs) -> Result<Wish> {
     let edition = match args.edition {
         EditionArg::Y2002 => IesEdition::Lm63_2002,
         EditionArg::Y2019 => IesEdition::Lm63_2019,
     };
     let shown = args.out.display();
     let format = LidFormat::of(&args.out, edition).with_context(|| format!("--out {shown}"))?;
+    if !matches!(format, LidFormat::Eulumdat | LidFormat::Ies(_)) {
+        if args.tiles != Tiles::None {
+            bail!("--tiles {}: {shown} is no luminaire file (.ldt or .ies)", args.tiles);
+        }
+        if !(args.months.is_empty() && args.hours.is_empty() && args.states.is_empty()) {
+            bail!("--months, --hours, --states: a series is of luminaire files (.ldt or .ies), not {shown}");
+        }
+    }
     let step = args.step.map(Step::from_degrees).transpose().context("--step")?;
     let aim = args.aim.map(|aim| match aim {
         AimArg::Mounted => Aim::Mounted,
         AimArg::Down => Aim::Down,
     });
-    let (lid, text) = distribution(&args.scene, args.aperture as usize - 1)?;
-    let file = encode(&lid, text, format, aim, step).with_context(|| format!("{shown}"))?;
-    files::write(&args.out, &file.bytes)?;
-    if args.json {
-        let summary = serde_json::json!({
-            "out": args.out.to_string_lossy(),
-            "aperture": args.aperture,
-            "flux_lm": file.flux.value,
-            "flux_error_lm": file.flux.error,
-            "peak_cd": file.peak,
-            "scaled_by": file.scaled_by,
-            "step_deg": file.step.degrees(),
-            "aim": match file.aim { Aim::Mounted => "mounted", Aim::Down => "down" },
-        });
-        print(&format!("{summary:#}\n"))?;
-    } else {
-        eprintln!(
-            "{shown}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
-            file.flux.value,
-            file.peak,
-            file.step.degrees(),
-            100.0 * (file.scaled_by - 1.0)
-        );
+    Ok(Wish { format, aim, step, tiles: args.tiles, without_beam: args.without_beam })
+}
+
+/// Name of a file beside `out`, by a member's tag and a tile's number.
+fn file_name(out: &Path, tag: &str, tile: Option<usize>) -> String {
+    let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let mut name = part(out.file_stem());
+    if !tag.is_empty() {
+        name = format!("{name}_{tag}");
     }
-    Ok(())
+    if let Some(tile) = tile {
+        name = format!("{name}_{}", tile + 1);
+    }
+    format!("{name}.{}", part(out.extension()))
+}
+
+/// For programs.
+fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> serde_json::Value {
+    serde_json::json!({
+        "out": args.out.to_string_lossy(),
+        "set": member.name,
+        "aperture": args.aperture,
+        "flux_lm": set.flux.value,
+        "flux_error_lm": set.flux.error,
+        "peak_cd": set.peak,
+        "scaled_by": set.scaled_by,
+        "step_deg": set.step.degrees(),
+        "aim": match set.aim { Aim::Mounted => "mounted", Aim::Down => "down" },
+        // The sum of nothing is −0.
+        "beam_lm": set.files.iter().map(|file| file.row.beam).sum::<f64>() + 0.0,
+        "beam_apart": set.apart.map(|apart| serde_json::json!({
+            "flux_lm": apart.flux,
+            "direction": apart.direction.to_array(),
+            "normal_lx": apart.normal,
+        })),
+        "tiles": set.tiling.map(|tiling| serde_json::json!({ "columns": tiling.columns, "rows": tiling.rows })),
+        "files": set.files.iter().map(|file| &file.row.file).collect::<Vec<_>>(),
+        "index": set.tiling.map(|_| args.out.with_extension("index.csv").to_string_lossy().into_owned()),
+        "reached": set.reached.map(|reached| serde_json::json!({
+            "sum": reached.sum,
+            "rms": reached.rms,
+            "worst": reached.worst,
+            "fields": reached.fields,
+        })),
+    })
+}
+
+/// For people.
+fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
+    let shown = args.out.with_file_name(file_name(&args.out, &member.tag, None));
+    eprintln!(
+        "{}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
+        shown.display(),
+        set.flux.value,
+        set.peak,
+        set.step.degrees(),
+        100.0 * (set.scaled_by - 1.0)
+    );
+    if let Some(tiling) = set.tiling {
+        eprintln!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
+    }
+    if let Some(apart) = set.apart {
+        eprintln!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", apart.flux, apart.normal);
+    } else if args.without_beam {
+        eprintln!("--without-beam: there is no straight sunbeam to leave out");
+    }
+    if let Some(reached) = set.reached {
+        let missed = if reached.holds() { "" } else { " More than 1 %: this light is too sharp for point luminaires." };
+        eprintln!("{}{missed}", reached.sentence());
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::direction::Surface;
-    use crate::compute::lid::EmergentLuminance;
     use crate::formats::{eulumdat, ies};
+    use crate::study::Library;
     use clap::Parser;
 
     #[derive(Parser)]
@@ -135,43 +299,126 @@ mod tests {
         lid: LidArgs,
     }
 
-    fn run_on(words: &[&str], surface: Surface) -> Result<()> {
-        let command = Command::try_parse_from(["lid"].iter().chain(words))?;
-        write_distribution(&command.lid, |_, _| {
-            let parts = vec![EmergentLuminance::Uniform(100.0)];
-            Ok((Lid { surface, size: [2.0, 1.0], parts, beams: Vec::new() }, Description::default()))
-        })
+    /// A diffusing aperture of 2 m x 1 m in the façade or the roof; its flux. \[lm\]
+    fn scene(folder: &Path, surface: &str) -> f64 {
+        let text = format!(
+            "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\nreflectance = {{ floor = 0, walls = 0, ceiling = 0 }}\n\
+             [[aperture]]\nsurface = \"{surface}\"\norigin = [1.0, 1.0]\nsize = [2.0, 1.0]\n\
+             system = {{ ideal = \"diffuse\", transmittance = 0.5 }}\n[site]\nground_reflectance = 1.0\n\
+             [sky]\nmodel = \"uniform\"\ndiffuse_horizontal = 10000.0\n\
+             [sensors]\npoints = [[2.0, 2.0, 0.85]]\nnormal = [0.0, 0.0, 1.0]\n"
+        );
+        std::fs::write(folder.join("s.toml"), text).unwrap();
+        0.5 * 10_000.0 * 2.0
+    }
+
+    fn run_on(folder: &Path, words: &[&str]) -> Result<()> {
+        let scene = folder.join("s.toml").to_string_lossy().into_owned();
+        let command = Command::try_parse_from(["lid", &scene].iter().chain(words))?;
+        run(&command.lid, &Library::with_catalogue(Some(&folder.join("none.db"))))
     }
 
     #[test]
     fn extension_and_options_decide_the_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-        let flux = std::f64::consts::PI * 200.0;
-        run_on(&["s.toml", "--out", &path("a.ldt")], Surface::Facade).unwrap();
+        let flux = scene(folder.path(), "facade");
+        run_on(folder.path(), &["--out", &path("a.ldt")]).unwrap();
         let mounted = eulumdat::read(&std::fs::read(path("a.ldt")).unwrap()).unwrap();
         assert!((mounted.flux_within(90.0) / flux - 0.5).abs() < 0.01);
-        run_on(&["s.toml", "--out", &path("b.ies"), "--edition", "2019"], Surface::Roof).unwrap();
+        scene(folder.path(), "roof");
+        run_on(folder.path(), &["--out", &path("b.ies"), "--edition", "2019"]).unwrap();
         let down = ies::read(&std::fs::read(path("b.ies")).unwrap()).unwrap();
         assert_eq!(down.format, "IES:LM-63-2019");
         assert!((down.flux_within(90.0) / flux - 1.0).abs() < 0.01);
         for name in ["c.csv", "d.png", "e.svg"] {
-            run_on(&["s.toml", "--out", &path(name), "--step", "5", "--aim", "down"], Surface::Facade).unwrap();
+            run_on(folder.path(), &["--out", &path(name), "--step", "5", "--aim", "down"]).unwrap();
         }
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 5);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
+    }
+
+    #[test]
+    fn tiles_are_a_file_each_and_an_index() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let flux = scene(folder.path(), "facade");
+        let out = path("a.ies").to_string_lossy().into_owned();
+        run_on(folder.path(), &["--out", &out, "--tiles", "2x1", "--step", "5"]).unwrap();
+        let rows = luminaire_index::read(&std::fs::read(path("a.index.csv")).unwrap()).unwrap();
+        assert_eq!(rows.iter().map(|row| row.file.as_str()).collect::<Vec<_>>(), ["a_1.ies", "a_2.ies"]);
+        for (row, x) in rows.iter().zip([1.5, 2.5]) {
+            assert_eq!((row.centre.to_array(), row.size), ([x, 0.0, 1.5], [1.0, 1.0]));
+            let file = ies::read(&std::fs::read(path(&row.file)).unwrap()).unwrap();
+            assert!((file.flux() / (0.5 * flux) - 1.0).abs() < 1e-3 && (row.flux / file.flux() - 1.0).abs() < 1e-4);
+            assert_eq!((file.opening.along_c90, file.opening.height), (1.0, 1.0));
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
+    }
+
+    #[test]
+    fn a_series_has_one_index_whose_sets_light_rooms() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        scene(folder.path(), "facade");
+        let text = std::fs::read_to_string(path("s.toml")).unwrap();
+        let text = text.replace("[site]\n", "[site]\nlatitude = 48.8\nlongitude = 9.2\nutc_offset = 1.0\n");
+        let text = text.replace("[sky]\n", "[sky]\ntime = \"2026-03-21T12:00\"\n");
+        std::fs::write(path("s.toml"), &text).unwrap();
+        let out = path("a.ldt").to_string_lossy().into_owned();
+        let series = ["--months", "6,12", "--hours", "5.5,12", "--tiles", "2x1", "--step", "5"];
+        run_on(folder.path(), &[["--out", &out].as_slice(), &series].concat()).unwrap();
+        let rows = luminaire_index::read(&std::fs::read(path("a.index.csv")).unwrap()).unwrap();
+        let sets = crate::study::luminaires::sets(&rows);
+        // In December the sun is not up at half past five.
+        assert_eq!(sets, ["2026-06-21T05:30", "2026-06-21T12:00", "2026-12-21T12:00"]);
+        assert_eq!((rows.len(), rows[1].file.as_str()), (6, "a_06-21T0530_2.ldt"));
+        let header = eulumdat::read(&std::fs::read(path(&rows[5].file)).unwrap()).unwrap().text;
+        for gist in ["48.8N 9.2E", "2026-12-21T12:00", "sun 17."] {
+            assert!(header.number.contains(gist), "{}", header.number);
+        }
+        // A scene names the set that lights it.
+        let lit = |set: &str| {
+            let system = "system = { ideal = \"diffuse\", transmittance = 0.5 }";
+            let text = text.replace(system, &format!("system = {{ luminaires = \"a.index.csv\"{set} }}"));
+            let keys = crate::study::SceneFile::parse(&text).unwrap();
+            Scene::resolve(&keys, folder.path(), &Library::default())
+        };
+        let room =
+            Session::new().room(&lit(", set = \"2026-12-21T12:00\"").unwrap(), &TerminalProgress::new()).unwrap();
+        let own = Session::new().room(&load(folder.path()), &TerminalProgress::new()).unwrap();
+        let [got, wanted] = [&room, &own].map(|room| room.sensors[0].total().value);
+        assert!((got / wanted - 1.0).abs() < 0.01, "{got} {wanted}");
+        for (set, gist) in [("", "a series of 3"), (", set = \"noon\"", "no set \"noon\"")] {
+            let error = lit(set).unwrap_err().to_string();
+            assert!(error.contains(gist) && error.contains("2026-12-21T12:00"), "{error}");
+        }
+    }
+
+    fn load(folder: &Path) -> Scene {
+        crate::study::load_scene(&folder.join("s.toml"), &Library::default()).unwrap()
     }
 
     #[test]
     fn wrong_options_are_told_and_leave_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("a.xyz").to_string_lossy().into_owned();
-        let error = format!("{:#}", run_on(&["s.toml", "--out", &out], Surface::Facade).unwrap_err());
-        assert!(error.contains("xyz") && error.contains("ldt, ies, csv"), "{error}");
-        let out = folder.path().join("a.ldt").to_string_lossy().into_owned();
-        let error = format!("{:#}", run_on(&["s.toml", "--out", &out, "--step", "7"], Surface::Facade).unwrap_err());
-        assert!(error.contains("does not divide 90"), "{error}");
-        assert!(run_on(&["s.toml", "--out", &out, "--aperture", "0"], Surface::Facade).is_err());
-        assert!(run_on(&["s.toml", "--out", "/nonexistent/a.ldt"], Surface::Facade).is_err());
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        scene(folder.path(), "facade");
+        let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+        let refused = |words: &[&str], gist: &[&str]| {
+            let error = format!("{:#}", run_on(folder.path(), words).unwrap_err());
+            assert!(gist.iter().all(|gist| error.contains(gist)), "{error}");
+        };
+        refused(&["--out", &path("a.xyz")], &["xyz", "ldt, ies, csv"]);
+        refused(&["--out", &path("a.ldt"), "--step", "7"], &["does not divide 90"]);
+        refused(&["--out", &path("a.ldt"), "--aperture", "0"], &["0"]);
+        refused(&["--out", &path("a.ldt"), "--aperture", "2"], &["--aperture 2", "1 to 1"]);
+        refused(&["--out", &path("a.ldt"), "--tiles", "0x4"], &["0x4", "auto, none"]);
+        refused(&["--out", &path("a.svg"), "--tiles", "2x2"], &["--tiles 2x2", ".ldt or .ies"]);
+        refused(&["--out", &path("a.csv"), "--hours", "9"], &["series", "a.csv"]);
+        refused(&["--out", "/nonexistent/a.ldt"], &["/nonexistent"]);
+        // The second file of three cannot be written: the first one goes again.
+        std::fs::create_dir(path("b_2.ies")).unwrap();
+        refused(&["--out", &path("b.ies"), "--tiles", "3x1", "--step", "5"], &["b_2.ies"]);
+        let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left.len(), 2, "{left:?}");
     }
 }

@@ -1,9 +1,9 @@
-//! `cfs info` of luminaire files: who, how much light, how large, which planes.
+//! `cfs info` of luminaire files: who, how much light, how large, which planes; and of an index: where they stand, as one
+//! aperture.
 
+use crate::compute::direction::Surface;
 use crate::formats::luminaire::{Luminaire, Photometry};
-use crate::formats::{eulumdat, ies};
-use crate::study::files;
-use anyhow::anyhow;
+use crate::study::luminaires::{self, INDEX, LuminaireAperture};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -11,19 +11,104 @@ use std::path::Path;
 /// Relative difference of intensities that still counts as symmetric.
 const SAME: f64 = 1e-4;
 
-/// Text or JSON about a luminaire file; `None` for files of other extensions.
+/// Text or JSON about a luminaire file or an index of some; `None` for files of other extensions.
 ///
 /// # Errors
 /// A file that cannot be read; the message is one line with the file's name and the place in it.
 pub fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<String>> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let read = match extension.as_str() {
-        "ldt" => eulumdat::read,
-        "ies" => ies::read,
-        _ => return Ok(None),
-    };
-    let luminaire = read(&files::read(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))?;
+    if path.to_string_lossy().to_ascii_lowercase().ends_with(INDEX) {
+        return index(path, as_json).map(Some);
+    }
+    let Some(luminaire) = luminaires::read_file(path)? else { return Ok(None) };
     Ok(Some(if as_json { serde_json::to_string_pretty(&to_json(&luminaire))? + "\n" } else { to_text(&luminaire) }))
+}
+
+/// The apertures of an index: one, or those of a series.
+fn index(path: &Path, as_json: bool) -> anyhow::Result<String> {
+    let rows = luminaires::read_rows(path)?;
+    let names = luminaires::sets(&rows);
+    let mut sets = Vec::with_capacity(names.len());
+    for name in names {
+        let own = rows.iter().filter(|row| row.set == name).cloned().collect();
+        sets.push((luminaires::of_rows(path, own)?, name));
+    }
+    if as_json {
+        let list: Vec<_> = sets.iter().map(|(one, name)| aperture_json(one, name)).collect();
+        let value = json!({"format": "index of luminaire files", "files": rows.len(), "apertures": list});
+        return Ok(serde_json::to_string_pretty(&value)? + "\n");
+    }
+    let mut text = format!("{:<22}index of {} luminaire files\n", "Format", rows.len());
+    sets.iter().for_each(|(one, name)| aperture_text(&mut text, one, name));
+    Ok(text)
+}
+
+/// Beams in the files, and the straight beam that is not in them. \[lm\]
+fn beams(one: &LuminaireAperture) -> [f64; 2] {
+    // The sum of nothing is −0.
+    let beam = one.rows.iter().map(|row| row.beam).sum::<f64>() + 0.0;
+    [beam, one.rows.iter().filter_map(|row| row.apart).map(|apart| apart.flux).sum::<f64>() + 0.0]
+}
+
+fn peak(one: &LuminaireAperture) -> f64 {
+    one.files.iter().map(Luminaire::peak).fold(0.0, f64::max)
+}
+
+fn aperture_json(one: &LuminaireAperture, name: &str) -> serde_json::Value {
+    let [beam, apart] = beams(one);
+    let direction = one.rows.iter().find_map(|row| row.apart);
+    let files = one.rows.iter().zip(&one.files).map(|(row, file)| {
+        json!({
+            "file": row.file,
+            "centre_m": row.centre.to_array(),
+            "size_m": row.size,
+            "flux_lm": file.flux(),
+            "peak_cd": file.peak(),
+            "format": file.format,
+        })
+    });
+    json!({
+        "set": name,
+        "name": one.files.first().map(|file| file.text.name.clone()),
+        "number": one.files.first().map(|file| file.text.number.clone()),
+        "surface": match one.aperture.surface { Surface::Facade => "facade", Surface::Roof => "roof" },
+        "corner_m": one.aperture.corner.to_array(),
+        "size_m": one.aperture.size,
+        "flux_lm": one.lamps.flux(),
+        "beam_lm": beam,
+        "beam_apart": direction.map(|row| json!({
+            "flux_lm": apart,
+            "direction": row.direction.to_array(),
+            "normal_lx": row.normal,
+        })),
+        "files": files.collect::<Vec<_>>(),
+    })
+}
+
+fn aperture_text(text: &mut String, one: &LuminaireAperture, name: &str) {
+    text.push('\n');
+    let mut line = |label: &str, value: &str| {
+        if !value.is_empty() {
+            let _ = writeln!(text, "{label:<22}{value}");
+        }
+    };
+    line("Set", name);
+    line("Name", one.files.first().map_or("", |file| &file.text.name));
+    line("Number", one.files.first().map_or("", |file| &file.text.number));
+    line("Aperture", &luminaires::words(&one.aperture));
+    let [width, height] = one.rows[0].size;
+    line("Tiles", &format!("{}, the first of {width:.3} m x {height:.3} m", one.rows.len()));
+    line("Flux", &format!("{:.1} lm", one.lamps.flux()));
+    line("Largest intensity", &format!("{:.2} cd of one tile", peak(one)));
+    let [beam, apart] = beams(one);
+    line("Sunbeams in the files", &if beam > 0.0 { format!("{beam:.1} lm, widened") } else { "none".to_owned() });
+    if let Some(row) = one.rows.iter().find_map(|row| row.apart) {
+        let d = row.direction;
+        let way = format!("({:.4}, {:.4}, {:.4})", d.x, d.y, d.z);
+        line(
+            "Left to the host",
+            &format!("straight sunbeam of {apart:.1} lm along {way}, {:.1} lx across it", row.normal),
+        );
+    }
 }
 
 const fn photometry(luminaire: &Luminaire) -> &'static str {

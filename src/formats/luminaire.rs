@@ -4,8 +4,8 @@
 
 use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
-use crate::compute::lid::c_gamma::{Aim, CGammaTable};
-use std::fmt::Write as _;
+use crate::compute::lid::Intensities;
+use crate::compute::lid::c_gamma::{Aim, CGammaTable, Widened};
 
 /// Which axis the planes of a photometric file turn about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,20 +88,26 @@ impl Luminaire {
         };
         text.remarks.extend(orientation_remarks(table.aim, size));
         text.remarks.push(table_remark(table));
-        let step = table.step.degrees();
-        let degrees = |count: usize| (0..count).map(|k| k as f64 * step).collect();
+        // To the digits that files have: a reader of ours finds the same numbers.
+        let degrees = |angles: &[f64]| angles.iter().map(|angle| (1e4 * angle.to_degrees()).round() / 1e4).collect();
         Self {
             format: "computed".to_owned(),
             text,
             photometry: Photometry::C,
             opening,
-            c_deg: degrees(table.planes()),
-            gamma_deg: degrees(table.angles()),
+            c_deg: degrees(&table.c),
+            gamma_deg: degrees(&table.gamma),
             intensity: table.intensity.clone(),
             lamp_flux: Some(table.flux.value),
             power: 0.0,
             findings: Vec::new(),
         }
+    }
+
+    /// As a host reads them. Only for photometry C.
+    pub fn intensities(&self) -> Intensities {
+        let radians = |degrees: &[f64]| degrees.iter().map(|angle| angle.to_radians()).collect();
+        Intensities { c: radians(&self.c_deg), gamma: radians(&self.gamma_deg), values: self.intensity.clone() }
     }
 
     /// Intensities of one plane. \[cd\]
@@ -182,15 +188,22 @@ fn table_remark(table: &CGammaTable) -> String {
         100.0 * (table.scaled_by - 1.0),
         table.flux.error
     );
-    if table.beam_flux != 0.0 {
-        write!(
-            text,
-            " The unscattered sunbeam of {:.4} lm is spread over the four nearest nodes: patches of sun are blurred to \
-             this step.",
-            table.beam_flux
-        )
-        .expect("writing to a String cannot fail");
-    }
+    let flux = table.beam_flux;
+    let beams = match table.widened {
+        _ if flux == 0.0 => String::new(),
+        None => format!(
+            " The unscattered sunbeam of {flux:.4} lm is spread over the four nearest nodes: patches of sun are blurred to \
+             this step."
+        ),
+        Some(Widened { size: [x, y], distance: [near, far], step: [across, along] }) => format!(
+            " Unscattered sunlight of {flux:.4} lm is widened to {x:.3} m x {y:.3} m at {near:.2} m to {far:.2} m, where \
+             it meets a surface, with nodes as close as {:.2} deg in C and {:.2} deg in gamma round it: edges of patches \
+             of sun are blurred by that, flux and place are kept.",
+            across.to_degrees(),
+            along.to_degrees()
+        ),
+    };
+    text.push_str(&beams);
     text
 }
 

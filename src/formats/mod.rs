@@ -18,6 +18,7 @@ pub mod ies;
 pub mod lid_tables;
 mod location;
 pub mod luminaire;
+pub mod luminaire_index;
 pub mod package;
 pub mod scan;
 pub mod system_toml;

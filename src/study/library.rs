@@ -153,6 +153,10 @@ impl SystemLibrary for Library {
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
         match keys {
             SystemKeys::Ideal { kind, transmittance } => ideal(*kind, *transmittance),
+            SystemKeys::Luminaires { index, .. } => Err(StudyError::key(
+                "system.luminaires",
+                format!("{}: luminaire files hold no dataset", index.display()),
+            )),
             SystemKeys::File { path, state } if is_system_file(&path.to_string_lossy()) => {
                 self.load_description(&base.join(path), state.as_deref(), need)
             }

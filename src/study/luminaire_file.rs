@@ -1,7 +1,8 @@
 //! The luminaire file of an aperture: format by extension, orientation and step by choice or from the data, and a
 //! header that says which scene, sky and product the light belongs to.
 
-use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys};
+use super::moment;
+use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys, TimeKey};
 use super::sky::{Source, illuminances};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::Lid;
@@ -82,14 +83,19 @@ pub fn encode(
     let step = step.unwrap_or_else(|| Step::for_lid(lid));
     let table = CGammaTable::new(lid, aim, step);
     let luminaire = Luminaire::from_table(&table, lid.size, text);
-    let bytes = match format {
-        LidFormat::Eulumdat => eulumdat::write(&luminaire),
-        LidFormat::Ies(edition) => ies::write(&luminaire, edition),
-        LidFormat::Csv => lid_tables::to_csv(&luminaire).into_bytes(),
-        LidFormat::Png => lid_tables::polar_diagram(&luminaire).to_png()?,
-        LidFormat::Svg => lid_tables::polar_diagram(&luminaire).to_svg().into_bytes(),
-    };
+    let bytes = bytes_of(&luminaire, format)?;
     Ok(LuminaireFile { bytes, flux: table.flux, scaled_by: table.scaled_by, peak: luminaire.peak(), aim, step })
+}
+
+/// A luminaire in one of the formats.
+pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u8>, LuminaireFileError> {
+    Ok(match format {
+        LidFormat::Eulumdat => eulumdat::write(luminaire),
+        LidFormat::Ies(edition) => ies::write(luminaire, edition),
+        LidFormat::Csv => lid_tables::to_csv(luminaire).into_bytes(),
+        LidFormat::Png => lid_tables::polar_diagram(luminaire).to_png()?,
+        LidFormat::Svg => lid_tables::polar_diagram(luminaire).to_svg().into_bytes(),
+    })
 }
 
 /// The header of a luminaire file: scene, product, sky, sun and time, as the scene file states them.
@@ -110,6 +116,10 @@ pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str
             with_state(format!("file {name}"), state.as_deref())
         }
         SystemKeys::Catalogue { key, state } => with_state(key.clone(), state.as_deref()),
+        SystemKeys::Luminaires { index, set } => {
+            let name = index.file_name().unwrap_or_default().to_string_lossy();
+            set.as_ref().map_or_else(|| format!("files of {name}"), |set| format!("files of {name}, {set}"))
+        }
     };
     let program = concat!("cfs ", env!("CARGO_PKG_VERSION"));
     Description {
@@ -117,16 +127,35 @@ pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str
         laboratory: format!("computed by {program}"),
         date: date.to_owned(),
         manufacturer: program.to_owned(),
-        number: format!("aperture {}", aperture + 1),
+        number: format!("aperture {}; {}", aperture + 1, situation(scene)),
         name: format!("Daylight aperture, {system}"),
         lamp: "daylight".to_owned(),
         remarks: vec![
             format!("Daylight through one aperture of the scene {scene_name}, not an electric luminaire."),
+            format!("Place, time, sun (altitude/bearing in degrees), facade (bearing), sky: {}.", situation(scene)),
             sky_remark(scene),
             "Light that the host's own room sends to the aperture is not reflected: give the window a reflectance."
                 .to_owned(),
         ],
     }
+}
+
+/// Place, time, sky, sun and façade in so few words that a line of EULUMDAT holds them.
+fn situation(scene: &SceneFile) -> String {
+    let SceneFile { site, sky, .. } = scene;
+    let mut parts = Vec::new();
+    if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
+        let [north, east] = [if latitude < 0.0 { 'S' } else { 'N' }, if longitude < 0.0 { 'W' } else { 'E' }];
+        parts.push(format!("{:.1}{north} {:.1}{east}", latitude.abs(), longitude.abs()));
+    }
+    parts.extend(sky.time.as_ref().map(TimeKey::text));
+    parts.extend(moment::sun(scene).map(|(altitude, azimuth)| format!("sun {:.1}/{azimuth:.1}", altitude.to_degrees())));
+    parts.push(format!("facade {:.0}", site.azimuth));
+    parts.push(match sky.model {
+        SkyModelKey::Cie => format!("CIE {}", sky.cie_type.unwrap_or_default()),
+        model => model.words()[1].to_owned(),
+    });
+    parts.join("; ")
 }
 
 fn with_state(name: String, state: Option<&str>) -> String {
@@ -185,6 +214,8 @@ size = [4.0, 1.5]
 system = { file = "systems/blind.xml", state = "45" }
 [site]
 azimuth = 170.0
+latitude = 48.8
+longitude = 9.2
 ground_reflectance = 0.2
 [sky]
 model = "cie"
@@ -203,6 +234,11 @@ normal = [0.0, 0.0, 1.0]
         let parts = vec![EmergentLuminance::Uniform(500.0)];
         let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beams: Vec::new() };
         let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();
+        // EULUMDAT has a line of 78 characters for it.
+        let ldt = encode(&lid, text.clone(), LidFormat::Eulumdat, None, None).unwrap();
+        let ldt = String::from_utf8(ldt.bytes).unwrap();
+        assert!(ldt.contains("\r\naperture 1; 48.8N 9.2E; sun 20.0/180.0; facade 170; CIE 12\r\n"), "{}", &ldt[..400]);
+        assert!(ldt.contains("blind.xml, state 45"));
         let file = encode(&lid, text, format, None, None).unwrap();
         // Continuation lines cut sentences anywhere.
         let file = String::from_utf8(file.bytes).unwrap().replace("\r\n[MORE]", "");
@@ -213,6 +249,7 @@ normal = [0.0, 0.0, 1.0]
             "CIE type 12",
             "E_dh 12000 lx",
             "E_dn 65000 lx",
+            "48.8N 9.2E; sun 20.0/180.0; facade 170; CIE 12",
             "4.0000 m x 1.5000 m",
             "must subdivide",
             env!("CARGO_PKG_VERSION"),

@@ -3,6 +3,7 @@
 use super::control::ControlQuestion;
 use super::control::year::CONTROLLED;
 use super::error::StudyError;
+use super::luminaires;
 use super::near_field::near_field;
 use super::outside::{behind_boxes, boxes};
 use super::scene_file::{
@@ -16,7 +17,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Orientation, Surface};
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
-use crate::compute::lid::Facing;
+use crate::compute::lid::{Facing, Lamps};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::reflecting_cells;
 use crate::compute::room::direct::Sensor;
@@ -48,6 +49,8 @@ pub struct SceneAperture {
     pub clear: f64,
     /// The state that a control picked; `None` where the scene names it.
     pub controlled: Option<String>,
+    /// Luminaires that light the room in the system's place; `None`: the outside does, through the system.
+    pub lamps: Option<Arc<Lamps>>,
 }
 
 impl SceneAperture {
@@ -148,8 +151,18 @@ impl Scene {
             // Without diffuse light, and with nothing that comes back, a description need not become data.
             let back = file.compute.interreflection && reflects(file);
             let need = if back || !beams { Need::Everything } else { Need::Light { lit: facing.outside.is_lit() } };
-            let system = library.load(&wanted, base, need).map_err(|error| in_aperture(index, error))?;
-            if system.dataset.transmission().is_none() {
+            let lamps = match &wanted {
+                SystemKeys::Luminaires { index: name, set } => {
+                    let read = luminaires::in_place_of(&aperture, &base.join(name), set.as_deref());
+                    Some(read.map_err(|error| in_aperture(index, error))?)
+                }
+                _ => None,
+            };
+            let system = match &wanted {
+                SystemKeys::Luminaires { index: name, .. } => luminaires::as_system(name),
+                _ => library.load(&wanted, base, need).map_err(|error| in_aperture(index, error))?,
+            };
+            if lamps.is_none() && system.dataset.transmission().is_none() {
                 return Err(StudyError::key(
                     format!("aperture[{}].system", index + 1),
                     format!(
@@ -183,7 +196,7 @@ impl Scene {
             let frame = within(&format!("aperture[{}].frame", index + 1), keys.frame, 0.0, 0.95, "")?;
             let clear = (1.0 - frame) * within(&format!("aperture[{}].dirt", index + 1), keys.dirt, 0.0, 1.0, "")?;
             let controlled = picked;
-            list.push(SceneAperture { aperture, system, reflectance, structure, directional, clear, controlled });
+            list.push(SceneAperture { aperture, system, reflectance, structure, directional, clear, controlled, lamps });
         }
         if let Some(target) = file.compute.error_target {
             within("compute.error_target", target, 1e-8, 1.0, "")?;
@@ -321,7 +334,7 @@ fn hour(file: &SceneFile) -> Result<Option<f64>, StudyError> {
 fn wanted_state(keys: &SystemKeys) -> Option<String> {
     match keys {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } => state.clone(),
-        SystemKeys::Ideal { .. } => None,
+        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => None,
     }
 }
 

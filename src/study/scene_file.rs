@@ -213,10 +213,17 @@ pub enum SystemKeys {
         /// Key of the state, or "controlled".
         state: Option<String>,
     },
+    /// `{ luminaires = "x.index.csv" }`: luminaire files as a host takes them.
+    Luminaires {
+        /// Their index, relative to the scene file.
+        index: PathBuf,
+        /// Member of a series.
+        set: Option<String>,
+    },
 }
 
 /// All keys that `aperture.system` may have; which belong together is judged afterwards, so that the message can say.
-#[derive(Debug, Clone, Serialize, Deserialize, Default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct SystemAsTyped {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -229,12 +236,22 @@ struct SystemAsTyped {
     catalogue: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     state: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    luminaires: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    set: Option<String>,
 }
 
 impl TryFrom<SystemAsTyped> for SystemKeys {
     type Error = String;
 
     fn try_from(typed: SystemAsTyped) -> Result<Self, String> {
+        if let SystemAsTyped { luminaires: Some(index), set, .. } = &typed {
+            let keys = Self::Luminaires { index: index.clone(), set: set.clone() };
+            if SystemAsTyped::from(keys.clone()) == typed {
+                return Ok(keys);
+            }
+        }
         match typed {
             SystemAsTyped {
                 ideal: Some(kind),
@@ -242,15 +259,30 @@ impl TryFrom<SystemAsTyped> for SystemKeys {
                 file: None,
                 catalogue: None,
                 state: None,
+                luminaires: None,
+                set: None,
             } => Ok(Self::Ideal { kind, transmittance }),
-            SystemAsTyped { ideal: None, transmittance: None, file: Some(path), catalogue: None, state } => {
-                Ok(Self::File { path, state })
-            }
-            SystemAsTyped { ideal: None, transmittance: None, file: None, catalogue: Some(key), state } => {
-                Ok(Self::Catalogue { key, state })
-            }
+            SystemAsTyped {
+                ideal: None,
+                transmittance: None,
+                file: Some(path),
+                catalogue: None,
+                state,
+                luminaires: None,
+                set: None,
+            } => Ok(Self::File { path, state }),
+            SystemAsTyped {
+                ideal: None,
+                transmittance: None,
+                file: None,
+                catalogue: Some(key),
+                state,
+                luminaires: None,
+                set: None,
+            } => Ok(Self::Catalogue { key, state }),
             _ => Err(
-                "system needs exactly one of: ideal and transmittance; file; catalogue (state goes with the last two)"
+                "system needs exactly one of: ideal and transmittance; file; catalogue; luminaires (state goes with \
+                      file and catalogue, set with luminaires)"
                     .into(),
             ),
         }
@@ -265,6 +297,7 @@ impl From<SystemKeys> for SystemAsTyped {
             }
             SystemKeys::File { path, state } => Self { file: Some(path), state, ..Self::default() },
             SystemKeys::Catalogue { key, state } => Self { catalogue: Some(key), state, ..Self::default() },
+            SystemKeys::Luminaires { index, set } => Self { luminaires: Some(index), set, ..Self::default() },
         }
     }
 }

@@ -7,6 +7,7 @@ mod coefficients;
 mod common;
 mod control;
 mod luminaire_daylight;
+mod luminaire_tiles;
 mod method;
 mod near_field;
 mod outside;

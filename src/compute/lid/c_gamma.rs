@@ -10,12 +10,20 @@
 //! at the node: point values of narrow lobes lose or gain flux, up to a factor of two and more for a lobe of half a
 //! step. The table is then scaled so that the flux a reader finds by the usual zonal sum is the flux of the aperture.
 
-use super::{EmergentLuminance, Lid};
+mod averaged;
+mod cells;
+mod narrow;
+mod panel;
+mod spots;
+
+pub use averaged::Averaged;
+pub use panel::Panel;
+
+use super::{EmergentLuminance, Intensities, Lid};
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use crate::compute::estimate::Estimate;
 use glam::DVec3;
-use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// How the aperture's frame stands in the luminaire's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,13 +119,17 @@ impl Step {
     }
 }
 
-/// Luminous intensities at C = 0, step, … < 360° and γ = 0, step, … 180°.
+/// Luminous intensities at C = 0, step, … < 360° and γ = 0, step, … 180°, and at more of them where narrow beams go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CGammaTable {
     /// How the aperture stands in it.
     pub aim: Aim,
-    /// Step in C and γ.
+    /// Step in C and γ, away from beams.
     pub step: Step,
+    /// The planes, from 0, 2π not repeated. \[rad\]
+    pub c: Vec<f64>,
+    /// The angles in a plane, from 0 to π. \[rad\]
+    pub gamma: Vec<f64>,
     /// Plane by plane, γ rising. \[cd\]
     pub intensity: Vec<f64>,
     /// Flux of the aperture: exact for uniform light, cells and bands, integrated for functions. \[lm\]
@@ -125,10 +137,23 @@ pub struct CGammaTable {
     /// Factor by which the averages were multiplied to make the zonal sum of the table equal to `flux`: what the
     /// quadrature missed of a known flux, and the zonal sum's own constant (1/cos(step/2) for smooth light).
     pub scaled_by: f64,
-    /// Flux of the unscattered beams, each spread over the four nodes round it. \[lm\]
+    /// Flux of the unscattered beams in the table. \[lm\]
     pub beam_flux: f64,
     /// The part of `intensity` that is unscattered beams; empty without any. \[cd\]
     pub beams: Vec<f64>,
+    /// How these beams are widened; `None`: every beam is spread over the four nodes round it.
+    pub widened: Option<Widened>,
+}
+
+/// Beams that are as wide as what they light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Widened {
+    /// Size of what is lit, largest of all beams. \[m\]
+    pub size: [f64; 2],
+    /// Distance where that holds, from the nearest to the farthest. \[m\]
+    pub distance: [f64; 2],
+    /// Finest distance of the nodes in C, on the sphere, and in γ. \[rad\]
+    pub step: [f64; 2],
 }
 
 /// The largest intensity of a table and where it goes.
@@ -161,76 +186,36 @@ impl Peaks {
 }
 
 impl CGammaTable {
-    /// Averages a distribution over the cells of the table.
-    ///
-    /// Functions are integrated by adaptive Gauss points, cells and bands by sub-sampling; both split at the façade's plane
-    /// and at the horizon. Negative luminances count as they are.
+    /// Averages a distribution over the cells of the table; every beam is spread over the four nodes round it.
     pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
-        let grid = Grid { aim, step };
-        let area = lid.area();
-        let mut node_flux = vec![0.0; grid.planes() * grid.angles()];
-        let mut flux = Estimate::default();
-        let (mut raw, mut closed) = (0.0, 0.0);
-        for part in &lid.parts {
-            // Shares of the flux in each node's cell, per area.
-            let (shares, total) = match part {
-                EmergentLuminance::Uniform(l) => (grid.collect(&|_| *l, Rule::Smooth), Some(PI * l)),
-                EmergentLuminance::Cells { basis, luminance } => {
-                    let exact = basis.projected_solid_angles().iter().zip(luminance).map(|(w, l)| w * l).sum();
-                    let at = |d: Dir<Facade>| basis.index(d).map_or(0.0, |cell| luminance[cell]);
-                    (grid.collect(&at, Rule::Piecewise), Some(exact))
-                }
-                EmergentLuminance::Bands(light) => {
-                    (grid.collect(&|d| light.at(d), Rule::Piecewise), Some(light.share()))
-                }
-                EmergentLuminance::Function(f) => (grid.collect(&|d| f(d), Rule::Smooth), None),
-            };
-            let sum: f64 = shares.iter().map(|share| share.value).sum();
-            let error: f64 = shares.iter().map(|share| share.error).sum();
-            let (total, error) = total.map_or((sum, error), |exact| (exact, 0.0));
-            // What the quadrature missed of a flux that is known is laid on all cells alike.
-            let closing = if sum != 0.0 { total / sum } else { 1.0 };
-            flux += Estimate::new(total * area, error * area);
-            raw += sum;
-            closed += sum * closing;
-            for (node, share) in node_flux.iter_mut().zip(&shares) {
-                *node += share.value * closing * area;
-            }
-        }
-        let beam_flux = lid.beam_flux();
-        let mut of_beams = vec![0.0; if beam_flux == 0.0 { 0 } else { node_flux.len() }];
-        for beam in lid.beams.iter().filter(|beam| beam.flux != 0.0) {
-            grid.lay(&mut node_flux, beam.direction, beam.flux);
-            grid.lay(&mut of_beams, beam.direction, beam.flux);
-        }
-        flux += Estimate::exact(beam_flux);
-        let beams = if of_beams.is_empty() { of_beams } else { grid.averages(&of_beams) };
-        let intensity = grid.averages(&node_flux);
-        let mut table = Self { aim, step, intensity, flux, scaled_by: 1.0, beam_flux, beams };
-        let read = table.zonal_flux();
-        if read != 0.0 && flux.value != 0.0 {
-            let scale = flux.value / read;
-            for value in table.intensity.iter_mut().chain(&mut table.beams) {
-                *value *= scale;
-            }
-            table.scaled_by = if raw != 0.0 { scale * closed / raw } else { scale };
-        }
-        table
+        Averaged::new(lid, aim, step).table()
     }
 
     /// Number of C-planes, C = 360° not repeated.
     pub fn planes(&self) -> usize {
-        4 * self.step.per_quarter
+        self.c.len()
     }
 
     /// Number of γ angles.
     pub fn angles(&self) -> usize {
-        2 * self.step.per_quarter + 1
+        self.gamma.len()
     }
 
     /// Intensities of one plane, γ from 0 to 180°. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.angles()..][..self.angles()]
+    }
+
+    /// As a reader takes it.
+    pub fn intensities(&self) -> Intensities {
+        Intensities { c: self.c.clone(), gamma: self.gamma.clone(), values: self.intensity.clone() }
+    }
+
+    /// The same with other nodes, the old ones among them: what a reader makes of it does not change.
+    fn at_nodes(&mut self, c: Vec<f64>, gamma: Vec<f64>) {
+        let known = Intensities { c: std::mem::take(&mut self.c), gamma: std::mem::take(&mut self.gamma), values: std::mem::take(&mut self.intensity) };
+        self.intensity = c.iter().flat_map(|c| gamma.iter().map(|gamma| known.at(*c, *gamma))).collect();
+        (self.c, self.gamma) = (c, gamma);
     }
 
     /// The strongest scattered light and the strongest beam.
@@ -241,8 +226,7 @@ impl CGammaTable {
             let best = (0..self.intensity.len())
                 .map(|node| (node, value(node)))
                 .fold((0, 0.0), |best: (usize, f64), one| if one.1 > best.1 { one } else { best });
-            let at = |part: usize| part as f64 * self.step.radians();
-            let (c, gamma) = (at(best.0 / self.angles()), at(best.0 % self.angles()));
+            let (c, gamma) = (self.c[best.0 / self.angles()], self.gamma[best.0 % self.angles()]);
             (best.1 > 0.0).then_some(Peak { intensity: best.1, c, gamma })
         };
         Peaks {
@@ -256,171 +240,18 @@ impl CGammaTable {
         }
     }
 
-    /// The flux that a reader finds: each zone between two γ with the mean of its two intensities. \[lm\]
+    /// The flux that a reader finds: each zone between two γ with the mean of its two intensities, each plane for half the
+    /// way to its neighbours. \[lm\]
     pub fn zonal_flux(&self) -> f64 {
-        let delta = self.step.radians();
-        (0..self.planes())
-            .map(|plane| {
-                self.plane(plane)
-                    .windows(2)
-                    .enumerate()
-                    .map(|(j, pair)| {
-                        let zone = (j as f64 * delta).cos() - ((j + 1) as f64 * delta).cos();
-                        0.5 * (pair[0] + pair[1]) * zone * delta
-                    })
-                    .sum::<f64>()
-            })
-            .sum()
-    }
-}
-
-/// What the quadrature may assume inside a cell.
-#[derive(Clone, Copy, PartialEq)]
-enum Rule {
-    /// Smooth nearly everywhere: Gauss points, refined where two orders disagree.
-    Smooth,
-    /// Steps at borders that run anywhere: many points of equal weight.
-    Piecewise,
-}
-
-#[derive(Clone, Copy)]
-struct Grid {
-    aim: Aim,
-    step: Step,
-}
-
-/// A rectangle in C and γ. \[rad\]
-#[derive(Clone, Copy)]
-struct Patch {
-    c: [f64; 2],
-    gamma: [f64; 2],
-}
-
-impl Patch {
-    fn quarters(self) -> [Self; 4] {
-        let (c, g) = (0.5 * (self.c[0] + self.c[1]), 0.5 * (self.gamma[0] + self.gamma[1]));
-        let [low_c, high_c] = [[self.c[0], c], [c, self.c[1]]];
-        let [low_g, high_g] = [[self.gamma[0], g], [g, self.gamma[1]]];
-        [(low_c, low_g), (low_c, high_g), (high_c, low_g), (high_c, high_g)].map(|(c, gamma)| Self { c, gamma })
-    }
-}
-
-impl Grid {
-    fn planes(self) -> usize {
-        4 * self.step.per_quarter
-    }
-
-    fn angles(self) -> usize {
-        2 * self.step.per_quarter + 1
-    }
-
-    /// ∫ L cosθ dω over the cell of every node, plane by plane.
-    fn collect(self, luminance: &(dyn Fn(Dir<Facade>) -> f64 + Sync), rule: Rule) -> Vec<Estimate> {
-        let delta = self.step.radians();
-        let angles = self.angles();
-        // Flux per steradian at the direction, seen by through-name.
-        let density = |c: f64, gamma: f64| {
-            let twin = self.aim.direction(c, gamma).through_name();
-            let cos_theta = twin.vector().z;
-            if cos_theta > 0.0 { luminance(twin) * cos_theta * gamma.sin() } else { 0.0 }
+        let (planes, zones) = cells::weights(&self.c, &self.gamma);
+        let of = |(plane, weight): (usize, &f64)| {
+            weight * self.plane(plane).iter().zip(&zones).map(|(intensity, zone)| intensity * zone).sum::<f64>()
         };
-        (0..self.planes() * angles)
-            .into_par_iter()
-            .map(|node| {
-                let (c, gamma) = ((node / angles) as f64 * delta, (node % angles) as f64 * delta);
-                // The façade's plane and the horizon run through nodes: cells are cut there.
-                let cuts = [[-0.5, 0.0], [0.0, 0.5]];
-                let mut sum = Estimate::default();
-                for [c0, c1] in cuts {
-                    for [g0, g1] in cuts {
-                        let patch = Patch {
-                            c: [c + c0 * delta, c + c1 * delta],
-                            gamma: [(gamma + g0 * delta).max(0.0), (gamma + g1 * delta).min(PI)],
-                        };
-                        if patch.gamma[1] <= patch.gamma[0] {
-                            continue;
-                        }
-                        sum += match rule {
-                            Rule::Smooth => adaptive(&density, patch, 4),
-                            Rule::Piecewise => Estimate::exact(midpoints(&density, patch, 6)),
-                        };
-                    }
-                }
-                sum
-            })
-            .collect()
+        planes.iter().enumerate().map(of).sum()
     }
-
-    /// Spreads a beam over the four nodes round it so that its centre stays where it is in C and γ.
-    fn lay(self, node_flux: &mut [f64], direction: Emergent, flux: f64) {
-        let delta = self.step.radians();
-        let (c, gamma) = self.aim.angles(direction);
-        let (c, gamma) = (c / delta, gamma / delta);
-        let (i, j) = (c.floor() as usize, (gamma.floor() as usize).min(self.angles() - 2));
-        let (u, v) = (c - i as f64, gamma - j as f64);
-        for (plane, share_c) in [(i, 1.0 - u), (i + 1, u)] {
-            for (angle, share_gamma) in [(j, 1.0 - v), (j + 1, v)] {
-                node_flux[(plane % self.planes()) * self.angles() + angle] += flux * share_c * share_gamma;
-            }
-        }
-    }
-
-    /// Mean intensities from the fluxes of the cells. The cells at nadir and zenith are one direction in all planes.
-    fn averages(self, node_flux: &[f64]) -> Vec<f64> {
-        let delta = self.step.radians();
-        let (planes, angles) = (self.planes(), self.angles());
-        let cap = |angle: usize| {
-            let flux: f64 = (0..planes).map(|plane| node_flux[plane * angles + angle]).sum();
-            flux / (2.0 * PI * 2.0 * (0.25 * delta).sin().powi(2))
-        };
-        let (nadir, zenith) = (cap(0), cap(angles - 1));
-        (0..planes * angles)
-            .map(|node| match node % angles {
-                0 => nadir,
-                j if j == angles - 1 => zenith,
-                // Ω = ΔC (cos(γ − Δ/2) − cos(γ + Δ/2)) = 2 ΔC sinγ sin(Δ/2)
-                j => node_flux[node] / (2.0 * delta * (j as f64 * delta).sin() * (0.5 * delta).sin()),
-            })
-            .collect()
-    }
-}
-
-const GAUSS_2: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 0.5), (0.577_350_269_189_625_8, 0.5)];
-const GAUSS_3: [(f64, f64); 3] =
-    [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 4.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
-
-fn gauss(density: &impl Fn(f64, f64) -> f64, patch: Patch, rule: &[(f64, f64)]) -> f64 {
-    let [c, gamma] = [patch.c, patch.gamma];
-    let point = |range: [f64; 2], x: f64| 0.5 * (range[0] + range[1]) + 0.5 * (range[1] - range[0]) * x;
-    let mut sum = 0.0;
-    for &(x, weight_x) in rule {
-        for &(y, weight_y) in rule {
-            sum += weight_x * weight_y * density(point(c, x), point(gamma, y));
-        }
-    }
-    sum * (c[1] - c[0]) * (gamma[1] - gamma[0])
-}
-
-/// Gauss points of third order, refined where the second order disagrees by more than 0.1 %.
-fn adaptive(density: &impl Fn(f64, f64) -> f64, patch: Patch, depth: usize) -> Estimate {
-    let fine = gauss(density, patch, &GAUSS_3);
-    let error = (fine - gauss(density, patch, &GAUSS_2)).abs();
-    if depth == 0 || error <= 1e-3 * fine.abs() {
-        return Estimate::new(fine, error);
-    }
-    patch.quarters().into_iter().map(|quarter| adaptive(density, quarter, depth - 1)).sum()
-}
-
-fn midpoints(density: &impl Fn(f64, f64) -> f64, patch: Patch, n: usize) -> f64 {
-    let at = |range: [f64; 2], k: usize| range[0] + (range[1] - range[0]) * (k as f64 + 0.5) / n as f64;
-    let mut sum = 0.0;
-    for i in 0..n {
-        for j in 0..n {
-            sum += density(at(patch.c, i), at(patch.gamma, j));
-        }
-    }
-    sum * (patch.c[1] - patch.c[0]) * (patch.gamma[1] - patch.gamma[0]) / (n * n) as f64
 }
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tile_tests;

@@ -6,6 +6,7 @@
 
 use super::Facing;
 use super::beams::BeamLight;
+use super::lamp::Lamps;
 use super::{EmergentLuminance, Lid, SunBeam};
 use crate::compute::basis::{Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
@@ -81,6 +82,8 @@ pub struct Emission {
     pub regular: Option<AngularTransmittance>,
     /// The sun's light that goes on as beams.
     pub beams: Vec<BeamLight>,
+    /// Luminaires in the aperture's place, which light the room whatever the outside.
+    pub lamps: Option<Arc<Lamps>>,
     /// Illuminance of the outside face by diffuse light. \[lx\]
     pub incident_diffuse: Estimate,
     /// Illuminance of the outside face by the sun. \[lx\]
@@ -100,11 +103,22 @@ impl Emission {
             bands: Vec::new(),
             regular: None,
             beams: Vec::new(),
+            lamps: None,
             beam_source: BeamSource::None,
             incident_diffuse: Estimate::default(),
             incident_sun: 0.0,
             notes: Vec::new(),
         }
+    }
+
+    /// Luminaires in the aperture's place: nothing of the outside comes in.
+    pub fn lamps(lamps: Arc<Lamps>) -> Self {
+        let note = format!(
+            "luminaire files: {} of them, each cut into parts of a quarter of the distance, as a host takes them; sky and \
+             sun of the scene do not change their light",
+            lamps.list.len()
+        );
+        Self { lamps: Some(lamps), notes: vec![note], ..Self::dark() }
     }
 
     /// Computes what the room side of a system emits.
@@ -118,6 +132,7 @@ impl Emission {
             bands: Vec::new(),
             regular: btdf.regular.clone(),
             beams: Vec::new(),
+            lamps: None,
             incident_diffuse: Estimate::default(),
             incident_sun,
             beam_source: BeamSource::None,
@@ -212,6 +227,9 @@ impl Emission {
         for bands in &self.bands {
             sum += Estimate::new(bands.light.share(), bands.light.error) * bands.illuminance;
         }
+        if let Some(lamps) = &self.lamps {
+            sum += Estimate::exact(lamps.flux() / lamps.area);
+        }
         for cells in &self.cells {
             let total: f64 = cells
                 .basis
@@ -275,6 +293,9 @@ impl Emission {
                 let world = orientation.world_from_room(surface.room_dir(twin));
                 tau.at(twin.theta()) * outside.luminance(world)
             })));
+        }
+        if let Some(lamps) = self.lamps.clone() {
+            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| lamps.luminance(twin))));
         }
         let area = size[0] * size[1];
         let beam = |beam: &BeamLight| SunBeam {

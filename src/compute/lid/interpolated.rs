@@ -151,6 +151,7 @@ impl Emission {
             cells: vec![cells],
             bands: Vec::new(),
             regular: btdf.regular.clone(),
+            lamps: None,
             beams: BeamLight::regular(btdf.regular.as_ref(), facing).into_iter().collect(),
             incident_diffuse,
             incident_sun,

@@ -4,17 +4,22 @@ mod beams;
 pub mod c_gamma;
 mod emission;
 mod facing;
+mod intensities;
 mod interpolated;
+mod lamp;
 mod leaf_doubt;
 mod mixed;
 pub mod peaks;
 mod sky_through;
 mod sun_through;
+pub mod tiling;
 
 pub use beams::BeamLight;
 pub use emission::{BandLight, BeamSource, CellLight, Emission};
 pub use facing::Facing;
+pub use intensities::Intensities;
 pub use interpolated::Interpolator;
+pub use lamp::{Lamp, Lamps};
 pub use sky_through::SkyThrough;
 pub use sun_through::{SunThrough, sun_cells};
 

@@ -98,6 +98,10 @@ pub fn illuminance(
     if let (Some(tau), Some(view)) = (&emission.regular, aperture.view(sensor.position, sensor.normal)) {
         sum += through::illuminance(&view, facing, tau, tolerance);
     }
+    if let Some(lamps) = &emission.lamps {
+        // Their parts are what they are: how a host computes is the answer, not an error.
+        sum += Estimate::exact(lamps.illuminance(sensor.position, sensor.normal));
+    }
     let beams = beams_through(sensor, aperture, &emission.beams, facing);
     sum += beams.all;
     // Rounding of the closed forms and of the weights' sums.

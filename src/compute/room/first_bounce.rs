@@ -10,7 +10,7 @@ use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Surface};
 use crate::compute::estimate::Estimate;
-use crate::compute::lid::{BeamLight, Emission, Facing};
+use crate::compute::lid::{BeamLight, Emission, Facing, Lamps};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::gauss_legendre;
 use glam::DVec3;
@@ -272,7 +272,17 @@ impl FirstLight {
         if let Some(tau) = &emission.regular {
             self.add_diffuse(outside_seen(mesh, aperture, emission, facing, tau));
         }
+        if let Some(lamps) = &emission.lamps {
+            self.add_lamps(mesh, aperture, lamps);
+        }
         emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam));
+    }
+
+    /// Adds the light of luminaires in an aperture.
+    pub fn add_lamps(&mut self, mesh: &Mesh, aperture: &Aperture, lamps: &Lamps) {
+        let at = |sensor: &Sensor| lamps.illuminance(sensor.position, sensor.normal);
+        let first = seen_on_patches(mesh, aperture, &rules(3), at);
+        self.add_diffuse(scaled_to(mesh, lamps.flux(), first));
     }
 
     /// Adds light that lies on cells or bands. `weights`: what the patches receive by the cells of a basis.
@@ -367,16 +377,17 @@ fn outside_seen(
     facing: &Facing<'_>,
     tau: &AngularTransmittance,
 ) -> (Vec<f64>, f64) {
+    // What goes straight on, without the beam and what scatters.
+    let mut straight = emission.clone();
+    (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), Vec::new());
+    straight.uniform = Estimate::default();
+    let flux = straight.exitance(facing).value * aperture.area();
     let rules = rules(8);
     let first = seen_on_patches(mesh, aperture, &rules, |sensor| {
         let view = aperture.view(sensor.position, sensor.normal);
         view.map_or(0.0, |view| seen_from(&view, facing, tau, &rules))
     });
-    // What goes straight on, without the beam and what scatters.
-    let mut straight = emission.clone();
-    (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), Vec::new());
-    straight.uniform = Estimate::default();
-    scaled_to(mesh, straight.exitance(facing).value * aperture.area(), first)
+    scaled_to(mesh, flux, first)
 }
 
 /// Means over every patch of the light at its points.

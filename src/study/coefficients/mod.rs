@@ -54,6 +54,12 @@ impl Coefficients {
                 "coefficients need the solid-angle method; leave the key out",
             ));
         }
+        if let Some(index) = scene.apertures.iter().position(|one| one.lamps.is_some()) {
+            return Err(StudyError::key(
+                format!("aperture[{}].system.luminaires", index + 1),
+                "luminaire files hold the light of one sky; name the system itself here",
+            ));
+        }
         if let Some(around) = scene.outside.surroundings() {
             let key = if around.solids.is_empty() { "sky.skyline" } else { "outside" };
             let message = "coefficients know a horizontal skyline alone: leave the key out, or compute single hours";

@@ -54,6 +54,7 @@ pub fn label(keys: &CompareKeys) -> String {
     match system {
         Some(SystemKeys::Catalogue { key, state }) => with_state(key.clone(), state),
         Some(SystemKeys::File { path, state }) => with_state(path.display().to_string(), state),
+        Some(SystemKeys::Luminaires { index, set }) => with_state(index.display().to_string(), set),
         Some(SystemKeys::Ideal { kind: IdealKind::Transparent, .. }) => texts::IDEAL_TRANSPARENT.into(),
         Some(SystemKeys::Ideal { kind: IdealKind::Diffuse, .. }) => texts::IDEAL_DIFFUSE.into(),
         None => texts::AS_IN_SCENE.into(),

@@ -73,6 +73,9 @@ impl Session {
     /// The light of an aperture behind boxes or a skyline.
     pub(super) fn split(&self, scene: &Scene, index: usize) -> Split {
         let one = &scene.apertures[index];
+        if let Some(lamps) = &one.lamps {
+            return Split::of_lamps(scene, index, Emission::lamps(Arc::clone(lamps)));
+        }
         let leaves = self.leaves(scene, index);
         let same = Self::same_all_over(&leaves);
         let tiles: Vec<(Part, Emission)> = if same {
@@ -252,6 +255,24 @@ fn words(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) 
 }
 
 impl Split {
+    /// Luminaires shine as their files say, whatever stands outside.
+    fn of_lamps(scene: &Scene, index: usize, whole: Emission) -> Self {
+        Self {
+            exitance: whole.exitance(&scene.facing(index)),
+            regular: None,
+            smooth: Vec::new(),
+            leaves: Vec::new(),
+            sun: None,
+            quarters: Vec::new(),
+            beams: Vec::new(),
+            lit: Vec::new(),
+            lit_share: 0.0,
+            glow: Estimate::default(),
+            words: vec![format!("aperture {}: its luminaires hold what came from outside", index + 1)],
+            whole,
+        }
+    }
+
     /// Scattered sunlight on tiles that lie in light, and on small ones across the shadows' edges.
     fn add_sun_tiles(&mut self, aperture: &Aperture, sun: &Emission, scene: &Scene, index: usize) {
         if self.lit_share <= 0.0 || (sun.cells.is_empty() && sun.bands.is_empty()) {
@@ -304,6 +325,9 @@ impl Split {
                 emission.bands.first().map(|bands| BandWeights::new(&view, bands.light.upright, bands.light.q.len()));
             sum += direct::illuminance(sensor, tile, &own, bands.as_ref(), emission, facing, tolerance);
         };
+        if self.whole.lamps.is_some() {
+            add(aperture, &self.whole);
+        }
         for (tile, light) in self.leaves.iter().flat_map(|leaf| leaf.tiles_for(aperture, sensor)) {
             add(&part_of(aperture, tile), &light);
         }
@@ -363,6 +387,9 @@ impl Split {
         }
         if !outlines.is_empty() {
             first.add_outlines(mesh, &outlines);
+        }
+        if let Some(lamps) = &self.whole.lamps {
+            first.add_lamps(mesh, aperture, lamps);
         }
         if let Some((tau, flux)) = &self.regular {
             let tolerance = Tolerance { absolute: 1e-4 * flux.value, ..Tolerance::relative(AT_PATCHES) };

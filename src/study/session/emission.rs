@@ -12,12 +12,15 @@ use std::sync::Arc;
 
 impl Session {
     /// What an aperture emits under the scene's outside, frame and dirt counted.
-    pub(super) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
+    pub(in crate::study) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
         self.emission_under(scene, aperture, &scene.facing(aperture))
     }
 
     /// The same under an outside of one's own.
     pub(super) fn emission_under(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
+        if let Some(lamps) = &scene.apertures[aperture].lamps {
+            return Emission::lamps(Arc::clone(lamps));
+        }
         let clear = scene.apertures[aperture].clear;
         let emission = self.of_system(scene, aperture, facing);
         if clear == 1.0 { emission } else { emission.scaled(clear) }

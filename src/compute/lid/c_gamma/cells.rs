@@ -1,0 +1,69 @@
+//! The cells round the nodes of a table, and what they count for.
+
+use super::Aim;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Points a side of a cell, for its mean.
+const POINTS: usize = 4;
+
+/// What planes and angles count for in a zonal sum.
+pub(super) fn weights(c: &[f64], gamma: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let planes = c.len();
+    let turn = 2.0 * PI;
+    let gap = |k: usize| if k + 1 < planes { c[k + 1] - c[k] } else { c[0] + turn - c[k] };
+    let of_planes = (0..planes).map(|k| 0.5 * (gap(k) + gap((k + planes - 1) % planes))).collect();
+    let zone = |k: usize| if k + 1 < gamma.len() { gamma[k].cos() - gamma[k + 1].cos() } else { 0.0 };
+    let of_angles = (0..gamma.len()).map(|k| 0.5 * (zone(k) + if k > 0 { zone(k - 1) } else { 0.0 })).collect();
+    (of_planes, of_angles)
+}
+
+/// Nodes and the cells round them.
+pub(super) struct Cells<'a> {
+    pub aim: Aim,
+    pub c: &'a [f64],
+    pub gamma: &'a [f64],
+    /// For a zonal sum.
+    pub weights: (Vec<f64>, Vec<f64>),
+}
+
+impl<'a> Cells<'a> {
+    pub fn new(aim: Aim, c: &'a [f64], gamma: &'a [f64]) -> Self {
+        Self { aim, c, gamma, weights: weights(c, gamma) }
+    }
+
+    /// Limits of a plane's cell, unwrapped.
+    pub fn c_cell(&self, plane: usize) -> [f64; 2] {
+        let (turn, count) = (2.0 * PI, self.c.len());
+        let before = if plane > 0 { self.c[plane - 1] } else { self.c[count - 1] - turn };
+        let after = if plane + 1 < count { self.c[plane + 1] } else { self.c[0] + turn };
+        [0.5 * (before + self.c[plane]), 0.5 * (self.c[plane] + after)]
+    }
+
+    pub fn gamma_cell(&self, angle: usize) -> [f64; 2] {
+        let own = self.gamma[angle];
+        let before = angle.checked_sub(1).map_or(own, |before| self.gamma[before]);
+        let after = self.gamma.get(angle + 1).copied().unwrap_or(own);
+        [0.5 * (before + own), 0.5 * (own + after)]
+    }
+
+    /// What a node counts for in a zonal sum; `node` counts plane by plane. \[sr\]
+    pub fn weight(&self, node: usize) -> f64 {
+        self.weights.0[node / self.gamma.len()] * self.weights.1[node % self.gamma.len()]
+    }
+
+    /// Mean over a cell, by solid angle.
+    pub fn mean(&self, intensity: &dyn Fn(DVec3) -> f64, c: [f64; 2], gamma: [f64; 2]) -> f64 {
+        let at = |range: [f64; 2], k: usize| range[0] + (range[1] - range[0]) * (k as f64 + 0.5) / POINTS as f64;
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for j in 0..POINTS {
+            let gamma = at(gamma, j);
+            let sine = gamma.sin();
+            for i in 0..POINTS {
+                sum += sine * intensity(self.aim.direction(at(c, i), gamma).0.vector());
+            }
+            weight += POINTS as f64 * sine;
+        }
+        if weight > 0.0 { sum / weight } else { 0.0 }
+    }
+}

@@ -1,0 +1,128 @@
+//! Scattered light that is narrower than a tile is seen: from one point it lights as narrow a spot as it is, where the tile
+//! lights a spot as wide as itself. Round such light a table holds what the tile does on the room's surfaces.
+
+use super::cells::Cells;
+use super::spots::MOST;
+use super::{CGammaTable, Panel};
+use crate::compute::lid::Lid;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Light that differs from node to node by so much of the larger ...
+const STEEP: f64 = 0.3;
+/// ... and is brighter than this share of the brightest is narrow.
+const DIM: f64 = 0.02;
+/// Points a side of the tile, for a mean over it and over the node's cell.
+const POINTS: usize = 8;
+/// The regular step is divided by so many there.
+const FINER: usize = 3;
+
+/// Nodes round which light is narrow.
+pub(super) fn nodes(table: &CGammaTable) -> Vec<usize> {
+    let (planes, angles) = (table.planes(), table.angles());
+    let brightest = table.intensity.iter().copied().fold(0.0, f64::max);
+    let around = |node: &usize| {
+        let (plane, angle) = (node / angles, node % angles);
+        let list = (0..9).map(|k| {
+            let plane = (plane + planes + k / 3 - 1) % planes;
+            table.plane(plane)[(angle + k % 3).saturating_sub(1).min(angles - 1)]
+        });
+        let (low, high) = list.fold((f64::INFINITY, 0.0_f64), |(low, high), one| (low.min(one), high.max(one)));
+        high > DIM * brightest && high - low > STEEP * high
+    };
+    (0..planes * angles).filter(around).collect()
+}
+
+/// Puts what a tile, `share` of the aperture, does on the room's surfaces in the place of the mean intensity, round these
+/// nodes and as far from them as the tile is seen wide; nodes lie closer there. Their flux stays.
+pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: &Panel, share: f64) {
+    if steep.is_empty() {
+        return;
+    }
+    let (c, gamma) = (table.c.clone(), table.gamma.clone());
+    let near = near(table, steep, panel);
+    let angles = gamma.len();
+    let planes_near: Vec<bool> = near.chunks(angles).map(|plane| plane.contains(&true)).collect();
+    let angles_near: Vec<bool> = (0..angles).map(|j| near.iter().skip(j).step_by(angles).any(|near| *near)).collect();
+    let c_finer = finer(&c, &planes_near, 2.0 * PI, MOST[0]);
+    let gamma_finer = finer(&gamma, &angles_near, PI, MOST[1]);
+    table.at_nodes(c_finer, gamma_finer);
+    let cells = Cells::new(table.aim, &table.c, &table.gamma);
+    // Of a node that is no regular one, both regular neighbours count.
+    let is_near = |node: &usize| {
+        let (own_c, own_gamma) = (table.c[node / table.gamma.len()], table.gamma[node % table.gamma.len()]);
+        let (i, j) = (c.partition_point(|c| *c <= own_c) - 1, gamma.partition_point(|gamma| *gamma <= own_gamma) - 1);
+        let (k, l) = (if c[i] < own_c { (i + 1) % c.len() } else { i }, if gamma[j] < own_gamma { j + 1 } else { j });
+        near[i * angles + j] && near[k * angles + j] && near[i * angles + l] && near[k * angles + l]
+    };
+    let list: Vec<usize> = (0..table.intensity.len()).filter(is_near).collect();
+    let found: Vec<f64> = list.par_iter().map(|node| mean(&cells, *node, lid, panel)).collect();
+    let flux = |value: &dyn Fn(usize) -> f64| (0..list.len()).map(|k| cells.weight(list[k]) * value(k)).sum::<f64>();
+    let (before, after) = (flux(&|k| share * table.intensity[list[k]]), flux(&|k| found[k]));
+    let scale = if after > 0.0 { before / after } else { return };
+    // The table is still that of the whole aperture.
+    for (node, value) in list.iter().zip(&found) {
+        table.intensity[*node] = scale * value / share;
+    }
+}
+
+/// Regular nodes that are no farther from a steep one than the tile is seen wide.
+fn near(table: &CGammaTable, steep: &[usize], panel: &Panel) -> Vec<bool> {
+    let (planes, angles) = (table.planes(), table.angles());
+    let step = table.step.degrees().to_radians();
+    let mut near = vec![false; planes * angles];
+    for node in steep {
+        let (plane, angle) = (node / angles, node % angles);
+        let gamma = table.gamma[angle];
+        let (away, _) = panel.reach(table.aim.direction(table.c[plane], gamma).0.vector());
+        let part = panel.part(away).size;
+        let seen = (0.5 * part[0].hypot(part[1]) / away.max(1e-3)).min(0.5 * PI) + step;
+        let [along, across] = [seen, seen / gamma.sin().max(1e-3)].map(|angle| (angle / step).ceil() as usize);
+        let across = across.min(planes / 2);
+        for i in plane + planes - across..=plane + planes + across {
+            for j in angle.saturating_sub(along).max(1)..=(angle + along).min(angles - 2) {
+                near[(i % planes) * angles + j] = true;
+            }
+        }
+    }
+    near
+}
+
+/// Nodes between neighbours that are both marked, as many as there is room for.
+fn finer(nodes: &[f64], marked: &[bool], end: f64, most: usize) -> Vec<f64> {
+    let pairs = nodes.iter().zip(nodes.iter().skip(1).chain([&end]));
+    let both = marked.iter().zip(marked.iter().cycle().skip(1)).map(|(a, b)| *a && *b);
+    let gaps: Vec<_> = pairs.zip(both).filter(|((from, to), _)| from < to).collect();
+    let count = gaps.iter().filter(|(_, both)| *both).count();
+    let room = most.saturating_sub(nodes.len()) / 2;
+    let by = (1..=FINER).rev().find(|by| (by - 1) * count <= room).unwrap_or(1);
+    let mut list = Vec::with_capacity(nodes.len() + (by - 1) * count);
+    for ((from, to), both) in &gaps {
+        let by = if *both { by } else { 1 };
+        list.extend((0..by).map(|k| *from + (*to - *from) * k as f64 / by as f64));
+    }
+    // The last of the angles ends the last gap; the last plane begins one.
+    list.extend(nodes.last().filter(|last| **last >= end));
+    list
+}
+
+/// Mean over a node's cell of what the tile does, as an intensity from its middle. \[cd\]
+fn mean(cells: &Cells<'_>, node: usize, lid: &Lid, panel: &Panel) -> f64 {
+    let (plane, angle) = (node / cells.gamma.len(), node % cells.gamma.len());
+    let (away, _) = panel.reach(cells.aim.direction(cells.c[plane], cells.gamma[angle]).0.vector());
+    let part = panel.part(away);
+    let parts = (panel.size[0] * panel.size[1]) / (part.size[0] * part.size[1]);
+    let at = |k: usize| ((k % POINTS) as f64 + 0.5) / POINTS as f64;
+    let inside = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
+    let (c, gamma) = (cells.c_cell(plane), cells.gamma_cell(angle));
+    let mut sum = 0.0;
+    for i in 0..POINTS {
+        for j in 0..POINTS {
+            // Every row and column of the cell meets every row and column of the tile once.
+            let beside = [(at(i) - 0.5) * part.size[0], (at(j) - 0.5) * part.size[1]];
+            let way = cells.aim.direction(inside(c, at(3 * i + 5 * j)), inside(gamma, at(5 * i + 3 * j + 1)));
+            sum += part.of_point(lid, beside, way.0.vector());
+        }
+    }
+    parts * sum / (POINTS * POINTS) as f64
+}

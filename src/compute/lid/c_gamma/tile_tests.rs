@@ -1,0 +1,105 @@
+//! Tables of tiles: what a reader makes of them lights the room's surfaces as the tile itself does.
+
+use super::*;
+use crate::compute::lid::SunBeam;
+use crate::compute::lid::tiling::WORK_PLANE;
+use glam::DVec3;
+use std::f64::consts::FRAC_PI_4;
+use std::sync::Arc;
+
+const ROOM: DVec3 = DVec3::new(4.0, 6.0, 3.0);
+
+fn lid(panel: &Panel, parts: Vec<EmergentLuminance>, beams: Vec<SunBeam>) -> Lid {
+    Lid { surface: panel.surface, size: panel.size, parts, beams }
+}
+
+fn panel(surface: Surface, centre: [f64; 3], size: [f64; 2]) -> Panel {
+    Panel { centre: DVec3::from_array(centre), size, surface, room: ROOM }
+}
+
+/// Horizontal illuminance that a reader of the table finds on the work plane. [lx]
+fn on_work_plane(table: &CGammaTable, panel: &Panel, x: f64, y: f64) -> f64 {
+    let ray = DVec3::new(x, y, WORK_PLANE) - panel.centre;
+    let way = Dir::<Facade>::new(panel.surface.facade_from_room(ray)).unwrap();
+    let (c, gamma) = table.aim.angles(Emergent(way));
+    table.intensities().at(c, gamma) * -ray.z / ray.length().powi(3)
+}
+
+#[test]
+fn a_beam_through_a_tile_lights_its_outline_evenly_and_nothing_beside() {
+    // Down and to the side; from the roof also straight down, where all planes meet.
+    let facade = (Surface::Facade, [2.0, 0.0, 2.2], DVec3::new(0.2, 0.7, -0.6));
+    let roof = (Surface::Roof, [2.0, 3.0, 3.0], DVec3::new(0.3, -0.2, -0.9));
+    let overhead = (Surface::Roof, [2.0, 3.0, 3.0], DVec3::new(0.02, 0.01, -1.0));
+    for (surface, centre, way) in [facade, roof, overhead] {
+        let panel = panel(surface, centre, [0.3, 0.2]);
+        let way = way.normalize();
+        let direction = Emergent(Dir::new(surface.facade_from_room(way)).unwrap());
+        let beam = SunBeam { direction, flux: 600.0, straight: true };
+        let table =
+            Averaged::new(&lid(&panel, Vec::new(), vec![beam]), Aim::of(surface), Step::NORMAL).tile(&panel, 1.0, true);
+        assert!((table.zonal_flux() / 600.0 - 1.0).abs() < 1e-9 && table.flux.value == 600.0);
+        let landing = |x: f64, y: f64| {
+            let from = panel.centre + surface.room_from_facade(DVec3::new(x, y, 0.0));
+            from + (from.z - WORK_PLANE) / -way.z * way
+        };
+        // E = Φ |b·n|/(A |b·n_A|) on the plane.
+        let inward = -surface.room_from_facade(DVec3::Z);
+        let even = 600.0 * -way.z / (0.06 * way.dot(inward));
+        let lit = |x: f64, y: f64| {
+            let at = landing(x, y);
+            on_work_plane(&table, &panel, at.x, at.y) / even
+        };
+        for (u, v) in [(0.0, 0.0), (0.8, 0.0), (-0.8, 0.8), (0.5, -0.8), (0.8, 0.8)] {
+            let e = lit(0.15 * u, 0.1 * v);
+            assert!((e - 1.0).abs() < 0.02, "{surface:?} {u} {v}: {e}");
+        }
+        for (u, v) in [(1.2, 0.0), (-1.25, 0.5), (0.0, 1.25), (0.3, -1.25), (3.0, 0.0)] {
+            let e = lit(0.15 * u, 0.1 * v);
+            assert!(e < 1e-9, "{surface:?} {u} {v}: {e}");
+        }
+        // Half of it at the edges: they are where they belong.
+        for (u, v) in [(1.0, 0.0), (-1.0, 0.3), (0.2, 1.0), (0.0, -1.0)] {
+            let e = lit(0.15 * u, 0.1 * v);
+            assert!((e - 0.5).abs() < 0.2, "{surface:?} {u} {v}: {e}");
+        }
+    }
+}
+
+#[test]
+fn narrow_scattered_light_is_as_wide_as_the_tile_and_what_it_lights() {
+    // A lobe of 2° behind a tile that is seen 5° wide.
+    let panel = panel(Surface::Facade, [2.0, 0.0, 2.35], [0.2, 0.2]);
+    let to = Emergent(Dir::new(DVec3::new(0.1, -FRAC_PI_4.sin(), -FRAC_PI_4.cos())).unwrap());
+    let spot = to.through_name();
+    let light = move |twin: Dir<Facade>| 40.0 + 1e6 * ((twin.dot(spot) - 1.0) / 3e-4).exp();
+    let lid = lid(&panel, vec![EmergentLuminance::Function(Arc::new(light))], Vec::new());
+    let averaged = Averaged::new(&lid, Aim::Mounted, Step::FINE);
+    assert!(averaged.same_for_all(false) && !averaged.same_for_all(true));
+    // What the tile itself does: a sum over it.
+    let own = |x: f64, y: f64| {
+        let mut sum = 0.0;
+        for i in 0..40 {
+            for j in 0..40 {
+                let beside = DVec3::new((f64::from(i) - 19.5) / 200.0, 0.0, (f64::from(j) - 19.5) / 200.0);
+                let ray = DVec3::new(x, y, WORK_PLANE) - panel.centre - beside;
+                let way = Emergent(Dir::new(Surface::Facade.facade_from_room(ray)).unwrap());
+                sum += lid.luminance(way) * ray.y * -ray.z / ray.length().powi(4) * 2.5e-5;
+            }
+        }
+        sum
+    };
+    let middle = panel.centre + 1.5 / FRAC_PI_4.sin() * Surface::Facade.room_from_facade(to.0.vector());
+    let off = |narrow: bool| {
+        let table = averaged.tile(&panel, 1.0, narrow);
+        assert!((table.zonal_flux() / table.flux.value - 1.0).abs() < 1e-6);
+        let mut worst: f64 = 0.0;
+        for k in -6..=6 {
+            let (x, y) = (middle.x + 0.025 * f64::from(k), middle.y + 0.03 * f64::from(k));
+            worst = worst.max((on_work_plane(&table, &panel, x, y) - own(x, y)).abs());
+        }
+        worst / own(middle.x, middle.y)
+    };
+    let (with, without) = (off(true), off(false));
+    assert!(with < 0.06 && without > 0.5, "{with} {without}");
+}

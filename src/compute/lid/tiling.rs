@@ -1,0 +1,121 @@
+//! An aperture cut into tiles, each a luminaire of its own: other programs light a room by points, and a beam that falls
+//! from one point as narrow as the sun lights a spot where the tile lights its own outline.
+//!
+//! A host cuts a luminous area into parts of at most a quarter of their distance ([`parts`]) and takes each as a point
+//! with the tile's whole distribution. A beam is therefore widened to what such a part subtends at working distance
+//! ([`Spot`](super::c_gamma::Spot)): seen from the points, what their beams light there lies side by side and adds up to
+//! the outline. Sky and scattered light are wide already and stay as they are.
+
+use crate::compute::direction::Surface;
+use glam::DVec3;
+
+/// A host cuts an area into parts of this fraction of their distance at most.
+pub const PART: f64 = 0.25;
+/// Parts along a side of an area beyond which no host goes.
+const MOST_PARTS: f64 = 40.0;
+/// What is nearer to an aperture is not examined: there every host computes differently. \[m\]
+pub const NEAREST: f64 = 1.0;
+/// Height of the plane that people work on. \[m\]
+pub const WORK_PLANE: f64 = 0.85;
+
+/// Columns along x_F and rows along y_F.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tiling {
+    /// Along x_F.
+    pub columns: usize,
+    /// Along y_F.
+    pub rows: usize,
+}
+
+/// One tile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tile {
+    /// Its centre in the room's frame. \[m\]
+    pub centre: DVec3,
+    /// Along x_F and along y_F. \[m\]
+    pub size: [f64; 2],
+}
+
+impl Tiling {
+    /// The aperture as a whole.
+    pub const WHOLE: Self = Self { columns: 1, rows: 1 };
+
+    /// How many.
+    pub const fn count(self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Size of one of them, for an aperture of this size. \[m\]
+    pub fn tile(self, size: [f64; 2]) -> [f64; 2] {
+        [size[0] / self.columns as f64, size[1] / self.rows as f64]
+    }
+
+    /// So many that none is longer than `longest` in either direction. \[m\]
+    pub fn no_longer_than(size: [f64; 2], longest: f64) -> Self {
+        let count = |length: f64| ((length / longest - 1e-9).ceil().max(1.0)) as usize;
+        Self { columns: count(size[0]), rows: count(size[1]) }
+    }
+
+    /// Row by row from the lower left, seen from outside; `corner` is the aperture's lower left in the room's frame.
+    pub fn tiles(self, surface: Surface, corner: DVec3, size: [f64; 2]) -> Vec<Tile> {
+        let own = self.tile(size);
+        let centre = |k: usize| {
+            let [x, y] = [(k % self.columns) as f64 + 0.5, (k / self.columns) as f64 + 0.5];
+            corner + surface.room_from_facade(DVec3::new(x * own[0], y * own[1], 0.0))
+        };
+        (0..self.count()).map(|k| Tile { centre: centre(k), size: own }).collect()
+    }
+}
+
+/// Parts along each side into which a host cuts an area seen from this distance. \[m\]
+pub fn parts(size: [f64; 2], distance: f64) -> usize {
+    (size[0].max(size[1]) / (PART * distance.max(0.05))).ceil().clamp(1.0, MOST_PARTS) as usize
+}
+
+/// Where light from a point of the room ends: how far away, and across which axis the surface lies; from above that is the
+/// work plane instead of the floor. `room`: its width, depth and height. \[m\]
+pub fn landing(room: DVec3, from: DVec3, direction: DVec3) -> (f64, usize) {
+    let mut nearest = (f64::INFINITY, 0);
+    for axis in 0..3 {
+        let low = if axis == 2 && from.z > WORK_PLANE && room.z > WORK_PLANE { WORK_PLANE } else { 0.0 };
+        let ahead = if direction[axis] > 0.0 { room[axis] - from[axis] } else { low - from[axis] };
+        let distance = (ahead / direction[axis]).max(0.0);
+        if direction[axis].abs() > 1e-9 && distance < nearest.0 {
+            nearest = (distance, axis);
+        }
+    }
+    nearest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_fill_the_aperture_from_the_lower_left() {
+        let tiling = Tiling { columns: 2, rows: 3 };
+        let facade = tiling.tiles(Surface::Facade, DVec3::new(1.0, 0.0, 0.5), [2.0, 1.5]);
+        assert_eq!(facade.len(), 6);
+        assert_eq!(facade[1], Tile { centre: DVec3::new(2.5, 0.0, 0.75), size: [1.0, 0.5] });
+        assert_eq!(facade[2].centre, DVec3::new(1.5, 0.0, 1.25));
+        let roof = tiling.tiles(Surface::Roof, DVec3::new(1.0, 2.0, 3.0), [2.0, 1.5]);
+        assert_eq!(roof[5].centre, DVec3::new(2.5, 3.25, 3.0));
+        assert_eq!(Tiling::no_longer_than([2.8, 1.5], 0.35), Tiling { columns: 8, rows: 5 });
+        assert_eq!(Tiling::no_longer_than([2.8, 1.5], f64::INFINITY), Tiling::WHOLE);
+    }
+
+    #[test]
+    fn a_beam_ends_on_the_work_plane_or_on_a_wall() {
+        let room = DVec3::new(4.0, 6.0, 3.0);
+        let down = DVec3::new(0.0, 0.6, -0.8);
+        let lands = |from: DVec3, direction: DVec3, distance: f64, across: usize| {
+            let (found, axis) = landing(room, from, direction);
+            assert!((found - distance).abs() < 1e-12 && axis == across, "{found} {axis}");
+        };
+        lands(DVec3::new(2.0, 0.0, 2.45), down, 2.0, 2);
+        // From below it to the floor.
+        lands(DVec3::new(2.0, 0.0, 0.8), down, 1.0, 2);
+        lands(DVec3::new(2.0, 0.0, 2.0), DVec3::new(0.8, 0.6, 0.0), 2.5, 0);
+        lands(DVec3::new(2.0, 0.0, 2.0), DVec3::Y, 6.0, 1);
+    }
+}

@@ -1,0 +1,227 @@
+//! The index of luminaire files (`.index.csv`): which file stands where, how large it is, what it holds and what it
+//! leaves to the host.
+//!
+//! Columns by name, in any order: `file,x,y,z,width,height,flux_lm` are needed, `file` relative to the index, the tile's
+//! centre in room axes \[m\], its size along x and along z (façade) or y (roof) \[m\]. Written too:
+//!
+//! | column | what |
+//! | --- | --- |
+//! | `surface`, `aim` | `facade` or `roof`; `mounted` or `down`: how planes and angles of the file stand |
+//! | `beam_lm` | flux of the sun's beams in the file, widened \[lm\] |
+//! | `apart_lm`, `apart_x`, `apart_y`, `apart_z` | straight beam that is not in the file \[lm\], and where it goes, in room axes |
+//! | `apart_lx` | what it gives across itself \[lx\] |
+//! | `set` | name of the series' member that the file belongs to |
+
+use super::{FormatError, Location};
+use crate::compute::direction::Surface;
+use crate::compute::lid::c_gamma::Aim;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// What the straight beam would bring, where a file leaves it to the host.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Apart {
+    /// Flux through the tile. \[lm\]
+    pub flux: f64,
+    /// Where it goes, room axes, a unit vector.
+    pub direction: DVec3,
+    /// Illuminance across itself. \[lx\]
+    pub normal: f64,
+}
+
+/// One file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Relative to the index.
+    pub file: String,
+    /// Centre of the luminous area, room axes. \[m\]
+    pub centre: DVec3,
+    /// Along x, and along z (façade) or y (roof). \[m\]
+    pub size: [f64; 2],
+    /// Of the file. \[lm\]
+    pub flux: f64,
+    /// What of it is the sun's beams, widened. \[lm\]
+    pub beam: f64,
+    /// Where the area lies; `None`: not said.
+    pub surface: Option<Surface>,
+    /// How the file's planes stand; `None`: not said.
+    pub aim: Option<Aim>,
+    /// The straight beam, left to the host.
+    pub apart: Option<Apart>,
+    /// Member of a series; empty for a single set.
+    pub set: String,
+}
+
+const HEADER: &str =
+    "file,x,y,z,width,height,flux_lm,surface,aim,beam_lm,apart_lm,apart_x,apart_y,apart_z,apart_lx,set";
+
+/// Writes an index.
+pub fn write(rows: &[Row]) -> Vec<u8> {
+    let mut text = format!("{HEADER}\r\n");
+    for row in rows {
+        let [x, y, z] = row.centre.to_array();
+        let [width, height] = row.size;
+        let surface = row.surface.map_or("", |surface| match surface {
+            Surface::Facade => "facade",
+            Surface::Roof => "roof",
+        });
+        let aim = row.aim.map_or("", |aim| match aim {
+            Aim::Mounted => "mounted",
+            Aim::Down => "down",
+        });
+        let apart = row.apart.map_or_else(
+            || ",,,,".to_owned(),
+            |apart| {
+                let d = apart.direction;
+                format!("{:.4},{:.8},{:.8},{:.8},{:.4}", apart.flux, d.x, d.y, d.z, apart.normal)
+            },
+        );
+        text.push_str(&format!(
+            "{},{x:.6},{y:.6},{z:.6},{width:.6},{height:.6},{:.6},{surface},{aim},{:.6},{apart},{}\r\n",
+            quoted(&row.file),
+            row.flux,
+            row.beam,
+            quoted(&row.set)
+        ));
+    }
+    text.into_bytes()
+}
+
+/// A field as CSV wants it.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+/// Reads an index.
+///
+/// # Errors
+/// A needed column or number missing, a size that is none, an unknown word; told with the line.
+pub fn read(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
+    let broken = |error: &csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line) as usize;
+        FormatError::new(Location::line(line), "what is no CSV in UTF-8", "comma-separated values, one file a line")
+    };
+    let header = reader.headers().map_err(|error| broken(&error))?.clone();
+    let columns: HashMap<&str, usize> =
+        header.iter().map(|name| name.trim_start_matches('\u{feff}')).zip(0..).collect();
+    for needed in ["file", "x", "y", "z", "width", "height", "flux_lm"] {
+        if !columns.contains_key(needed) {
+            let expected = "the columns file, x, y, z, width, height, flux_lm of an index of luminaire files";
+            return Err(FormatError::new(Location::line(1), format!("no column \"{needed}\""), expected));
+        }
+    }
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| broken(&error))?;
+        rows.push(row(&columns, &record)?);
+    }
+    if rows.is_empty() {
+        return Err(FormatError::new(Location::file(), "no rows", "one luminaire file a line"));
+    }
+    Ok(rows)
+}
+
+fn row(columns: &HashMap<&str, usize>, record: &csv::StringRecord) -> Result<Row, FormatError> {
+    let line = record.position().map_or(0, csv::Position::line) as usize;
+    let wrong = |found: String, expected: &str| FormatError::new(Location::line(line), found, expected);
+    let word = |name: &str| columns.get(name).and_then(|&k| record.get(k)).unwrap_or_default();
+    let number = |name: &str| {
+        let value = word(name).parse::<f64>().ok().filter(|value| value.is_finite());
+        value.ok_or_else(|| wrong(format!("{name} \"{}\"", word(name)), "a number"))
+    };
+    let or_zero = |name: &str| if word(name).is_empty() { Ok(0.0) } else { number(name) };
+    let length = |name: &str| match number(name)? {
+        length if length > 0.0 => Ok(length),
+        other => Err(wrong(format!("{name} {other}"), "a length above 0 m")),
+    };
+    let surface = match word("surface") {
+        "" => None,
+        "facade" => Some(Surface::Facade),
+        "roof" => Some(Surface::Roof),
+        other => return Err(wrong(format!("surface \"{other}\""), "facade or roof")),
+    };
+    let aim = match word("aim") {
+        "" => None,
+        "mounted" => Some(Aim::Mounted),
+        "down" => Some(Aim::Down),
+        other => return Err(wrong(format!("aim \"{other}\""), "mounted or down")),
+    };
+    let file = word("file").to_owned();
+    if file.is_empty() {
+        return Err(wrong("no file".to_owned(), "the name of a luminaire file"));
+    }
+    let (apart, direction) =
+        (or_zero("apart_lm")?, DVec3::new(or_zero("apart_x")?, or_zero("apart_y")?, or_zero("apart_z")?));
+    let apart = if apart > 0.0 {
+        let direction = direction.try_normalize();
+        let direction = direction.ok_or_else(|| wrong("apart_lm without a direction".to_owned(), "apart_x, _y, _z"))?;
+        Some(Apart { flux: apart, direction, normal: or_zero("apart_lx")? })
+    } else {
+        None
+    };
+    Ok(Row {
+        file,
+        centre: DVec3::new(number("x")?, number("y")?, number("z")?),
+        size: [length("width")?, length("height")?],
+        flux: number("flux_lm")?,
+        beam: or_zero("beam_lm")?,
+        surface,
+        aim,
+        apart,
+        set: word("set").to_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn example() -> Vec<Row> {
+        let apart = Apart { flux: 12.5, direction: DVec3::new(0.0, 0.6, -0.8), normal: 30_000.0 };
+        let first = Row {
+            file: "a, b_1.ies".into(),
+            centre: DVec3::new(0.5, 0.0, 1.25),
+            size: [0.35, 0.1875],
+            flux: 100.25,
+            beam: 4.5,
+            surface: Some(Surface::Facade),
+            aim: Some(Aim::Mounted),
+            apart: Some(apart),
+            set: String::new(),
+        };
+        let second = Row { file: "b.ies".into(), surface: Some(Surface::Roof), aim: Some(Aim::Down), ..first.clone() };
+        vec![first, Row { apart: None, set: "06-21 12:00".into(), ..second }]
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        assert_eq!(read(&write(&example())).unwrap(), example());
+    }
+
+    #[test]
+    fn the_needed_columns_are_enough_in_any_order() {
+        let rows = read(b"z,y,x,flux_lm,height,width,file,remark\n1.5,0,2,10,1,2,a.ldt,old\n").unwrap();
+        assert_eq!((rows[0].centre, rows[0].size), (DVec3::new(2.0, 0.0, 1.5), [2.0, 1.0]));
+        assert_eq!((rows[0].surface, rows[0].aim, rows[0].apart), (None, None, None));
+    }
+
+    #[test]
+    fn faults_are_told_with_their_line() {
+        let good = String::from_utf8(write(&example())).unwrap();
+        for (from, to, line, gist) in [
+            ("flux_lm", "lumen", 1, "flux_lm"),
+            ("0.350000", "-0.35", 2, "width"),
+            ("roof", "wall", 3, "wall"),
+            (",down", ",up", 3, "mounted or down"),
+            ("b.ies", "", 3, "name of a luminaire file"),
+            ("1.250000", "high", 2, "z \"high\""),
+        ] {
+            let error = read(good.replacen(from, to, 1).as_bytes()).unwrap_err();
+            assert_eq!(error.at, Location::line(line), "{error}");
+            assert!(error.to_string().contains(gist), "{error}");
+        }
+        assert!(read(b"").is_err());
+        assert!(read(format!("{HEADER}\n").as_bytes()).unwrap_err().to_string().contains("no rows"));
+    }
+}

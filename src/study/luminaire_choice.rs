@@ -1,0 +1,259 @@
+//! How finely an aperture must be cut and tabulated: its own room, lit by the files as a host takes them, against the
+//! same room lit by the aperture, over fields of half a metre.
+
+use super::error::StudyError;
+use super::luminaire_tiles::{Place, tables};
+use super::scene::Scene;
+use super::session::Session;
+use crate::compute::direction::Surface;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::lid::c_gamma::{Aim, Averaged, CGammaTable, Step};
+use crate::compute::lid::tiling::{NEAREST, Tile, Tiling, WORK_PLANE};
+use crate::compute::lid::{Intensities, Lamp, Lid};
+use crate::compute::quadrature::Tolerance;
+use crate::compute::room::direct::{Sensor, beams_through};
+use crate::compute::room::near_field::{Integrator, NearField};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Root mean square of the fields' errors that `auto` asks for, relative.
+pub const TARGET: f64 = 0.01;
+/// Of the sum over all fields, relative.
+const TARGET_SUM: f64 = 0.005;
+/// Side of a field. \[m\]
+const FIELD: f64 = 0.5;
+/// Distance of the points in it. \[m\]
+const PITCH: f64 = 0.1;
+/// Points a side of a field ...
+const POINTS: usize = 5;
+/// Fields darker than this share of the mean count as that bright.
+const DARK: f64 = 0.05;
+/// Longest sides of tiles, tried one after the other. \[m\]
+const LONGEST: [f64; 9] = [f64::INFINITY, 1.5, 1.0, 0.7, 0.5, 0.35, 0.25, 0.175, 0.125];
+/// More tiles than this are not made unasked.
+const MOST_TILES: usize = 256;
+
+/// How well a room is lit by luminaire files.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// Sum over all fields against that of the aperture itself, relative.
+    pub sum: f64,
+    /// Root mean square of the fields' errors, relative.
+    pub rms: f64,
+    /// The largest of them, signed, relative.
+    pub worst: f64,
+    /// How many fields.
+    pub fields: usize,
+}
+
+impl Reached {
+    /// Are the errors as small as `auto` asks for?
+    pub fn holds(&self) -> bool {
+        self.rms <= TARGET && self.sum.abs() <= TARGET_SUM
+    }
+
+    /// For the header of a file.
+    pub fn sentence(&self) -> String {
+        format!(
+            "Direct light of all files together on {} fields of {FIELD} m x {FIELD} m of the scene's room, at {NEAREST} m and \
+             more, in a host that cuts luminous areas into parts of a quarter of their distance: sum {:+.2} %, rms {:.2} %, \
+             worst field {:+.1} %.",
+            self.fields,
+            100.0 * self.sum,
+            100.0 * self.rms,
+            100.0 * self.worst
+        )
+    }
+}
+
+/// One field.
+struct Field {
+    sensors: Vec<Sensor>,
+    /// Mean of the light there. \[lx\]
+    wanted: f64,
+}
+
+/// What the aperture itself does on fields of its room.
+pub struct Probe {
+    fields: Vec<Field>,
+}
+
+impl Probe {
+    /// Computes the light of one aperture, counted from 0; `without_beam`: but for its straight beam.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        aperture: usize,
+        without_beam: bool,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        let facing = scene.facing(aperture);
+        let mut emission = session.emission(scene, aperture);
+        if without_beam {
+            emission.beams.retain(|beam| !beam.straight);
+        }
+        let beams = std::mem::take(&mut emission.beams);
+        let own = &scene.apertures[aperture].aperture;
+        let method = Integrator::new(NearField::SolidAngle, own, &emission, &facing, Tolerance::relative(1e-3));
+        let grids = grids(scene.room.size).into_iter().filter(|grid| own.distance(grid.centre) >= NEAREST);
+        let fields = grids
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|grid| {
+                if progress.cancelled() {
+                    return Err(Cancelled);
+                }
+                let sensors = grid.sensors();
+                let light = |sensor: &Sensor| {
+                    method.illuminance(sensor).all.value + beams_through(sensor, own, &beams, &facing).beam
+                };
+                let wanted = sensors.iter().map(light).sum::<f64>() / sensors.len() as f64;
+                Ok(Field { sensors, wanted })
+            })
+            .collect::<Result<Vec<_>, Cancelled>>()?;
+        Ok(Self { fields })
+    }
+
+    /// How well tiles do.
+    pub(super) fn reached(&self, surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Reached {
+        let lamps = lamps(surface, tables);
+        let light = |sensor: &Sensor| -> f64 {
+            lamps.iter().map(|lamp| lamp.illuminance(sensor.position, sensor.normal)).sum()
+        };
+        let got: Vec<f64> = self
+            .fields
+            .par_iter()
+            .map(|field| field.sensors.iter().map(light).sum::<f64>() / field.sensors.len() as f64)
+            .collect();
+        let count = self.fields.len().max(1) as f64;
+        let mean = self.fields.iter().map(|field| field.wanted).sum::<f64>() / count;
+        if mean <= 0.0 {
+            return Reached { sum: 0.0, rms: 0.0, worst: 0.0, fields: self.fields.len() };
+        }
+        let error = |(field, got): (&Field, &f64)| (got - field.wanted) / field.wanted.max(DARK * mean);
+        let errors: Vec<f64> = self.fields.iter().zip(&got).map(error).collect();
+        Reached {
+            sum: got.iter().sum::<f64>() / (count * mean) - 1.0,
+            rms: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
+            worst: errors.into_iter().fold(0.0, |worst: f64, error| if error.abs() > worst.abs() { error } else { worst }),
+            fields: self.fields.len(),
+        }
+    }
+}
+
+/// A field's place.
+struct FieldGrid {
+    centre: DVec3,
+    axes: [DVec3; 2],
+    normal: DVec3,
+}
+
+impl FieldGrid {
+    /// Its points.
+    fn sensors(&self) -> Vec<Sensor> {
+        let half = (POINTS / 2) as i32;
+        let at = |i: i32, j: i32| {
+            let [u, v] = [i, j].map(|k| PITCH * f64::from(k));
+            Sensor { position: self.centre + u * self.axes[0] + v * self.axes[1], normal: self.normal }
+        };
+        (-half..=half).flat_map(|i| (-half..=half).map(move |j| (i, j))).map(|(i, j)| at(i, j)).collect()
+    }
+}
+
+/// Fields on the work plane, on the walls and on the ceiling.
+fn grids(room: DVec3) -> Vec<FieldGrid> {
+    let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
+    // A little inside: points on a wall see what is in it edge on.
+    const OFF: f64 = 1e-6;
+    let plane = if room.z > WORK_PLANE { WORK_PLANE } else { OFF };
+    let walls = [
+        (DVec3::new(0.0, 0.0, plane), [x, y], z),
+        (DVec3::new(0.0, room.y - OFF, 0.0), [x, z], -y),
+        (DVec3::new(0.0, 0.0, room.z - OFF), [x, y], -z),
+        (DVec3::new(OFF, 0.0, 0.0), [y, z], x),
+        (DVec3::new(room.x - OFF, 0.0, 0.0), [y, z], -x),
+    ];
+    let mut list = Vec::new();
+    for (corner, axes, normal) in walls {
+        let centres = |axis: DVec3| -> Vec<f64> {
+            let length = room.dot(axis);
+            let count = (length / FIELD) as usize;
+            let margin = 0.5 * (length - count as f64 * FIELD);
+            (0..count).map(|k| margin + (k as f64 + 0.5) * FIELD).collect()
+        };
+        for u in centres(axes[0]) {
+            for v in centres(axes[1]) {
+                list.push(FieldGrid { centre: corner + u * axes[0] + v * axes[1], axes, normal });
+            }
+        }
+    }
+    list
+}
+
+/// Tables as a host takes them.
+fn lamps(surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Vec<Lamp> {
+    let mut last: Option<(&Arc<CGammaTable>, Arc<Intensities>)> = None;
+    let mut list = Vec::with_capacity(tables.len());
+    for (tile, table) in tables {
+        let own = match &last {
+            Some((known, own)) if Arc::ptr_eq(known, table) => Arc::clone(own),
+            _ => Arc::new(table.intensities()),
+        };
+        last = Some((table, Arc::clone(&own)));
+        list.push(Lamp { tile: *tile, surface, aim: table.aim, flux: table.flux.value, table: own });
+    }
+    list
+}
+
+/// What was chosen.
+pub(super) struct Choice {
+    pub tiling: Tiling,
+    pub step: Step,
+    pub reached: Reached,
+    pub tables: Vec<(Tile, Arc<CGammaTable>)>,
+    /// Narrow scattered light is each tile's own.
+    narrow: bool,
+}
+
+/// The fewest tiles, and the widest step with them, that reach the target; else the best that was found. `step`: no other
+/// one.
+pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, probe: &Probe) -> Choice {
+    let fine = step.unwrap_or(Step::FINE);
+    let averaged = Averaged::new(lid, aim, fine);
+    let with = |averaged: &Averaged, step: Step, tiling: Tiling, narrow: bool| {
+        let tables = tables(averaged, tiling, place, narrow);
+        Choice { tiling, step, reached: probe.reached(place.surface, &tables), tables, narrow }
+    };
+    let mut best: Option<Choice> = None;
+    let mut before = None;
+    'tilings: for longest in LONGEST {
+        let tiling = Tiling::no_longer_than(place.size, longest);
+        if before == Some(tiling) || (best.is_some() && tiling.count() > MOST_TILES) {
+            continue;
+        }
+        before = Some(tiling);
+        // What costs less first.
+        for narrow in [false, true] {
+            let choice = with(&averaged, fine, tiling, narrow);
+            let holds = choice.reached.holds();
+            if holds || best.as_ref().is_none_or(|best| choice.reached.rms < best.reached.rms) {
+                best = Some(choice);
+            }
+            if holds {
+                break 'tilings;
+            }
+        }
+    }
+    let best = best.unwrap_or_else(|| with(&averaged, fine, Tiling::WHOLE, false));
+    if step.is_none() && best.reached.holds() {
+        let normal = with(&Averaged::new(lid, aim, Step::NORMAL), Step::NORMAL, best.tiling, best.narrow);
+        if normal.reached.holds() {
+            return normal;
+        }
+    }
+    best
+}

@@ -1,0 +1,278 @@
+//! An aperture as luminaire files that light other programs' rooms as the aperture lights its own: cut into tiles, the
+//! straight beam apart where the host draws the sun through by itself, and an index of where everything stands.
+
+use super::error::StudyError;
+use super::luminaire_choice::{self, Probe, Reached};
+use super::luminaire_file::{LidFormat, LuminaireFileError, bytes_of};
+use super::luminaire_tiles::{Place, tables};
+use super::scene::Scene;
+use super::session::Session;
+use crate::compute::direction::Surface;
+use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::lid::SunBeam;
+use crate::compute::lid::c_gamma::{Aim, Averaged, CGammaTable, Step};
+use crate::compute::lid::tiling::{Tile, Tiling};
+use crate::formats::luminaire::{Description, Luminaire};
+use crate::formats::luminaire_index::{self, Apart, Row};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Into how many luminaires the aperture is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tiles {
+    /// One file, beams on the four nodes round them.
+    None,
+    /// As few as bring the error of a room lit by them to [`luminaire_choice::TARGET`].
+    Auto,
+    /// So many.
+    Fixed(Tiling),
+}
+
+/// Most tiles along a side.
+const MOST: usize = 40;
+
+impl std::str::FromStr for Tiles {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let count = |word: &str| word.parse::<usize>().ok().filter(|count| (1..=MOST).contains(count));
+        match text {
+            "none" => Ok(Self::None),
+            "auto" => Ok(Self::Auto),
+            _ => text
+                .split_once(['x', '×'])
+                .and_then(|(columns, rows)| Some(Tiling { columns: count(columns)?, rows: count(rows)? }))
+                .map(Self::Fixed)
+                .ok_or_else(|| {
+                    format!("\"{text}\" is no tiling (auto, none, or columns x rows from 1x1 to {MOST}x{MOST})")
+                }),
+        }
+    }
+}
+
+impl std::fmt::Display for Tiles {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::Auto => f.write_str("auto"),
+            Self::Fixed(Tiling { columns, rows }) => write!(f, "{columns}x{rows}"),
+        }
+    }
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wish {
+    /// Of the files.
+    pub format: LidFormat,
+    /// Without: as the aperture really stands.
+    pub aim: Option<Aim>,
+    /// Without: chosen.
+    pub step: Option<Step>,
+    /// Cut how?
+    pub tiles: Tiles,
+    /// The straight beam is left to the host.
+    pub without_beam: bool,
+}
+
+/// One luminaire file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TileFile {
+    /// The whole file.
+    pub bytes: Vec<u8>,
+    /// Its line of the index.
+    pub row: Row,
+}
+
+/// What came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LuminaireSet {
+    /// One a tile, row by row from the lower left seen from outside.
+    pub files: Vec<TileFile>,
+    /// The tiling; `None` where the aperture is one file.
+    pub tiling: Option<Tiling>,
+    /// Flux of all files. \[lm\]
+    pub flux: Estimate,
+    /// Largest intensity of all. \[cd\]
+    pub peak: f64,
+    /// Relative correction that closed the flux of the first table.
+    pub scaled_by: f64,
+    /// How the files stand.
+    pub aim: Aim,
+    /// Step of C and γ.
+    pub step: Step,
+    /// Straight beam of the whole aperture that the files do not hold.
+    pub apart: Option<Apart>,
+    /// How well a room is lit by them; `None` where it was not examined.
+    pub reached: Option<Reached>,
+}
+
+impl LuminaireSet {
+    /// The index of the files.
+    pub fn index(&self) -> Vec<u8> {
+        luminaire_index::write(&self.files.iter().map(|file| file.row.clone()).collect::<Vec<_>>())
+    }
+}
+
+/// Makes the files of an aperture, counted from 0. `text` heads them; `name` gives the name of the file of a tile.
+///
+/// # Errors
+/// Cancelled, or a diagram that cannot be encoded.
+pub fn make(
+    session: &Session,
+    scene: &Scene,
+    aperture: usize,
+    text: &Description,
+    wish: &Wish,
+    name: impl Fn(Option<usize>) -> String + Sync,
+    progress: &dyn Progress,
+) -> Result<LuminaireSet, SetError> {
+    let mut lid = session.lid(scene, aperture, progress)?.lid;
+    let corner = scene.apertures[aperture].aperture.corner;
+    let place = Place { surface: lid.surface, corner, size: lid.size, room: scene.room.size };
+    let straight: Vec<SunBeam> = lid.beams.iter().copied().filter(|beam| beam.straight && wish.without_beam).collect();
+    let area = lid.area();
+    let apart = apart(&straight, place.surface, area);
+    if wish.without_beam {
+        lid.beams.retain(|beam| !beam.straight);
+    }
+    let aim = wish.aim.unwrap_or_else(|| Aim::of(lid.surface));
+    let (tiling, step, reached, tables) = match wish.tiles {
+        Tiles::None => {
+            let step = wish.step.unwrap_or_else(|| Step::for_lid(&lid));
+            let tile = Tiling::WHOLE.tiles(place.surface, place.corner, lid.size)[0];
+            (None, step, None, vec![(tile, Arc::new(CGammaTable::new(&lid, aim, step)))])
+        }
+        Tiles::Auto => {
+            let probe = Probe::new(session, scene, aperture, wish.without_beam, progress)?;
+            let choice = luminaire_choice::choose(&lid, aim, wish.step, place, &probe);
+            (Some(choice.tiling), choice.step, Some(choice.reached), choice.tables)
+        }
+        Tiles::Fixed(tiling) => {
+            let step = wish.step.unwrap_or(Step::FINE);
+            let tables = tables(&Averaged::new(&lid, aim, step), tiling, place, true);
+            let probe = Probe::new(session, scene, aperture, wish.without_beam, progress)?;
+            (Some(tiling), step, Some(probe.reached(place.surface, &tables)), tables)
+        }
+    };
+    let count = tables.len();
+    let scaled_by = tables.first().map_or(1.0, |(_, table)| table.scaled_by);
+    let remarks = remarks(tiling, apart.as_ref(), reached.as_ref());
+    let one = |(k, (tile, table)): (usize, &(Tile, Arc<CGammaTable>))| -> Result<(TileFile, f64), LuminaireFileError> {
+        let mut text = text.clone();
+        if tiling.is_some() {
+            text.report = format!("{}, tile {} of {count}", text.report, k + 1);
+            let [x, y, z] = tile.centre.to_array();
+            text.remarks
+                .push(format!("Tile {} of {count}: centre x {x:.4} m, y {y:.4} m, z {z:.4} m in the room.", k + 1));
+        }
+        text.remarks.extend(remarks.iter().cloned());
+        in_lines(&mut text, apart.as_ref(), reached.as_ref());
+        let luminaire = Luminaire::from_table(table, tile.size, text);
+        let share = 1.0 / count as f64;
+        let row = Row {
+            file: name(tiling.map(|_| k)),
+            centre: tile.centre,
+            size: tile.size,
+            flux: table.flux.value,
+            beam: table.beam_flux,
+            surface: Some(place.surface),
+            aim: Some(aim),
+            apart: apart.map(|apart| Apart { flux: share * apart.flux, ..apart }),
+            set: String::new(),
+        };
+        Ok((TileFile { bytes: bytes_of(&luminaire, wish.format)?, row }, luminaire.peak()))
+    };
+    let made = tables.par_iter().enumerate().map(|(k, table)| one((k, table))).collect::<Result<Vec<_>, _>>()?;
+    let peak = made.iter().map(|(_, peak)| *peak).fold(0.0, f64::max);
+    let files = made.into_iter().map(|(file, _)| file).collect();
+    let flux = tables.iter().map(|(_, table)| table.flux).sum();
+    Ok(LuminaireSet { files, tiling, flux, peak, scaled_by, aim, step, apart, reached })
+}
+
+/// Why there are no files.
+#[derive(Debug, thiserror::Error)]
+pub enum SetError {
+    /// The scene's light.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The file.
+    #[error(transparent)]
+    File(#[from] LuminaireFileError),
+}
+
+/// Straight beams as one.
+fn apart(beams: &[SunBeam], surface: Surface, area: f64) -> Option<Apart> {
+    let flux: f64 = beams.iter().map(|beam| beam.flux).sum();
+    let sum: DVec3 = beams.iter().map(|beam| beam.flux * beam.direction.0.vector()).sum();
+    let own = sum.try_normalize().filter(|_| flux > 0.0)?;
+    Some(Apart { flux, direction: surface.room_from_facade(own), normal: flux / (area * -own.z) })
+}
+
+/// What a host must know of a file of this kind.
+fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reached>) -> Vec<String> {
+    let mut list = Vec::new();
+    if let Some(Tiling { columns, rows }) = tiling {
+        list.push(format!(
+            "One of {columns} x {rows} tiles of the aperture: place all of them at the centres that the index lists."
+        ));
+    }
+    if let Some(Apart { flux, direction: d, normal }) = apart {
+        list.push(format!(
+            "Without the straight sunbeam of {flux:.4} lm (whole aperture): the host draws the sun through by itself. It \
+             goes along ({:.6}, {:.6}, {:.6}) in room axes (x right seen from outside, y into the room, z up) and gives \
+             {normal:.1} lx across itself.",
+            d.x, d.y, d.z
+        ));
+    }
+    list.extend(reached.map(Reached::sentence));
+    list
+}
+
+/// The same in so few words that lines of 78 characters hold them: EULUMDAT has no room for remarks.
+fn in_lines(text: &mut Description, apart: Option<&Apart>, reached: Option<&Reached>) {
+    if let Some(Apart { flux, direction: d, .. }) = apart {
+        let way = format!("{:.4} {:.4} {:.4}", d.x, d.y, d.z);
+        text.manufacturer.push_str(&format!("; straight beam left out: {flux:.1} lm along {way}"));
+    }
+    if let Some(Reached { sum, rms, .. }) = reached {
+        text.laboratory.push_str(&format!("; room: sum {:+.2} %, rms {:.2} %", 100.0 * sum, 100.0 * rms));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::{Dir, Emergent};
+
+    #[test]
+    fn tilings_are_words_or_two_numbers() {
+        assert_eq!("auto".parse(), Ok(Tiles::Auto));
+        assert_eq!("none".parse(), Ok(Tiles::None));
+        assert_eq!("8x5".parse(), Ok(Tiles::Fixed(Tiling { columns: 8, rows: 5 })));
+        for wrong in ["", "8", "0x3", "41x2", "8x-1", "axb", "1x2x3"] {
+            assert!(wrong.parse::<Tiles>().is_err(), "{wrong}");
+        }
+        assert_eq!(Tiles::Fixed(Tiling { columns: 8, rows: 5 }).to_string(), "8x5");
+    }
+
+    #[test]
+    fn the_beam_apart_is_told_with_flux_and_direction() {
+        // Into the room, down and to the right: façade z is outward, y up.
+        let direction = Emergent(Dir::new(DVec3::new(0.48, -0.6, -0.64)).unwrap());
+        let beams = [SunBeam { direction, flux: 640.0, straight: true }];
+        let told = apart(&beams, Surface::Facade, 2.0).unwrap();
+        assert!((told.direction - DVec3::new(0.48, 0.64, -0.6)).length() < 1e-12);
+        assert!((told.normal - 640.0 / (2.0 * 0.64)).abs() < 1e-9);
+        let text = remarks(None, Some(&told), None).join(" ");
+        assert!(text.contains("640.0000 lm") && text.contains("(0.480000, 0.640000, -0.600000)"), "{text}");
+        assert_eq!(apart(&[], Surface::Facade, 2.0), None);
+        let mut text = Description { manufacturer: "cfs 0.1.0".into(), ..Description::default() };
+        let reached = Reached { sum: 0.001, rms: 0.0123, worst: -0.05, fields: 60 };
+        in_lines(&mut text, Some(&told), Some(&reached));
+        let line = &text.manufacturer;
+        assert!(line.ends_with("left out: 640.0 lm along 0.4800 0.6400 -0.6000") && line.len() <= 78, "{line}");
+        assert_eq!(text.laboratory, "; room: sum +0.10 %, rms 1.23 %");
+    }
+}

@@ -1,0 +1,41 @@
+//! The tables of an aperture's tiles.
+
+use crate::compute::direction::Surface;
+use crate::compute::lid::c_gamma::{Averaged, CGammaTable, Panel};
+use crate::compute::lid::tiling::{Tile, Tiling};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Where an aperture stands.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// In which surface.
+    pub surface: Surface,
+    /// Lower left corner, room axes. \[m\]
+    pub corner: DVec3,
+    /// Of the aperture. \[m\]
+    pub size: [f64; 2],
+    /// Width, depth and height of the room. \[m\]
+    pub room: DVec3,
+}
+
+/// The tables of all tiles; `narrow`: those of narrow scattered light are the tile's own.
+pub(super) fn tables(
+    averaged: &Averaged,
+    tiling: Tiling,
+    place: Place,
+    narrow: bool,
+) -> Vec<(Tile, Arc<CGammaTable>)> {
+    let tiles = tiling.tiles(place.surface, place.corner, place.size);
+    let share = 1.0 / tiles.len() as f64;
+    let of = |tile: &Tile| {
+        let panel = Panel { centre: tile.centre, size: tile.size, surface: place.surface, room: place.room };
+        Arc::new(averaged.tile(&panel, share, narrow))
+    };
+    if averaged.same_for_all(narrow) {
+        let table = of(&tiles[0]);
+        return tiles.into_iter().map(|tile| (tile, Arc::clone(&table))).collect();
+    }
+    tiles.into_par_iter().map(|tile| (tile, of(&tile))).collect()
+}
