@@ -20,6 +20,7 @@ use crate::study::compact::stored_by_default;
 use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
+use crate::study::luminaire_set::{LuminaireSet, Wish, make, tile_name};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
 use crate::study::{Library, Scene, Session, StudyError};
@@ -353,5 +354,18 @@ impl Engine for StudyEngine {
         let encoded = LidFormat::of(path, IesEdition::Lm63_2002)
             .and_then(|format| encode(&lid.lid, lid.description.clone(), format, None, None));
         Ok(encoded.map_err(|error| AppError::from(error).about(path.display()))?.bytes)
+    }
+
+    fn luminaires(
+        &self,
+        question: &Question,
+        wish: &Wish,
+        path: &Path,
+        progress: &dyn Progress,
+    ) -> Result<LuminaireSet, AppError> {
+        let scene = self.scene(question, progress)?;
+        let first = scene.apertures.first().ok_or(AppError::NoAperture)?;
+        let text = describe(&first.system.label, &question.scene, 0, "");
+        Ok(make(&self.session, &scene, 0, &text, wish, |tile| tile_name(path, tile), progress)?)
     }
 }

@@ -10,6 +10,7 @@ use crate::compute::lid::{Interpolator, Lid};
 use crate::formats::luminaire::Description;
 use crate::study::SurfaceLight;
 use crate::study::accuracy::Accuracy;
+use crate::study::luminaire_set::{LuminaireSet, Wish};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
 use crate::study::{Library, Session};
@@ -115,6 +116,11 @@ pub trait Engine: Send + Sync {
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;
     /// The bytes of a luminaire file, its format by the path's extension.
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError>;
+    /// The first aperture as the luminaire files that are wished for; `path`: of the one file, from which tiles have their
+    /// names. Engines that compute no light have none.
+    fn luminaires(&self, _: &Question, _: &Wish, _: &Path, _: &dyn Progress) -> Result<LuminaireSet, AppError> {
+        Err(AppError::NoLid)
+    }
 }
 
 /// All that pictures and reports show of a question.

@@ -8,6 +8,7 @@ use crate::formats::control_curve::CurveError;
 use crate::report::ReportError;
 use crate::study::StudyError;
 use crate::study::luminaire_file::LuminaireFileError;
+use crate::study::luminaire_set::SetError;
 use crate::texts::shell;
 use std::fmt::Display;
 
@@ -40,6 +41,9 @@ pub enum AppError {
     /// No luminaire file can be made.
     #[error(transparent)]
     Luminaire(#[from] LuminaireFileError),
+    /// No luminaire files can be made.
+    #[error(transparent)]
+    Luminaires(#[from] SetError),
     /// A repair that does not fit the data.
     #[error(transparent)]
     Repair(#[from] RepairError),

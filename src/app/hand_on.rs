@@ -122,6 +122,10 @@ pub struct Choices {
     pub tender: String,
     /// Luminaires as LM-63 (.ies) instead of EULUMDAT (.ldt).
     pub ies: bool,
+    /// The aperture cut into as many luminaires as light a room rightly, with an index.
+    pub tiles: bool,
+    /// The straight sunbeam is left to the other program.
+    pub without_beam: bool,
     /// Of a series.
     pub series: Series,
     /// Datasets as text (.btdf.txt) instead of BSDF XML.
@@ -143,6 +147,8 @@ impl Default for Choices {
             comparison: true,
             tender: tender::TEMPLATE.to_owned(),
             ies: false,
+            tiles: false,
+            without_beam: false,
             series: Series::default(),
             text: false,
         }

@@ -10,17 +10,20 @@ use crate::compute::direction::Incident;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::drawing::Drawing;
 use crate::drawing::colours::Inks;
+use crate::formats::ies::IesEdition;
+use crate::formats::luminaire_index::{self, Row};
 use crate::formats::write_dataset;
 use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
 use crate::report::{Look, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
+use crate::study::luminaire_file::LidFormat;
+use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish};
 use crate::study::moment;
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::Wanted;
 use crate::texts::hand_on as texts;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -108,6 +111,9 @@ impl Order {
                 let (title, pages) = self.report(progress)?;
                 pdf::write(&pages, &title)?
             }
+            What::Luminaire if self.choices.without_beam => {
+                self.luminaires(&self.question.scene, path, progress)?.files.swap_remove(0).bytes
+            }
             What::Luminaire => {
                 let lid = self.engine.lid(&self.question, progress)?;
                 self.engine.luminaire(&lid, path)?
@@ -164,32 +170,41 @@ impl Order {
         }
     }
 
-    /// A luminaire file for each moment, and the index last, so that it never names a file that is not there.
+    /// The scene's window as luminaires; `path`: of the one file, from which tiles have their names.
+    fn luminaires(&self, scene: &SceneFile, path: &Path, progress: &dyn Progress) -> Result<LuminaireSet, AppError> {
+        let Choices { tiles, without_beam, .. } = self.choices;
+        let format =
+            LidFormat::of(path, IesEdition::Lm63_2002).map_err(|error| AppError::from(error).about(path.display()))?;
+        let tiles = if tiles { Tiles::Auto } else { Tiles::None };
+        let wish = Wish { format, aim: None, step: None, tiles, without_beam };
+        let question = Question { scene: scene.clone(), ..self.question.clone() };
+        self.engine.luminaires(&question, &wish, path, progress)
+    }
+
+    /// The window in tiles, and their index last, so that it never names a file that is not there.
+    fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<(LuminaireSet, Vec<(PathBuf, Vec<u8>)>), AppError> {
+        let set = self.luminaires(&self.question.scene, path, progress)?;
+        let of = |file: &TileFile| (path.with_file_name(&file.row.file), file.bytes.clone());
+        let mut files: Vec<_> = set.files.iter().map(of).collect();
+        files.push((index_of(path), set.index()));
+        Ok((set, files))
+    }
+
+    /// The luminaire files of each moment, and the index last, so that it never names a file that is not there.
     fn series(&self, path: &Path, progress: &dyn Progress) -> Result<Vec<(PathBuf, Vec<u8>)>, AppError> {
         let moments = self.moments(path)?;
-        let mut index = String::from("file,time,state,sun_altitude_deg,sun_azimuth_deg,flux_lm,flux_error_lm\n");
-        let mut files = Vec::with_capacity(moments.len() + 1);
+        let (mut rows, mut files) = (Vec::new(), Vec::with_capacity(moments.len() + 1));
         for (k, one) in moments.iter().enumerate() {
             progress.advance("moments", k, moments.len());
             check(progress)?;
-            let question = Question { scene: one.scene.clone(), ..self.question.clone() };
-            let lid = self.engine.lid(&question, progress)?;
-            let target = path.with_file_name(&one.name);
-            files.push((target.clone(), self.engine.luminaire(&lid, &target)?));
-            let (altitude, azimuth) = moment::sun(&one.scene).unwrap_or((f64::NAN, f64::NAN));
             let time = one.time.strftime("%Y-%m-%dT%H:%M");
-            let state = super::paint::tile::csv_field(&one.state);
-            // Writing to a String cannot fail.
-            let _ = writeln!(
-                index,
-                "{},{time},{state},{:.4},{azimuth:.4},{:.3},{:.3}",
-                one.name,
-                altitude.to_degrees(),
-                lid.flux.value,
-                lid.flux.error
-            );
+            let of = if one.state.is_empty() { String::new() } else { format!(" state {}", one.state) };
+            for file in self.luminaires(&one.scene, &path.with_file_name(&one.name), progress)?.files {
+                files.push((path.with_file_name(&file.row.file), file.bytes));
+                rows.push(Row { set: format!("{time}{of}"), ..file.row });
+            }
         }
-        files.push((path.to_owned(), index.into_bytes()));
+        files.push((path.to_owned(), luminaire_index::write(&rows)));
         Ok(files)
     }
 
@@ -203,6 +218,7 @@ impl Order {
         }
         let files = match self.choices.what {
             What::Series => self.series(path, progress)?,
+            What::Luminaire if self.choices.tiles => self.tiles(path, progress)?.1,
             _ => vec![(path.to_owned(), self.bytes(path, progress)?)],
         };
         // Withdrawn after the last computation: nothing is written either.
@@ -257,6 +273,18 @@ impl Order {
                 list.extend(moments.into_iter().map(|one| (one.name.clone(), words(&one))));
                 Preview::Files(list)
             }
+            What::Luminaire if self.choices.tiles => {
+                let (set, files) = self.tiles(path, progress)?;
+                let percent = |share: f64| format!("{:.2}", 100.0 * share);
+                let reached = set.reached.map_or_else(
+                    || texts::INDEX.into(),
+                    |reached| texts::tiles_reached(set.files.len(), percent(reached.sum), percent(reached.rms)),
+                );
+                let tiles = set.files.iter().map(|file| format!("{:.1} lm", file.row.flux));
+                let words = std::iter::once(reached).chain(tiles);
+                let names = files.iter().rev().take(1).chain(&files).map(|(path, _)| name(path));
+                Preview::Files(names.zip(words).collect())
+            }
             What::Package => {
                 let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
                 let states = product.states.len();
@@ -274,6 +302,11 @@ impl Order {
             }
         })
     }
+}
+
+/// The index beside the files of tiles.
+pub(super) fn index_of(path: &Path) -> PathBuf {
+    path.with_extension("index.csv")
 }
 
 fn shown(drawing: &Drawing, scale: f64, said: String) -> Preview {

@@ -3,7 +3,7 @@
 use super::engine::Question;
 use super::error::AppError;
 use super::hand_on::{Choices, Key, What, moments};
-use super::hand_on_files::Order;
+use super::hand_on_files::{Order, index_of};
 use super::jobs::Lane;
 use super::naming::file_name;
 use super::naming::start_path;
@@ -12,6 +12,7 @@ use super::tiles::TILES;
 use super::window::App;
 use super::work::Outcome;
 use crate::report::TileKind;
+use crate::study::luminaire_set::tile_name;
 use crate::texts::language;
 use std::path::{Path, PathBuf};
 
@@ -38,6 +39,10 @@ fn compared(state: &State) -> (TileKind, usize) {
 pub fn targets(state: &State, path: &Path) -> Vec<PathBuf> {
     let choices = &state.settings.hand_on;
     let mut list = vec![path.to_owned()];
+    if choices.what == What::Luminaire && choices.tiles {
+        // How many there will be is not known before; the index and the first stand for all.
+        list = vec![index_of(path), path.with_file_name(tile_name(path, Some(0)))];
+    }
     if choices.what == What::Series {
         let moments = moments(choices, &state.document.scene, state.product.as_deref(), path);
         list.extend(moments.into_iter().map(|moment| path.with_file_name(moment.name)));

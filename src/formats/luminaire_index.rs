@@ -97,7 +97,9 @@ fn quoted(text: &str) -> String {
 /// # Errors
 /// A needed column or number missing, a size that is none, an unknown word; told with the line.
 pub fn read(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
+    // The reader counts a line that ends in CR LF only when it reads the next one.
+    let bytes: Vec<u8> = bytes.iter().copied().filter(|byte| *byte != b'\r').collect();
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes.as_slice());
     let broken = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line) as usize;
         FormatError::new(Location::line(line), "what is no CSV in UTF-8", "comma-separated values, one file a line")

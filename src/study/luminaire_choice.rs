@@ -39,7 +39,7 @@ const MOST_TILES: usize = 256;
 pub struct Reached {
     /// Sum over all fields against that of the aperture itself, relative.
     pub sum: f64,
-    /// Root mean square of the fields' errors, relative.
+    /// Root mean square of the fields' errors, relative: of the surface where it is largest.
     pub rms: f64,
     /// The largest of them, signed, relative.
     pub worst: f64,
@@ -56,9 +56,9 @@ impl Reached {
     /// For the header of a file.
     pub fn sentence(&self) -> String {
         format!(
-            "Direct light of all files together on {} fields of {FIELD} m x {FIELD} m of the scene's room, at {NEAREST} m and \
-             more, in a host that cuts luminous areas into parts of a quarter of their distance: sum {:+.2} %, rms {:.2} %, \
-             worst field {:+.1} %.",
+            "Direct light of all files together on {} fields of {FIELD} m x {FIELD} m of the scene's room, on the work plane \
+             and above it, at {NEAREST} m and more, in a host that cuts luminous areas into parts of a quarter of their \
+             distance: sum {:+.2} %, rms on the worst surface {:.2} %, worst field {:+.1} %.",
             self.fields,
             100.0 * self.sum,
             100.0 * self.rms,
@@ -69,6 +69,7 @@ impl Reached {
 
 /// One field.
 struct Field {
+    surface: usize,
     sensors: Vec<Sensor>,
     /// Mean of the light there. \[lx\]
     wanted: f64,
@@ -112,7 +113,7 @@ impl Probe {
                     method.illuminance(sensor).all.value + beams_through(sensor, own, &beams, &facing).beam
                 };
                 let wanted = sensors.iter().map(light).sum::<f64>() / sensors.len() as f64;
-                Ok(Field { sensors, wanted })
+                Ok(Field { surface: grid.surface, sensors, wanted })
             })
             .collect::<Result<Vec<_>, Cancelled>>()?;
         Ok(Self { fields })
@@ -138,15 +139,25 @@ impl Probe {
         let errors: Vec<f64> = self.fields.iter().zip(&got).map(error).collect();
         Reached {
             sum: got.iter().sum::<f64>() / (count * mean) - 1.0,
-            rms: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
-            worst: errors.into_iter().fold(0.0, |worst: f64, error| if error.abs() > worst.abs() { error } else { worst }),
+            rms: (0..SURFACES).map(|surface| rms(&self.fields, &errors, surface)).fold(0.0, f64::max),
+            worst: errors
+                .into_iter()
+                .fold(0.0, |worst: f64, error| if error.abs() > worst.abs() { error } else { worst }),
             fields: self.fields.len(),
         }
     }
 }
 
+/// Root mean square of the errors on a surface.
+fn rms(fields: &[Field], errors: &[f64], surface: usize) -> f64 {
+    let own =
+        || fields.iter().zip(errors).filter(|(field, _)| field.surface == surface).map(|(_, error)| error * error);
+    (own().sum::<f64>() / own().count().max(1) as f64).sqrt()
+}
+
 /// A field's place.
 struct FieldGrid {
+    surface: usize,
     centre: DVec3,
     axes: [DVec3; 2],
     normal: DVec3,
@@ -164,30 +175,33 @@ impl FieldGrid {
     }
 }
 
-/// Fields on the work plane, on the walls and on the ceiling.
+/// Work plane, three walls and the ceiling.
+const SURFACES: usize = 5;
+
+/// Fields on the work plane, on the walls above it and on the ceiling.
 fn grids(room: DVec3) -> Vec<FieldGrid> {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
     // A little inside: points on a wall see what is in it edge on.
     const OFF: f64 = 1e-6;
     let plane = if room.z > WORK_PLANE { WORK_PLANE } else { OFF };
-    let walls = [
+    let surfaces: [_; SURFACES] = [
         (DVec3::new(0.0, 0.0, plane), [x, y], z),
-        (DVec3::new(0.0, room.y - OFF, 0.0), [x, z], -y),
+        (DVec3::new(0.0, room.y - OFF, plane), [x, z], -y),
         (DVec3::new(0.0, 0.0, room.z - OFF), [x, y], -z),
-        (DVec3::new(OFF, 0.0, 0.0), [y, z], x),
-        (DVec3::new(room.x - OFF, 0.0, 0.0), [y, z], -x),
+        (DVec3::new(OFF, 0.0, plane), [y, z], x),
+        (DVec3::new(room.x - OFF, 0.0, plane), [y, z], -x),
     ];
     let mut list = Vec::new();
-    for (corner, axes, normal) in walls {
+    for (surface, (corner, axes, normal)) in surfaces.into_iter().enumerate() {
         let centres = |axis: DVec3| -> Vec<f64> {
-            let length = room.dot(axis);
+            let length = (room - corner).dot(axis);
             let count = (length / FIELD) as usize;
             let margin = 0.5 * (length - count as f64 * FIELD);
             (0..count).map(|k| margin + (k as f64 + 0.5) * FIELD).collect()
         };
         for u in centres(axes[0]) {
             for v in centres(axes[1]) {
-                list.push(FieldGrid { centre: corner + u * axes[0] + v * axes[1], axes, normal });
+                list.push(FieldGrid { surface, centre: corner + u * axes[0] + v * axes[1], axes, normal });
             }
         }
     }

@@ -149,7 +149,8 @@ fn situation(scene: &SceneFile) -> String {
         parts.push(format!("{:.1}{north} {:.1}{east}", latitude.abs(), longitude.abs()));
     }
     parts.extend(sky.time.as_ref().map(TimeKey::text));
-    parts.extend(moment::sun(scene).map(|(altitude, azimuth)| format!("sun {:.1}/{azimuth:.1}", altitude.to_degrees())));
+    parts
+        .extend(moment::sun(scene).map(|(altitude, azimuth)| format!("sun {:.1}/{azimuth:.1}", altitude.to_degrees())));
     parts.push(format!("facade {:.0}", site.azimuth));
     parts.push(match sky.model {
         SkyModelKey::Cie => format!("CIE {}", sky.cie_type.unwrap_or_default()),

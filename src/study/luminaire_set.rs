@@ -16,6 +16,7 @@ use crate::formats::luminaire::{Description, Luminaire};
 use crate::formats::luminaire_index::{self, Apart, Row};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Into how many luminaires the aperture is cut.
@@ -189,6 +190,13 @@ pub fn make(
     let files = made.into_iter().map(|(file, _)| file).collect();
     let flux = tables.iter().map(|(_, table)| table.flux).sum();
     Ok(LuminaireSet { files, tiling, flux, peak, scaled_by, aim, step, apart, reached })
+}
+
+/// Name of the file of a tile beside `out`; of the aperture as a whole `out`'s own.
+pub fn tile_name(out: &Path, tile: Option<usize>) -> String {
+    let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let number = tile.map(|tile| format!("_{}", tile + 1)).unwrap_or_default();
+    format!("{}{number}.{}", part(out.file_stem()), part(out.extension()))
 }
 
 /// Why there are no files.

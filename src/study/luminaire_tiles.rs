@@ -21,12 +21,7 @@ pub(super) struct Place {
 }
 
 /// The tables of all tiles; `narrow`: those of narrow scattered light are the tile's own.
-pub(super) fn tables(
-    averaged: &Averaged,
-    tiling: Tiling,
-    place: Place,
-    narrow: bool,
-) -> Vec<(Tile, Arc<CGammaTable>)> {
+pub(super) fn tables(averaged: &Averaged, tiling: Tiling, place: Place, narrow: bool) -> Vec<(Tile, Arc<CGammaTable>)> {
     let tiles = tiling.tiles(place.surface, place.corner, place.size);
     let share = 1.0 / tiles.len() as f64;
     let of = |tile: &Tile| {

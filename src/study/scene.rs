@@ -196,7 +196,16 @@ impl Scene {
             let frame = within(&format!("aperture[{}].frame", index + 1), keys.frame, 0.0, 0.95, "")?;
             let clear = (1.0 - frame) * within(&format!("aperture[{}].dirt", index + 1), keys.dirt, 0.0, 1.0, "")?;
             let controlled = picked;
-            list.push(SceneAperture { aperture, system, reflectance, structure, directional, clear, controlled, lamps });
+            list.push(SceneAperture {
+                aperture,
+                system,
+                reflectance,
+                structure,
+                directional,
+                clear,
+                controlled,
+                lamps,
+            });
         }
         if let Some(target) = file.compute.error_target {
             within("compute.error_target", target, 1e-8, 1.0, "")?;

@@ -200,6 +200,11 @@ texts! {
     const HEIGHT = "Height" | "Höhe";
     const SCREENS_TIP = "For screens" | "Für Bildschirme";
     const PAPER_TIP = "On paper; 300 pixels an inch" | "Auf Papier; 300 Pixel je Zoll";
+    const IN_TILES = "In tiles" | "In Kacheln";
+    const IN_TILES_TIP = "As many luminaires as light a room within 1 %, and an index of where they stand; one file alone blurs patches of sun" | "So viele Leuchten, wie einen Raum auf 1 % genau beleuchten, und ein Verzeichnis ihrer Orte; eine einzelne Datei verwischt Sonnenflecken";
+    const WITHOUT_BEAM = "Without the straight sunbeam" | "Ohne den geraden Sonnenstrahl";
+    const WITHOUT_BEAM_TIP = "Where the other program draws the sun through by itself; flux and direction stand in the header" | "Wenn das andere Programm die Sonne selbst hindurchzeichnet; Lichtstrom und Richtung stehen im Dateikopf";
+    fn tiles_reached(count, sum, rms) = "index; {count} tiles light this room with a sum of {sum} %, rms {rms} %" | "Verzeichnis; {count} Kacheln beleuchten diesen Raum mit Summe {sum} %, quadratisches Mittel {rms} %";
     const ON_THE_21ST = "On the 21st of" | "Am 21.";
     const FROM = "From" | "Von";
     const TO = "to" | "bis";

@@ -12,7 +12,7 @@ use cfs::app::tiles::TILES;
 use cfs::drawing::ticks::si;
 use cfs::formats::{eulumdat, package, read_dataset};
 use cfs::report::TileKind;
-use cfs::study::SceneFile;
+use cfs::study::{SceneFile, luminaires};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -148,11 +148,10 @@ fn a_series_has_an_index_that_names_every_file() {
     for row in &rows {
         assert!(promised.iter().any(|one| one == row[0]), "{row:?}");
         let file = eulumdat::read(&std::fs::read(folder.join(row[0])).unwrap()).unwrap();
-        let flux: f64 = row[5].parse().unwrap();
+        let flux: f64 = row[6].parse().unwrap();
         assert!((file.flux() / flux - 1.0).abs() < 5e-3, "{row:?} {}", file.flux());
-        assert!(row[3].parse::<f64>().unwrap() > 0.0);
     }
-    assert!(rows[0][1] == "2026-03-21T11:00" && rows[0][0].ends_with("_03-21T1100.ldt"), "{:?}", rows[0]);
+    assert!(rows[0][15] == "2026-03-21T11:00" && rows[0][0].ends_with("_03-21T1100.ldt"), "{:?}", rows[0]);
     // One file of the series that is there already is asked about as the index is.
     std::fs::remove_file(folder.join(&name)).unwrap();
     harness.get_by_label("Write").click();
@@ -176,6 +175,28 @@ fn a_series_has_an_index_that_names_every_file() {
     choose(&mut harness, |choices| choices.series.months = [false; 12]);
     let error = harness.state().state.hand_on.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("no file would be written"), "{error}");
+}
+
+#[test]
+fn a_window_goes_out_in_tiles_that_are_one_aperture_again() {
+    let mut harness = window();
+    select(&mut harness, |entry| entry.key == "clear-single");
+    let folder = tempfile::tempdir().unwrap();
+    choose(&mut harness, |choices| {
+        choices.what = What::Luminaire;
+        (choices.tiles, choices.without_beam) = (true, true);
+    });
+    let Preview::Files(files) = preview(&harness) else { panic!("files") };
+    let (names, words): (Vec<String>, Vec<String>) = files.iter().cloned().unzip();
+    assert!(names[0].ends_with(".index.csv") && names[1].ends_with("_1.ldt"), "{names:?}");
+    assert!(words[0].contains("tiles light this room") && words[1].ends_with(" lm"), "{words:?}");
+    write(&mut harness, folder.path());
+    let back = luminaires::read(&folder.path().join(&names[0]), None).unwrap();
+    assert_eq!((back.rows.len(), std::fs::read_dir(folder.path()).unwrap().count()), (names.len() - 1, names.len()));
+    let size = harness.state().state.document.scene.aperture[0].size;
+    assert!((back.aperture.size[0] - size[0]).abs() < 1e-3 && (back.aperture.size[1] - size[1]).abs() < 1e-3);
+    // The straight beam stands in the index, not in the files.
+    assert!(back.rows.iter().all(|row| row.beam == 0.0 && row.apart.is_some_and(|apart| apart.flux > 1.0)));
 }
 
 #[test]

@@ -84,9 +84,9 @@ fn options(ui: &mut Ui, choices: &mut Choices, candidates: usize) {
                 }
             }
         }
-        What::Luminaire => luminaire(ui, &mut choices.ies),
+        What::Luminaire => luminaire(ui, choices),
         What::Series => {
-            luminaire(ui, &mut choices.ies);
+            luminaire(ui, choices);
             series(ui, choices);
         }
         What::Table => tiles(ui, choices),
@@ -116,11 +116,13 @@ fn tiles(ui: &mut Ui, choices: &mut Choices) {
     });
 }
 
-fn luminaire(ui: &mut Ui, ies: &mut bool) {
+fn luminaire(ui: &mut Ui, choices: &mut Choices) {
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(ies, false, ".ldt").on_hover_text(texts::EULUMDAT);
-        ui.selectable_value(ies, true, ".ies").on_hover_text(texts::LM_63);
+        ui.selectable_value(&mut choices.ies, false, ".ldt").on_hover_text(texts::EULUMDAT);
+        ui.selectable_value(&mut choices.ies, true, ".ies").on_hover_text(texts::LM_63);
     });
+    ui.checkbox(&mut choices.tiles, texts::IN_TILES.get()).on_hover_text(texts::IN_TILES_TIP);
+    ui.checkbox(&mut choices.without_beam, texts::WITHOUT_BEAM.get()).on_hover_text(texts::WITHOUT_BEAM_TIP);
 }
 
 fn size(ui: &mut Ui, size: &mut Size) {

@@ -23,7 +23,7 @@ use super::{EmergentLuminance, Intensities, Lid};
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use crate::compute::estimate::Estimate;
 use glam::DVec3;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// How the aperture's frame stands in the luminaire's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -213,9 +213,21 @@ impl CGammaTable {
 
     /// The same with other nodes, the old ones among them: what a reader makes of it does not change.
     fn at_nodes(&mut self, c: Vec<f64>, gamma: Vec<f64>) {
-        let known = Intensities { c: std::mem::take(&mut self.c), gamma: std::mem::take(&mut self.gamma), values: std::mem::take(&mut self.intensity) };
+        let known = Intensities {
+            c: std::mem::take(&mut self.c),
+            gamma: std::mem::take(&mut self.gamma),
+            values: std::mem::take(&mut self.intensity),
+        };
         self.intensity = c.iter().flat_map(|c| gamma.iter().map(|gamma| known.at(*c, *gamma))).collect();
         (self.c, self.gamma) = (c, gamma);
+    }
+
+    /// Makes the flux that a reader finds the table's flux again.
+    fn close(&mut self) {
+        let read = self.zonal_flux();
+        if read != 0.0 && self.flux.value != 0.0 {
+            self.intensity.iter_mut().for_each(|value| *value *= self.flux.value / read);
+        }
     }
 
     /// The strongest scattered light and the strongest beam.
@@ -243,12 +255,23 @@ impl CGammaTable {
     /// The flux that a reader finds: each zone between two γ with the mean of its two intensities, each plane for half the
     /// way to its neighbours. \[lm\]
     pub fn zonal_flux(&self) -> f64 {
-        let (planes, zones) = cells::weights(&self.c, &self.gamma);
+        let (planes, zones) = weights(&self.c, &self.gamma);
         let of = |(plane, weight): (usize, &f64)| {
             weight * self.plane(plane).iter().zip(&zones).map(|(intensity, zone)| intensity * zone).sum::<f64>()
         };
         planes.iter().enumerate().map(of).sum()
     }
+}
+
+/// What planes and angles count for in a zonal sum.
+fn weights(c: &[f64], gamma: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let planes = c.len();
+    let turn = 2.0 * PI;
+    let gap = |k: usize| if k + 1 < planes { c[k + 1] - c[k] } else { c[0] + turn - c[k] };
+    let of_planes = (0..planes).map(|k| 0.5 * (gap(k) + gap((k + planes - 1) % planes))).collect();
+    let zone = |k: usize| if k + 1 < gamma.len() { gamma[k].cos() - gamma[k + 1].cos() } else { 0.0 };
+    let of_angles = (0..gamma.len()).map(|k| 0.5 * (zone(k) + if k > 0 { zone(k - 1) } else { 0.0 })).collect();
+    (of_planes, of_angles)
 }
 
 #[cfg(test)]

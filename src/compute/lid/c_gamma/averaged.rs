@@ -64,7 +64,15 @@ impl Averaged {
                 *node += share.value * closing * area;
             }
         }
-        Self { grid, node_flux, flux, found: [raw, closed], lid: lid.clone(), scattered: OnceLock::new(), steep: OnceLock::new() }
+        Self {
+            grid,
+            node_flux,
+            flux,
+            found: [raw, closed],
+            lid: lid.clone(),
+            scattered: OnceLock::new(),
+            steep: OnceLock::new(),
+        }
     }
 
     /// The table of the whole aperture with every beam spread over the four nodes round it.
@@ -294,4 +302,3 @@ fn midpoints(density: &impl Fn(f64, f64) -> f64, patch: Patch, n: usize) -> f64 
     }
     sum * (patch.c[1] - patch.c[0]) * (patch.gamma[1] - patch.gamma[0]) / (n * n) as f64
 }
-

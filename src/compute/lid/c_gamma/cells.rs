@@ -1,22 +1,11 @@
 //! The cells round the nodes of a table, and what they count for.
 
-use super::Aim;
+use super::{Aim, weights};
 use glam::DVec3;
 use std::f64::consts::PI;
 
 /// Points a side of a cell, for its mean.
 const POINTS: usize = 4;
-
-/// What planes and angles count for in a zonal sum.
-pub(super) fn weights(c: &[f64], gamma: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let planes = c.len();
-    let turn = 2.0 * PI;
-    let gap = |k: usize| if k + 1 < planes { c[k + 1] - c[k] } else { c[0] + turn - c[k] };
-    let of_planes = (0..planes).map(|k| 0.5 * (gap(k) + gap((k + planes - 1) % planes))).collect();
-    let zone = |k: usize| if k + 1 < gamma.len() { gamma[k].cos() - gamma[k + 1].cos() } else { 0.0 };
-    let of_angles = (0..gamma.len()).map(|k| 0.5 * (zone(k) + if k > 0 { zone(k - 1) } else { 0.0 })).collect();
-    (of_planes, of_angles)
-}
 
 /// Nodes and the cells round them.
 pub(super) struct Cells<'a> {

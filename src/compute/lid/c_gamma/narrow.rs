@@ -34,7 +34,7 @@ pub(super) fn nodes(table: &CGammaTable) -> Vec<usize> {
 }
 
 /// Puts what a tile, `share` of the aperture, does on the room's surfaces in the place of the mean intensity, round these
-/// nodes and as far from them as the tile is seen wide; nodes lie closer there. Their flux stays.
+/// nodes and as far from them as the tile is seen wide; nodes lie closer there. Their flux stays, and so does that of the table.
 pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: &Panel, share: f64) {
     if steep.is_empty() {
         return;
@@ -64,6 +64,7 @@ pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: 
     for (node, value) in list.iter().zip(&found) {
         table.intensity[*node] = scale * value / share;
     }
+    table.close();
 }
 
 /// Regular nodes that are no farther from a steep one than the tile is seen wide.

@@ -4,7 +4,7 @@
 //! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, each of them evenly.
 //! From the rectangle's middle that is a spot of directions with sharp edges, whose intensity is what makes it even there;
 //! nodes of C and γ lie so close round it that what a reader interpolates between them is the spot, its edges blurred by
-//! less than a tenth of its width.
+//! an eighth of its width at most.
 
 use super::cells::Cells;
 use super::{Aim, CGammaTable, Panel, Widened};
@@ -107,6 +107,7 @@ pub(super) fn lay(table: &mut CGammaTable, spots: &[Spot]) {
         coarser *= 1.25;
     };
     table.at_nodes(c, gamma);
+    table.close();
     table.beams = vec![0.0; table.intensity.len()];
     let cells = Cells::new(table.aim, &table.c, &table.gamma);
     for (spot, (c_range, gamma_range, ..)) in spots.iter().zip(&all) {
@@ -147,8 +148,7 @@ fn add(cells: &Cells<'_>, values: &mut [f64], spot: &Spot, c_range: [f64; 2], ga
             own.extend((0..cells.c.len()).map(|plane| (plane * angles + angle, all / turn)));
         }
     }
-    let found: f64 =
-        own.iter().map(|(node, value)| value * cells.weight(*node)).sum();
+    let found: f64 = own.iter().map(|(node, value)| value * cells.weight(*node)).sum();
     if found > 0.0 {
         own.iter().for_each(|(node, value)| values[*node] += spot.beam.flux / found * value);
         return;
@@ -161,4 +161,3 @@ fn add(cells: &Cells<'_>, values: &mut [f64], spot: &Spot, c_range: [f64; 2], ga
     let nearest = plane * angles + angle;
     values[nearest] += spot.beam.flux / cells.weight(nearest);
 }
-

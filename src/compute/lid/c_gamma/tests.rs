@@ -4,7 +4,6 @@ use super::*;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::lid::SunBeam;
 use crate::compute::system::measure::ProfileLight;
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 fn lid(parts: Vec<EmergentLuminance>) -> Lid {
