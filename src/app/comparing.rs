@@ -7,7 +7,7 @@ use super::compare_columns::Column;
 use super::engine::Question;
 use super::error::AppError;
 use super::jobs::Lane;
-use super::scene::{rule, selection_of};
+use super::scene::{own_system, rule, selection_of};
 use super::shelf_library::WindowLibrary;
 use super::state::{Document, State};
 use super::tiles::TILES;
@@ -30,13 +30,14 @@ use std::sync::Arc;
 fn keys_of(document: &Document, name: String) -> CompareKeys {
     let selection = &document.selection;
     let controlled = selection.state == CONTROLLED;
-    let system = if selection.product.is_empty() {
+    let own = own_system(&document.scene);
+    let system = if own.is_some() || selection.product.is_empty() {
         document.scene.aperture.first().map(|aperture| aperture.system.clone())
     } else {
         let state = Some(selection.state.clone()).filter(|state| !state.is_empty());
         Some(SystemKeys::Catalogue { key: selection.product.clone(), state })
     };
-    let control = rule(&document.scene, 0).filter(|_| controlled).cloned();
+    let control = rule(&document.scene, 0).filter(|_| controlled || own.is_some()).cloned();
     CompareKeys { name, system, control, ..CompareKeys::default() }
 }
 
@@ -49,10 +50,10 @@ fn rule_words(mode: ControlMode) -> String {
 
 /// What is shown, in words: the rule instead of the state that it picks now.
 fn shown_words(state: &State) -> String {
-    if state.document.selection.state == CONTROLLED {
+    if state.document.selection.state == CONTROLLED && own_system(&state.document.scene).is_none() {
         return format!("{}, {}", title::product(state), rule_words(state.control_mode()));
     }
-    title::selection(state)
+    title::in_room(state)
 }
 
 /// The parts that a tile draws.

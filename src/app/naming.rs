@@ -3,22 +3,40 @@
 use super::hand_on::{ReportKind, What};
 use super::moment;
 use super::safe_name::safe;
+use super::scene::own_system;
 use super::state::{PathUse, State};
+use super::title;
+use crate::report::TileKind;
+use crate::study::scene_file::SystemKeys;
 use std::path::PathBuf;
 
-/// Product, state and moment, e.g. `venetian-80-72_45_2026-03-21T1200`.
-fn study(state: &State) -> String {
+/// The selected product, as files are called.
+fn product(state: &State) -> String {
+    let product = safe(&state.document.selection.product);
+    if product.is_empty() { "window".to_owned() } else { product }
+}
+
+/// What lights the room: the selected product and state, or the scene's own system.
+fn in_room(state: &State) -> [String; 2] {
+    let words = |keys: &SystemKeys| [safe(&title::system(keys).to_lowercase()), String::new()];
+    own_system(&state.document.scene).map_or_else(|| [product(state), safe(&state.shown_state)], words)
+}
+
+/// System, state and moment, e.g. `venetian-80-72_45_2026-03-21T1200`: those of a tile, or of the room.
+fn study(state: &State, tile: Option<TileKind>) -> String {
+    let [system, of] = match tile {
+        Some(TileKind::Btdf | TileKind::Transmittance | TileKind::Control) => {
+            [product(state), safe(&state.shown_state)]
+        }
+        _ => in_room(state),
+    };
     let scene = &state.document.scene;
     let time = match (moment::of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
         (Some(time), _, _) => time.strftime("%Y-%m-%dT%H%M").to_string(),
         (None, Some(altitude), Some(azimuth)) => format!("sun-{altitude:.0}-{azimuth:.0}"),
         _ => String::new(),
     };
-    let product = match safe(&state.document.selection.product) {
-        none if none.is_empty() => "window".to_owned(),
-        product => product,
-    };
-    let words = [product, safe(&state.shown_state), time];
+    let words = [system, of, time];
     words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
@@ -26,9 +44,11 @@ fn study(state: &State) -> String {
 pub fn file_name(state: &State, what: PathUse) -> String {
     match what {
         PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe => String::new(),
-        PathUse::SaveScene => format!("{}.toml", study(state)),
-        PathUse::ExportLid => format!("{}.ldt", study(state)),
-        PathUse::ExportTile(tile) => format!("{}_{}.csv", study(state), safe(&tile.title.to_lowercase())),
+        PathUse::SaveScene => format!("{}.toml", study(state, None)),
+        PathUse::ExportLid => format!("{}.ldt", study(state, None)),
+        PathUse::ExportTile(tile) => {
+            format!("{}_{}.csv", study(state, TileKind::titled(tile.title)), safe(&tile.title.to_lowercase()))
+        }
         PathUse::HandOn => handed_on(state),
         PathUse::ExportMeasured => {
             let described = state.goniophotometer.run.as_ref().map(|run| &run.described.file);
@@ -43,22 +63,19 @@ pub fn file_name(state: &State, what: PathUse) -> String {
 fn handed_on(state: &State) -> String {
     let choices = &state.settings.hand_on;
     let (ending, tile) = (choices.ending(), choices.tile.word());
-    let product = match safe(&state.document.selection.product) {
-        none if none.is_empty() => "window".to_owned(),
-        product => product,
-    };
+    let product = product(state);
     match choices.what {
-        What::Picture | What::Table => format!("{}_{tile}{ending}", study(state)),
+        What::Picture | What::Table => format!("{}_{tile}{ending}", study(state, Some(choices.tile))),
         What::Report if choices.report == ReportKind::Sheet => format!("{product}_sheet{ending}"),
-        What::Report => format!("{}_study{ending}", study(state)),
-        What::Series => format!("{product}_index{ending}"),
+        What::Report => format!("{}_study{ending}", study(state, None)),
+        What::Series => format!("{}_index{ending}", in_room(state)[0]),
         What::Package => format!("{product}{ending}"),
         What::Dataset => {
             let shown = safe(&state.shown_state);
             let of = if shown.is_empty() { String::new() } else { format!("_{shown}") };
             format!("{product}{of}{ending}")
         }
-        What::Luminaire | What::Scene => format!("{}{ending}", study(state)),
+        What::Luminaire | What::Scene => format!("{}{ending}", study(state, None)),
     }
 }
 
@@ -82,6 +99,7 @@ mod tests {
     use crate::app::scene::Selection;
     use crate::app::state::Settings;
     use crate::app::tiles::TILES;
+    use crate::study::scene_file::IdealKind;
 
     #[test]
     fn names_say_product_state_and_moment_in_safe_characters() {
@@ -96,6 +114,12 @@ mod tests {
         (state.document.scene.sky.sun.altitude, state.document.scene.sky.sun.azimuth) = (Some(30.0), Some(185.0));
         assert_eq!(file_name(&state, PathUse::ExportLid), "venetian-80-72_-35-up_sun-30-185.ldt");
         assert_eq!(file_name(&state, PathUse::ExportMeasured), "system.cfsp");
+        // A scene of its own system: the room's files are called by it, the product's by the product.
+        let ideal = SystemKeys::Ideal { kind: IdealKind::Diffuse, transmittance: 0.6 };
+        state.document.scene.aperture[0].system = ideal;
+        assert_eq!(file_name(&state, PathUse::ExportLid), "ideal-diffuse_sun-30-185.ldt");
+        let btdf = file_name(&state, PathUse::ExportTile(TILES[0].tile));
+        assert_eq!(btdf, "venetian-80-72_-35-up_sun-30-185_btdf.csv");
         state.settings.folder = Some("/data/daylight".into());
         assert_eq!(start_path(&state, PathUse::ExportLid).parent().unwrap().to_str(), Some("/data/daylight"));
         state.scene_path = Some("/data/office.toml".into());

@@ -5,10 +5,11 @@ use super::command::Command;
 use super::engine::Question;
 use super::error::AppError;
 use super::jobs::Lane;
-use super::scene::selection_of;
+use super::scene::{Selection, own_system, selection_of};
 use super::shelf::{Addition, Query, Shelf};
 use super::state::{CatalogueState, Daylight, Document, PathUse, Sheet, Shown};
 use super::tiles;
+use super::title;
 use super::window::{App, end_step, fresh_undoer};
 use super::work::{Outcome, Shelved, daylight, fill_some, take_from_shelf};
 use crate::catalogue::{Product, Stored};
@@ -332,14 +333,25 @@ impl App {
         self.search();
     }
 
-    /// After opening a scene the selection is what its first catalogue aperture holds.
+    /// After opening a scene the selection is what its first catalogue aperture holds. A scene of its own systems keeps
+    /// them, and the selection stays.
     fn adopt_selection(&mut self) {
         if let Some(selection) = selection_of(&self.state.document.scene) {
             self.state.document.selection = selection;
+        } else if !self.state.document.selection.product.is_empty() {
+            self.tell_own_system(title::product(&self.state));
         }
     }
 
-    /// A first start shows something alive: a light-guiding product if there is one, else the first.
+    /// Says what lights the room where that is not the product that the other tiles show.
+    fn tell_own_system(&mut self, product: String) {
+        if let Some(system) = own_system(&self.state.document.scene) {
+            self.toasts.info(shell::own_system(title::system(system), product));
+        }
+    }
+
+    /// A first start shows something alive: a light-guiding product if there is one, else the first. A scene of its own
+    /// systems keeps them.
     fn select_something(&mut self) {
         let document = &self.state.document;
         if !document.selection.product.is_empty() || self.state.found.entries.is_empty() {
@@ -353,7 +365,13 @@ impl App {
             || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
         let chosen = Arc::clone(moving.or_else(guiding).unwrap_or(&entries[0]));
         let state = Some(chosen.state()).filter(|_| chosen.moves());
-        first_choice(&mut self.state.document, chosen.key.clone(), chosen.rule, state);
+        if own_system(&self.state.document.scene).is_some() {
+            let state = state.unwrap_or_default().to_owned();
+            self.state.document.selection = Selection { product: chosen.key.clone(), state };
+            self.tell_own_system(chosen.name.clone());
+        } else {
+            first_choice(&mut self.state.document, chosen.key.clone(), chosen.rule, state);
+        }
         self.undoer = fresh_undoer(&self.state.document);
     }
 

@@ -54,6 +54,13 @@ pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
     })
 }
 
+/// What the first aperture holds where none is filled from the catalogue: an ideal system, a file.
+pub fn own_system(scene: &SceneFile) -> Option<&SystemKeys> {
+    let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
+    let first = scene.aperture.first().map(|aperture| &aperture.system);
+    first.filter(|_| !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)))
+}
+
 /// Puts a product into every aperture that is filled from the catalogue; into the first one if none is.
 pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     let state = (!selection.state.is_empty()).then(|| selection.state.clone());
@@ -62,15 +69,14 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
         scene.aperture.iter_mut().for_each(|aperture| aperture.control = None);
     }
     let keys = SystemKeys::Catalogue { key: selection.product.clone(), state };
-    let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
-    if !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)) {
-        if let Some(first) = scene.aperture.first_mut() {
-            first.system = keys;
-        }
+    if own_system(scene).is_some() {
+        scene.aperture[0].system = keys;
         return;
     }
-    for aperture in scene.aperture.iter_mut().filter(|aperture| from_catalogue(&aperture.system)) {
-        aperture.system = keys.clone();
+    for aperture in &mut scene.aperture {
+        if matches!(aperture.system, SystemKeys::Catalogue { .. }) {
+            aperture.system = keys.clone();
+        }
     }
 }
 

@@ -1,12 +1,13 @@
 //! The window's title: what is selected, where and when, in words.
 
+use super::scene::own_system;
 use super::state::{CatalogueState, State};
 use super::{control, moment};
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
 use crate::texts::shell;
 
-pub use crate::study::scene_words::{coordinates, place, sky, time};
+pub use crate::study::scene_words::{coordinates, place, sky, system, time};
 
 /// Name of the selected product: the product's own, whatever the list shows. While it is read, the list's, else its key.
 pub fn product(state: &State) -> String {
@@ -33,10 +34,15 @@ pub fn selection(state: &State) -> String {
     if words.is_empty() || name.is_empty() { name } else { format!("{name}, {words}") }
 }
 
+/// What lights the room, in words: the selection, or the scene's own system where no aperture is filled from the catalogue.
+pub fn in_room(state: &State) -> String {
+    own_system(&state.document.scene).map_or_else(|| selection(state), system)
+}
+
 /// The whole title.
 pub fn title(state: &State) -> String {
     let scene = &state.document.scene;
-    let product = selection(state);
+    let product = in_room(state);
     let product = match (&state.catalogue, product.is_empty()) {
         (_, false) => product,
         (CatalogueState::Opening, true) => shell::OPENING_CATALOGUE.into(),

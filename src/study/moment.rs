@@ -51,13 +51,12 @@ pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
 
 /// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment.
 pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
-    match (of(scene), scene.sky.sun.altitude, scene.sky.sun.azimuth) {
-        (Some(time), _, _) => sun_position(&place(scene)?, standard(scene, time))
-            .ok()
-            .map(|(altitude, bearing)| (altitude, bearing.degrees())),
-        (None, Some(altitude), Some(azimuth)) => Some((altitude.to_radians(), azimuth)),
-        _ => None,
+    // Stated angles say where the sun is, also beside a date.
+    if let (Some(altitude), Some(azimuth)) = (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
+        return Some((altitude.to_radians(), azimuth));
     }
+    let (altitude, bearing) = sun_position(&place(scene)?, standard(scene, of(scene)?)).ok()?;
+    Some((altitude, bearing.degrees()))
 }
 
 /// Sets the date and leaves the clock; false where there is none.

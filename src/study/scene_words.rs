@@ -2,7 +2,7 @@
 
 use super::moment;
 use super::places::city_at;
-use super::scene_file::{SceneFile, SkyModelKey};
+use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys};
 use crate::compute::estimate::{Estimate, largest_relative_error};
 use crate::drawing::ticks::number;
 use crate::texts::{fixed, words as texts};
@@ -48,6 +48,21 @@ pub fn sky(scene: &SceneFile) -> String {
             texts::cie_sky(word, kind)
         }
         model => model.words()[1].to_owned(),
+    }
+}
+
+/// What an aperture holds, as the scene names it.
+pub fn system(keys: &SystemKeys) -> String {
+    let with_state = |name: String, state: &Option<String>| match state {
+        Some(state) => format!("{name}, {state}"),
+        None => name,
+    };
+    match keys {
+        SystemKeys::Catalogue { key, state } => with_state(key.clone(), state),
+        SystemKeys::File { path, state } => with_state(path.display().to_string(), state),
+        SystemKeys::Luminaires { index, set } => with_state(index.display().to_string(), set),
+        SystemKeys::Ideal { kind: IdealKind::Transparent, .. } => texts::IDEAL_TRANSPARENT.into(),
+        SystemKeys::Ideal { kind: IdealKind::Diffuse, .. } => texts::IDEAL_DIFFUSE.into(),
     }
 }
 

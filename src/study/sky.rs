@@ -7,7 +7,7 @@ pub use self::illuminance::{Illuminances, Source, TWILIGHT, illuminances};
 pub use self::keys::{CLEANEST, HAZIEST, HIGHEST, LOWEST, SkyKeyError};
 
 use self::illuminance::of_sun;
-use self::keys::{check_model_keys, check_ranges, sun_direction, wrong};
+use self::keys::{check_model_keys, check_ranges, eccentricity_of, sun_direction, wrong};
 use super::files;
 use super::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use super::skyline::{behind_skyline, skyline};
@@ -41,7 +41,7 @@ pub fn outside_from_keys(
         SkyModelKey::Scan => (measured(sky, base_dir)?, sky.sun.direct_normal.unwrap_or(0.0)),
         SkyModelKey::Perez => {
             let sun = sun.ok_or_else(|| wrong("sky.sun", "model \"perez\" needs altitude and azimuth, or sky.time"))?;
-            perez(sky, sun)?
+            perez(sky, sun, eccentricity_of(sky)?)?
         }
     };
     if direct_normal > 0.0 && sun.is_none() {
@@ -96,7 +96,7 @@ fn measured(sky: &SkyKeys, base_dir: &Path) -> Result<Outside, SkyKeyError> {
 }
 
 /// The sky, and the beam on a plane that faces the sun \[lx\]: as given, else by luminous efficacy.
-fn perez(sky: &SkyKeys, sun: Dir<World>) -> Result<(Outside, f64), SkyKeyError> {
+fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, f64), SkyKeyError> {
     let need = |key, value: Option<f64>| {
         value.ok_or_else(|| wrong(key, "missing: model \"perez\" needs it, in W/m² on the horizontal plane"))
     };
@@ -140,7 +140,7 @@ fn perez(sky: &SkyKeys, sun: Dir<World>) -> Result<(Outside, f64), SkyKeyError> 
         })?;
         return Ok((scaled(Distribution::uniform(), 0.0)?, beam));
     }
-    let state = PerezState::new(altitude, direct_normal, diffuse)
+    let state = PerezState::new(altitude, direct_normal, diffuse, eccentricity)
         .ok_or_else(|| wrong("sky.diffuse_horizontal_irradiance", "these irradiances give no state of the sky"))?;
     let illuminance = sky.diffuse_horizontal.unwrap_or(diffuse * state.diffuse_efficacy());
     let beam = sky.sun.direct_normal.unwrap_or(direct_normal * state.direct_efficacy());

@@ -139,6 +139,7 @@ texts! {
     const ADDED = "Added to the catalogue; Ctrl+Z takes it out again" | "In den Katalog aufgenommen; Strg+Z nimmt es wieder heraus";
     fn added(count) = "Added to the catalogue: {count} products; Ctrl+Z takes them out again" | "In den Katalog aufgenommen: {count} Produkte; Strg+Z nimmt sie wieder heraus";
     fn added_some(count, known) = "Added to the catalogue: {count} products; there already: {known}" | "In den Katalog aufgenommen: {count} Produkte; schon da: {known}";
+    fn own_system(system, product) = "The room is lit through the scene's own system ({system}); BTDF, transmittance and control show {product}. Choosing a product puts it into the room." | "Der Raum wird durch das eigene System der Szene beleuchtet ({system}); BTDF, Transmission und Steuerung zeigen {product}. Ein gewähltes Produkt kommt in den Raum.";
     const CATALOGUE_NOT_OPEN = "The catalogue is not open yet" | "Der Katalog ist noch nicht offen";
 
     const NO_FOLDER = "The session is not kept: the system names no folder for a user's data" | "Die Sitzung wird nicht behalten: das System nennt keinen Ordner für Benutzerdaten";

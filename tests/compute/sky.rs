@@ -348,7 +348,7 @@ fn perez_states_agree_with_the_reference() {
     for line in text.lines().skip(1) {
         let number: Vec<f64> = line.split(',').skip(1).map(|field| field.parse().unwrap()).collect();
         let altitude = number[0].to_radians();
-        let state = PerezState::new(altitude, number[2] / altitude.sin(), number[3]).unwrap();
+        let state = PerezState::new(altitude, number[2] / altitude.sin(), number[3], 1.0).unwrap();
         close(state.clearness, number[4], 1e-6);
         close(state.brightness, number[5], 1e-6);
         for (got, expected) in state.coefficients.iter().zip(&number[6..11]) {

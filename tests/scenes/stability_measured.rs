@@ -233,12 +233,42 @@ fn perez_skies_at_the_borders_of_their_bins() {
             let cubed = 1.041 * zenith.powi(3);
             let diffuse = 100.0;
             let direct = (diffuse * ((border + nudge) * (1.0 + cubed) - cubed - 1.0)).max(0.0);
-            let state = PerezState::new(0.5 * PI - zenith, direct, diffuse).unwrap();
+            let state = PerezState::new(0.5 * PI - zenith, direct, diffuse, 1.0).unwrap();
             assert!((state.clearness - border).abs() < 1e-6, "{border}: {}", state.clearness);
             assert!(state.coefficients.iter().all(|c| c.is_finite()));
             assert!(state.diffuse_efficacy() > 0.0 && state.direct_efficacy() >= 0.0);
         }
     }
     // Night and a black sky have no state.
-    assert!(PerezState::new(-0.1, 0.0, 10.0).is_none() && PerezState::new(0.5, 0.0, 0.0).is_none());
+    assert!(PerezState::new(-0.1, 0.0, 10.0, 1.0).is_none() && PerezState::new(0.5, 0.0, 0.0, 1.0).is_none());
+}
+
+#[test]
+fn a_date_beside_the_suns_angles_gives_the_earth_s_distance() {
+    use cfs::compute::sky::perez::eccentricity;
+    // Perihelion in January, aphelion in July: (1 ± 0.0167)².
+    assert!(
+        (eccentricity(3) - 1.0167_f64.powi(2)).abs() < 2e-3 && (eccentricity(185) - 0.9833_f64.powi(2)).abs() < 2e-3
+    );
+    let outside = |time: &str, sun: &str, factor: f64| {
+        let sky = format!(
+            "model = \"perez\"\ndirect_horizontal_irradiance = {:?}\ndiffuse_horizontal_irradiance = {:?}\n{time}{sun}",
+            300.0 * factor,
+            120.0 * factor
+        );
+        let file = cfs::study::SceneFile::parse(&Text { apertures: window(), sky, ..Text::default() }.toml()).unwrap();
+        cfs::study::sky::outside_from_keys(&file.sky, &file.site, std::path::Path::new(".")).unwrap()
+    };
+    let angles = "sun = { altitude = 40.0, azimuth = 200.0 }\n";
+    let (plain, sun) = outside("", angles, 1.0);
+    let (winter, same_sun) = outside("time = \"2026-01-03T12:00\"\n", angles, 1.0);
+    // The angles say where the sun is, the date how near: Δ is that of less diffuse light at the mean distance.
+    let zenith = |outside: &cfs::compute::sky::Outside| {
+        let up = cfs::compute::direction::Dir::from_unit(glam::DVec3::Z);
+        outside.luminance(up) / outside.diffuse_horizontal()
+    };
+    assert_eq!(sun.unwrap().direction, same_sun.unwrap().direction);
+    let (nearer, _) = outside("", angles, 1.0 / eccentricity(3));
+    assert!((zenith(&winter) / zenith(&nearer) - 1.0).abs() < 1e-9, "{} {}", zenith(&winter), zenith(&nearer));
+    assert!((zenith(&winter) / zenith(&plain) - 1.0).abs() > 1e-5);
 }

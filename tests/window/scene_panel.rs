@@ -1,12 +1,14 @@
 //! The scene panel: what is typed is taken or told, nothing else changes, and the illuminances are those of the moment.
 
-use crate::driven::{coarsen, frames, settle};
-use cfs::app::App;
-use cfs::app::backend::StudyEngine;
+use crate::driven::{Idle, apply, coarsen, frames, services, settle};
+use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
+use cfs::app::compare::Act;
+use cfs::app::messages::Message;
 use cfs::app::state::{PathUse, Settings, State};
 use cfs::app::title::title;
-use cfs::study::scene_file::{IlluminanceKey, SceneFile};
+use cfs::app::{App, Services};
+use cfs::study::scene_file::{IdealKind, IlluminanceKey, SceneFile, SystemKeys};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -100,6 +102,43 @@ fn a_session_of_an_older_version_does_not_freeze() {
     assert_eq!(state.document.scene.sky.illuminance, IlluminanceKey::ClearSky);
     let kept = State::new(Settings { last_scene: Some(text.replace("clear-sky", "rp-21")), ..Settings::default() });
     assert_eq!(kept.document.scene.sky.illuminance, IlluminanceKey::Rp21);
+}
+
+#[test]
+fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
+    let mut own = cfs::app::scene::first_scene();
+    own.aperture[0].system = SystemKeys::Ideal { kind: IdealKind::Diffuse, transmittance: 0.5 };
+    let settings = Settings { last_scene: toml::to_string(&own).ok(), ..Settings::default() };
+    let services = services(memory_shelf);
+    let mut harness = frames(App::new(Services { engine: Arc::new(Idle), ..services }, settings), [1280.0, 720.0]);
+    settle(&mut harness);
+    let state = &harness.state().state;
+    assert_eq!(state.document.scene, own);
+    // The product's tiles are alive, the title says what lights the room.
+    let shown = state.document.selection.clone();
+    assert!(!shown.product.is_empty() && state.product.as_ref().is_some_and(|product| product.key == shown.product));
+    assert!(words(&harness).starts_with("cfs – ideal diffuse · "), "{}", words(&harness));
+    let told = |harness: &Harness<'_, App>| {
+        let said = |message: &Message| message.text.contains("own system (ideal diffuse)");
+        harness.state().toasts.all().filter(|message| said(message)).count()
+    };
+    assert_eq!(told(&harness), 1);
+    // Put beside others, it is the scene's own.
+    harness.state_mut().apply(Command::Compare(Act::Add));
+    assert_eq!(scene(&harness).compare[0].system.as_ref(), Some(&own.aperture[0].system));
+    harness.state_mut().apply(Command::Undo);
+    // Opened again from a file it says so again; chosen, a product goes into the room.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    std::fs::write(&path, toml::to_string(&own).unwrap()).unwrap();
+    harness.state_mut().apply(Command::OpenPaths(vec![path]));
+    settle(&mut harness);
+    assert_eq!((told(&harness), scene(&harness)), (2, &own));
+    let other = harness.state().state.found.entries.iter().find(|one| one.key != shown.product).unwrap().key.clone();
+    apply(&mut harness, Command::Select(other.clone()));
+    assert!(matches!(&scene(&harness).aperture[0].system, SystemKeys::Catalogue { key, .. } if *key == other));
+    harness.state_mut().apply(Command::Undo);
+    assert_eq!(scene(&harness), &own);
 }
 
 #[test]

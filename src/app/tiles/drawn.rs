@@ -59,9 +59,9 @@ impl<'a> TileInput<'a> {
         }
     }
 
-    /// Product and moment in words.
+    /// What lights the room and the moment, in words.
     pub fn caption(&self) -> String {
-        format!("{} · {}", title::selection(self.state), title::time(&self.state.document.scene))
+        format!("{} · {}", title::in_room(self.state), title::time(&self.state.document.scene))
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Sources: Ineichen, Perez, "A new airmass independent formulation for the Linke turbidity coefficient", Solar Energy
 //! 73 (2002) 151–157; air mass of Kasten, Young 1989 times the pressure of the standard atmosphere; luminous efficacy of
-//! Perez 1990 ([`PerezState`]). The ±3 % by which the distance to the sun changes over the year are left out, since a
-//! scene given by sun angles has no date.
+//! Perez 1990 ([`PerezState`]). The ±3 % by which the distance to the sun changes over the year are left out, of
+//! E₀ here and in the state of the sky alike: a scene given by sun angles has no date.
 
 use super::perez::PerezState;
 
@@ -43,7 +43,7 @@ pub fn clear_sky_irradiances(altitude: f64, turbidity: f64, elevation: f64) -> (
 /// in is that of [`clear_sky_irradiances`].
 pub fn clear_sky_illuminances(altitude: f64, turbidity: f64, elevation: f64) -> (f64, f64) {
     let (direct, diffuse) = clear_sky_irradiances(altitude, turbidity, elevation);
-    match PerezState::new(altitude, direct, diffuse) {
+    match PerezState::new(altitude, direct, diffuse, 1.0) {
         Some(state) => (direct * state.direct_efficacy(), diffuse * state.diffuse_efficacy()),
         // The sun is below the horizon, or just above it and its light is less than any number.
         None => (0.0, 0.0),

@@ -2,8 +2,8 @@
 //!
 //! Sources: Perez, Seals, Michalsky, "All-weather model for sky luminance distribution", Solar Energy 50 (1993)
 //! 235–245; Perez, Ineichen, Seals, Michalsky, Stewart, "Modeling daylight availability …", Solar Energy 44 (1990)
-//! 271–289 (efficacy); Kasten 1965 (air mass). E₀ = 1367 W/m² without the eccentricity of the earth's orbit, since a
-//! scene given by sun angles has no date.
+//! 271–289 (efficacy); Kasten 1965 (air mass). E₀ = 1367 W/m² times the [`eccentricity`] of the earth's orbit where
+//! there is a date.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -98,6 +98,14 @@ const DIRECT_EFFICACY: [[f64; 4]; 8] = [
     [101.18, 1.58, -1.10, -8.29],
 ];
 
+/// (r₀/r)² of the earth's orbit, what the sun sends against its mean, on a day of the year counted from 1 (Spencer, "Fourier
+/// series representation of the position of the sun", Search 2 (1971) 172).
+pub fn eccentricity(day: u16) -> f64 {
+    let angle = 2.0 * std::f64::consts::PI * (f64::from(day) - 1.0) / 365.0;
+    let ((sin, cos), (sin_twice, cos_twice)) = (angle.sin_cos(), (2.0 * angle).sin_cos());
+    1.00011 + 0.034_221 * cos + 0.00128 * sin + 0.000_719 * cos_twice + 0.000_077 * sin_twice
+}
+
 /// The state of a Perez sky.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerezState {
@@ -113,9 +121,10 @@ pub struct PerezState {
 }
 
 impl PerezState {
-    /// From the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal irradiance \[W/m²\].
+    /// From the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal irradiance \[W/m²\], and
+    /// the day's [`eccentricity`], 1 where there is no date.
     /// `None` where the model has no meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
-    pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64) -> Option<Self> {
+    pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, eccentricity: f64) -> Option<Self> {
         let valid = altitude > 0.0
             && altitude <= FRAC_PI_2 + 1e-12
             && direct_normal >= 0.0
@@ -130,7 +139,7 @@ impl PerezState {
         let clearness = ((diffuse_horizontal + direct_normal) / diffuse_horizontal + cubed) / (1.0 + cubed);
         let clearness = clearness.clamp(1.0, 12.009);
         let air_mass = 1.0 / (zenith.cos() + 0.15 * (93.885 - zenith.to_degrees()).powf(-1.253));
-        let brightness = (diffuse_horizontal * air_mass / SOLAR_CONSTANT).clamp(0.01, 0.6);
+        let brightness = (diffuse_horizontal * air_mass / (SOLAR_CONSTANT * eccentricity)).clamp(0.01, 0.6);
         let bin = BIN_BORDERS.iter().filter(|&&border| clearness >= border).count();
         let coefficients = luminance_coefficients(bin, clearness, brightness, zenith);
         Some(Self { clearness, brightness, coefficients, zenith, bin })

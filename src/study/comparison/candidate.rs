@@ -1,6 +1,7 @@
 //! A candidate as the scene that it is.
 
-use crate::study::scene_file::{CompareKeys, IdealKind, SceneFile, SystemKeys};
+use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
+use crate::study::scene_words;
 use crate::texts::words as texts;
 
 /// The scene of a candidate: what its keys do not say is as in `scene`. It has no candidates of its own.
@@ -47,18 +48,7 @@ pub fn label(keys: &CompareKeys) -> String {
         return keys.name.trim().to_owned();
     }
     let system = keys.system.as_ref().or(keys.aperture.first().map(|aperture| &aperture.system));
-    let with_state = |name: String, state: &Option<String>| match state {
-        Some(state) => format!("{name}, {state}"),
-        None => name,
-    };
-    match system {
-        Some(SystemKeys::Catalogue { key, state }) => with_state(key.clone(), state),
-        Some(SystemKeys::File { path, state }) => with_state(path.display().to_string(), state),
-        Some(SystemKeys::Luminaires { index, set }) => with_state(index.display().to_string(), set),
-        Some(SystemKeys::Ideal { kind: IdealKind::Transparent, .. }) => texts::IDEAL_TRANSPARENT.into(),
-        Some(SystemKeys::Ideal { kind: IdealKind::Diffuse, .. }) => texts::IDEAL_DIFFUSE.into(),
-        None => texts::AS_IN_SCENE.into(),
-    }
+    system.map_or_else(|| texts::AS_IN_SCENE.into(), scene_words::system)
 }
 
 #[cfg(test)]

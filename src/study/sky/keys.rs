@@ -2,6 +2,7 @@
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
+use crate::compute::sky::perez::eccentricity;
 use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 
@@ -72,9 +73,17 @@ pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     only("sky.diffuse_horizontal_irradiance", diffuse.is_some(), SkyModelKey::Perez, "perez")
 }
 
-/// From angles or from time; `None` with neither.
+/// How much the sun sends against its mean, by the date; 1 without one.
+pub(super) fn eccentricity_of(sky: &SkyKeys) -> Result<f64, SkyKeyError> {
+    let Some(time) = &sky.time else { return Ok(1.0) };
+    let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
+    Ok(eccentricity(time.day_of_year().unsigned_abs()))
+}
+
+/// From angles, else from time; `None` with neither.
 pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir<World>>, SkyKeyError> {
-    let Some(time) = &sky.time else {
+    let angles = sky.sun.altitude.is_some() || sky.sun.azimuth.is_some();
+    let Some(time) = sky.time.as_ref().filter(|_| !angles) else {
         return match (sky.sun.altitude, sky.sun.azimuth) {
             (Some(altitude), Some(azimuth)) => {
                 Ok(Some(Dir::from_altitude_bearing(altitude.to_radians(), Bearing::from_degrees(azimuth))))
@@ -86,9 +95,6 @@ pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir
             (None, Some(_)) => Err(wrong("sky.sun.altitude", "missing: sun.azimuth needs an altitude beside it")),
         };
     };
-    if sky.sun.altitude.is_some() || sky.sun.azimuth.is_some() {
-        return Err(wrong("sky.time", "given together with sun angles: give either the time or altitude and azimuth"));
-    }
     let need = |key, value: Option<f64>| value.ok_or_else(|| wrong(key, "missing: sky.time needs it"));
     let latitude = need("site.latitude", site.latitude)?;
     let longitude = need("site.longitude", site.longitude)?;
