@@ -85,8 +85,8 @@ const THICK: f64 = 0.15;
 const BEYOND: f64 = 0.5;
 
 /// To the millimetre, so that what is shown is what is meant.
-fn exact(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0
+pub fn exact(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0 + 0.0
 }
 
 /// The rectangle of the façade that what is put there goes with: the first window, or else the whole wall.

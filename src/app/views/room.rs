@@ -145,7 +145,10 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     // A scale that is shared stands above all tiles.
     let shared = input.range.is_some() && !input.look.daylight_factor;
     let legend_height = if shared { 0.0 } else { LEGEND_HEIGHT };
-    // While something is dragged the picture stands still.
+    // While something is dragged the picture stands still; what was dragged may have been taken away under the hand.
+    if !ui.input(|input| input.pointer.any_down()) {
+        state.held = None;
+    }
     let kept = state.span.filter(|(of, _)| state.held.is_some() && *of == side).map(|(_, span)| span);
     let span = kept.unwrap_or_else(|| outside::span(input, side));
     state.span = Some((side, span));

@@ -1,7 +1,7 @@
 //! What stands outside: boxes with name, place and size in metres, and what they send.
 
 use crate::app::command::Command;
-use crate::app::outside::{Act, Kind, name};
+use crate::app::outside::{Act, Kind, exact, name};
 use crate::app::panels::fields::{number, number_by, row};
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
@@ -39,24 +39,18 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
 /// Draws the section.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, commands: &mut Vec<Command>) {
     for (number, keys) in scene.outside.iter_mut().enumerate() {
-        ui.push_id(number, |ui| {
-            let name = name(number, keys);
+        let name = name(number, keys);
+        CollapsingHeader::new(&name).id_salt(number).show(ui, |ui| {
+            one(ui, keys);
             ui.horizontal(|ui| {
-                let size = ui.spacing().interact_size.y;
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
-                    let remove = ui.small_button("×").accessible_name(texts::remove_box(&name));
-                    if remove.on_hover_text(texts::REMOVE).clicked() {
-                        commands.push(Command::Outside(Act::Remove(Some(number))));
-                    }
-                    let copy = ui.small_button("+").accessible_name(texts::duplicate_box(&name));
-                    if copy.on_hover_text(texts::DUPLICATE).clicked() {
-                        commands.push(Command::Outside(Act::Duplicate(Some(number))));
-                    }
-                    ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
-                        ui.set_min_height(size);
-                        CollapsingHeader::new(&name).id_salt(number).show(ui, |ui| one(ui, keys));
-                    });
-                });
+                let copy = ui.button(texts::DUPLICATE).accessible_name(texts::duplicate_box(&name));
+                if copy.on_hover_text(texts::DUPLICATE_TIP).clicked() {
+                    commands.push(Command::Outside(Act::Duplicate(Some(number))));
+                }
+                let remove = ui.button(texts::REMOVE).accessible_name(texts::remove_box(&name));
+                if remove.on_hover_text(texts::REMOVE_TIP).clicked() {
+                    commands.push(Command::Outside(Act::Remove(Some(number))));
+                }
             });
         });
     }
@@ -81,11 +75,6 @@ fn length(ui: &mut Ui, label: Text, low: &mut f64, high: &mut f64, keeps_high: b
             *high = exact(*low + size);
         }
     }
-}
-
-/// To the millimetre, so that what is shown is what is meant.
-fn exact(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0
 }
 
 fn one(ui: &mut Ui, keys: &mut OutsideKeys) {

@@ -82,7 +82,8 @@ const fn edge_word(surface: Surface, axis: usize, far: bool) -> Text {
 /// The nearest step, to the millimetre so that what is shown is what is meant.
 pub(super) fn snapped(value: f64, step: f64) -> f64 {
     let value = if step > 0.0 { (value / step).round() * step } else { value };
-    (value * 1000.0).round() / 1000.0
+    // Nothing is at −0 m.
+    (value * 1000.0).round() / 1000.0 + 0.0
 }
 
 /// An aperture with an edge, or all of it, moved by a way along its axes. \[m\]
