@@ -99,7 +99,7 @@ impl YearKey {
         if moment::of(scene).is_none() {
             return Some(texts::YEAR_NEEDS_DATE.into());
         }
-        Situation::of(scene).err().map(|error| texts::no_year(error))
+        Situation::of(scene).err().map(texts::no_year)
     }
 
     fn moving(&self, product: &Product) -> Result<Vec<Moving>, StudyError> {

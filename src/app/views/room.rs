@@ -12,6 +12,7 @@ mod outside;
 mod perspective;
 mod plan;
 mod profile;
+mod steps;
 mod words;
 
 pub use input::{Action, CellValue, Input, Opening, Quantity};

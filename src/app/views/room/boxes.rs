@@ -1,8 +1,8 @@
 //! Boxes outside moved and resized by hand: they keep out of the room and touch it where they are pushed against it.
 
-use super::handles::snapped;
 use super::input::Frame;
 use super::outside::{outline, room, solid};
+use super::steps::snapped;
 use crate::study::scene_file::BoxKeys;
 use crate::texts::{Text, tiles as say};
 use egui::Pos2;

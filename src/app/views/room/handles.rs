@@ -3,6 +3,7 @@
 use super::boxes;
 use super::input::{Action, Frame, Input, Opening};
 use super::outside;
+use super::steps::{STEPS, snapped};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::tile;
 use crate::compute::direction::Surface;
@@ -11,8 +12,6 @@ use egui::{
     Align2, CursorIcon, EventFilter, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2,
 };
 
-/// Steps of what is moved, and with Shift. \[m\]
-pub(super) const STEPS: [f64; 2] = [0.05, 0.01];
 /// Smallest edge of an aperture. \[m\]
 const LEAST: f64 = 0.05;
 /// Half of the place round a handle where it can be taken. \[points\]
@@ -77,13 +76,6 @@ const fn edge_word(surface: Surface, axis: usize, far: bool) -> Text {
         (Surface::Roof, _, false) => say::NEAR_EDGE,
         (Surface::Roof, _, true) => say::FAR_EDGE,
     }
-}
-
-/// The nearest step, to the millimetre so that what is shown is what is meant.
-pub(super) fn snapped(value: f64, step: f64) -> f64 {
-    let value = if step > 0.0 { (value / step).round() * step } else { value };
-    // Nothing is at −0 m.
-    (value * 1000.0).round() / 1000.0 + 0.0
 }
 
 /// An aperture with an edge, or all of it, moved by a way along its axes. \[m\]
