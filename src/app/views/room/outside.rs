@@ -162,15 +162,14 @@ pub(super) fn over(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
 pub(super) fn tell(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let list: Vec<String> = beyond(input, frame).into_iter().map(|(words, _)| words).collect();
     let Some(first) = list.first() else { return };
-    let font = FontId::proportional(13.0);
-    let lines = [list.join(" · "), say::boxes_beyond_first(first, list.len() - 1), say::boxes_beyond(list.len())];
-    let skipped = usize::from(list.len() == 1);
-    // One alone has nothing that follows it.
-    let fitting = lines.iter().enumerate().filter(|(k, _)| *k != skipped || skipped == 0).map(|(_, text)| {
-        let galley = ui.painter().layout_no_wrap(text.clone(), font.clone(), palette.weak);
-        (galley.size().x <= place.width(), galley)
-    });
-    let Some((_, galley)) = fitting.into_iter().find(|(fits, _)| *fits) else { return };
+    let mut lines = vec![list.join(" · ")];
+    if list.len() > 1 {
+        lines.push(say::boxes_beyond_first(first, list.len() - 1));
+    }
+    lines.push(say::boxes_beyond(list.len()));
+    let mut galleys =
+        lines.into_iter().map(|text| ui.painter().layout_no_wrap(text, FontId::proportional(13.0), palette.weak));
+    let Some(galley) = galleys.find(|galley| galley.size().x <= place.width()) else { return };
     let at = Align2::LEFT_CENTER.anchor_size(place.left_center(), galley.size());
     let response = ui.interact(at, ui.scope_id().with("beyond"), Sense::hover());
     ui.painter().galley(at.min, galley, palette.weak);
