@@ -209,6 +209,10 @@ impl Situation {
             }
             None => 2026,
         };
+        if file.sky.skyline.is_some() && file.sky.obstruction.is_some() {
+            let message = "given together with sky.obstruction: give one of them";
+            return Err(StudyError::key("sky.skyline", message));
+        }
         let skyline_by_bearing = file.sky.skyline.as_ref().map(by_bearing).transpose();
         let skyline_by_bearing = skyline_by_bearing.map_err(|(key, message)| StudyError::key(key, message))?;
         let skyline = file.sky.obstruction.map_or(0.0, |keys| keys.altitude);
