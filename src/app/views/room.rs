@@ -40,8 +40,17 @@ pub struct State {
     scale: Option<(Quantity, ColourScale)>,
     pictures: plan::Pictures,
     held: Option<handles::Held>,
-    span: Option<(bool, Span)>,
+    shown: Option<Shown>,
     perspective: perspective::State,
+}
+
+/// What of the surroundings a picture shows.
+#[derive(Debug, Clone, Copy)]
+struct Shown {
+    side: bool,
+    span: Span,
+    /// A line tells what lies beyond it.
+    told: bool,
 }
 
 /// Draws the tile into all the space of `ui`.
@@ -150,17 +159,21 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     if !ui.input(|input| input.pointer.any_down()) {
         state.held = None;
     }
-    let kept = state.span.filter(|(of, _)| state.held.is_some() && *of == side).map(|(_, span)| span);
-    let span = kept.unwrap_or_else(|| outside::span(input, side));
-    state.span = Some((side, span));
-    let told = if outside::tells(input, side, span) { outside::TOLD_HEIGHT } else { 0.0 };
+    let kept = state.shown.filter(|shown| state.held.is_some() && shown.side == side);
+    let Shown { span, told, .. } = *state.shown.insert(kept.unwrap_or_else(|| {
+        let span = outside::span(input, side);
+        Shown { side, span, told: outside::tells(input, side, span) }
+    }));
+    let told = if told { outside::TOLD_HEIGHT } else { 0.0 };
     let frame_rect = Rect::from_min_max(
         pos2(rect.left() + LEFT, rect.top() + told + if side { 6.0 } else { 2.0 }),
         pos2(rect.right() - RIGHT, rect.bottom() - profile_height - legend_height - 6.0),
     );
     let frame = Frame::around(frame_rect, span, input.room, side);
     let told = Rect::from_min_size(pos2(frame_rect.left(), rect.top()), vec2(frame_rect.width(), told));
-    outside::tell(ui, told, &frame, input, &palette);
+    if told.is_positive() {
+        outside::tell(ui, told, &frame, input, &palette);
+    }
     outside::show(ui, &frame, input, &palette);
     let name = if side { say::ROOM_SECTION } else { say::ROOM_PLAN };
     let response = ui.interact(frame.area, ui.scope_id().with(name.english()), Sense::click());

@@ -109,10 +109,12 @@ fn overlap(a: &Opening, b: &Opening) -> bool {
     a.surface == b.surface && along(0) && along(1)
 }
 
-/// Boxes outside, the small ones over the large, and their faces over all of them.
-fn solids(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
+/// Boxes outside, the small ones over the large, and their faces over all of them: those in sight, or `all`, as what is
+/// dragged may leave the picture.
+fn solids(input: &Input<'_>, frame: &Frame, all: bool) -> Vec<Handle> {
     let bodies = input.outside.iter().enumerate().filter_map(|(number, (keys, name))| {
-        let place = outside::bounds(keys, frame).expand(2.0).intersect(frame.view);
+        let place = outside::bounds(keys, frame).expand(2.0);
+        let place = if all { place } else { place.intersect(frame.view) };
         place.is_positive().then(|| Handle { part: Part::Solid(number), place, name: say::move_box(name) })
     });
     let mut list: Vec<Handle> = bodies.collect();
@@ -123,7 +125,7 @@ fn solids(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
             let middle = outside::bounds(keys, frame).center();
             let way = at - middle;
             let at = at + REACH * if way.length() > 0.5 { way.normalized() } else { vec2(0.0, 0.0) };
-            if frame.view.expand(REACH).contains(at) {
+            if all || frame.view.expand(REACH).contains(at) {
                 let place = Rect::from_center_size(at, vec2(2.0, 2.0) * REACH);
                 let name = say::box_face(name, boxes::face_word(axis, far));
                 list.push(Handle { part: Part::Face { solid: number, axis, far }, place, name });
@@ -133,8 +135,8 @@ fn solids(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
     list
 }
 
-fn handles(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
-    let mut list = solids(input, frame);
+fn handles(input: &Input<'_>, frame: &Frame, held: bool) -> Vec<Handle> {
+    let mut list = solids(input, frame, held);
     if let Some(z) = input.plane_z.filter(|_| frame.side) {
         let place = Rect::from_two_pos(frame.screen(0.0, z), frame.screen(input.room[1], z)).expand2(vec2(0.0, REACH));
         list.push(Handle { part: Part::Plane, place, name: say::SENSOR_PLANE.into() });
@@ -263,7 +265,7 @@ fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
 /// Offers all handles of a picture, over what is drawn already; `held`: kept from frame to frame.
 pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Option<Held>, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
-    for Handle { part, place, name } in handles(input, frame) {
+    for Handle { part, place, name } in handles(input, frame, held.is_some()) {
         let id = ui.scope_id().with(("handle", part, frame.side));
         let response = ui.interact(place, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(match part {
