@@ -72,6 +72,7 @@
 //! | skip work that a scene does not need | [`study::plan`] |
 //! | say something in the window, or say it better | a line in [`texts`], in both languages |
 //! | add a subcommand | a file in [`cli`] named like it |
+//! | put another kind of thing outside by a command | [`app::outside`] |
 //! | change the tour | [`app::tour`] |
 //! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
 //! | change what belongs to a product when files come in | [`catalogue::Grouping`] and its file |

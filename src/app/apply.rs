@@ -4,6 +4,7 @@ use super::command::Command;
 use super::hand_on::What;
 use super::jobs::Lane;
 use super::moment;
+use super::outside;
 use super::scene::{Selection, fill, first_scene, rule, set_rule};
 use super::state::{Document, PathUse, Sheet};
 use super::window::{App, end_step};
@@ -176,6 +177,11 @@ impl App {
                 }
             }
             Command::Scene(scene) => state.document.scene = *scene,
+            Command::Outside(act) => {
+                if let Err(refused) = outside::act(&mut state.document.scene, act) {
+                    self.toasts.info(refused.words());
+                }
+            }
             Command::Find(query) => {
                 state.query = query;
                 self.search();

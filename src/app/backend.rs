@@ -303,6 +303,7 @@ impl Engine for StudyEngine {
             interreflected: result.sensors.iter().map(|sensor| sensor.interreflected).collect(),
             beam: result.sensors.iter().map(|sensor| sensor.beam).collect(),
             data_error: result.sensors.iter().map(|sensor| sensor.data_error).collect(),
+            outside: result.outside,
             grid: scene.grid,
             coarse: false,
             seconds: start.elapsed().as_secs_f64(),

@@ -9,6 +9,7 @@ use super::import::{ImportFields, StateWords};
 use super::import_steps::Step;
 use super::jobs::Lane;
 use super::language::LanguageChoice;
+use super::outside;
 use super::room_look::{RoomLook, RoomView};
 use super::shelf::Query;
 use super::shelving::Shelving;
@@ -111,6 +112,8 @@ pub enum Command {
     Row(i32),
     /// Change the scene.
     Scene(Box<SceneFile>),
+    /// Put a box outside, double one, or take one away.
+    Outside(outside::Act),
     /// Search for something else.
     Find(Query),
     /// Set or take a star.
@@ -206,6 +209,6 @@ pub enum Command {
 impl Command {
     /// Is what this changes in the document a step of its own for undo? Not what is dragged, or repeated by a key that is held.
     pub const fn is_step(&self) -> bool {
-        matches!(self, Self::ResetScene | Self::Compare(_))
+        matches!(self, Self::ResetScene | Self::Compare(_) | Self::Outside(_))
     }
 }

@@ -1,7 +1,7 @@
 //! What is to be computed as soon as it is in sight.
 
 use super::jobs::Lane;
-use crate::study::scene_file::{RoomKeys, SceneFile, SensorKeys, SurfaceKey};
+use crate::study::scene_file::{BoxKeys, RoomKeys, SceneFile, SensorKeys, SurfaceKey};
 use std::collections::BTreeSet;
 
 /// What the sensors' weights hang on: another sky, sun or system costs next to nothing.
@@ -10,13 +10,15 @@ pub struct Geometry {
     room: RoomKeys,
     openings: Vec<(SurfaceKey, [f64; 2], [f64; 2])>,
     sensors: SensorKeys,
+    outside: Vec<BoxKeys>,
 }
 
 impl Geometry {
     /// Of a scene.
     pub fn of(scene: &SceneFile) -> Self {
         let openings = scene.aperture.iter().map(|one| (one.surface, one.origin, one.size)).collect();
-        Self { room: scene.room, openings, sensors: scene.sensors.clone() }
+        let outside = scene.outside.iter().map(|one| one.solid).collect();
+        Self { room: scene.room, openings, sensors: scene.sensors.clone(), outside }
     }
 }
 

@@ -8,12 +8,11 @@ use crate::compute::direction::Incident;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::{Interpolator, Lid};
 use crate::formats::luminaire::Description;
-use crate::study::SurfaceLight;
 use crate::study::accuracy::Accuracy;
 use crate::study::luminaire_set::{LuminaireSet, Wish};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
-use crate::study::{Library, Session};
+use crate::study::{Library, OutsideSeen, Session, SurfaceLight};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -30,6 +29,8 @@ pub struct RoomFigures {
     pub beam: Vec<f64>,
     /// What the data leave open besides the errors of the computation; likewise. \[lx\]
     pub data_error: Vec<f64>,
+    /// How the apertures saw what stands outside; empty where nothing does.
+    pub outside: Vec<OutsideSeen>,
     /// Columns and rows when the sensors are a grid.
     pub grid: Option<[usize; 2]>,
     /// Of fewer sensors than the scene has, for a picture at once; all of them follow.

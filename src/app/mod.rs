@@ -54,6 +54,7 @@ pub mod moment;
 pub mod naming;
 pub mod offer;
 pub mod outcomes;
+pub mod outside;
 pub mod paint;
 pub mod palette;
 pub mod panels;

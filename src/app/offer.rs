@@ -7,6 +7,7 @@ use super::compare::{Act, Look};
 use super::control;
 use super::examples::EXAMPLES;
 use super::language::LanguageChoice;
+use super::outside;
 use super::room_look::RoomView;
 use super::shelving::Shelving;
 use super::state::{self, PathUse};
@@ -19,7 +20,7 @@ use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
 use crate::texts::tiles as tiles_say;
-use crate::texts::{self, Language::English, Text, catalogue, language, shell, speak};
+use crate::texts::{self, Language::English, Text, catalogue, language, scene, shell, speak};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
@@ -253,6 +254,13 @@ fn table() -> Vec<Offer> {
         offer(act(Act::Copy), words::COPY_COMPARED, words::COPY_COMPARED_TIP).menu(COMPARE, 30),
         offer(act(Act::Clear), words::CLEAR_TRAY, words::CLEAR_TRAY_TIP).menu(COMPARE, 31),
         offer(Like(None), words::LIKE, words::LIKE_TIP).menu(COMPARE, 40),
+    ]);
+    let outdoors =
+        |act: outside::Act, text: Text, tip: Text| offer(Outside(act), text, tip).menu(EDIT, 3).within(scene::OUTSIDE);
+    list.extend(outside::Kind::ALL.map(|kind| outdoors(outside::Act::Add(kind), kind.order(), scene::ADD_OUTSIDE_TIP)));
+    list.extend([
+        outdoors(outside::Act::Duplicate(None), scene::DUPLICATE_LAST, scene::DUPLICATE_TIP),
+        outdoors(outside::Act::Remove(None), scene::REMOVE_LAST, scene::REMOVE_TIP),
     ]);
     list.extend([
         offer(ResetScene, words::RESET_SCENE, words::RESET_SCENE_TIP).menu(EDIT, 2),

@@ -17,7 +17,8 @@ each controlled aperture N (from 1): profile_angle_deg_N (empty while no part of
 (what the rule asks for, in the unit of the states), state_N (its key), direct_sun_N (1: direct sun passes between the \
 slats, 0: none does, empty: the slats are not known) and reason_N (sun, no-sun, night, bright, dark, schedule, fixed).
 
-The sun is taken to shine whenever any of its disc is up, as bright as under a clear sky."
+The sun is taken to shine whenever any of its disc is up, as bright as under a clear sky. A skyline hides it; boxes outside \
+([[outside]]) do not: a control goes by where the sun is."
 )]
 pub struct ControlArgs {
     /// Scene file (TOML)
@@ -70,6 +71,10 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
         if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
             eprintln!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
         }
+    }
+    if situation.unseen_boxes > 0 {
+        let boxes = if situation.unseen_boxes == 1 { "the box" } else { "the boxes" };
+        eprintln!("{boxes} outside: not seen by the controls, which go by where the sun is");
     }
     Ok(())
 }
@@ -125,6 +130,7 @@ fn json(list: &[Moving], sums: &[Summary], situation: &Situation, step: u32) -> 
         "year": situation.year,
         "step_minutes": step,
         "light": "clear sky at all hours",
+        "unseen_boxes": situation.unseen_boxes,
         "apertures": apertures,
     })
 }

@@ -52,7 +52,7 @@ pub use error::StudyError;
 pub use library::Library;
 pub use scene::Scene;
 pub use scene_file::SceneFile;
-pub use session::{LidResult, PatchLight, RoomResult, SensorResult, Session, SurfaceLight};
+pub use session::{LidResult, OutsideSeen, PatchLight, RoomResult, SensorResult, Session, SurfaceLight};
 pub use system::{System, SystemLibrary};
 
 use std::path::Path;

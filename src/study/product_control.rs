@@ -19,6 +19,12 @@ const YEAR_STEP: u32 = 60;
 /// Minutes between the points of today.
 const DAY_STEP: u32 = 30;
 
+/// What is to be said of the year of a control in a scene: it goes by the sun's place, and boxes outside do not hide it.
+pub fn remark(scene: &SceneFile, mode: ControlMode) -> Option<Text> {
+    let by_sun = !matches!(mode, ControlMode::Fixed | ControlMode::User);
+    (by_sun && !scene.outside.is_empty()).then_some(texts::BOXES_UNSEEN)
+}
+
 /// What people call a rule.
 pub struct Words {
     /// In a list.
@@ -86,6 +92,14 @@ impl YearKey {
     pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, surface: Surface, base: PathBuf) -> Option<Self> {
         moment::of(scene)?;
         Some(Self { product: product.to_owned(), keys, situation: Situation::of(scene).ok()?, surface, base })
+    }
+
+    /// Why a scene has no year of control, and what can be done.
+    pub fn missing(scene: &SceneFile) -> Option<String> {
+        if moment::of(scene).is_none() {
+            return Some(texts::YEAR_NEEDS_DATE.into());
+        }
+        Situation::of(scene).err().map(texts::no_year)
     }
 
     fn moving(&self, product: &Product) -> Result<Vec<Moving>, StudyError> {

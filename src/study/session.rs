@@ -5,6 +5,7 @@ mod behind;
 mod emission;
 pub(super) mod interreflected;
 mod lights;
+mod outside_seen;
 pub(super) mod responses;
 mod split;
 mod surfaces;
@@ -31,6 +32,7 @@ use crate::compute::room::first_bounce::PatchWeights;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
+pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
@@ -93,6 +95,8 @@ pub struct RoomResult {
     pub flux_gap: f64,
     /// How the sun's beams were found, aperture by aperture, and what is to be said of it.
     pub beams: Vec<(BeamSource, String)>,
+    /// How the apertures saw what stands outside; empty where nothing does.
+    pub outside: Vec<OutsideSeen>,
     /// What ran, what was left out, and how long it took.
     pub plan: Plan,
 }
@@ -189,8 +193,9 @@ impl Session {
         let lights = self.lights(scene)?;
         let (emissions, splits) = (&lights.emissions, &lights.splits);
         let flux = lights.flux(scene);
-        for word in splits.iter().flat_map(|split| &split.words) {
-            plan.note("outside", true, word);
+        let outside: Vec<OutsideSeen> = splits.iter().map(|split| split.seen).collect();
+        for word in outside.iter().flat_map(OutsideSeen::sentences) {
+            plan.note("outside", true, &word);
         }
         plan.spend("emission", clock.elapsed());
         for note in emissions.iter().flat_map(|emission| &emission.notes) {
@@ -240,7 +245,7 @@ impl Session {
             .collect();
         let beams =
             emissions.iter().map(|emission| (emission.beam_source, sun_word(emission, scene.interpolation))).collect();
-        Ok(RoomResult { sensors, flux, flux_gap, beams, plan })
+        Ok(RoomResult { sensors, flux, flux_gap, beams, outside, plan })
     }
 
     /// Is everything there that sensors and apertures are to each other?

@@ -239,7 +239,7 @@ texts! {
     fn largest_drawn(value) = "largest intensity drawn {value}" | "größte gezeichnete Lichtstärke {value}";
 
     // Room.
-    const ROOM_ABOUT = "Illuminance on the sensor plane from above, façade at the left, with iso-lux lines; under it a section along the depth through the row of the cursor (click to keep a row), with lines at 300 and 500 lx and the band between the darkest and the brightest row. Windows, sensor plane and listed sensors can be dragged (5 cm steps, Shift 1 cm; or arrow keys). Perspective: the surfaces by their illuminance, or as luminances as seen; the sun's patches may be beyond the scale. Daylight factor: of an overcast CIE sky without sun.\nSource: direct part IEA SHC Task 31 report (2005), eq 17; interreflection by radiosity; 300 and 500 lx as in EN 17037." | "Beleuchtungsstärke auf der Nutzebene von oben, Fassade links, mit Isoluxlinien; darunter ein Schnitt in die Tiefe durch die Reihe unter dem Zeiger (Klick hält eine Reihe), mit Linien bei 300 und 500 lx und dem Band zwischen der dunkelsten und der hellsten Reihe. Fenster, Nutzebene und einzelne Messpunkte lassen sich ziehen (Schritte von 5 cm, mit Umschalt 1 cm; oder Pfeiltasten). Perspektive: die Flächen nach ihrer Beleuchtungsstärke oder als gesehene Leuchtdichten; Sonnenflecke können über der Skala liegen. Tageslichtquotient: unter einem bedeckten CIE-Himmel ohne Sonne.\nQuelle: direkter Anteil Bericht IEA SHC Task 31 (2005), Gl. 17; Interreflexion durch Radiosity; 300 und 500 lx nach EN 17037.";
+    const ROOM_ABOUT = "Illuminance on the sensor plane from above, façade at the left, with iso-lux lines; under it a section along the depth through the row of the cursor (click to keep a row), with lines at 300 and 500 lx and the band between the darkest and the brightest row. Windows, sensor plane, listed sensors and what stands outside can be dragged (5 cm steps, Shift 1 cm; or arrow keys; Delete takes a box outside away); boxes farther off than the picture goes are told with their distance. Perspective: the surfaces by their illuminance, or as luminances as seen; the sun's patches may be beyond the scale. Daylight factor: of an overcast CIE sky without sun.\nSource: direct part IEA SHC Task 31 report (2005), eq 17; interreflection by radiosity; 300 and 500 lx as in EN 17037." | "Beleuchtungsstärke auf der Nutzebene von oben, Fassade links, mit Isoluxlinien; darunter ein Schnitt in die Tiefe durch die Reihe unter dem Zeiger (Klick hält eine Reihe), mit Linien bei 300 und 500 lx und dem Band zwischen der dunkelsten und der hellsten Reihe. Fenster, Nutzebene, einzelne Messpunkte und was draußen steht lassen sich ziehen (Schritte von 5 cm, mit Umschalt 1 cm; oder Pfeiltasten; Entf nimmt einen Quader draußen weg); Quader jenseits des Bildes werden mit ihrer Entfernung genannt. Perspektive: die Flächen nach ihrer Beleuchtungsstärke oder als gesehene Leuchtdichten; Sonnenflecke können über der Skala liegen. Tageslichtquotient: unter einem bedeckten CIE-Himmel ohne Sonne.\nQuelle: direkter Anteil Bericht IEA SHC Task 31 (2005), Gl. 17; Interreflexion durch Radiosity; 300 und 500 lx nach EN 17037.";
     const ROOM_COMPUTING = "Computing the illuminances…" | "Beleuchtungsstärken werden berechnet…";
     const ROOM_EMPTY = "No illuminances yet: choose a product and a plane of sensors." | "Noch keine Beleuchtungsstärken: ein Produkt und eine Nutzebene wählen.";
     const PLAN = "Plan" | "Grundriss";
@@ -299,6 +299,17 @@ texts! {
     fn aperture(number) = "Aperture {number}" | "Öffnung {number}";
     fn move_aperture(number) = "Move aperture {number}" | "Öffnung {number} verschieben";
     fn aperture_edge(number, edge) = "Aperture {number}, {edge}" | "Öffnung {number}, {edge}";
+    const OUTER_EDGE = "outer side" | "Außenseite";
+    const INNER_EDGE = "inner side" | "Innenseite";
+    const UNDERSIDE = "underside" | "Unterseite";
+    const TOP = "top" | "Oberseite";
+    fn move_box(name) = "Move {name}" | "{name} verschieben";
+    fn box_face(name, face) = "{name}, {face}" | "{name}, {face}";
+    fn box_far(name, metres) = "{name} {metres} m away" | "{name} {metres} m entfernt";
+    fn box_cut(name, depth, across) = "{name} cut here, {depth} × {across} m" | "{name} hier beschnitten, {depth} × {across} m";
+    fn boxes_beyond_first(first, more) = "{first} and {more} more" | "{first} und {more} weitere";
+    fn boxes_beyond(count) = "{count} beyond" | "{count} jenseits";
+    const BEYOND_PICTURE = "Outside, beyond the picture" | "Draußen, jenseits des Bildes";
     fn from_to_metres(low, high, size) = "{low} to {high} m, {size} m" | "{low} bis {high} m, {size} m";
 
     // Control.
@@ -344,6 +355,7 @@ texts! {
     fn nearest_state(angle, rule, state) = "profile angle {angle}°{rule} · nearest {state}" | "Profilwinkel {angle}°{rule} · am nächsten: {state}";
     const YEAR_MAP = "Year map of states" | "Jahreskarte der Stellungen";
     const YEAR_MAP_VALUE = "hour against day" | "Stunde über Tag";
+    const YEAR_REMARK = "About the year" | "Zum Jahr";
     const NIGHT = "night" | "Nacht";
     fn day_hour(day, days, hour, what) = "day {day} of {days}, {hour} h · {what}" | "Tag {day} von {days}, {hour} Uhr · {what}";
 
@@ -364,6 +376,7 @@ texts! {
     const MEASURE_TIP = "Computes the present scene with rising effort by every method, on one thread: some seconds to a minute" | "Berechnet die Szene mit steigendem Aufwand nach jedem Verfahren, auf einem Rechenkern: einige Sekunden bis eine Minute";
     const EARLIER_SCENE = "of an earlier scene" | "von einer früheren Szene";
     const ACCURACY_EMPTY = "How far each method lies from the ordinary method's finest run, against the time that it takes, and whether the errors that it states are true." | "Wie weit jedes Verfahren vom feinsten Lauf des gewöhnlichen abweicht, über der Rechenzeit, und ob die angegebenen Unsicherheiten stimmen.";
+    const SPLIT_OUTSIDE = "What stands outside, as the apertures see it" | "Was draußen steht, wie die Öffnungen es sehen";
     const ACCURACY_PLOTS = "Error against run time" | "Unsicherheit über Rechenzeit";
     const ACCURACY_FRONT_TIP = "A square for each effort: further left is faster, further down more exact." | "Ein Quadrat je Aufwand: weiter links schneller, weiter unten genauer.";
     const ACCURACY_HONESTY_TIP = "A dot for each sensor: above the diagonal the stated error holds." | "Ein Punkt je Messpunkt: über der Diagonale gilt die angegebene Unsicherheit.";

@@ -139,6 +139,20 @@ texts! {
     const IDEAL_DIFFUSE = "ideal diffuse" | "ideal streuend";
     const AS_IN_SCENE = "as in the scene" | "wie in der Szene";
 
+    // A year of control.
+    const YEAR_NEEDS_DATE = "No year of control: the sun is given by angles. Choose “By date and time” in the scene." | "Kein Jahr der Regelung: Die Sonne ist durch Winkel gegeben. In der Szene „Nach Datum und Zeit“ wählen.";
+    fn no_year(problem) = "No year of control: {problem}" | "Kein Jahr der Regelung: {problem}";
+    const BOXES_UNSEEN = "The control goes by where the sun is: it does not see the boxes outside." | "Die Regelung geht nach dem Sonnenstand: Die Quader draußen sieht sie nicht.";
+
+    // What stands outside.
+    fn past_outside(number) = "aperture {number}: every sensor looks straight through and past what stands outside" | "Öffnung {number}: Jeder Messpunkt blickt gerade hindurch und an dem vorbei, was draußen steht";
+    fn outside_alike(number, change) = "aperture {number}: not split, its points see the outside alike (light changes by {change} %)" | "Öffnung {number}: nicht geteilt, ihre Punkte sehen dasselbe Außen (das Licht ändert sich um {change} %)";
+    fn outside_one_part(number, change) = "aperture {number}: split into one part, each with its own outside; over a part light still changes, smoothly, by up to {change} %" | "Öffnung {number}: ein Teil mit eigenem Außen; über den Teil ändert sich das Licht noch stetig, um bis zu {change} %";
+    fn outside_parts(number, parts, change) = "aperture {number}: split into {parts} parts, each with its own outside; over a part light still changes, smoothly, by up to {change} %" | "Öffnung {number}: in {parts} Teile mit je eigenem Außen geteilt; über einen Teil ändert sich das Licht noch stetig, um bis zu {change} %";
+    fn sun_on_all(number) = "aperture {number}: the sun reaches all of it" | "Öffnung {number}: Die Sonne erreicht sie ganz";
+    fn sun_on_none(number) = "aperture {number}: wholly in the shade of what stands outside" | "Öffnung {number}: ganz im Schatten dessen, was draußen steht";
+    fn sun_on_part(number, share) = "aperture {number}: the sun reaches {share} % of it, cut along the edges of the shadows" | "Öffnung {number}: Die Sonne erreicht {share} % von ihr, an den Schattenkanten scharf geschnitten";
+
     // Leaving out.
     fn left_out(label, count, means) = "{label}: each of {count} incident directions left out and foretold from those around it, flux misplaced in the mean: {means}." | "{label}: Jede von {count} Einfallsrichtungen wurde weggelassen und aus ihren Nachbarn vorhergesagt; im Mittel fehlgeleiteter Lichtstrom: {means}.";
     fn better_scheme(scheme, count, gain, theta, phi, own, responses) = " {scheme} would be better than responses at {count}, at most by {gain} (θ {theta}°, φ {phi}°: {own} against {responses})." | " {scheme} wäre besser als responses an {count} Richtungen, höchstens um {gain} (θ {theta}°, φ {phi}°: {own} gegen {responses}).";

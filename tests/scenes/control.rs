@@ -110,6 +110,8 @@ fn situation(latitude: f64, facade: f64) -> Situation {
         facade: cfs::compute::angle::Bearing::from_degrees(facade),
         ground_reflectance: 0.2,
         skyline: 0.0,
+        skyline_by_bearing: None,
+        unseen_boxes: 0,
         sky: SKY,
     }
 }

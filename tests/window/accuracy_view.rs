@@ -163,8 +163,14 @@ fn drawn(size: [f32; 2], theme: Theme) -> Harness<'static, view::State> {
     Harness::builder().with_size(size).with_theme(theme).build_ui_state(
         move |ui, state: &mut view::State| {
             ui.painter().rect_filled(ui.max_rect(), 0, ui.visuals().panel_fill);
-            let input =
-                view::Input { accuracy: Some(&accuracy), revision: 1, stale: false, error: None, running: Some(0.25) };
+            let input = view::Input {
+                accuracy: Some(&accuracy),
+                revision: 1,
+                stale: false,
+                error: None,
+                running: Some(0.25),
+                outside: &[],
+            };
             view::show(ui, &input, state);
         },
         view::State::default(),

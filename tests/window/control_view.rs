@@ -31,6 +31,7 @@ fn tile() -> Harness<'static, (control::State, Curve)> {
                 profile_angle: None,
                 current: 0,
                 year: &[],
+                remark: "",
                 moment: None,
                 revision: 0,
                 status: Status::default(),

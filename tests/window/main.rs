@@ -19,6 +19,7 @@ mod import_view;
 mod keyboard;
 mod languages;
 mod legible;
+mod outside_view;
 mod product_sheet;
 mod rearranging;
 mod room_view;

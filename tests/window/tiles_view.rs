@@ -135,7 +135,7 @@ fn the_dome_shows_boxes_as_the_first_aperture_sees_them() {
     assert!(harness.state().state.daylight.value.as_ref().unwrap().seen.is_none());
     let solid = BoxKeys { from: [-50.0, -30.0, 0.0], to: [50.0, -20.0, 40.0], turn: 0.0 };
     let scene = &mut harness.state_mut().state.document.scene;
-    scene.outside = vec![OutsideKeys { solid, reflectance: None, luminance: Some(500.0) }];
+    scene.outside = vec![OutsideKeys { name: String::new(), solid, reflectance: None, luminance: Some(500.0) }];
     let bearing = Bearing::from_degrees(scene.site.azimuth);
     settle(&mut harness);
     let daylight = harness.state().state.daylight.value.as_ref().unwrap();

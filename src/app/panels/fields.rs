@@ -65,9 +65,20 @@ pub fn number(
     range: RangeInclusive<f64>,
     decimals: usize,
 ) -> bool {
-    let (label, unit) = (label.into(), unit.into());
+    let speed = ((range.end() - range.start()) / 400.0).max(0.1_f64.powi(decimals as i32));
+    number_by(ui, (label.into(), unit.into()), value, range, decimals, speed)
+}
+
+/// The same, named with its unit, that changes by `speed` a point that it is dragged: for ranges that are wide.
+pub fn number_by(
+    ui: &mut Ui,
+    (label, unit): (&str, &str),
+    value: &mut f64,
+    range: RangeInclusive<f64>,
+    decimals: usize,
+    speed: f64,
+) -> bool {
     let (low, high) = (*range.start(), *range.end());
-    let speed = ((high - low) / 400.0).max(0.1_f64.powi(decimals as i32));
     let shown = fixed(*value, decimals);
     let (least, most) = (fixed(low, decimals), format!("{}{unit}", fixed(high, decimals)));
     let refused = RefCell::new(None);

@@ -1,8 +1,11 @@
 //! Where and when: sections that fold and then show their essence. What is wrong is said where it is typed.
 
 mod apertures;
+mod outside;
 mod place;
 mod sky;
+mod skyline;
+mod summer_time;
 mod when;
 
 use super::fields::number;
@@ -11,7 +14,7 @@ use crate::app::moment;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::title;
-use crate::study::scene_file::{ObstructionKeys, SceneFile, SkyModelKey};
+use crate::study::scene_file::{SceneFile, SkyModelKey};
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{CollapsingHeader, DragValue, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
 
@@ -21,15 +24,15 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     // A copy is edited; the panel changes nothing itself, and a command is given only where something differs.
     let mut scene = state.document.scene.clone();
     ScrollArea::vertical().id_salt("scene").auto_shrink([false, false]).show(ui, |ui| {
-        sections(ui, state, &mut scene);
+        sections(ui, state, &mut scene, commands);
     });
     if scene != state.document.scene {
         commands.push(Command::Scene(Box::new(scene)));
     }
 }
 
-/// The sections in the order in which a study is thought of: where, when, what sky, then the room.
-fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile) {
+/// The sections in the order in which a study is thought of: where, when, what sky, what stands before it, then the room.
+fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, commands: &mut Vec<Command>) {
     let perez = scene.sky.model == SkyModelKey::Perez;
     let wrong = |title: Text| {
         let error = state.scene_error.as_ref().filter(|error| section_of(error.key, perez) == title)?;
@@ -47,7 +50,11 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile) {
     section(ui, texts::SKY, &title::sky(scene), wrong_sky, true, |ui| sky::show(ui, scene, low_sun));
     let ground = format!("ρ {}", fixed(scene.site.ground_reflectance, 2));
     section(ui, texts::GROUND_AND_SKYLINE, &ground, wrong(texts::GROUND_AND_SKYLINE), false, |ui| {
-        ground_and_skyline(ui, scene);
+        number(ui, texts::GROUND_REFLECTANCE, "", &mut scene.site.ground_reflectance, 0.0..=1.0, 2);
+        skyline::show(ui, scene);
+    });
+    section(ui, texts::OUTSIDE, &outside::essence(scene), outside::problem(scene), false, |ui| {
+        outside::show(ui, scene, commands);
     });
     let count = scene.aperture.len();
     let essence = scene.aperture.first().map_or_else(
@@ -84,7 +91,7 @@ fn section_of(key: &str, perez: bool) -> Text {
         _ if key.starts_with("site.") => texts::PLACE,
         // A Perez sky's figures are wrong for a low sun, not the sun.
         _ if key.starts_with("sky.sun.a") && !perez => texts::DATE_AND_TIME,
-        _ if key.starts_with("sky.obstruction") => texts::GROUND_AND_SKYLINE,
+        _ if key.starts_with("sky.obstruction") || key.starts_with("sky.skyline") => texts::GROUND_AND_SKYLINE,
         _ if key.starts_with("room") => texts::ROOM,
         _ if key.starts_with("sensors") => texts::SENSORS,
         _ => texts::SKY,
@@ -150,17 +157,6 @@ fn dial(ui: &mut Ui, scene: &mut SceneFile) {
     if let Some((altitude, bearing)) = moment::sun(scene).filter(|sun| sun.0 > 0.0) {
         let reach = radius * (1.0 - altitude as f32 / std::f32::consts::FRAC_PI_2);
         painter.circle_filled(centre + towards(bearing) * reach, 4.0, palette.sun);
-    }
-}
-
-fn ground_and_skyline(ui: &mut Ui, scene: &mut SceneFile) {
-    number(ui, texts::GROUND_REFLECTANCE, "", &mut scene.site.ground_reflectance, 0.0..=1.0, 2);
-    let mut skyline = scene.sky.obstruction.unwrap_or(ObstructionKeys { altitude: 0.0, luminance: 0.0 });
-    let before = skyline;
-    number(ui, texts::SKYLINE_ALTITUDE, "°", &mut skyline.altitude, 0.0..=60.0, 1);
-    number(ui, texts::SKYLINE_LUMINANCE, " cd/m²", &mut skyline.luminance, 0.0..=20_000.0, 0);
-    if skyline != before {
-        scene.sky.obstruction = Some(skyline);
     }
 }
 

@@ -81,6 +81,7 @@ fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         stale: shown.stale,
         error: shown.error.as_deref(),
         running: running.map(|state| state.fraction().unwrap_or(0.0)),
+        outside: app.results.room.value.as_ref().map_or(&[], |room| &room.outside),
     };
     for action in accuracy::show(ui, &input, &mut app.accuracy_view) {
         commands.push(match action {

@@ -216,6 +216,11 @@ impl Drawn for Drawing {
         let moving = states.len() > 1;
         let sun = sun_incident(scene);
         let still = still(title::selected(state));
+        let remark = match (&key, moving) {
+            (_, false) => String::new(),
+            (None, true) => rules::YearKey::missing(scene).unwrap_or_default(),
+            (Some(_), true) => rules::remark(scene, mode).map_or_else(String::new, String::from),
+        };
         let input = control::Input {
             states: &states,
             still: still.get(),
@@ -233,9 +238,11 @@ impl Drawn for Drawing {
                     f64::from(time.hour()) + f64::from(time.minute()) / 60.0,
                 )
             }),
+            remark: &remark,
             revision: year.map_or(0, |_| shown.revision),
             status: seen.status(
-                moving && (shown.stale || state.dataset.stale),
+                // What there is none of is not awaited.
+                moving && (key.is_some() && shown.stale || state.dataset.stale),
                 shown.error.as_deref().or(state.dataset.error.as_deref()).filter(|_| moving && year.is_none()),
             ),
         };

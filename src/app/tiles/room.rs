@@ -4,6 +4,7 @@ use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
 use crate::app::engine::{RoomFigures, part};
 use crate::app::jobs::Lane;
+use crate::app::outside;
 use crate::app::paint::tile::Status;
 use crate::app::room_look::RoomView;
 use crate::app::state::{Daylight, State, Tile};
@@ -22,7 +23,7 @@ pub struct Drawing {
     view: room::State,
     shown: RoomView,
     /// Horizontal illuminance outside under the sky that a result (by its revision) is of. \[lx\]
-    outside: Option<(u64, f64)>,
+    open_sky: Option<(u64, f64)>,
     cells: Cache<(u64, u64), Vec<room::CellValue>>,
 }
 
@@ -59,7 +60,7 @@ fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
 
 /// What a daylight factor is a share of, the horizontal illuminance of the open overcast sky \[lx\]; or why there is
 /// none.
-fn outside(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
+fn open_sky(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
     let sky = &state.document.scene.sky;
     let daylight = daylight.ok_or(say::NO_FACTOR_SKY)?;
     if sky.model != SkyModelKey::Cie || !sky.cie_type.is_some_and(|number| OVERCAST.contains(&number)) {
@@ -91,7 +92,12 @@ fn moved(scene: &SceneFile, action: room::Action) -> SceneFile {
                 *point = to;
             }
         }
-        room::Action::Look(_) => {}
+        room::Action::BoxMoved(number, to) => {
+            if let Some(one) = scene.outside.get_mut(number) {
+                one.solid = to;
+            }
+        }
+        room::Action::Look(_) | room::Action::BoxGone(_) => {}
     }
     scene
 }
@@ -119,14 +125,14 @@ impl Drawn for Drawing {
             ui.ctx().request_repaint();
         }
         let (shown, surfaces) = (&seen.results.room, &seen.results.surfaces);
-        let factor = outside(state, state.daylight.value.as_deref());
+        let factor = open_sky(state, state.daylight.value.as_deref());
         if let Ok(horizontal) = factor
             && !(shown.stale || state.daylight.stale)
         {
-            self.outside = Some((shown.revision, horizontal));
+            self.open_sky = Some((shown.revision, horizontal));
         }
         // A result of an earlier sky is a share of that one.
-        let known = self.outside.filter(|(of, _)| *of == shown.revision && look.daylight_factor && factor.is_ok());
+        let known = self.open_sky.filter(|(of, _)| *of == shown.revision && look.daylight_factor && factor.is_ok());
         let (quantity, times) = match known {
             Some((_, horizontal)) => (room::Quantity::DaylightFactor, 100.0 / horizontal),
             None => (room::Quantity::Illuminance, 1.0),
@@ -138,6 +144,8 @@ impl Drawn for Drawing {
             figures.grid.is_none() == listed && (!listed || figures.positions.len() == scene.sensors.points.len())
         });
         let openings = openings(scene);
+        let named = scene.outside.iter().enumerate().map(|(number, one)| (one.solid, outside::name(number, one)));
+        let boxes: Vec<_> = named.collect();
         let name = seen.caption();
         let status = match look.view {
             RoomView::Perspective => seen.status_of(surfaces, Lane::Surfaces),
@@ -150,6 +158,7 @@ impl Drawn for Drawing {
         let input = room::Input {
             room: [scene.room.width, scene.room.depth, scene.room.height],
             apertures: &openings,
+            outside: &boxes,
             nx,
             ny,
             cells: self
@@ -169,6 +178,7 @@ impl Drawn for Drawing {
         for action in room::show(ui, &input, &mut self.view) {
             commands.push(match action {
                 room::Action::Look(look) => Command::RoomLook(look),
+                room::Action::BoxGone(number) => Command::Outside(outside::Act::Remove(Some(number))),
                 action => Command::Scene(Box::new(moved(scene, action))),
             });
         }

@@ -6,6 +6,7 @@ use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;
 use crate::drawing::plot::Plot;
+use crate::study::OutsideSeen;
 use crate::study::accuracy::{Accuracy, words};
 use crate::study::accuracy_plot::{name, plots};
 use crate::texts::{Language, fixed, language, tiles as say};
@@ -30,6 +31,8 @@ pub struct Input<'a> {
     pub error: Option<&'a str>,
     /// Share done of a ladder under way.
     pub running: Option<f32>,
+    /// How the apertures of the room that is shown see what stands outside.
+    pub outside: &'a [OutsideSeen],
 }
 
 /// What the user asked for.
@@ -61,6 +64,12 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
             }
         }
     });
+    if !input.outside.is_empty() {
+        ui.strong(say::SPLIT_OUTSIDE);
+        for words in input.outside.iter().flat_map(OutsideSeen::sentences) {
+            ui.add(Label::new(words).wrap());
+        }
+    }
     if let Some(error) = input.error {
         ui.add(Label::new(error).wrap());
     }

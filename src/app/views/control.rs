@@ -69,6 +69,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
 }
 
 fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> String {
+    let rect = remark(ui, rect, input);
     let with_year = !input.year.is_empty() && rect.height() > 220.0;
     let (top, bottom) = if with_year {
         let (top, bottom) = rect.split_top_bottom_at_fraction(0.5);
@@ -84,6 +85,21 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
             .map_or_else(|| say::SUN_NOT_BEFORE.into(), |psi| say::profile_angle(format!("{psi:.0}")));
         format!("{now} · {}", state_text(input, input.current))
     })
+}
+
+/// Says what is to be said of the year, as high as it is; what is left above it.
+fn remark(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
+    if input.remark.is_empty() {
+        return rect;
+    }
+    let colour = Palette::of(ui.visuals()).weak;
+    let font = FontId::proportional(13.0);
+    let galley = ui.painter().layout(input.remark.to_owned(), font, colour, rect.width() - 8.0);
+    let (above, below) = rect.split_top_bottom_at_y((rect.bottom() - galley.size().y - 4.0).max(rect.top()));
+    let response = ui.interact(below, ui.scope_id().with("remark"), egui::Sense::hover());
+    tile::name(ui, &response, say::YEAR_REMARK, input.remark);
+    ui.painter().galley(below.min + vec2(4.0, 2.0), galley, colour);
+    above
 }
 
 fn state_text(input: &Input<'_>, index: usize) -> String {

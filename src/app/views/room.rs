@@ -2,14 +2,17 @@
 //!
 //! Plan and section have the façade at the left, so that their depth axis is that of the profile under them.
 
+mod boxes;
 mod elevation;
 mod handles;
 mod input;
 mod lit;
 mod marks;
+mod outside;
 mod perspective;
 mod plan;
 mod profile;
+mod steps;
 mod words;
 
 pub use input::{Action, CellValue, Input, Opening, Quantity};
@@ -22,7 +25,7 @@ use crate::app::paint::tile::{self, Foot, Words};
 use crate::app::room_look::{RoomLook, RoomView};
 use crate::texts::tiles as say;
 use egui::{Rect, Sense, Ui, pos2, vec2};
-use input::Frame;
+use input::{Frame, Span};
 use words::{summary, value_text};
 
 /// The tile's own settings and pictures.
@@ -37,7 +40,17 @@ pub struct State {
     scale: Option<(Quantity, ColourScale)>,
     pictures: plan::Pictures,
     held: Option<handles::Held>,
+    shown: Option<Shown>,
     perspective: perspective::State,
+}
+
+/// What of the surroundings a picture shows.
+#[derive(Debug, Clone, Copy)]
+struct Shown {
+    side: bool,
+    span: Span,
+    /// A line tells what lies beyond it.
+    told: bool,
 }
 
 /// Draws the tile into all the space of `ui`.
@@ -142,11 +155,26 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     // A scale that is shared stands above all tiles.
     let shared = input.range.is_some() && !input.look.daylight_factor;
     let legend_height = if shared { 0.0 } else { LEGEND_HEIGHT };
+    // While something is dragged the picture stands still; what was dragged may have been taken away under the hand.
+    if !ui.input(|input| input.pointer.any_down()) {
+        state.held = None;
+    }
+    let kept = state.shown.filter(|shown| state.held.is_some() && shown.side == side);
+    let Shown { span, told, .. } = *state.shown.insert(kept.unwrap_or_else(|| {
+        let span = outside::span(input, side);
+        Shown { side, span, told: outside::tells(input, side, span) }
+    }));
+    let told = if told { outside::TOLD_HEIGHT } else { 0.0 };
     let frame_rect = Rect::from_min_max(
-        pos2(rect.left() + LEFT, rect.top() + if side { 6.0 } else { 2.0 }),
+        pos2(rect.left() + LEFT, rect.top() + told + if side { 6.0 } else { 2.0 }),
         pos2(rect.right() - RIGHT, rect.bottom() - profile_height - legend_height - 6.0),
     );
-    let frame = Frame::within(frame_rect, input.room, side);
+    let frame = Frame::around(frame_rect, span, input.room, side);
+    let told = Rect::from_min_size(pos2(frame_rect.left(), rect.top()), vec2(frame_rect.width(), told));
+    if told.is_positive() {
+        outside::tell(ui, told, &frame, input, &palette);
+    }
+    outside::show(ui, &frame, input, &palette);
     let name = if side { say::ROOM_SECTION } else { say::ROOM_PLAN };
     let response = ui.interact(frame.area, ui.scope_id().with(name.english()), Sense::click());
     let cell = response.hover_pos().filter(|_| input.complete()).map(|at| {
@@ -169,11 +197,12 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
         (false, true) => plan::show(ui, &frame, input, row, &mut state.pictures, &scale, &palette),
         (false, false) => plan::outline(ui, &frame, input, &palette),
     }
+    outside::over(ui, &frame, input, &palette);
     plan::points(ui, &frame, input, &scale, &palette);
     handles::show(ui, input, &frame, &mut state.held, actions);
     let legend = Rect::from_min_size(
         pos2(frame_rect.left() - 14.0, frame_rect.bottom() + 4.0),
-        vec2((frame.area.width() + 30.0).max(160.0).min(frame_rect.width() + 10.0), LEGEND_HEIGHT),
+        vec2((frame.view.width() + 30.0).max(160.0).min(frame_rect.width() + 10.0), LEGEND_HEIGHT),
     );
     let unit = input.quantity.unit();
     if !shared {
@@ -183,7 +212,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     if with_profile {
         // From the plan's left edge to its right: every depth stands under itself.
         let place = Rect::from_min_max(
-            pos2(rect.left(), rect.bottom() - profile_height),
+            pos2(frame.area.left() - LEFT, rect.bottom() - profile_height),
             pos2(frame.area.right() + RIGHT, rect.bottom()),
         );
         text = profile::show(ui, place, input, row, &scale, cell.map(|(_, j)| j), &palette);

@@ -3,7 +3,8 @@
 //!
 //! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as equally
 //! bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
-//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone.
+//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone. The skyline
+//! hides the sun as it runs at the sun's bearing; boxes outside are not seen by a control.
 
 use super::device::section_from_keys;
 use super::keys::ControlKeys;
@@ -18,9 +19,11 @@ use crate::compute::lid::Facing;
 use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
+use crate::compute::surroundings::skyline::Skyline;
 use crate::study::error::StudyError;
 use crate::study::scene_file::{DstKey, IlluminanceKey, SceneFile, SurfaceKey, SystemKeys};
 use crate::study::sky::{CLEANEST, HAZIEST, HIGHEST, LOWEST};
+use crate::study::skyline::skyline as by_bearing;
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 use jiff::ToSpan;
 use jiff::civil::{Date, DateTime};
@@ -159,7 +162,7 @@ pub fn moving(
 }
 
 /// All that a year of control hangs on besides what moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Situation {
     /// Where the sun is seen from.
     pub place: Place,
@@ -173,8 +176,12 @@ pub struct Situation {
     pub facade: Bearing,
     /// Uniform ground.
     pub ground_reflectance: f64,
-    /// Altitude of the skyline. \[rad\]
+    /// Altitude of a skyline of even height. \[rad\]
     pub skyline: f64,
+    /// The one that rises and falls with the bearing, in its place.
+    pub skyline_by_bearing: Option<Skyline>,
+    /// Boxes outside, which a control does not see: it goes by where the sun is, above which skyline.
+    pub unseen_boxes: usize,
     /// How bright the year is, without a weather.
     pub sky: ClearSky,
 }
@@ -202,13 +209,12 @@ impl Situation {
             }
             None => 2026,
         };
-        for (key, given) in [("sky.skyline", file.sky.skyline.is_some()), ("outside", !file.outside.is_empty())] {
-            if given {
-                let message =
-                    "a year of controls knows a horizontal skyline alone: leave the key out, or ask for single hours";
-                return Err(StudyError::key(key, message));
-            }
+        if file.sky.skyline.is_some() && file.sky.obstruction.is_some() {
+            let message = "given together with sky.obstruction: give one of them";
+            return Err(StudyError::key("sky.skyline", message));
         }
+        let skyline_by_bearing = file.sky.skyline.as_ref().map(by_bearing).transpose();
+        let skyline_by_bearing = skyline_by_bearing.map_err(|(key, message)| StudyError::key(key, message))?;
         let skyline = file.sky.obstruction.map_or(0.0, |keys| keys.altitude);
         for (key, value, [min, max]) in [
             ("site.azimuth", site.azimuth, [-360.0, 360.0]),
@@ -229,8 +235,15 @@ impl Situation {
             facade: Bearing::from_degrees(site.azimuth),
             ground_reflectance: site.ground_reflectance,
             skyline: skyline.to_radians(),
+            skyline_by_bearing,
+            unseen_boxes: file.outside.len(),
             sky: ClearSky::of(file),
         })
+    }
+
+    /// Altitude of the skyline at a bearing. \[rad\]
+    fn skyline_at(&self, bearing: Bearing) -> f64 {
+        self.skyline_by_bearing.as_ref().map_or(self.skyline, |skyline| skyline.altitude(bearing.radians()))
     }
 }
 
@@ -307,13 +320,13 @@ struct Stepper<'a> {
 
 impl Stepper<'_> {
     fn moment(&mut self, time: DateTime, seconds: f64) -> Result<Moment, StudyError> {
-        let here = *self.situation;
+        let here = self.situation;
         let at_site = |error: &dyn std::fmt::Display| StudyError::key("site", error.to_string());
         let (altitude, bearing) = sun_position(&here.place, time).map_err(|error| at_site(&error))?;
         let (direct, diffuse) = self.weather.illuminances(time, altitude).unwrap_or((0.0, 0.0));
         let up = altitude > -SUN_HALF_ANGLE;
         let outside = Outside::new(Distribution::uniform(), if up { diffuse.max(LEAST_BEAM) } else { 0.0 })
-            .and_then(|outside| outside.with_skyline(here.skyline, 0.0))
+            .and_then(|outside| outside.with_skyline(here.skyline_at(bearing), 0.0))
             .map_err(|error| at_site(&error))?;
         let sun = Sun { direction: Dir::from_altitude_bearing(altitude, bearing), direct_normal: direct };
         // Schedules go by the clock on the wall.

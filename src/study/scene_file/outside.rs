@@ -3,9 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 /// `[[outside]]`: an upright box, outside the room's own.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OutsideKeys {
+    /// What it is called; may be left out.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
     /// Where it stands.
     #[serde(rename = "box")]
     pub solid: BoxKeys,

@@ -1,5 +1,6 @@
 //! Apertures behind boxes and skylines: the light of their parts, straight to the sensors and on the room's surfaces.
 
+use super::outside_seen::OutsideSeen;
 use super::split::{Leaf, Part, Smooth, WHOLE, overlap, part_of};
 use super::{LidResult, Session, check, cubature};
 use crate::compute::basis::RingBasis;
@@ -48,7 +49,7 @@ pub(super) struct Split {
     /// Luminance that the sun gives it there, the same in all directions. \[cd/m²\]
     glow: Estimate,
     /// What was split and why.
-    pub words: Vec<String>,
+    pub seen: OutsideSeen,
 }
 
 /// A part of an aperture, what the sun reaches of it, and its halves where that is neither all nor nothing.
@@ -108,7 +109,7 @@ impl Session {
             glow: sun.uniform,
             lit: if share > 0.0 { pieces } else { Vec::new() },
             lit_share: share,
-            words: words(index, &leaves, same, &sun, share),
+            seen: seen(index, &leaves, same, &sun, share),
         };
         split.add_sun_tiles(&one.aperture, &sun, scene, index);
         // What all of it comes to.
@@ -218,40 +219,16 @@ fn quarters(aperture: &Aperture, tiles: &[(Part, Emission)], same: bool) -> Vec<
 }
 
 /// What the plan says.
-fn words(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -> Vec<String> {
-    let number = index + 1;
-    let any = leaves[0].any();
+fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -> OutsideSeen {
     let scatters = leaves.iter().any(|leaf| leaf.any().fluxes().iter().any(|flux| *flux > 0.0));
-    let change = |leaf: &Leaf| leaf.change[0].max(leaf.change[1]);
-    let most = leaves.iter().map(change).fold(0.0, f64::max);
-    let mut words = Vec::new();
-    if any.regular.is_some() {
-        words.push(format!("aperture {number}: every sensor looks straight through and past what stands outside"));
+    let most = leaves.iter().map(|leaf| leaf.change[0].max(leaf.change[1])).fold(0.0, f64::max);
+    OutsideSeen {
+        aperture: index,
+        through: leaves[0].any().regular.is_some(),
+        parts: scatters.then_some(if same { 0 } else { leaves.len() }),
+        change: most,
+        sunlit: (sun.incident_sun > 0.0).then_some(share),
     }
-    if scatters && same {
-        words.push(format!(
-            "aperture {number}: not split, its points see the outside alike (light changes by {:.1} %)",
-            100.0 * most
-        ));
-    } else if scatters {
-        let parts = if leaves.len() == 1 { "one part".to_owned() } else { format!("{} parts", leaves.len()) };
-        words.push(format!(
-            "aperture {number}: split into {parts}, each with its own outside; over a part light still changes, smoothly, \
-             by up to {:.0} %",
-            100.0 * most
-        ));
-    }
-    if sun.incident_sun > 0.0 {
-        words.push(match share {
-            share if share >= 1.0 - 1e-9 => format!("aperture {number}: the sun reaches all of it"),
-            share if share <= 1e-9 => format!("aperture {number}: wholly in the shade of what stands outside"),
-            share => format!(
-                "aperture {number}: the sun reaches {:.0} % of it, cut along the edges of the shadows",
-                100.0 * share
-            ),
-        });
-    }
-    words
 }
 
 impl Split {

@@ -155,6 +155,8 @@ fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
             note(ui, label, texts::pushed(origins[k], fixed(origin, 2)));
         }
     }
+    number(ui, texts::FRAME_SHARE, "", &mut aperture.frame, 0.0..=0.95, 2);
+    number(ui, texts::DIRT, "", &mut aperture.dirt, 0.0..=1.0, 2);
     let mut own = aperture.reflectance == ApertureReflectance::Dataset;
     let tip = texts::AS_IN_DATASET_TIP;
     if ui.checkbox(&mut own, texts::AS_IN_DATASET).on_hover_text(tip).changed() {

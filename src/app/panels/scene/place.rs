@@ -1,5 +1,6 @@
 //! The place: a city from the list, coordinates, or latitude, longitude, clock and elevation by hand.
 
+use super::summer_time;
 use crate::app::panels::fields::{number, optional, select_all};
 use crate::app::theme;
 use crate::app::title::{coordinates, place};
@@ -109,6 +110,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     optional(ui, texts::LATITUDE, texts::DEGREES_NORTH, &mut scene.site.latitude, 48.78, -90.0..=90.0);
     optional(ui, texts::LONGITUDE, texts::DEGREES_EAST, &mut scene.site.longitude, 9.18, -180.0..=180.0);
     optional(ui, texts::AHEAD_OF_UTC, " h", &mut scene.site.utc_offset, 1.0, -14.0..=14.0);
+    summer_time::show(ui, scene);
     number(ui, texts::ELEVATION, " m", &mut scene.site.elevation, LOWEST..=HIGHEST, 0);
 }
 

@@ -45,6 +45,8 @@ pub struct Input<'a> {
     pub current: usize,
     /// State of every hour of the year (365 × 24, day by day), `None` at night; empty while not computed.
     pub year: &'a [Option<u16>],
+    /// What is to be said of the year, or why there is none; empty: nothing.
+    pub remark: &'a str,
     /// Day of the year now, from 0, and hour, for the mark on the map.
     pub moment: Option<(usize, f64)>,
     /// Changes with states, curve, trace and year.

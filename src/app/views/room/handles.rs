@@ -1,6 +1,9 @@
 //! Windows, sensor plane and sensors moved by hand: by mouse or, with the keyboard on them, by arrow keys.
 
+use super::boxes;
 use super::input::{Action, Frame, Input, Opening};
+use super::outside;
+use super::steps::{STEPS, snapped};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::tile;
 use crate::compute::direction::Surface;
@@ -9,8 +12,6 @@ use egui::{
     Align2, CursorIcon, EventFilter, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2,
 };
 
-/// Steps of what is moved, and with Shift. \[m\]
-const STEPS: [f64; 2] = [0.05, 0.01];
 /// Smallest edge of an aperture. \[m\]
 const LEAST: f64 = 0.05;
 /// Half of the place round a handle where it can be taken. \[points\]
@@ -27,6 +28,10 @@ enum Part {
     Plane,
     /// A listed sensor.
     Point(usize),
+    /// A box outside as a whole.
+    Solid(usize),
+    /// A face of such a box across one of its axes; the far one?
+    Face { solid: usize, axis: usize, far: bool },
 }
 
 /// What was taken hold of, as it was then.
@@ -73,12 +78,6 @@ const fn edge_word(surface: Surface, axis: usize, far: bool) -> Text {
     }
 }
 
-/// The nearest step, to the millimetre so that what is shown is what is meant.
-fn snapped(value: f64, step: f64) -> f64 {
-    let value = if step > 0.0 { (value / step).round() * step } else { value };
-    (value * 1000.0).round() / 1000.0
-}
-
 /// An aperture with an edge, or all of it, moved by a way along its axes. \[m\]
 fn moved(part: Part, start: Opening, way: [f64; 2], step: f64, room: [f64; 3]) -> Opening {
     let (mut new, extent) = (start, extent(start.surface, room));
@@ -110,8 +109,34 @@ fn overlap(a: &Opening, b: &Opening) -> bool {
     a.surface == b.surface && along(0) && along(1)
 }
 
-fn handles(input: &Input<'_>, frame: &Frame) -> Vec<Handle> {
-    let mut list = Vec::new();
+/// Boxes outside, the small ones over the large, and their faces over all of them: those in sight, or `all`, as what is
+/// dragged may leave the picture.
+fn solids(input: &Input<'_>, frame: &Frame, all: bool) -> Vec<Handle> {
+    let bodies = input.outside.iter().enumerate().filter_map(|(number, (keys, name))| {
+        let place = outside::bounds(keys, frame).expand(2.0);
+        let place = if all { place } else { place.intersect(frame.view) };
+        place.is_positive().then(|| Handle { part: Part::Solid(number), place, name: say::move_box(name) })
+    });
+    let mut list: Vec<Handle> = bodies.collect();
+    list.sort_by(|a, b| b.place.area().total_cmp(&a.place.area()));
+    for (number, (keys, name)) in input.outside.iter().enumerate() {
+        for (axis, far, at) in boxes::faces(keys, frame) {
+            // Beside the box: a slab is thinner than a handle.
+            let middle = outside::bounds(keys, frame).center();
+            let way = at - middle;
+            let at = at + REACH * if way.length() > 0.5 { way.normalized() } else { vec2(0.0, 0.0) };
+            if all || frame.view.expand(REACH).contains(at) {
+                let place = Rect::from_center_size(at, vec2(2.0, 2.0) * REACH);
+                let name = say::box_face(name, boxes::face_word(axis, far));
+                list.push(Handle { part: Part::Face { solid: number, axis, far }, place, name });
+            }
+        }
+    }
+    list
+}
+
+fn handles(input: &Input<'_>, frame: &Frame, held: bool) -> Vec<Handle> {
+    let mut list = solids(input, frame, held);
     if let Some(z) = input.plane_z.filter(|_| frame.side) {
         let place = Rect::from_two_pos(frame.screen(0.0, z), frame.screen(input.room[1], z)).expand2(vec2(0.0, REACH));
         list.push(Handle { part: Part::Plane, place, name: say::SENSOR_PLANE.into() });
@@ -156,6 +181,9 @@ fn present(part: Part, input: &Input<'_>) -> Option<Action> {
         }
         Part::Plane => input.plane_z.map(Action::PlaneMoved),
         Part::Point(number) => Some(Action::PointMoved(number, *input.points.get(number)?)),
+        Part::Solid(number) | Part::Face { solid: number, .. } => {
+            Some(Action::BoxMoved(number, input.outside.get(number)?.0))
+        }
     }
 }
 
@@ -183,7 +211,14 @@ fn target(part: Part, start: Action, way: [f64; 2], step: f64, input: &Input<'_>
             }
             Some(Action::PointMoved(number, point))
         }
-        Action::Look(_) => None,
+        Action::BoxMoved(number, keys) => {
+            let new = match part {
+                Part::Face { axis, far, .. } => boxes::resized(&keys, (axis, far), way, step, input.room, side),
+                _ => boxes::moved(&keys, way, step, input.room, side),
+            };
+            new.map(|new| Action::BoxMoved(number, new))
+        }
+        Action::Look(_) | Action::BoxGone(_) => None,
     }
 }
 
@@ -203,7 +238,15 @@ fn metres(part: Part, at: Action) -> String {
             let [x, y, z] = point.map(|way| fixed(way, 2));
             format!("x {x} m, y {y} m, z {z} m")
         }
-        (_, Action::Look(_)) => String::new(),
+        (Part::Face { axis, .. }, Action::BoxMoved(_, keys)) => {
+            let [low, high] = [keys.from[axis], keys.to[axis]];
+            say::from_to_metres(fixed(low, 2), fixed(high, 2), fixed(high - low, 2))
+        }
+        (_, Action::BoxMoved(_, keys)) => {
+            let part = |axis: usize| format!("{} … {}", fixed(keys.from[axis], 2), fixed(keys.to[axis], 2));
+            format!("x {} m, y {} m, z {} m", part(0), part(1), part(2))
+        }
+        (_, Action::Look(_) | Action::BoxGone(_)) => String::new(),
     }
 }
 
@@ -222,7 +265,7 @@ fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
 /// Offers all handles of a picture, over what is drawn already; `held`: kept from frame to frame.
 pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Option<Held>, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
-    for Handle { part, place, name } in handles(input, frame) {
+    for Handle { part, place, name } in handles(input, frame, held.is_some()) {
         let id = ui.scope_id().with(("handle", part, frame.side));
         let response = ui.interact(place, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(match part {
@@ -235,7 +278,9 @@ pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Opt
                 }
             }
             Part::Plane => CursorIcon::ResizeVertical,
-            Part::Opening(_) | Part::Point(_) => CursorIcon::Move,
+            Part::Face { axis: 1, .. } => CursorIcon::ResizeHorizontal,
+            Part::Face { .. } => CursorIcon::ResizeVertical,
+            Part::Opening(_) | Part::Point(_) | Part::Solid(_) => CursorIcon::Move,
         });
         let Some(now) = present(part, input) else { continue };
         tile::name(ui, &response, &name, &metres(part, now));
@@ -257,6 +302,12 @@ pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Opt
             asked = target(part, now, way.map(|steps| steps * step), step, input, frame.side);
         }
         actions.extend(asked.filter(|asked| *asked != now));
+        if let Part::Solid(number) = part
+            && response.has_focus()
+            && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Delete))
+        {
+            actions.push(Action::BoxGone(number));
+        }
         if response.drag_stopped() {
             *held = None;
         }
@@ -265,11 +316,15 @@ pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Opt
             let stroke = Stroke::new(if taken { 2.0 } else { 1.0 }, palette.ink);
             match part {
                 Part::Plane => ui.painter().hline(place.x_range(), place.center().y, stroke),
+                Part::Solid(number) => {
+                    let painter = ui.painter().with_clip_rect(frame.view.intersect(ui.clip_rect()));
+                    painter.add(Shape::closed_line(outside::polygon(&input.outside[number].0, frame).to_vec(), stroke))
+                }
                 _ => ui.painter().rect_stroke(place.shrink(2.0), 2, stroke, StrokeKind::Middle),
             };
         }
         if taken {
-            label(ui, place, &metres(part, asked.unwrap_or(now)), frame.area, &palette);
+            label(ui, place, &metres(part, asked.unwrap_or(now)), frame.view, &palette);
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::app::room_look::{RoomLook, RoomView};
 use crate::compute::direction::Surface;
 use crate::drawing::ticks::{number, si};
 use crate::study::SurfaceLight;
+use crate::study::scene_file::BoxKeys;
 use crate::texts::Text;
 use egui::{Pos2, Rect, pos2, vec2};
 
@@ -79,6 +80,8 @@ pub struct Input<'a> {
     pub room: [f64; 3],
     /// Windows and rooflights.
     pub apertures: &'a [Opening],
+    /// What stands outside, and what it is called.
+    pub outside: &'a [(BoxKeys, String)],
     /// Sensors along x.
     pub nx: usize,
     /// Sensors along y.
@@ -113,6 +116,7 @@ impl Input<'_> {
         Self {
             room: [0.0; 3],
             apertures: &[],
+            outside: &[],
             nx: 0,
             ny: 0,
             cells: &[],
@@ -154,8 +158,23 @@ pub enum Action {
     OpeningMoved(usize, Opening),
     /// A listed sensor (from 0) should be there. \[m\]
     PointMoved(usize, [f64; 3]),
+    /// A box outside (from 0) should be there.
+    BoxMoved(usize, BoxKeys),
+    /// A box outside (from 0) should be taken away.
+    BoxGone(usize),
     /// It should be drawn so.
     Look(RoomLook),
+}
+
+/// What a picture shows: from and to along the depth, and of what runs across. \[m\]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span(pub [[f64; 2]; 2]);
+
+impl Span {
+    /// The room alone.
+    pub const fn of(room: [f64; 3], side: bool) -> Self {
+        Self([[0.0, room[1]], [0.0, if side { room[2] } else { room[0] }]])
+    }
 }
 
 /// A room on the screen, the façade at the left: from above with x downwards, or from the side with z upwards.
@@ -163,6 +182,8 @@ pub enum Action {
 pub struct Frame {
     /// The room's outline.
     pub area: Rect,
+    /// All that is shown: the room, and what stands round it.
+    pub view: Rect,
     /// Points a metre.
     pub scale: f32,
     /// From the side.
@@ -170,13 +191,19 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The largest into a rectangle, at its left.
-    pub fn within(rect: Rect, room: [f64; 3], side: bool) -> Self {
-        let across = if side { room[2] } else { room[0] };
-        let [across, depth] = [across.max(1e-3) as f32, room[1].max(1e-3) as f32];
+    /// The room with what is round it, the largest into a rectangle, at its left.
+    pub fn around(rect: Rect, span: Span, room: [f64; 3], side: bool) -> Self {
+        let lengths = |span: Span| span.0.map(|[low, high]| (high - low).max(1e-3) as f32);
+        let [depth, across] = lengths(span);
         let scale = (rect.width() / depth).min(rect.height() / across).max(1e-3);
         let size = vec2(depth, across) * scale;
-        Self { area: Rect::from_min_size(pos2(rect.left(), rect.center().y - 0.5 * size.y), size), scale, side }
+        let view = Rect::from_min_size(pos2(rect.left(), rect.center().y - 0.5 * size.y), size);
+        let [[before, _], [low, high]] = span.0;
+        let [own_depth, own_across] = lengths(Span::of(room, side));
+        // From above, x runs down; from the side, z runs up.
+        let over = if side { high - f64::from(own_across) } else { -low };
+        let corner = view.min + vec2(-before as f32, over as f32) * scale;
+        Self { area: Rect::from_min_size(corner, vec2(own_depth, own_across) * scale), view, scale, side }
     }
 
     /// On the screen, from the depth and what runs across: x from above, z from the side. \[m\]
@@ -214,7 +241,7 @@ mod tests {
     fn screen_and_room_are_inverse() {
         let rect = Rect::from_min_size(pos2(50.0, 10.0), vec2(300.0, 150.0));
         for side in [false, true] {
-            let frame = Frame::within(rect, [4.0, 6.0, 3.0], side);
+            let frame = Frame::around(rect, Span::of([4.0, 6.0, 3.0], side), [4.0, 6.0, 3.0], side);
             let (depth, across) = frame.room(frame.screen(4.5, 1.25));
             assert!((across - 1.25).abs() < 1e-4 && (depth - 4.5).abs() < 1e-4);
             assert!(rect.expand(0.01).contains_rect(frame.area));
@@ -227,7 +254,7 @@ mod tests {
     fn openings_are_lines_where_they_are_seen_edge_on() {
         let room = [4.0, 6.0, 3.0];
         let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, 400.0));
-        let [plan, side] = [false, true].map(|side| Frame::within(rect, room, side));
+        let [plan, side] = [false, true].map(|side| Frame::around(rect, Span::of(room, side), room, side));
         let window = Opening { surface: Surface::Facade, origin: [0.5, 0.9], size: [3.0, 1.8] };
         let place = side.opening(&window, room);
         assert!(place.width() == 0.0 && (place.height() - 1.8 * side.scale).abs() < 1e-3);

@@ -5,6 +5,7 @@
 
 use super::input::Input;
 use super::lit::{self, Piece};
+use super::outside;
 use crate::app::paint::camera::{Camera, View, words};
 use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
@@ -199,6 +200,21 @@ fn openings(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette
     }
 }
 
+/// What stands near outside, by its edges.
+fn around(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
+    let corners = outside::room(input.room).corners();
+    let reach = 0.5 * DVec3::from_array(input.room).length();
+    for (keys, _) in input.outside {
+        let solid = outside::solid(keys);
+        // Far ones would be lines across the picture.
+        if solid.gap_to(&corners) < reach {
+            for ends in solid.visible_edges(view.eye) {
+                line(painter, view, ends, Stroke::new(1.5, palette.weak));
+            }
+        }
+    }
+}
+
 /// The sensor plane as an outline, listed sensors as dots.
 fn sensors(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     let [w, d, _] = input.room;
@@ -334,6 +350,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (boo
     }
     openings(&painter, &view, input, &palette);
     edges(&painter, &view, size, &palette);
+    around(&painter, &view, input, &palette);
     sensors(&painter, &view, input, &palette);
     person(&painter, &view, input.room, &palette);
     foot

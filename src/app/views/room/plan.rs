@@ -129,7 +129,7 @@ pub(super) fn outline(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palet
         }
     }
     let galley = painter.layout_no_wrap(say::FACADE.into(), FontId::proportional(13.0), palette.weak);
-    let at = pos2(frame.area.left() - 18.0, frame.area.center().y) - 0.5 * galley.size();
+    let at = pos2(frame.view.left() - 18.0, frame.area.center().y) - 0.5 * galley.size();
     painter.add(
         egui::epaint::TextShape::new(at, galley, palette.weak)
             .with_angle_and_anchor(-std::f32::consts::FRAC_PI_2, Align2::CENTER_CENTER),

@@ -1,0 +1,135 @@
+//! What stands outside: boxes with name, place and size in metres, and what they send.
+
+use crate::app::command::Command;
+use crate::app::outside::{Act, Kind, exact, name};
+use crate::app::panels::fields::{number, number_by, row};
+use crate::compute::surroundings::solid::Solid;
+use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
+use crate::texts::{Text, fixed, scene as texts};
+use egui::{CollapsingHeader, TextEdit, Ui};
+use glam::DVec3;
+
+/// Farthest that a place is typed. \[m\]
+const FAR: f64 = 1000.0;
+/// Least size of a box. \[m\]
+const LEAST: f64 = 0.01;
+/// What dragging a field by a point changes. \[m\]
+const SPEED: f64 = 0.05;
+/// What a box sends where a luminance is asked for. \[cd/m²\]
+const FIRST_LUMINANCE: f64 = 1000.0;
+
+/// Folded, what there is.
+pub fn essence(scene: &SceneFile) -> String {
+    let names: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
+    if names.is_empty() { texts::NONE.into() } else { names.join(", ") }
+}
+
+/// The first box that reaches into the room, and what would be right.
+pub fn problem(scene: &SceneFile) -> Option<String> {
+    let size = [scene.room.width, scene.room.depth, scene.room.height];
+    let room = Solid::new(DVec3::ZERO, DVec3::from_array(size), 0.0);
+    scene.outside.iter().enumerate().find_map(|(number, keys)| {
+        let [from, to] = [keys.solid.from, keys.solid.to].map(DVec3::from_array);
+        let within = Solid::new(from, to, keys.solid.turn.to_radians()).overlaps(&room, 1e-6);
+        let [width, depth, height] = size.map(|length| fixed(length, 2));
+        within.then(|| texts::into_room(name(number, keys), width, depth, height))
+    })
+}
+
+/// Draws the section.
+pub fn show(ui: &mut Ui, scene: &mut SceneFile, commands: &mut Vec<Command>) {
+    for (number, keys) in scene.outside.iter_mut().enumerate() {
+        let name = name(number, keys);
+        CollapsingHeader::new(&name).id_salt(number).show(ui, |ui| {
+            one(ui, keys);
+            ui.horizontal(|ui| {
+                let copy = ui.button(texts::DUPLICATE).accessible_name(texts::duplicate_box(&name));
+                if copy.on_hover_text(texts::DUPLICATE_TIP).clicked() {
+                    commands.push(Command::Outside(Act::Duplicate(Some(number))));
+                }
+                let remove = ui.button(texts::REMOVE).accessible_name(texts::remove_box(&name));
+                if remove.on_hover_text(texts::REMOVE_TIP).clicked() {
+                    commands.push(Command::Outside(Act::Remove(Some(number))));
+                }
+            });
+        });
+    }
+    let add = ui.menu_button(texts::ADD_OUTSIDE, |ui| {
+        for kind in Kind::ALL {
+            if ui.button(kind.word()).clicked() {
+                commands.push(Command::Outside(Act::Add(kind)));
+                ui.close();
+            }
+        }
+    });
+    add.response.on_hover_text(texts::ADD_OUTSIDE_TIP);
+}
+
+/// A length that keeps its place on the other side: from `low` upwards, or from `high` downwards.
+fn length(ui: &mut Ui, label: Text, low: &mut f64, high: &mut f64, keeps_high: bool) {
+    let mut size = *high - *low;
+    if number_by(ui, (label.get(), " m"), &mut size, LEAST..=FAR, 2, SPEED) {
+        if keeps_high {
+            *low = exact(*high - size);
+        } else {
+            *high = exact(*low + size);
+        }
+    }
+}
+
+fn one(ui: &mut Ui, keys: &mut OutsideKeys) {
+    let called = row(ui, texts::BOX_NAME.get(), |ui| ui.add(TextEdit::singleline(&mut keys.name).desired_width(130.0)));
+    called.on_hover_text(texts::BOX_NAME_TIP);
+    let solid = &mut keys.solid;
+    for (axis, label) in [(0, texts::BOX_LEFT), (2, texts::BOX_UP)] {
+        let mut from = solid.from[axis];
+        if number_by(ui, (label.get(), " m"), &mut from, -FAR..=FAR, 2, SPEED) {
+            solid.to[axis] = exact(solid.to[axis] + from - solid.from[axis]);
+            solid.from[axis] = from;
+        }
+    }
+    // 0 as it is typed: there is no −0 m.
+    let mut gap = 0.0 - solid.to[1];
+    if number_by(ui, (texts::BOX_GAP.get(), " m"), &mut gap, -FAR..=FAR, 2, SPEED) {
+        solid.from[1] = exact(solid.from[1] - gap - solid.to[1]);
+        solid.to[1] = 0.0 - gap;
+    }
+    let ([x, y, z], [to_x, to_y, to_z]) = (&mut solid.from, &mut solid.to);
+    length(ui, texts::WIDTH, x, to_x, false);
+    // A deeper overhang reaches farther out.
+    length(ui, texts::BOX_DEPTH, y, to_y, true);
+    length(ui, texts::HEIGHT, z, to_z, false);
+    number(ui, texts::BOX_TURN, "°", &mut solid.turn, -360.0..=360.0, 1);
+    let mut stated = keys.luminance.is_some();
+    let choice = ui.checkbox(&mut stated, texts::SELF_LUMINOUS).on_hover_text(texts::SELF_LUMINOUS_TIP);
+    if choice.changed() {
+        (keys.luminance, keys.reflectance) =
+            if stated { (Some(FIRST_LUMINANCE), None) } else { (None, Some(USUAL_REFLECTANCE)) };
+    }
+    if let Some(luminance) = &mut keys.luminance {
+        number(ui, texts::LUMINANCE, " cd/m²", luminance, 0.0..=20_000.0, 0);
+    } else {
+        let mut reflectance = keys.reflectance.unwrap_or(USUAL_REFLECTANCE);
+        if number(ui, texts::REFLECTANCE, "", &mut reflectance, 0.0..=1.0, 2) {
+            keys.reflectance = Some(reflectance);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::outside::act;
+    use crate::study::example::first_scene;
+
+    #[test]
+    fn what_stands_outside_is_named_and_what_reaches_in_is_told() {
+        let mut scene = first_scene();
+        assert_eq!((essence(&scene).as_str(), problem(&scene)), ("none", None));
+        act(&mut scene, Act::Add(Kind::Overhang)).unwrap();
+        scene.outside.push(OutsideKeys { name: String::new(), ..scene.outside[0].clone() });
+        assert_eq!((essence(&scene).as_str(), problem(&scene)), ("Overhang, Box 2", None));
+        scene.outside[1].solid.to[1] = 0.3;
+        assert!(problem(&scene).is_some_and(|told| told.starts_with("Box 2 reaches into the room")));
+    }
+}
