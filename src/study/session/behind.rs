@@ -245,7 +245,8 @@ impl Split {
             lit: Vec::new(),
             lit_share: 0.0,
             glow: Estimate::default(),
-            words: vec![format!("aperture {}: its luminaires hold what came from outside", index + 1)],
+            // What came from outside is in the files: there is nothing to be said of it.
+            seen: OutsideSeen { aperture: index, through: false, parts: None, change: 0.0, sunlit: None },
             whole,
         }
     }
