@@ -47,6 +47,9 @@ pub struct Order {
     pub engine: Arc<dyn Engine>,
 }
 
+/// What is written where.
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
 /// A preview's picture is at most so wide and high. \[px\]
 const PREVIEW: f64 = 900.0;
 /// Lines of a text that are shown.
@@ -182,7 +185,7 @@ impl Order {
     }
 
     /// The window in tiles, and their index last, so that it never names a file that is not there.
-    fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<(LuminaireSet, Vec<(PathBuf, Vec<u8>)>), AppError> {
+    fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<(LuminaireSet, Files), AppError> {
         let set = self.luminaires(&self.question.scene, path, progress)?;
         let of = |file: &TileFile| (path.with_file_name(&file.row.file), file.bytes.clone());
         let mut files: Vec<_> = set.files.iter().map(of).collect();
@@ -191,7 +194,7 @@ impl Order {
     }
 
     /// The luminaire files of each moment, and the index last, so that it never names a file that is not there.
-    fn series(&self, path: &Path, progress: &dyn Progress) -> Result<Vec<(PathBuf, Vec<u8>)>, AppError> {
+    fn series(&self, path: &Path, progress: &dyn Progress) -> Result<Files, AppError> {
         let moments = self.moments(path)?;
         let (mut rows, mut files) = (Vec::new(), Vec::with_capacity(moments.len() + 1));
         for (k, one) in moments.iter().enumerate() {

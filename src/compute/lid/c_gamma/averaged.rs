@@ -142,7 +142,7 @@ impl Averaged {
     /// Are the tables of all tiles of one size the same?
     pub fn same_for_all(&self, narrow: bool) -> bool {
         let steep = || narrow::nodes(self.scattered.get_or_init(|| self.with(&[])));
-        self.lid.beams.iter().all(|beam| beam.flux == 0.0) && !(narrow && !self.steep.get_or_init(steep).is_empty())
+        self.lid.beams.iter().all(|beam| beam.flux == 0.0) && (!narrow || self.steep.get_or_init(steep).is_empty())
     }
 }
 
