@@ -79,6 +79,7 @@ texts! {
     const REMOVE_LAST = "Take away the last box outside" | "Letzten Quader draußen entfernen";
     const REMOVE_TIP = "Undo brings it back" | "Rückgängig bringt ihn zurück";
     const NOTHING_OUTSIDE = "Nothing stands outside" | "Draußen steht nichts";
+    fn boxes_outside(count) = "{count} boxes" | "{count} Quader";
     fn too_many_boxes(most) = "No more than {most} boxes may stand outside" | "Draußen dürfen höchstens {most} Quader stehen";
     fn box_number(number) = "Box {number}" | "Quader {number}";
     fn box_sizes(width, depth, height) = "{width} × {depth} × {height} m" | "{width} × {depth} × {height} m";

@@ -18,10 +18,17 @@ const SPEED: f64 = 0.05;
 /// What a box sends where a luminance is asked for. \[cd/m²\]
 const FIRST_LUMINANCE: f64 = 1000.0;
 
+/// Names that are longer together do not stand beside the section's. \[characters\]
+const LONGEST: usize = 26;
+
 /// Folded, what there is.
 pub fn essence(scene: &SceneFile) -> String {
     let names: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
-    if names.is_empty() { texts::NONE.into() } else { names.join(", ") }
+    match (names.len(), names.join(", ")) {
+        (0, _) => texts::NONE.into(),
+        (count, words) if words.chars().count() > LONGEST => texts::boxes_outside(count),
+        (_, words) => words,
+    }
 }
 
 /// The first box that reaches into the room, and what would be right.
