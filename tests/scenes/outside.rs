@@ -245,11 +245,11 @@ fn light_on_many_boxes_ends_when_it_is_not_wanted() {
         let x = f64::from(k) - 10.0;
         (Solid::new(DVec3::new(x, -9.0, 0.0), DVec3::new(x + 0.8, -8.0, 4.0), 0.0), Finish::Reflectance(0.3))
     };
-    let boxes: Vec<_> = (0..20).map(one).collect();
+    let boxes: Vec<_> = (6..14).map(one).collect();
     let room = Solid::new(DVec3::ZERO, DVec3::new(4.0, 6.0, 3.0), 0.0);
     let lit = |progress: &dyn Progress| surroundings(&sky, None, &boxes, room, None, &[DVec3::Z], progress);
     assert!(lit(&Withdrawn).is_err());
     let panels = |boxes: &[[FaceLight; 6]]| boxes.iter().flatten().map(FaceLight::panels).sum::<usize>();
     let around = lit(&Silent).unwrap();
-    assert!(around.is_lit() && panels(&around.faces) < 1200, "{}", panels(&around.faces));
+    assert!(around.is_lit() && panels(&around.faces) < 1000, "{}", panels(&around.faces));
 }

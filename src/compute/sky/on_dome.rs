@@ -137,7 +137,7 @@ fn touching(axis: DVec3, theta: f64) -> [Option<DVec3>; 2] {
     // There the meridian's plane has the angle theta to the axis: |n·axis| = sin θ for its horizontal normal n.
     let level = axis.truncate().length();
     let sine = theta.sin() / level;
-    if !(sine < 1.0) {
+    if sine >= 1.0 || sine.is_nan() {
         return [None; 2];
     }
     let middle = axis.x.atan2(axis.y);
