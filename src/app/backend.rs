@@ -288,7 +288,7 @@ impl StudyEngine {
 
     fn scene(&self, question: &Question, progress: &dyn Progress) -> Result<Scene, AppError> {
         let library = WindowLibrary { files: &self.files, shelf: &*question.shelf, progress };
-        Ok(Scene::resolve(&question.scene, &question.base, &library)?)
+        Ok(Scene::resolve_within(&question.scene, &question.base, &library, progress)?)
     }
 }
 

@@ -348,7 +348,7 @@ fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Re
     let Question { scene, base, shelf } = question;
     let library = WindowLibrary { files, shelf: &**shelf, progress };
     // Resolved first: the control may pick the state.
-    let resolved = Scene::resolve(scene, base, &library)?;
+    let resolved = Scene::resolve_within(scene, base, &library, progress)?;
     let state = resolved.apertures.first().ok_or(AppError::NoAperture)?.system.state.clone();
     let keys = match &scene.aperture[0].system {
         SystemKeys::File { path, .. } if !state.is_empty() => {
@@ -362,7 +362,7 @@ fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Re
 /// Product, state and dataset of a candidate, computed where the catalogue does not hold them yet; sky and sun.
 fn shelf_part(question: &Question, files: &Library, progress: &dyn Progress) -> Compared {
     let Question { scene, base, shelf } = question;
-    let daylight = daylight(scene, base);
+    let daylight = daylight(scene, base, progress);
     let Some(selection) = selection_of(scene) else {
         return Compared::Own(own_part(question, files, progress), daylight);
     };

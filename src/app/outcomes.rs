@@ -433,8 +433,8 @@ impl App {
         let document = &self.state.document;
         let (scene, selection, base) = (document.scene.clone(), document.selection.clone(), self.state.base());
         let aperture = self.state.control_aperture();
-        self.start(Lane::Scene, move |_| {
-            let daylight = daylight(&scene, &base);
+        self.start(Lane::Scene, move |job| {
+            let daylight = daylight(&scene, &base, job);
             let place = (aperture, base.as_path());
             Outcome::Scene(take_from_shelf(&*shelf, &selection, &scene, daylight.as_ref().ok(), place), daylight)
         });

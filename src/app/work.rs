@@ -185,10 +185,10 @@ pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState
 }
 
 /// Sky and sun of a scene, as they are and as its first aperture sees them.
-pub(super) fn daylight(scene: &SceneFile, base: &Path) -> Result<Daylight, SkyKeyError> {
+pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) -> Result<Daylight, SkyKeyError> {
     let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base)?;
-    // What is wrong with boxes the room's tile says.
-    let seen = seen_by_first_aperture(scene, &outside, sun.as_ref()).ok().flatten().map(Box::new);
+    // What is wrong with boxes the room's tile says; what was withdrawn nobody looks at.
+    let seen = seen_by_first_aperture(scene, &outside, sun.as_ref(), progress).ok().flatten().map(Box::new);
     Ok(Daylight { outside, seen, sun })
 }
 

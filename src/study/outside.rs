@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::scene_file::{OutsideKeys, USUAL_REFLECTANCE};
 use crate::compute::direction::Orientation;
-use crate::compute::room::aperture::Aperture;
+use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::sky::faces::{Finish, surroundings};
 use crate::compute::sky::{Outside, Sun};
@@ -15,6 +15,8 @@ use std::sync::Arc;
 pub const MOST_BOXES: usize = 200;
 /// Longest way of a box from the room's origin. \[m\]
 const FARTHEST: f64 = 1e6;
+/// Shortest side of a box: what is thinner is typed by mistake, and rays could pass it unseen. \[m\]
+const THINNEST: f64 = 1e-6;
 
 /// Judges the boxes; in room axes.
 pub fn boxes(keys: &[OutsideKeys], room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, StudyError> {
@@ -32,6 +34,11 @@ fn one_box(index: usize, keys: &OutsideKeys, room: &BoxRoom) -> Result<(Solid, F
         }
         if from >= to {
             return wrong("box", format!("{axis} from {from} m to {to} m: \"to\" has to be greater than \"from\""));
+        }
+        if to - from < THINNEST {
+            let message =
+                format!("{axis} from {from} m to {to} m is too thin (allowed: sides of {THINNEST} m and more)");
+            return wrong("box", message);
         }
     }
     let turn = keys.solid.turn;
@@ -71,25 +78,29 @@ fn own_box(room: &BoxRoom) -> Solid {
     Solid::new(DVec3::ZERO, room.size, 0.0)
 }
 
-/// The outside behind boxes, lit; its skyline stays. Without boxes as it was.
+/// The outside behind boxes, lit; its skyline stays. Without boxes as it was. `viewpoints`: corners of the apertures, or
+/// what else it is seen from, in room axes.
+///
+/// # Errors
+/// [`Cancelled`] when `progress` says so.
 pub fn behind_boxes(
     outside: Outside,
     sun: Option<&Sun>,
     boxes: &[(Solid, Finish)],
     room: &BoxRoom,
     orientation: Orientation,
-    apertures: &[Aperture],
-) -> Outside {
+    viewpoints: &[DVec3],
+    progress: &dyn Progress,
+) -> Result<Outside, Cancelled> {
     if boxes.is_empty() {
-        return outside;
+        return Ok(outside);
     }
     let turned: Vec<(Solid, Finish)> =
         boxes.iter().map(|(solid, finish)| (solid.turned(orientation.turn()), *finish)).collect();
-    let viewpoints: Vec<DVec3> =
-        apertures.iter().flat_map(|aperture| aperture.corners()).map(|p| orientation.to_world(p)).collect();
+    let viewpoints: Vec<DVec3> = viewpoints.iter().map(|p| orientation.to_world(*p)).collect();
     let skyline = outside.surroundings().and_then(|known| known.skyline.clone());
     let open = outside.open();
     let room = own_box(room).turned(orientation.turn());
-    let around = surroundings(&open, sun, &turned, room, skyline, &viewpoints);
-    open.behind(Arc::new(around))
+    let around = surroundings(&open, sun, &turned, room, skyline, &viewpoints, progress)?;
+    Ok(open.behind(Arc::new(around)))
 }

@@ -16,6 +16,7 @@ use super::system::{Need, System, SystemLibrary};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Orientation, Surface};
+use crate::compute::estimate::{Progress, Silent};
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use crate::compute::lid::{Facing, Lamps};
 use crate::compute::room::aperture::Aperture;
@@ -123,8 +124,25 @@ impl SceneFile {
 }
 
 impl Scene {
-    /// Judges the keys together and loads the systems. `base` is what relative paths start from.
+    /// [`Self::resolve_within`] without reports.
+    ///
+    /// # Errors
+    /// Of keys and files.
     pub fn resolve(file: &SceneFile, base: &Path, library: &dyn SystemLibrary) -> Result<Self, StudyError> {
+        Self::resolve_within(file, base, library, &Silent)
+    }
+
+    /// Judges the keys together, loads the systems and lights what stands outside. `base` is what relative paths start
+    /// from.
+    ///
+    /// # Errors
+    /// Of keys and files; cancelled.
+    pub fn resolve_within(
+        file: &SceneFile,
+        base: &Path,
+        library: &dyn SystemLibrary,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
         let room = room(&file.room)?;
         let (outside, sun) =
             outside_from_keys(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
@@ -133,7 +151,8 @@ impl Scene {
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
         let solids = boxes(&file.outside, &room)?;
-        let outside = behind_boxes(outside, sun.as_ref(), &solids, &room, orientation, &geometry);
+        let corners: Vec<DVec3> = geometry.iter().flat_map(Aperture::corners).collect();
+        let outside = behind_boxes(outside, sun.as_ref(), &solids, &room, orientation, &corners, progress)?;
         let (sensors, grid) = sensors(&file.sensors, &room)?;
         let hour = hour(file)?;
         let mut list = Vec::with_capacity(geometry.len());
@@ -255,11 +274,12 @@ impl Scene {
 /// outside.
 ///
 /// # Errors
-/// Keys of room, apertures or boxes.
+/// Keys of room, apertures or boxes; cancelled.
 pub fn seen_by_first_aperture(
     file: &SceneFile,
     outside: &Outside,
     sun: Option<&Sun>,
+    progress: &dyn Progress,
 ) -> Result<Option<Outside>, StudyError> {
     if file.outside.is_empty() && outside.surroundings().is_none() {
         return Ok(None);
@@ -269,8 +289,10 @@ pub fn seen_by_first_aperture(
     let solids = boxes(&file.outside, &room)?;
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
     let Some([low, _, high, _]) = geometry.first().map(Aperture::corners) else { return Ok(None) };
-    let behind = behind_boxes(outside.clone(), sun, &solids, &room, orientation, &geometry);
-    Ok(Some(behind.seen_from(orientation.to_world(0.5 * (low + high)))))
+    // From there alone: faces that only others see stay dark.
+    let eye = 0.5 * (low + high);
+    let behind = behind_boxes(outside.clone(), sun, &solids, &room, orientation, &[eye], progress)?;
+    Ok(Some(behind.seen_from(orientation.to_world(eye))))
 }
 
 /// Area of all six sides. \[m²\]

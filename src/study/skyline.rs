@@ -52,7 +52,7 @@ pub fn behind_skyline(outside: Outside, skyline: Skyline) -> Outside {
         room: nowhere,
         faces: Vec::new(),
         sun: None,
-        shadow_edges: Vec::new(),
+        lines: Vec::new(),
         skyline: Some(skyline),
     }))
 }

@@ -108,7 +108,7 @@ impl Subject {
         const STEPS: usize = 4;
         let file = asked.file;
         progress.advance("scene", 0, STEPS);
-        let scene = Scene::resolve(file, asked.base, library)?;
+        let scene = Scene::resolve_within(file, asked.base, library, progress)?;
         let Some(first) = scene.apertures.first() else {
             return Err(StudyError::key("aperture", "the scene has none; expected at least one [[aperture]]"));
         };

@@ -17,6 +17,7 @@ texts! {
     const LAYERS = "layers" | "Schichten";
     const INTENSITIES = "luminous intensities" | "Lichtstärken";
     const MOMENTS = "moments" | "Zeitpunkte";
+    const OUTSIDE = "outside" | "außen";
     const PACKAGES = "packages" | "Pakete";
     const ROOM = "room" | "Raum";
     const SCENE = "scene" | "Szene";

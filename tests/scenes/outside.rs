@@ -1,9 +1,11 @@
 //! What stands outside: which keys are refused, and what must hold without any reference.
 
 use cfs::compute::direction::Dir;
-use cfs::compute::estimate::Silent;
+use cfs::compute::estimate::{Progress, Silent};
+use cfs::compute::quadrature::Tolerance;
 use cfs::compute::sky::faces::{Finish, surroundings};
-use cfs::compute::sky::{Distribution, Outside, irradiance};
+use cfs::compute::sky::{Distribution, Outside, irradiance, irradiance_through};
+use cfs::compute::surroundings::face_light::FaceLight;
 use cfs::compute::surroundings::solid::Solid;
 use cfs::study::scene_file::SceneFile;
 use cfs::study::{Library, RoomResult, Scene, Session};
@@ -67,6 +69,12 @@ fn wrong_keys_name_their_place() {
             a_box([1.0, -2.0, 0.0], [2.0, -1.0, 1.0], "reflectance = 0.2\nluminance = 3.0"),
             "outside[1].luminance",
         ),
+        (
+            CLEAR.to_owned(),
+            OVERCAST.to_owned(),
+            a_box([1.0, -2.0, 0.0], [2.0, -2.0 + 1e-9, 1.0], "luminance = 0.0"),
+            "outside[1].box",
+        ),
         (format!("{CLEAR}\nframe = 0.97"), OVERCAST.to_owned(), String::new(), "aperture[1].frame"),
         (format!("{CLEAR}\ndirt = -0.1"), OVERCAST.to_owned(), String::new(), "aperture[1].dirt"),
         (CLEAR.to_owned(), skyline("altitudes = []"), String::new(), "sky.skyline.altitudes"),
@@ -128,7 +136,8 @@ fn the_plan_says_what_was_split() {
 /// Illuminance of a wall that looks to −y from a point at the origin, past one black box. \[lx\]
 fn past(solid: Solid, outside: Outside) -> f64 {
     let room = Solid::new(DVec3::new(-1e-3, 1e-3, -1e-3), DVec3::new(1e-3, 2e-3, 1e-3), 0.0);
-    let around = surroundings(&outside, None, &[(solid, Finish::Luminance(0.0))], room, None, &[DVec3::ZERO]);
+    let around =
+        surroundings(&outside, None, &[(solid, Finish::Luminance(0.0))], room, None, &[DVec3::ZERO], &Silent).unwrap();
     let seen = outside.behind(Arc::new(around)).seen_from(DVec3::ZERO);
     irradiance(&seen, Dir::from_unit(DVec3::NEG_Y)).value
 }
@@ -192,4 +201,55 @@ fn summer_time_is_an_hour_behind() {
     assert_eq!(at("2026-07-01T13:00", "dst = \"eu\""), at("2026-07-01T12:00", ""));
     assert_eq!(at("2026-12-01T13:00", "dst = \"eu\""), at("2026-12-01T13:00", ""));
     assert!(at("2026-07-01T13:00", "dst = \"eu\"") > at("2026-07-01T13:00", ""));
+}
+
+/// Boxes that reach through each other: the line where their faces meet is no edge of either.
+#[test]
+fn boxes_that_cross_are_seen_as_rays_see_them() {
+    let sky = || Outside::new(Distribution::uniform(), 10_000.0).unwrap();
+    let solid = |from, to, turn: f64| Solid::new(DVec3::from_array(from), DVec3::from_array(to), turn.to_radians());
+    let boxes = [
+        (solid([-0.5, -5.0, 0.0], [1.0, -4.0, 9.0], 20.0), Finish::Luminance(100.0)),
+        (solid([-4.0, -4.8, 2.0], [5.0, -4.1, 3.5], 0.0), Finish::Luminance(20_000.0)),
+    ];
+    let room = Solid::new(DVec3::new(-1.0, 1.0, 0.0), DVec3::new(1.0, 2.0, 1.0), 0.0);
+    let eye = DVec3::new(0.3, 0.0, 1.0);
+    let around = surroundings(&sky(), None, &boxes, room, None, &[eye], &Silent).unwrap();
+    assert!(!around.lines.is_empty());
+    let seen = sky().behind(Arc::new(around)).seen_from(eye);
+    let n = 1000;
+    let at = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(n) - 1.0;
+    // Through an opening 1 m before the eye, by a grid on it.
+    let corners = [[-1.0, -1.0, 0.05], [1.0, -1.0, 0.05], [1.0, -1.0, 1.05], [-1.0, -1.0, 1.05]].map(DVec3::from_array);
+    let up = Dir::from_unit(DVec3::Z);
+    let found = irradiance_through(&seen, &corners, up, |_| 1.0, Tolerance::relative(1e-4)).value;
+    let mut on_grid = 0.0;
+    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (at(a), at(b)))) {
+        let p = DVec3::new(a, -1.0, 0.55 + 0.5 * b);
+        let d = p.normalize();
+        on_grid += seen.luminance(Dir::from_unit(d)) * d.z / p.length_squared() * -d.y * 2.0 / f64::from(n * n);
+    }
+    assert!((found / on_grid - 1.0).abs() < 2e-3, "{found} {on_grid}");
+}
+
+#[test]
+fn light_on_many_boxes_ends_when_it_is_not_wanted() {
+    struct Withdrawn;
+    impl Progress for Withdrawn {
+        fn cancelled(&self) -> bool {
+            true
+        }
+    }
+    let sky = Outside::new(Distribution::uniform(), 10_000.0).unwrap();
+    let one = |k: u32| {
+        let x = f64::from(k) - 10.0;
+        (Solid::new(DVec3::new(x, -9.0, 0.0), DVec3::new(x + 0.8, -8.0, 4.0), 0.0), Finish::Reflectance(0.3))
+    };
+    let boxes: Vec<_> = (6..14).map(one).collect();
+    let room = Solid::new(DVec3::ZERO, DVec3::new(4.0, 6.0, 3.0), 0.0);
+    let lit = |progress: &dyn Progress| surroundings(&sky, None, &boxes, room, None, &[DVec3::Z], progress);
+    assert!(lit(&Withdrawn).is_err());
+    let panels = |boxes: &[[FaceLight; 6]]| boxes.iter().flatten().map(FaceLight::panels).sum::<usize>();
+    let around = lit(&Silent).unwrap();
+    assert!(around.is_lit() && panels(&around.faces) < 1000, "{}", panels(&around.faces));
 }

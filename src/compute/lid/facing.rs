@@ -2,7 +2,7 @@
 
 use crate::compute::direction::{Dir, Facade, Orientation, Surface};
 use crate::compute::sky::sun_disc::{self, Edge};
-use crate::compute::sky::{Outside, Sun};
+use crate::compute::sky::{Outside, SUN_HALF_ANGLE, Sun};
 use glam::DVec3;
 
 /// Outside as one aperture faces it.
@@ -30,12 +30,15 @@ impl Facing<'_> {
     }
 
     /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
-    /// the aperture's frame. Boxes are not among them: they hide it from some points.
+    /// the aperture's frame. Boxes are not among them: they hide it from some points. Where a skyline has a corner before
+    /// the disc, a straight edge stands for it that leaves the same share of the disc.
     pub fn sun_edges(&self) -> [Edge; 2] {
         let skyline = self.outside.surroundings().and_then(|surroundings| surroundings.skyline.as_ref());
         if let (Some(skyline), Some(sun)) = (skyline, self.sun) {
-            let up = self.orientation.to_room(skyline.plane(sun.direction.bearing().radians()));
-            let edge = Edge::great_circle(self.surface.facade_from_room(up));
+            let to = sun.direction.vector();
+            let up = skyline.plane(sun.direction.bearing().radians());
+            let free = skyline.free_share(to, SUN_HALF_ANGLE);
+            let edge = Edge::leaving(self.surface.facade_from_room(self.orientation.to_room(up)), up.dot(to), free);
             return [edge, Edge::great_circle(DVec3::Z)];
         }
         let zenith = self.surface.facade_from_room(DVec3::Z);

@@ -1,6 +1,7 @@
 //! Illuminance of an aperture from each cell of a division of its hemisphere: the outside as a vector over a basis.
 
 use super::integral::integrate_region;
+use super::on_dome;
 use super::outside::{Before, Outside};
 use super::prospect::{Parts, Prospect};
 use super::region::{Frame, Region, Weight};
@@ -59,7 +60,7 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
     let open = outside.open();
     let compute = || incident_illuminances_within(&open, basis, frame, relative);
     let free = before.kept.get(basis, frame, relative, compute);
-    let prospect = Prospect::lit(&open, &before.surroundings, before.eye);
+    let prospect = Prospect::new(&open, &before.surroundings, before.eye);
     let whole: f64 = free.iter().map(|e| e.value).sum();
     (0..basis.len())
         .into_par_iter()
@@ -77,7 +78,7 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
                 let from = cell.phi - 0.5 * cell.width + piece as f64 * step;
                 let region =
                     Region { frame: *frame, theta: (cell.theta_min, cell.theta_max), phi: (from, from + step) };
-                match prospect.over(&region, Weight::Projected, PAST, absolute) {
+                match on_dome::over(&prospect, &region, Weight::Projected, PAST, absolute) {
                     Some((parts, off)) => {
                         met = true;
                         sum.before += parts.before;

@@ -3,6 +3,7 @@
 //! Ground and skyline are closed forms in θ, and the sky is smooth between known knots of φ. The circumsolar tip, where
 //! the luminance has a kink, becomes the corner of triangles that map it away (Duffy's transformation).
 
+use super::on_dome;
 use super::outside::Outside;
 use super::patches::Patch;
 use super::prospect::Prospect;
@@ -141,7 +142,7 @@ fn tip(
 fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
-    let found = Prospect::lit(&open, surroundings, eye).over(region, weight, 1e-5, 0.0);
+    let found = on_dome::over(&Prospect::new(&open, surroundings, eye), region, weight, 1e-5, 0.0);
     found.map_or_else(Estimate::default, |(parts, error)| {
         Estimate::new(parts.before - parts.behind, error + parts.doubt)
     })

@@ -11,7 +11,8 @@
 //! | `region` | regions of the sphere and how horizon and skyline cut them |
 //! | `integral`, `scan_region` | integrals over regions, smooth and measured skies |
 //! | `prospect`, `opening` | what stands before sky and ground: seen from a point, through an opening |
-//! | `faces` | the light on what stands there |
+//! | `on_dome` | regions swept by the bearing: skylines and measured skies behind what stands before them |
+//! | `faces`, `hidden` | the light on what stands there |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |
@@ -24,9 +25,11 @@ pub mod clear_sky;
 mod distribution;
 pub mod faces;
 mod gradated;
+mod hidden;
 mod horizontal;
 mod incident;
 mod integral;
+mod on_dome;
 mod open_cells;
 mod opening;
 mod outside;

@@ -4,13 +4,14 @@
 
 use super::outside::Outside;
 use super::prospect::Prospect;
-use super::region::Frame;
+use super::region::{Cap, Frame};
+use super::scan_region::sector_bearings;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::Tolerance;
 use crate::compute::sweep::{rule, sweep};
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Illuminance from the outside that is seen through a convex opening, every direction weighted by `tau`. \[lx\]
 ///
@@ -25,9 +26,13 @@ pub fn irradiance_through(
 ) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
-    let prospect = Prospect::lit(&open, surroundings, eye);
+    let prospect = Prospect::new(&open, surroundings, eye);
     let normal = normal.vector();
     let middle = corners.iter().sum::<DVec3>().normalize_or_zero();
+    // What is seen through it lies within the cone of its corners; where that is no cone, anywhere.
+    let aside = corners.iter().map(|corner| middle.dot(corner.normalize_or_zero())).fold(1.0, f64::min);
+    let reach = if aside > 1e-6 { aside.min(1.0).acos() + 1e-6 } else { PI };
+    let near = prospect.near(&Cap { middle, reach }).unwrap_or_default();
     let rim: Vec<[DVec3; 2]> = (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]).collect();
     let planes: Vec<DVec3> = rim
         .iter()
@@ -59,23 +64,20 @@ pub fn irradiance_through(
     };
     corners.iter().for_each(|corner| add(*corner));
     surroundings.skyline.iter().flat_map(|skyline| skyline.corners()).for_each(&mut add);
-    let sun = outside.sun_direction().map(Dir::vector);
-    sun.into_iter().for_each(&mut add);
-    for end in eye.into_iter().flat_map(|eye| surroundings.edges_from(eye)).flatten() {
-        add(end);
+    prospect.peak.into_iter().for_each(&mut add);
+    near.edges.iter().flatten().copied().for_each(&mut add);
+    if open.is_piecewise_constant() {
+        sector_bearings().into_iter().for_each(|bearing| add(frame.direction(FRAC_PI_2, bearing)));
     }
     if all_round {
         [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].into_iter().for_each(&mut add);
     }
     knots.sort_unstable_by(f64::total_cmp);
-    let sun_theta = sun.map(|sun| frame.angles(sun).0);
+    let edges: Vec<[DVec3; 2]> = near.edges.iter().chain(&rim).copied().collect();
     let mut breaks = Vec::with_capacity(24);
     let line = |phi: f64| {
         let phi = phi + reference;
-        prospect.breaks(&frame, phi, (0.0, PI), &rim, &mut breaks);
-        if let Some(theta) = sun_theta {
-            breaks.insert(breaks.partition_point(|other| *other < theta), theta);
-        }
+        prospect.breaks_at_bearing(phi, &edges, &[], &mut breaks);
         let mut sum = [0.0; 2];
         for pair in breaks.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
             let (from, width) = (pair[0], pair[1] - pair[0]);
@@ -83,7 +85,7 @@ pub fn irradiance_through(
             if !within(middle) {
                 continue;
             }
-            let met = prospect.met(middle);
+            let met = prospect.met(&near, middle);
             let mut part = 0.0;
             for &(x, share) in rule(4 + (width / 0.12) as usize) {
                 let theta = from + width * x;

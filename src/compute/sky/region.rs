@@ -76,6 +76,21 @@ impl Weight {
     }
 }
 
+/// A part of the sphere: its middle, and how far it reaches. \[rad\]
+#[derive(Clone, Copy)]
+pub(super) struct Cap {
+    pub middle: DVec3,
+    pub reach: f64,
+}
+
+impl Cap {
+    /// May both have a direction in common?
+    pub fn touches(&self, other: &Self) -> bool {
+        let reach = self.reach + other.reach;
+        reach >= PI || self.middle.dot(other.middle) > reach.cos()
+    }
+}
+
 /// θ₀ … θ₁ × φ₀ … φ₁ of a frame. \[rad\]
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
@@ -85,6 +100,21 @@ pub(super) struct Region {
 }
 
 impl Region {
+    /// A cap that holds it.
+    pub fn cap(&self) -> Cap {
+        let (theta, phi) = (0.5 * (self.theta.0 + self.theta.1), 0.5 * (self.phi.0 + self.phi.1));
+        let (high, wide) = (self.theta.1 - self.theta.0, self.phi.1 - self.phi.0);
+        let reach = 0.5 * (high + wide * self.theta.1.sin().max(0.0)) + 1e-6;
+        Cap { middle: self.frame.direction(theta, phi), reach }
+    }
+
+    /// Does it hold a direction, to rounding?
+    pub fn holds(&self, direction: DVec3, slack: f64) -> bool {
+        let (theta, phi) = self.frame.angles(direction);
+        let past = (phi - self.phi.0 + slack).rem_euclid(2.0 * PI);
+        theta >= self.theta.0 - slack && theta <= self.theta.1 + slack && past <= self.phi.1 - self.phi.0 + 2.0 * slack
+    }
+
     /// Coefficients A, B of n·d = A sinθ + B cosθ along a line of constant φ.
     #[inline]
     pub fn along(&self, n: DVec3, phi: f64) -> (f64, f64) {

@@ -24,6 +24,15 @@ fn meridian_planes() -> Vec<DVec3> {
     bearings.into_iter().map(|bearing| DVec3::new(bearing.cos(), -bearing.sin(), 0.0)).collect()
 }
 
+/// Bearings of all borders between sectors. \[rad\]
+pub(super) fn sector_bearings() -> Vec<f64> {
+    let of = |&count: &usize| (0..count).map(move |k| (k as f64 + 0.5) * 2.0 * PI / count as f64);
+    let mut bearings: Vec<f64> = ROWS[..7].iter().flat_map(of).collect();
+    bearings.sort_by(f64::total_cmp);
+    bearings.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    bearings
+}
+
 /// Corners of the lattice's cells.
 fn corners() -> Vec<DVec3> {
     let mut corners = Vec::new();

@@ -21,6 +21,25 @@ impl Edge {
     pub const fn great_circle(normal: DVec3) -> Self {
         Self { normal, offset: 0.0 }
     }
+
+    /// The edge across a unit normal that leaves a share of the sun's disc free, 0 … 1; `height`: normal · sun.
+    pub fn leaving(normal: DVec3, height: f64, share: f64) -> Self {
+        // The segment's chord at distance t of the radius below the centre, by halving.
+        let (mut low, mut high) = (-1.0_f64, 1.0_f64);
+        for _ in 0..50 {
+            let t = 0.5 * (low + high);
+            let free = 0.5 + (t.asin() + t * (1.0 - t * t).sqrt()) / std::f64::consts::PI;
+            if free < share { low = t } else { high = t }
+        }
+        // Whole and hidden discs lie clear of the edge.
+        let t = match share {
+            1.0.. => 1.1,
+            ..=0.0 => -1.1,
+            _ => 0.5 * (low + high),
+        };
+        let slope = (1.0 - height * height).max(0.0).sqrt();
+        Self { normal, offset: height - t * slope * SUN_HALF_ANGLE.tan() }
+    }
 }
 
 /// Vertices of the polygon that stands for a partly hidden disc.
@@ -146,6 +165,16 @@ mod tests {
         assert_eq!(share(sun, DVec3::Z, [Edge::great_circle(DVec3::NEG_Z)]), 0.0);
         let half = Edge::great_circle(DVec3::X);
         assert!((share(sun, DVec3::Z, [half]) - 0.4).abs() < 1e-5);
+    }
+
+    #[test]
+    fn an_edge_leaves_the_share_that_is_asked() {
+        let sun = DVec3::new(0.0, 0.6, 0.8);
+        let normal = DVec3::new(0.3, -0.2, 0.9).normalize();
+        for asked in [0.0, 0.01, 0.25, 0.5, 0.9, 1.0] {
+            let found = share(sun, DVec3::Z, [Edge::leaving(normal, normal.dot(sun), asked)]) / 0.8;
+            assert!((found - asked).abs() < 5e-3, "{asked}: {found}");
+        }
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub mod solid;
 use face_light::FaceLight;
 use glam::DVec3;
 use skyline::Skyline;
-use solid::Solid;
+use solid::{Face, Solid};
 
 /// What a direction meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,10 +51,19 @@ pub struct Surroundings {
     pub faces: Vec<[FaceLight; 6]>,
     /// Towards the sun that lights faces; `None` where it lights none.
     pub sun: Option<DVec3>,
-    /// Edges of shadows on faces that can be seen.
-    pub shadow_edges: Vec<[DVec3; 2]>,
+    /// Lines on faces at which the luminance may jump, beside the boxes' own edges: of shadows, and where faces meet.
+    pub lines: Vec<Line>,
     /// Altitude of what is far away, by bearing.
     pub skyline: Option<Skyline>,
+}
+
+/// A line on one face or on two at which the luminance may jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Its ends.
+    pub ends: [DVec3; 2],
+    /// The faces that it lies on; twice the same where it is one.
+    pub faces: [Face; 2],
 }
 
 /// The nearest of some boxes that a ray enters: its index, the distance and the face.
@@ -77,8 +86,14 @@ pub fn first_hit<'a>(
 impl Surroundings {
     /// What is met in a direction; `None`: sky or ground. Without a point to see from, boxes do not count.
     pub fn seen(&self, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
+        self.seen_among(0..self.solids.len(), eye, direction)
+    }
+
+    /// The same where no other boxes than these can be met.
+    pub fn seen_among(&self, boxes: impl Iterator<Item = usize>, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
         if let Some(eye) = eye
-            && let Some((solid, distance, face)) = first_hit(self.solids.iter().enumerate(), eye, direction)
+            && let Some((solid, distance, face)) =
+                first_hit(boxes.map(|index| (index, &self.solids[index])), eye, direction)
         {
             return Some(Seen::Face { solid, face, sunlit: self.sunlit(solid, face, eye + distance * direction) });
         }
@@ -119,7 +134,9 @@ impl Surroundings {
     /// Segments at which the luminance may jump, as vectors from a point.
     pub fn edges_from(&self, eye: DVec3) -> Vec<[DVec3; 2]> {
         let edges = self.solids.iter().flat_map(|solid| solid.visible_edges(eye));
-        edges.chain(self.shadow_edges.iter().copied()).map(|edge| edge.map(|p| p - eye)).collect()
+        let turned = |face: &Face| face.normal.dot(eye - face.origin) > 0.0;
+        let lines = self.lines.iter().filter(|line| line.faces.iter().any(turned)).map(|line| line.ends);
+        edges.chain(lines).map(|edge| edge.map(|p| p - eye)).collect()
     }
 
     /// The same with all light times a factor.

@@ -1,7 +1,8 @@
 //! A skyline that rises and falls with the bearing.
 
+use crate::compute::sweep::rule;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Altitudes between which the skyline runs straight over the bearing, all round.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,8 +53,49 @@ impl Skyline {
         self.knots.iter().map(|&[bearing, altitude]| direction(bearing, altitude))
     }
 
+    /// Share of a small disc about a direction that lies above the skyline and the horizon, 0 … 1; its corners and steps
+    /// within the disc count. `radius` \[rad\]. Heights are counted upright in the disc's plane, good to the square of its
+    /// radius.
+    pub fn free_share(&self, direction: DVec3, radius: f64) -> f64 {
+        const POINTS: usize = 12;
+        let sideways = DVec3::new(direction.y, -direction.x, 0.0).try_normalize().unwrap_or(DVec3::X);
+        let middle = direction.x.atan2(direction.y);
+        let cos = direction.truncate().length();
+        // Columns at radius·sin t, and among them those at which corners stand.
+        let mut knots = vec![-FRAC_PI_2, 0.0, FRAC_PI_2];
+        for [bearing, _] in &self.knots {
+            let from = bearing - middle;
+            let aside = cos * (from - 2.0 * PI * (from / (2.0 * PI)).round()).sin() / radius;
+            if aside.abs() < 1.0 {
+                knots.push(aside.asin());
+            }
+        }
+        knots.sort_unstable_by(f64::total_cmp);
+        let mut share = 0.0;
+        for pair in knots.windows(2) {
+            for &(x, weight) in rule(POINTS) {
+                let t = pair[0] + (pair[1] - pair[0]) * x;
+                let at = direction + sideways * (radius * t.sin());
+                let height = at.z.atan2(at.truncate().length());
+                let hidden = self.altitude(at.x.atan2(at.y)).max(0.0) - height;
+                let half = radius * t.cos();
+                let free = (0.5 * (1.0 - hidden / half)).clamp(0.0, 1.0);
+                share += weight * (pair[1] - pair[0]) * free * t.cos() * t.cos();
+            }
+        }
+        // Whole and hidden discs without the rule's rounding.
+        let share = share * 2.0 / PI;
+        if share > 1.0 - 1e-9 {
+            1.0
+        } else if share < 1e-9 {
+            0.0
+        } else {
+            share
+        }
+    }
+
     /// Normal of the great circle that the skyline follows about a bearing, upwards: on the scale of the sun's disc it is
-    /// straight.
+    /// straight but at corners.
     pub fn plane(&self, bearing: f64) -> DVec3 {
         const NEAR: f64 = 0.1 * PI / 180.0;
         let [a, b] = [-NEAR, NEAR].map(|by| direction(bearing + by, self.altitude(bearing + by)));
@@ -82,6 +124,29 @@ mod tests {
         assert!(skyline.covers(direction(1.0, 0.1)) && !skyline.covers(direction(1.0, 0.3)));
         let one = Skyline::new([[1.0, 0.2]], 0.0).unwrap();
         assert_eq!(one.altitude(4.0), 0.2);
+    }
+
+    #[test]
+    fn a_disc_is_cut_by_every_corner_and_step() {
+        let radius = 0.2665_f64;
+        let share = |knots: &[[f64; 2]], altitude: f64| {
+            let skyline = Skyline::new(knots.iter().map(|knot| knot.map(f64::to_radians)), 0.0).unwrap();
+            skyline.free_share(direction(PI, altitude.to_radians()), radius.to_radians())
+        };
+        assert_eq!(share(&[[0.0, 20.0]], 21.0), 1.0);
+        assert_eq!(share(&[[0.0, 20.0]], 19.0), 0.0);
+        assert!((share(&[[0.0, 20.0]], 20.0) - 0.5).abs() < 1e-3);
+        // An upright step beside the middle: a segment of the disc.
+        for aside in [0.0, 0.1, 0.2, 0.26, 0.4] {
+            let step = [[150.0, 0.0], [180.0 + aside, 0.0], [180.0001 + aside, 40.0], [220.0, 40.0], [230.0, 0.0]];
+            let x = (aside / radius * 30_f64.to_radians().cos()).min(1.0);
+            let free = 1.0 - (x.acos() - x * (1.0 - x * x).sqrt()) / PI;
+            assert!((share(&step, 30.0) - free).abs() < 2e-3, "{aside}: {} {free}", share(&step, 30.0));
+        }
+        // A ridge at the middle whose slopes fall at 45° on the sky: three quarters are free.
+        let fall = 30.0 - 10.0 * 30_f64.to_radians().cos();
+        let ridge = share(&[[170.0, fall], [180.0, 30.0], [190.0, fall]], 30.0);
+        assert!((ridge - 0.75).abs() < 2e-3, "{ridge}");
     }
 
     #[test]

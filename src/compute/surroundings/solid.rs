@@ -44,6 +44,39 @@ impl Face {
         let [[a, b], [c, d]] = self.limits;
         [self.point(a, c), self.point(b, c), self.point(b, d), self.point(a, d)]
     }
+
+    /// The segment in which two faces cross; `None` where they lie apart or in planes alike.
+    pub fn meets(&self, other: &Self) -> Option<[DVec3; 2]> {
+        let height = |p: DVec3| self.normal.dot(p - self.origin);
+        let corners = other.corners();
+        let mut crossed = (0..4).filter_map(|k| {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            let (p, q) = (height(a), height(b));
+            ((p > 0.0) != (q > 0.0)).then(|| a + (b - a) * (p / (p - q)))
+        });
+        let (from, to) = (crossed.next()?, crossed.next()?);
+        self.clip([from, to])
+    }
+
+    /// What of a segment in the face's plane lies on the face.
+    fn clip(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        let (p, q) = (self.coordinates(from), self.coordinates(to));
+        for axis in 0..2 {
+            let [low, high] = self.limits[axis];
+            let along = q[axis] - p[axis];
+            if along.abs() < 1e-12 {
+                if p[axis] < low || p[axis] > high {
+                    return None;
+                }
+                continue;
+            }
+            let (s, t) = ((low - p[axis]) / along, (high - p[axis]) / along);
+            first = first.max(s.min(t));
+            last = last.min(s.max(t));
+        }
+        (last - first > 1e-9).then(|| [first, last].map(|t| from + t * (to - from)))
+    }
 }
 
 /// A ray that meets less of a box than this only touches it. \[m\]
@@ -265,6 +298,25 @@ mod tests {
             }
         }
         assert!(met > 200);
+    }
+
+    #[test]
+    fn faces_meet_where_both_are() {
+        // A slab through a tower: its front cuts the tower's flank over the slab's height.
+        let tower = Solid::new(DVec3::new(0.0, -5.0, 0.0), DVec3::new(1.0, -4.0, 9.0), 0.0);
+        let slab = Solid::new(DVec3::new(-3.0, -4.6, 2.0), DVec3::new(3.0, -4.2, 3.0), 0.0);
+        let [a, b] = tower.face(1).meets(&slab.face(3)).unwrap();
+        let (low, high) = if a.z < b.z { (a, b) } else { (b, a) };
+        assert!(low.distance(DVec3::new(1.0, -4.2, 2.0)) < 1e-12, "{low}");
+        assert!(high.distance(DVec3::new(1.0, -4.2, 3.0)) < 1e-12, "{high}");
+        // The slab's front lies inside the tower, before which nothing of it is cut.
+        assert!(tower.face(3).meets(&slab.face(3)).is_none() && tower.face(5).meets(&slab.face(3)).is_none());
+        // Turned by 45° it crosses the front's plane, too.
+        let turned = Solid::new(DVec3::new(-3.0, -4.1, 2.0), DVec3::new(3.0, -3.9, 3.0), 45_f64.to_radians());
+        let pairs = (0..6).flat_map(|a| (0..6).map(move |b| (a, b)));
+        let met = pairs.filter_map(|(a, b)| tower.face(a).meets(&turned.face(b))).flatten();
+        let on = |solid: &Solid, p: DVec3| solid.enter(p + 1e-6 * (p - solid.middle()), solid.middle() - p).is_some();
+        assert!(met.filter(|p| on(&tower, *p) && on(&turned, *p)).count() >= 4);
     }
 
     #[test]
