@@ -45,6 +45,8 @@ const EVEN: f64 = 0.15;
 const MOST_PARTS: usize = 100;
 /// ... and where it has to be interpolated anew for every point.
 const MOST_DEAR_PARTS: usize = 4;
+/// ... and where nothing is scattered.
+const MOST_STRAIGHT_PARTS: usize = 20;
 /// What parabolas over parts may leave, of the error asked for.
 const SHARE: f64 = 0.01;
 /// Light that changes less than this over the aperture is the same all over.
@@ -224,6 +226,11 @@ impl Leaf {
         ]
     }
 
+    /// Is nothing scattered evenly?
+    fn is_straight(&self) -> bool {
+        self.nodes.iter().all(|node| node.emission.uniform.value <= 0.0)
+    }
+
     /// What goes straight through at a node, per area.
     fn through(&self, node: &Node) -> f64 {
         node.fluxes.last().copied().filter(|_| self.any().regular.is_some()).unwrap_or(0.0)
@@ -399,7 +406,10 @@ impl Session {
             cut_along(&lines, most_of(&self.node(scene, index, [0.5; 2]).emission).div_ceil(2))
         };
         let mut leaves = self.asked(scene, index, parts);
-        let most = most_of(leaves[0].any());
+        let any = leaves[0].any();
+        // Of what goes straight through only the flux is asked for: it scales what the room's patches see themselves.
+        let straight = any.cells.is_empty() && any.bands.is_empty() && leaves.iter().all(Leaf::is_straight);
+        let (most, target) = if straight { (MOST_STRAIGHT_PARTS, 10.0 * target) } else { (most_of(any), target) };
         loop {
             let (flux, left): (f64, f64) = leaves.iter().fold((0.0, 0.0), |(flux, left), leaf| {
                 (flux + leaf.flux(), left + leaf.left_over().iter().sum::<f64>())
