@@ -2,10 +2,12 @@
 //! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
 
 mod behind;
+mod creases;
 mod emission;
 pub(super) mod interreflected;
 mod lights;
 mod outside_seen;
+mod part;
 pub(super) mod responses;
 mod split;
 mod surfaces;

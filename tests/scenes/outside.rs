@@ -1,6 +1,7 @@
 //! What stands outside: which keys are refused, and what must hold without any reference.
 
-use cfs::compute::direction::Dir;
+use cfs::compute::basis::RingBasis;
+use cfs::compute::direction::{Dir, Emergent};
 use cfs::compute::estimate::{Progress, Silent};
 use cfs::compute::quadrature::Tolerance;
 use cfs::compute::sky::faces::{Finish, surroundings};
@@ -167,6 +168,126 @@ fn what_enters_under_an_endless_overhang_is_its_mean() {
     let mean = (1.8_f64.hypot(1.2) - 1.2) / 1.8;
     let exact = 0.5 * 3.0 * 1.8 * (5000.0 * mean + 1000.0);
     assert!((found / exact - 1.0).abs() < 3e-3, "{found} {exact}");
+}
+
+/// The same scene with its opening cut into abutting ones, along the borders `x` and `z`.
+fn cut(own: &str, x: &[f64], z: &[f64]) -> String {
+    let start = own.find("[[aperture]]").unwrap();
+    let end = own[start + 1..].find("\n[[").unwrap() + start + 2;
+    let one = &own[start..end];
+    let mut parts = String::new();
+    for along in x.windows(2) {
+        for up in z.windows(2) {
+            let part = one.replace("[0.5, 0.9]", &format!("[{:?}, {:?}]", along[0], up[0]));
+            parts += &part.replace("[3.0, 1.8]", &format!("[{:?}, {:?}]", along[1] - along[0], up[1] - up[0]));
+        }
+    }
+    format!("{}{parts}{}", &own[..start], &own[end..])
+}
+
+/// Borders of equal parts.
+fn equal(from: f64, to: f64, count: u32) -> Vec<f64> {
+    (0..=count).map(|k| from + (to - from) * f64::from(k) / f64::from(count)).collect()
+}
+
+/// In a room that reflects.
+fn reflecting(own: &str) -> String {
+    own.replace("floor = 0.0, walls = 0.0, ceiling = 0.0", "floor = 0.3, walls = 0.6, ceiling = 0.8")
+        .replace("interreflection = false", "interreflection = true")
+}
+
+#[test]
+fn what_stands_on_the_glass_leaves_the_opening_beside_it() {
+    // Black, 5 cm thick, on 60 % of the width; the opening that is left beside it, and a dark one behind it.
+    let on_it = a_box([0.5, -0.05, 0.5], [2.3, 0.0, 2.9], "luminance = 0.0");
+    for system in [CLEAR, DIFFUSE] {
+        let system = format!("{system}\nreflectance = 0.0");
+        let own = reflecting(&text(&system, "model = \"uniform\"\ndiffuse_horizontal = 10000.0", &on_it));
+        let (found, left) = (room(&own), room(&cut(&own, &[0.5, 2.3, 3.5], &[0.9, 2.7])));
+        assert!((found.flux.value / left.flux.value - 1.0).abs() < 3e-3, "{:?} {:?}", found.flux, left.flux);
+        for (a, b) in found.sensors.iter().zip(&left.sensors) {
+            let (all, other) = (a.total(), b.total());
+            assert!((all.value / other.value - 1.0).abs() < 0.01, "{system}: {all:?} {other:?}");
+            assert!((all.value - other.value).abs() <= all.error + other.error, "{system}: {all:?} {other:?}");
+            assert!(all.error < 0.03 * all.value, "{system}: {all:?}");
+            let [reflected, other] = [a, b].map(|sensor| sensor.interreflected.value);
+            assert!((reflected / other - 1.0).abs() < 0.02, "{system}: {reflected} {other}");
+        }
+        // As a luminaire it is not black though its middle is covered.
+        let lit = Session::new().lid(&resolve(&own).unwrap(), 0, &Silent).unwrap();
+        let basis = RingBasis::equal_area(40);
+        let by_direction: f64 = basis
+            .cells()
+            .map(|cell| cell.projected_solid_angle() * lit.lid.luminance(Emergent::from_through_name(cell.centre())))
+            .sum::<f64>()
+            * lit.lid.area();
+        assert!((by_direction / left.flux.value - 1.0).abs() < 0.01, "{system}: {by_direction} {:?}", left.flux);
+    }
+}
+
+#[test]
+fn a_thin_fin_before_a_diffusing_pane_takes_what_its_parts_say() {
+    // 4 cm wide and 30 cm deep, between what nine points of the pane see.
+    let fin = a_box([1.0, -0.3, 0.0], [1.04, 0.0, 3.0], "luminance = 0.0");
+    let own = text(DIFFUSE, OVERCAST, &fin);
+    let mut borders = equal(0.5, 1.0, 4);
+    borders.extend(equal(1.04, 3.5, 8));
+    let (found, parts) = (room(&own), room(&cut(&own, &borders, &equal(0.9, 2.7, 2))));
+    for (a, b) in found.sensors.iter().zip(&parts.sensors) {
+        let (a, b) = (a.total(), b.total());
+        assert!((a.value / b.value - 1.0).abs() < 3e-3, "{a:?} {b:?}");
+        assert!((a.value - b.value).abs() <= a.error + b.error, "{a:?} {b:?}");
+        assert!(a.error < 0.01 * a.value, "{a:?}");
+    }
+}
+
+#[test]
+fn a_roof_light_beside_a_wall_gets_what_the_wall_leaves_though_both_its_ends_are_alike() {
+    // A black wall 2 m high and 4 m long, its middle before the middle of the pane: light falls along the pane and rises
+    // again. What a point of the roof does not get is the wall's configuration factor.
+    let wall = a_box([0.0, 0.0, 3.0], [4.0, 0.5, 5.0], "luminance = 0.0");
+    let own = text(DIFFUSE, "model = \"uniform\"\ndiffuse_horizontal = 10000.0", &wall)
+        .replace("\"facade\"", "\"roof\"")
+        .replace("[0.5, 0.9]", "[1.0, 1.0]")
+        .replace("[3.0, 1.8]", "[2.0, 2.0]");
+    let factor = |half: f64, away: f64| {
+        let slant = away.hypot(2.0);
+        ((half / away).atan() - away / slant * (half / slant).atan()) / (2.0 * std::f64::consts::PI)
+    };
+    let n = 100;
+    let place = |k: i32| 1.0 + 2.0 * (f64::from(k % n) + 0.5) / f64::from(n);
+    let hidden = (0..n * n).map(|k| {
+        let (x, away) = (place(k), place(k / n) - 0.5);
+        factor(x, away) + factor(4.0 - x, away)
+    });
+    let exact = 0.5 * 4.0 * 10_000.0 * (1.0 - hidden.sum::<f64>() / f64::from(n * n));
+    let found = room(&own).flux;
+    assert!((found.value / exact - 1.0).abs() < 3e-4, "{found:?} {exact}");
+    assert!((found.value - exact).abs() <= found.error, "{found:?} {exact}");
+}
+
+#[test]
+fn scattered_sun_below_an_overhang_comes_from_what_the_sun_reaches() {
+    // The shadow ends so far below the overhang's lower front edge: cut there, one part is in the sun, one in the shade.
+    let sun = format!("{BLACK}\nsun = {{ altitude = 48.0, azimuth = 190.0, direct_normal = 50000.0 }}");
+    let overhang = a_box([-9.0, -1.2, 2.75], [13.0, 0.0, 2.9], "luminance = 0.0");
+    let own = text("system = { file = \"assets/systems/acrylic-diffuser-haze.system.toml\" }", &sun, &overhang);
+    let edge = 2.75 - 1.2 * 48_f64.to_radians().tan() / 10_f64.to_radians().cos();
+    let (found, parts) = (totals(&own), totals(&cut(&own, &[0.5, 3.5], &[0.9, edge, 2.7])));
+    for (a, b) in found.iter().zip(&parts) {
+        assert!(*a > 10.0 && (a / b - 1.0).abs() < 1e-3, "{found:?} {parts:?}");
+    }
+}
+
+#[test]
+fn the_room_reflects_the_light_of_an_uneven_pane_from_where_it_comes() {
+    let overhang = a_box([0.0, -2.0, 2.75], [4.0, 0.0, 2.9], "luminance = 0.0");
+    let own = reflecting(&text(DIFFUSE, OVERCAST, &overhang)).replace("[0.9, 0.6, 0.85]", "[2.0, 0.3, 1.5]");
+    let (found, parts) = (room(&own), room(&cut(&own, &equal(0.5, 3.5, 3), &equal(0.9, 2.7, 6))));
+    for (a, b) in found.sensors.iter().zip(&parts.sensors) {
+        let [reflected, other] = [a, b].map(|sensor| sensor.interreflected.value);
+        assert!((reflected / other - 1.0).abs() < 8e-3, "{reflected} {other}");
+    }
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::{Frame, incident_illuminances};
+use crate::compute::sky::{Frame, Outside, incident_illuminances};
 use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -268,6 +268,11 @@ impl Emission {
 
     /// As a luminous-intensity distribution (eq 5).
     pub fn lid(&self, facing: &Facing<'_>, size: [f64; 2]) -> Lid {
+        self.lid_through(facing, size, vec![(1.0, facing.outside.clone())])
+    }
+
+    /// The same where the outside that is seen straight through is the mean of several, with their shares.
+    pub fn lid_through(&self, facing: &Facing<'_>, size: [f64; 2], seen: Vec<(f64, Outside)>) -> Lid {
         let mut parts = Vec::new();
         if self.uniform.value > 0.0 {
             parts.push(EmergentLuminance::Uniform(self.uniform.value));
@@ -287,11 +292,11 @@ impl Emission {
             parts.push(EmergentLuminance::Bands(sum));
         }
         if let Some(tau) = &self.regular {
-            let (tau, outside) = (tau.clone(), facing.outside.clone());
+            let tau = tau.clone();
             let (orientation, surface) = (facing.orientation, facing.surface);
             parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
                 let world = orientation.world_from_room(surface.room_dir(twin));
-                tau.at(twin.theta()) * outside.luminance(world)
+                tau.at(twin.theta()) * seen.iter().map(|(share, outside)| share * outside.luminance(world)).sum::<f64>()
             })));
         }
         if let Some(lamps) = self.lamps.clone() {

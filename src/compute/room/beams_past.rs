@@ -2,6 +2,7 @@
 
 use super::aperture::Aperture;
 use super::direct::{DirectLight, Sensor};
+use crate::compute::direction::Orientation;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::sky::sun_disc::{self, Edge};
@@ -10,19 +11,23 @@ use crate::compute::surroundings::shading::lit_pieces;
 use crate::compute::surroundings::solid::Face;
 use glam::DVec3;
 
-/// What of an aperture the middle of the sun's disc reaches, as convex pieces with their corners in the room frame; and
-/// their share of its area.
-pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (Vec<Vec<DVec3>>, f64) {
-    let Some(sun) = facing.sun else { return (Vec::new(), 0.0) };
-    let world = |v: DVec3| facing.orientation.to_world(v);
-    let axis = |v: DVec3| world(aperture.surface.room_from_facade(v));
-    let face = Face {
-        origin: world(aperture.corner),
+/// The outer side of an aperture among boxes, in the world's frame.
+pub fn outer_face(aperture: &Aperture, orientation: Orientation) -> Face {
+    let axis = |v: DVec3| orientation.to_world(aperture.surface.room_from_facade(v));
+    Face {
+        origin: orientation.to_world(aperture.corner),
         normal: axis(DVec3::Z),
         u: axis(DVec3::X),
         v: axis(DVec3::Y),
         limits: [[0.0, aperture.size[0]], [0.0, aperture.size[1]]],
-    };
+    }
+}
+
+/// What of an aperture the middle of the sun's disc reaches, as convex pieces with their corners in the room frame; and
+/// their share of its area.
+pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (Vec<Vec<DVec3>>, f64) {
+    let Some(sun) = facing.sun else { return (Vec::new(), 0.0) };
+    let face = outer_face(aperture, facing.orientation);
     let pieces = lit_pieces(&face, around.solids.iter(), sun.direction.vector());
     let share = pieces.iter().map(|piece| crate::compute::polygon::area(piece).abs()).sum::<f64>() / aperture.area();
     let corner = |p: &glam::DVec2| facing.orientation.to_room(face.point(p.x, p.y));

@@ -216,6 +216,9 @@ fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
     made
 }
 
+/// Of the light that is shifted between patches as if it left in all directions alike, what may be misplaced.
+const MISPLACED: f64 = 0.25;
+
 /// Direct illuminance of the fine patches, means. \[lx\]
 pub struct FirstLight {
     /// Sky, ground and scattered light.
@@ -224,6 +227,8 @@ pub struct FirstLight {
     pub beams: Vec<Beam>,
     /// Largest relative gap between the flux that left and the flux that was found, before it was closed.
     pub gap: f64,
+    /// Share of the light that may lie on other patches, for being taken as even over parts of an aperture.
+    pub misplaced: f64,
 }
 
 /// What the beams do in the room.
@@ -248,7 +253,7 @@ impl BeamLanding {
 impl FirstLight {
     /// None.
     pub fn dark(patches: usize) -> Self {
-        Self { diffuse: vec![0.0; patches], beams: Vec::new(), gap: 0.0 }
+        Self { diffuse: vec![0.0; patches], beams: Vec::new(), gap: 0.0, misplaced: 0.0 }
     }
 
     /// Adds the light of one aperture.
@@ -335,11 +340,32 @@ impl FirstLight {
         self.add_diffuse(thrown_on_patches(mesh, outlines));
     }
 
+    /// Adds light on cells that is known as even over few parts of an aperture (`coarse`, all else left out) and leaves it
+    /// as `fine` says: what a patch gets is shifted as if light left in all directions alike.
+    pub fn add_shifted(&mut self, mesh: &Mesh, mut on_cells: Self, coarse: &[Outline], fine: &[Outline]) {
+        let before = std::mem::take(&mut on_cells.diffuse);
+        let (few, many) = (thrown_on_patches(mesh, coarse).0, thrown_on_patches(mesh, fine).0);
+        let shifted: Vec<f64> = before
+            .iter()
+            .zip(few.iter().zip(&many))
+            .map(|(e, (few, many))| if *few > 0.0 { e * many / few } else { *e })
+            .collect();
+        let flux: f64 = mesh.patches.iter().zip(&before).map(|(patch, e)| patch.area * e).sum();
+        let (shifted, _) = scaled_to(mesh, flux, shifted);
+        let moves = before.iter().zip(&shifted).zip(&mesh.patches).map(|((a, b), patch)| patch.area * (a - b).abs());
+        if flux > 0.0 {
+            self.misplaced = self.misplaced.max(MISPLACED * 0.5 * moves.sum::<f64>() / flux);
+        }
+        self.add_diffuse((shifted, on_cells.gap));
+    }
+
     /// Adds the outside seen straight through an aperture by light at points of the patches, scaled to the flux that
-    /// enters. \[lm\]
-    pub fn add_seen(&mut self, mesh: &Mesh, aperture: &Aperture, flux: f64, at: impl Fn(&Sensor) -> f64 + Sync) {
-        let rules = rules(3);
-        self.add_diffuse(scaled_to(mesh, flux, seen_on_patches(mesh, aperture, &rules, at)));
+    /// enters as far as that is known. \[lm\]
+    pub fn add_seen(&mut self, mesh: &Mesh, aperture: &Aperture, flux: Estimate, at: impl Fn(&Sensor) -> f64 + Sync) {
+        let first = seen_on_patches(mesh, aperture, &rules(3), at);
+        let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
+        let entered = received.clamp(flux.value - flux.error, flux.value + flux.error);
+        self.add_diffuse(scaled_to(mesh, entered, first));
     }
 
     /// Where the beams land; `None` without any.

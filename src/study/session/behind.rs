@@ -1,7 +1,8 @@
 //! Apertures behind boxes and skylines: the light of their parts, straight to the sensors and on the room's surfaces.
 
 use super::outside_seen::OutsideSeen;
-use super::split::{Leaf, Part, Smooth, WHOLE, overlap, part_of};
+use super::part::{Part, WHOLE, area, overlap, part_of};
+use super::split::{Leaf, Smooth, mean_of};
 use super::{LidResult, Session, check, cubature};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
@@ -39,8 +40,8 @@ pub(super) struct Split {
     leaves: Vec<Leaf>,
     /// The sun's scattered light: parts of the aperture, from the whole of it downwards.
     sun: Option<(SunTile, Emission)>,
-    /// The same for what the patches of the room can tell apart.
-    quarters: Vec<(Aperture, Emission)>,
+    /// What the room's patches get of sky and ground, and of the sun's scattered light.
+    thrown: [Thrown; 2],
     /// The sun's beams per area that it reaches.
     beams: Vec<BeamLight>,
     /// What of the aperture the sun reaches, and its share.
@@ -52,7 +53,19 @@ pub(super) struct Split {
     pub seen: OutsideSeen,
 }
 
-/// A part of an aperture, what the sun reaches of it, and its halves where that is neither all nor nothing.
+/// Scattered light as the patches of the room can tell it apart.
+#[derive(Default)]
+struct Thrown {
+    /// What is the same in all directions leaves pieces evenly. \[m, lm/m²\]
+    even: Vec<(Vec<DVec3>, f64)>,
+    /// Other light leaves few parts of the aperture, for each direction costs weights of all patches ...
+    quarters: Vec<(Aperture, Emission)>,
+    /// ... and where on them, in all: pieces again. Empty where the parts say it.
+    pieces: Vec<(Vec<DVec3>, f64)>,
+}
+
+/// The smallest part of an aperture that holds what the sun reaches, how much of it that is, and its halves where it is
+/// not all.
 struct SunTile {
     part: Aperture,
     lit: f64,
@@ -63,8 +76,14 @@ struct SunTile {
 const SUN_TILE: f64 = 1.0 / 32.0;
 /// ... or of their distance from a sensor.
 const SUN_TILE_AWAY: f64 = 0.1;
-/// The room's patches see an aperture in so many parts along each side.
+/// The room's patches see light on cells in so many parts of an aperture along each side ...
 const QUARTERS: usize = 2;
+/// ... and even light in up to so many pieces of a part along each side, unless there are many parts.
+const PIECES: f64 = 4.0;
+/// Many.
+const MANY_PARTS: usize = 24;
+/// Of few parts, every point has its place in the luminaire; of more, every part.
+const FEW_PARTS: usize = 8;
 /// What is seen straight past edges may be off by so much beyond the cubature's own error, relative.
 const PAST_EDGES: f64 = 1e-4;
 /// What a patch gets of what is seen straight through, relative: it is scaled to the flux that enters.
@@ -85,11 +104,10 @@ impl Session {
             leaves.iter().flat_map(Leaf::tiles).collect()
         };
         let weight = |part: Part| (part[0][1] - part[0][0]) * (part[1][1] - part[1][0]);
-        let means = leaves.iter().map(|leaf| (weight(leaf.part), leaf.means()));
-        let (diffuse, incident) = means
-            .fold((Estimate::default(), Estimate::default()), |(all, incident), (w, own)| {
-                (all + own.0 * w, incident + own.1 * w)
-            });
+        let [through, incident] = leaves.iter().fold([Estimate::default(); 2], |sums, leaf| {
+            let own = leaf.means();
+            std::array::from_fn(|k| sums[k] + own[k] * weight(leaf.part))
+        });
         // The sun alone: whatever stands outside, it is the same wherever it reaches.
         let dark = scene.outside.scaled(0.0);
         let facing = Facing { outside: &dark, ..scene.facing(index) };
@@ -101,7 +119,7 @@ impl Session {
             whole: Emission::dark(),
             exitance: Estimate::default(),
             regular: leaves[0].any().regular.clone().map(|tau| (tau, Estimate::default())),
-            quarters: quarters(&one.aperture, &tiles, same),
+            thrown: [thrown(&one.aperture, &leaves, &tiles, same), Thrown::default()],
             smooth: leaves.iter().map(|leaf| leaf.smooth(&one.aperture)).filter(Smooth::is_lit).collect(),
             sun: None,
             leaves: Vec::new(),
@@ -113,10 +131,7 @@ impl Session {
         };
         split.add_sun_tiles(&one.aperture, &sun, scene, index);
         // What all of it comes to.
-        let parts: Vec<(f64, &Emission)> = tiles.iter().map(|(part, light)| (weight(*part), light)).collect();
-        let mut whole = Emission::mixed(&parts);
-        let scattered = whole.scattered_exitance();
-        let through = Estimate::new((diffuse.value - scattered.value).max(0.0), diffuse.error);
+        let mut whole = mean_of(&leaves);
         if let Some((tau, flux)) = &mut split.regular {
             *flux = through;
             whole.regular = Some(tau.clone());
@@ -177,8 +192,9 @@ impl Session {
 }
 
 impl SunTile {
-    fn of(part: Part, aperture: &Aperture, share: &dyn Fn(Part) -> f64) -> Self {
-        let lit = share(part);
+    /// `reached`: where in a part the sun reaches at all, and its share of that: what lies in the shade is no part of a tile.
+    fn of(part: Part, aperture: &Aperture, reached: &dyn Fn(Part) -> (Part, f64)) -> Self {
+        let (part, lit) = reached(part);
         let [w, h] = part.map(|[low, high]| high - low);
         let mut halves = Vec::new();
         if lit > 1e-9 && lit < 1.0 - 1e-9 && w.max(h) > SUN_TILE {
@@ -187,7 +203,7 @@ impl SunTile {
             for half in [[part[axis][0], cut], [cut, part[axis][1]]] {
                 let mut part = part;
                 part[axis] = half;
-                halves.push(Self::of(part, aperture, share));
+                halves.push(Self::of(part, aperture, reached));
             }
         }
         Self { part: part_of(aperture, part), lit, halves }
@@ -206,16 +222,36 @@ impl SunTile {
     }
 }
 
-/// Means over the quarters of an aperture.
-fn quarters(aperture: &Aperture, tiles: &[(Part, Emission)], same: bool) -> Vec<(Aperture, Emission)> {
+/// The parts of an aperture as the room's patches see it.
+fn quarters(same: bool) -> Vec<Part> {
     let count = if same { 1 } else { QUARTERS };
     let limits = |at: usize| [at as f64 / count as f64, (at + 1) as f64 / count as f64];
-    let quarter = |k: usize| {
-        let part = [limits(k % count), limits(k / count)];
+    (0..count * count).map(|k| [limits(k % count), limits(k / count)]).collect()
+}
+
+/// What the room's patches get of sky and ground.
+fn thrown(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same: bool) -> Thrown {
+    let quarter = |part: Part| {
         let shares = tiles.iter().map(|(tile, light)| (overlap(part, *tile), light));
         (part_of(aperture, part), Emission::mixed(&shares.filter(|(share, _)| *share > 0.0).collect::<Vec<_>>()))
     };
-    (0..count * count).map(quarter).collect()
+    let quarters: Vec<_> = quarters(same).into_iter().map(quarter).collect();
+    let most = if leaves.len() > MANY_PARTS { 1.0 } else { PIECES };
+    let pieces: Vec<Part> = if same { vec![WHOLE] } else { leaves.iter().flat_map(|leaf| leaf.pieces(most)).collect() };
+    let fluxes: Vec<(Part, [f64; 2])> = tiles
+        .iter()
+        .map(|(tile, light)| {
+            let even = PI * light.uniform.value;
+            (*tile, [even, light.scattered_exitance().value - even])
+        })
+        .collect();
+    let of = |kind: usize| -> Vec<(Vec<DVec3>, f64)> {
+        let mean = |part: &Part| fluxes.iter().map(|(tile, flux)| overlap(*part, *tile) * flux[kind]).sum::<f64>();
+        let all = pieces.iter().map(|part| (part_of(aperture, *part).corners().to_vec(), mean(part)));
+        all.filter(|(_, exitance)| *exitance > 0.0).collect()
+    };
+    let on_cells = !same && quarters.iter().any(|(_, light)| !light.cells.is_empty() || !light.bands.is_empty());
+    Thrown { even: of(0), quarters, pieces: if on_cells { of(1) } else { Vec::new() } }
 }
 
 /// What the plan says.
@@ -240,7 +276,7 @@ impl Split {
             smooth: Vec::new(),
             leaves: Vec::new(),
             sun: None,
-            quarters: Vec::new(),
+            thrown: Default::default(),
             beams: Vec::new(),
             lit: Vec::new(),
             lit_share: 0.0,
@@ -261,26 +297,41 @@ impl Split {
             let own = part_of(aperture, part);
             scene.outside.surroundings().map_or(0.0, |around| lit(&own, &scene.facing(index), around).1)
         };
-        self.sun = Some((SunTile::of(WHOLE, aperture, &share), scattered.clone()));
-        let count = if self.lit_share >= 1.0 - 1e-9 { 1 } else { QUARTERS };
-        let limits = |at: usize| [at as f64 / count as f64, (at + 1) as f64 / count as f64];
-        for k in 0..count * count {
-            let part = [limits(k % count), limits(k / count)];
+        let reached = |part: Part| {
+            let own = part_of(aperture, part);
+            let around = scene.outside.surroundings();
+            let (pieces, lit) = around.map_or((Vec::new(), 0.0), |around| lit(&own, &scene.facing(index), around));
+            let places = pieces.iter().flatten().map(|p| aperture.surface.facade_from_room(*p - aperture.corner));
+            let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+            let [low, high] = places.fold(none, |[low, high], p| [low.min(p), high.max(p)]);
+            let bounds: Part = [0, 1].map(|axis| [low[axis], high[axis]].map(|at| at / aperture.size[axis]));
+            let size = area(bounds);
+            if lit > 1e-9 && size > 0.0 { (bounds, (lit * area(part) / size).min(1.0)) } else { (part, 0.0) }
+        };
+        self.sun = Some((SunTile::of(WHOLE, aperture, &reached), scattered.clone()));
+        let whole = self.lit_share >= 1.0 - 1e-9;
+        let exitance = scattered.scattered_exitance().value;
+        let [_, sunlit] = &mut self.thrown;
+        for part in quarters(whole) {
             let lit = share(part);
             if lit > 0.0 {
-                self.quarters.push((part_of(aperture, part), scattered.clone().scaled(lit)));
+                sunlit.quarters.push((part_of(aperture, part), scattered.clone().scaled(lit)));
             }
+        }
+        if !whole {
+            sunlit.pieces = self.lit.iter().map(|piece| (piece.clone(), exitance)).collect();
         }
     }
 
-    /// As one luminaire: the mean of the parts; sky and ground seen straight through as from the aperture's middle.
+    /// As one luminaire: the mean of the parts, sky and ground seen straight through among them.
     pub fn lid(&self, scene: &Scene, index: usize) -> LidResult {
         let aperture = &scene.apertures[index].aperture;
-        let middle = 0.5 * (aperture.corners()[0] + aperture.corners()[2]);
-        let outside = scene.outside.seen_from(scene.orientation.to_world(middle));
-        let facing = Facing { outside: &outside, ..scene.facing(index) };
+        let facing = scene.facing(index);
+        let all = self.leaves.len() <= FEW_PARTS;
+        let eyes = self.leaves.iter().flat_map(|leaf| leaf.eyes(all)).filter(|_| self.regular.is_some());
+        let seen = eyes.map(|(share, eye)| (share, scene.outside.seen_from(eye))).collect();
         LidResult {
-            lid: self.whole.lid(&facing, aperture.size),
+            lid: self.whole.lid_through(&facing, aperture.size, seen),
             flux: self.exitance * aperture.area(),
             incident: (self.whole.incident_diffuse, self.whole.incident_sun),
         }
@@ -351,17 +402,27 @@ impl Split {
             let along = mesh.walls[wall].along;
             corners.iter().map(|corner| DVec2::new(corner[along[0]], corner[along[1]])).collect()
         };
+        let outline = |corners: &[DVec3], exitance: f64| Outline { wall, corners: flat(corners), exitance };
+        let of = |pieces: &[(Vec<DVec3>, f64)]| -> Vec<Outline> {
+            pieces.iter().map(|(corners, exitance)| outline(corners, *exitance)).collect()
+        };
         let mut outlines = Vec::new();
-        for (quarter, emission) in &self.quarters {
-            if emission.uniform.value > 0.0 {
-                let exitance = PI * emission.uniform.value;
-                outlines.push(Outline { wall, corners: flat(&quarter.corners()), exitance });
-            }
-            first.add_cells(emission, &|basis| weights(quarter, basis));
+        for thrown in &self.thrown {
+            outlines.extend(of(&thrown.even));
+            let mut on_cells = FirstLight::dark(mesh.patches.len());
+            thrown.quarters.iter().for_each(|(part, light)| on_cells.add_cells(light, &|basis| weights(part, basis)));
+            let (coarse, fine) = if thrown.pieces.is_empty() {
+                (Vec::new(), Vec::new())
+            } else {
+                let parts = thrown.quarters.iter().map(|(part, light)| {
+                    outline(&part.corners(), light.scattered_exitance().value - PI * light.uniform.value)
+                });
+                (parts.collect(), of(&thrown.pieces))
+            };
+            first.add_shifted(mesh, on_cells, &coarse, &fine);
         }
         if self.glow.value > 0.0 {
-            let exitance = PI * self.glow.value;
-            outlines.extend(self.lit.iter().map(|piece| Outline { wall, corners: flat(piece), exitance }));
+            outlines.extend(self.lit.iter().map(|piece| outline(piece, PI * self.glow.value)));
         }
         if !outlines.is_empty() {
             first.add_outlines(mesh, &outlines);
@@ -376,7 +437,7 @@ impl Split {
                 let outside = facing.outside.seen_from(facing.orientation.to_world(sensor.position));
                 through::illuminance(&view, &Facing { outside: &outside, ..*facing }, tau, tolerance).value
             };
-            first.add_seen(mesh, aperture, flux.value * aperture.area(), at);
+            first.add_seen(mesh, aperture, *flux * aperture.area(), at);
         }
         self.beams.iter().for_each(|beam| first.add_beam_through(aperture, &self.lit, beam));
     }

@@ -181,6 +181,7 @@ impl Session {
         // with what these receive.
         let landing = first.landing(mesh);
         let gap = landing.as_ref().map_or(0.0, |landing| landing.gap).max(first.gap);
+        let misplaced = first.misplaced;
         let mut all = first.diffuse;
         if let Some(landing) = &landing {
             all.iter_mut().zip(&landing.thrown).for_each(|(sum, e)| *sum += e);
@@ -220,7 +221,7 @@ impl Session {
                 }
                 let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
                 // The outlines are seen in closed form.
-                let rest = (REST / mesh.patches.len() as f64).hypot(gap) * (value - outlines);
+                let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced) * (value - outlines);
                 let near = NEAR * dot(&fine.slopes, &exitance.fine);
                 Estimate::new(
                     value,

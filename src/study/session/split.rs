@@ -1,34 +1,52 @@
 //! An aperture whose points see the outside differently, in parts: each with its own outside and what the system makes
 //! of it.
 //!
-//! The outside is asked for at 3 × 3 points of a part (Gauss's), light is a parabola between them. The part whose light is
-//! known least is halved across what is bent most until what parabolas leave over is small against the error asked for;
-//! where light hardly changes over the whole aperture, as before things that are far, nothing is split. What goes straight
-//! through needs no parts: every sensor looks for itself.
+//! The outside is asked for at 3 × 3 points of a part (Gauss's), light is a parabola between them; two more points near
+//! opposite corners tell whether it is. An aperture is first cut where planes of near faces meet it (see
+//! [`super::creases`]). Then the part whose light is known least is halved across what is bent most until what parabolas
+//! leave over is small against the error asked for; where light hardly changes over the whole aperture, as before things
+//! that are far, nothing is split. What goes straight through every sensor looks for itself; its flux is the parts'.
 
+use super::creases::{creases, cut_along};
+use super::part::{Part, WHOLE, area, halves, middle, part_of};
 use super::{ORDINARY_TARGET, Session};
 use crate::compute::estimate::Estimate;
-use crate::compute::lid::{Emission, Facing};
+use crate::compute::lid::{CellLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::room::aperture::Aperture;
+use crate::compute::room::beams_past::outer_face;
 use crate::compute::room::direct::Sensor;
 use crate::study::scene::Scene;
+use glam::DVec3;
 use rayon::prelude::*;
-
-/// From and to along both sides of the aperture, shares of them.
-pub(super) type Part = [[f64; 2]; 2];
-
-/// The whole aperture.
-pub(super) const WHOLE: Part = [[0.0, 1.0], [0.0, 1.0]];
 
 /// Gauss's points of −1 … 1 besides 0 ...
 const POINT: f64 = 0.774_596_669_241_483_4;
 /// ... and the weights of all three.
 const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
+/// Points near two corners of a part, −1 … 1, that are asked whether the parabola holds: what steep changes there are,
+/// lie along borders.
+const TRIED: [[f64; 2]; 2] = [[-0.9, -0.9], [0.9, 0.9]];
+/// Of what it is off at these, what counts: between the points it is off less, and to both sides.
+const TRIED_SHARE: f64 = 0.2;
+/// Weights of the nine.
+const NODES: [f64; 9] = {
+    let mut all = [0.0; 9];
+    let mut k = 0;
+    while k < 9 {
+        all[k] = WEIGHTS[k % 3] * WEIGHTS[k / 3];
+        k += 1;
+    }
+    all
+};
+/// Light that changes by so much over a piece throws on the room's patches as if it were even.
+const EVEN: f64 = 0.15;
 /// Most parts, where the system's answer costs little ...
 const MOST_PARTS: usize = 100;
 /// ... and where it has to be interpolated anew for every point.
-const MOST_DEAR_PARTS: usize = 5;
+const MOST_DEAR_PARTS: usize = 4;
+/// ... and where nothing is scattered.
+const MOST_STRAIGHT_PARTS: usize = 20;
 /// What parabolas over parts may leave, of the error asked for.
 const SHARE: f64 = 0.01;
 /// Light that changes less than this over the aperture is the same all over.
@@ -43,9 +61,12 @@ const MOST_TILES: f64 = 12.0;
 /// The outside as it is from one point, and what the system makes of it; frame and dirt counted.
 struct Node {
     emission: Emission,
+    /// What is scattered by where it goes, then what goes straight through, per area. \[lm/m²\]
     fluxes: Vec<f64>,
-    /// With what goes straight through. \[lm/m²\]
+    /// All of it. \[lm/m²\]
     exitance: Estimate,
+    /// Where, in the world's frame. \[m\]
+    eye: DVec3,
 }
 
 /// One part.
@@ -57,14 +78,9 @@ pub(super) struct Leaf {
     pub change: [f64; 2],
     /// What of it is bent: how far the parabola's middle lies beside the straight line, relative.
     bend: [f64; 2],
-}
-
-fn middle([low, high]: [f64; 2]) -> f64 {
-    0.5 * (low + high)
-}
-
-fn area(part: Part) -> f64 {
-    (part[0][1] - part[0][0]) * (part[1][1] - part[1][0])
+    /// How far the parabola is off at the points that were tried, means: all light per area, and its uniform part.
+    /// \[lm/m², cd/m²\]
+    off: [f64; 2],
 }
 
 /// Weights of the three points at a place of −1 … 1.
@@ -74,7 +90,9 @@ fn parabola(x: f64) -> [f64; 3] {
 }
 
 impl Leaf {
-    fn new(part: Part, nodes: Vec<Node>) -> Self {
+    /// `nodes`: the nine, then those that were tried.
+    fn new(part: Part, mut nodes: Vec<Node>) -> Self {
+        let tried = nodes.split_off(9);
         let count = nodes.first().map_or(0, |node| node.fluxes.len());
         let sum: f64 = nodes.iter().flat_map(|node| &node.fluxes).sum::<f64>() / 3.0;
         // Along a side, three lines of three points each: values in that order.
@@ -87,12 +105,35 @@ impl Leaf {
         };
         let change = [0, 1].map(|axis| along(axis, &|[a, _, c]| (c - a) / POINT));
         let bend = [0, 1].map(|axis| along(axis, &|[a, b, c]| 0.5 * (a - 2.0 * b + c) / (POINT * POINT)));
-        Self { part, nodes, change, bend }
+        let mut leaf = Self { part, nodes, change, bend, off: [0.0; 2] };
+        for (place, found) in TRIED.into_iter().zip(&tried) {
+            let weights = leaf.weights(place[0], place[1]);
+            let mean =
+                |of: &dyn Fn(&Node) -> f64| leaf.nodes.iter().zip(weights).map(|(node, w)| w * of(node)).sum::<f64>();
+            let off = |cell: usize| (found.fluxes[cell] - mean(&|node| node.fluxes[cell])).abs();
+            let all = (0..count).map(off).sum::<f64>();
+            let uniform = (found.emission.uniform.value - mean(&|node| node.emission.uniform.value)).abs();
+            let share = 1.0 / TRIED.len() as f64;
+            leaf.off = [leaf.off[0] + share * all, leaf.off[1] + share * uniform];
+        }
+        leaf
+    }
+
+    /// What the nodes count for at a place, −1 … 1 along both sides.
+    fn weights(&self, x: f64, y: f64) -> [f64; 9] {
+        let (a, b) = (parabola(x), parabola(y));
+        std::array::from_fn(|k| a[k % 3] * b[k / 3])
     }
 
     fn flux(&self) -> f64 {
-        let mean = |(k, node): (usize, &Node)| WEIGHTS[k % 3] * WEIGHTS[k / 3] * node.fluxes.iter().sum::<f64>();
-        self.nodes.iter().enumerate().map(mean).sum::<f64>() * area(self.part)
+        let own = self.nodes.iter().zip(NODES).map(|(node, weight)| weight * node.fluxes.iter().sum::<f64>());
+        own.sum::<f64>() * area(self.part)
+    }
+
+    /// How far light rises and falls along both sides, relative: by the straight line, and by what is bent on it. A
+    /// symmetric part does not change from border to border and is not even.
+    fn uneven(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.change[axis] + 2.0 * self.bend[axis])
     }
 
     /// What a parabola leaves over along both sides, relative: the next term of a series whose terms fall as those of an
@@ -101,31 +142,45 @@ impl Leaf {
         [0, 1].map(|axis| self.bend[axis] * (0.5 * self.change[axis] + self.bend[axis]) / 2.0)
     }
 
-    /// The same as flux.
-    fn left_over(&self) -> f64 {
-        self.rest().iter().sum::<f64>() * self.flux()
+    /// The same as flux; and what the points tell that were tried.
+    fn left_over(&self) -> [f64; 2] {
+        let flux = self.flux();
+        // Errors of the points themselves, three times as large where the parabola goes on beyond them.
+        let off = (self.off[0] * area(self.part) - 3.0 * AT_POINTS * flux).max(0.0);
+        [self.rest().iter().sum::<f64>() * flux, TRIED_SHARE * off]
+    }
+
+    /// All that is left over, relative.
+    fn rough(&self) -> f64 {
+        let flux = self.flux();
+        if flux > 0.0 { self.left_over().iter().sum::<f64>() / flux } else { 0.0 }
     }
 
     /// The light at a place, −1 … 1 along both sides.
     fn at(&self, x: f64, y: f64) -> Emission {
-        let (a, b) = (parabola(x), parabola(y));
         let parts: Vec<(f64, &Emission)> =
-            self.nodes.iter().enumerate().map(|(k, node)| (a[k % 3] * b[k / 3], &node.emission)).collect();
+            self.weights(x, y).into_iter().zip(self.nodes.iter().map(|node| &node.emission)).collect();
         Emission::mixed(&parts)
     }
 
     /// Its light that is the same in all directions.
     pub fn smooth(&self, aperture: &Aperture) -> Smooth {
         let values = std::array::from_fn(|k| self.nodes[k].emission.uniform.value);
-        let relative = |node: &Node| node.emission.uniform.error / node.emission.uniform.value.max(f64::MIN_POSITIVE);
-        let error = self.nodes.iter().map(relative).sum::<f64>() / 9.0 + self.rest().iter().sum::<f64>() + AT_POINTS;
-        Smooth { part: part_of(aperture, self.part), values, change: self.change, error }
+        let own = self.nodes.iter().zip(NODES).map(|(node, weight)| weight * node.emission.uniform.error);
+        Smooth {
+            part: part_of(aperture, self.part),
+            values,
+            uneven: self.uneven(),
+            relative: self.rest().iter().sum::<f64>() + AT_POINTS,
+            error: own.sum::<f64>() + TRIED_SHARE * self.off[1],
+        }
     }
 
     /// Its tiles: light as it is in their middles.
     pub fn tiles(&self) -> Vec<(Part, Emission)> {
-        let count = self.change.map(|change| (change / STEP).ceil().clamp(1.0, MOST_TILES));
-        self.cut(count, self.change.iter().zip(count).map(|(change, count)| change / count / 8.0).sum())
+        let uneven = self.uneven();
+        let count = uneven.map(|change| (change / STEP).ceil().clamp(1.0, MOST_TILES));
+        self.cut(count, uneven.iter().zip(count).map(|(change, count)| change / count / 8.0).sum())
     }
 
     /// Its light that is not the same in all directions, in tiles for one sensor; nothing where there is none.
@@ -134,7 +189,7 @@ impl Leaf {
             return Vec::new();
         }
         let part = part_of(aperture, self.part);
-        let (count, left) = TILES_OF_CELLS.of(self.change, part.size, part.distance(sensor.position));
+        let (count, left) = TILES_OF_CELLS.of(self.uneven(), part.size, part.distance(sensor.position));
         let mut tiles = self.cut(count, left);
         tiles.iter_mut().for_each(|(_, light)| light.uniform = Estimate::default());
         tiles
@@ -151,30 +206,57 @@ impl Leaf {
         let local = |axis: usize, at: usize| (2 * at + 1) as f64 / count[axis] - 1.0;
         let tile = |(i, k): (usize, usize)| {
             let mut light = self.at(local(0, i), local(1, k));
-            self.doubt(&mut light, steps);
+            doubt(&mut light, self.rough() + steps + AT_POINTS);
             ([place(0, i), place(1, k)], light)
         };
         (0..columns).flat_map(|i| (0..rows).map(move |k| (i, k))).map(tile).collect()
     }
 
-    /// What parabolas and the steps from tile to tile may be off at a sensor that sees little else than one part, near the
-    /// glass.
-    fn doubt(&self, light: &mut Emission, steps: f64) {
-        let relative = self.rest().iter().sum::<f64>() + steps + AT_POINTS;
-        light.uniform.error += relative * light.uniform.value;
-        light.cells.iter_mut().for_each(|cells| cells.relative_error += relative);
-        for bands in &mut light.bands {
-            bands.light.error += relative * bands.light.share();
+    /// Mean of what goes straight through the part, per area; and of what falls on it.
+    pub fn means(&self) -> [Estimate; 2] {
+        let mean = |of: &dyn Fn(&Node) -> Estimate| {
+            self.nodes.iter().zip(NODES).map(|(node, weight)| of(node) * weight).sum::<Estimate>()
+        };
+        let through = mean(&|node| Estimate::new(self.through(node), node.exitance.error));
+        let incident = mean(&|node| node.emission.incident_diffuse);
+        let left = self.left_over().iter().sum::<f64>() / area(self.part);
+        [
+            Estimate::new(through.value, through.error + left),
+            Estimate::new(incident.value, incident.error + self.rough() * incident.value),
+        ]
+    }
+
+    /// Is nothing scattered evenly?
+    fn is_straight(&self) -> bool {
+        self.nodes.iter().all(|node| node.emission.uniform.value <= 0.0)
+    }
+
+    /// What goes straight through at a node, per area.
+    fn through(&self, node: &Node) -> f64 {
+        node.fluxes.last().copied().filter(|_| self.any().regular.is_some()).unwrap_or(0.0)
+    }
+
+    /// Points from which the outside is seen that the part lets straight through, with their shares of the aperture: all,
+    /// or the middle for all of them.
+    pub fn eyes(&self, all: bool) -> Vec<(f64, DVec3)> {
+        let through = |k: usize| self.through(&self.nodes[k]);
+        let mean: f64 = (0..9).map(|k| NODES[k] * through(k)).sum();
+        if all || through(4) <= 0.0 {
+            (0..9).map(|k| (NODES[k] * area(self.part), self.nodes[k].eye)).collect()
+        } else {
+            vec![(mean / through(4) * area(self.part), self.nodes[4].eye)]
         }
     }
 
-    /// Mean of everything that leaves the part, per area; and of what falls on it.
-    pub fn means(&self) -> (Estimate, Estimate) {
-        let weight = |k: usize| WEIGHTS[k % 3] * WEIGHTS[k / 3];
-        let mean = |of: &dyn Fn(&Node) -> Estimate| {
-            self.nodes.iter().enumerate().map(|(k, node)| of(node) * weight(k)).sum::<Estimate>()
+    /// Pieces over each of which its light is nearly even, and no more than so many along a side.
+    pub fn pieces(&self, most: f64) -> Vec<Part> {
+        let count = self.uneven().map(|change| (change / EVEN).ceil().clamp(1.0, most));
+        let place = |axis: usize, at: usize| -> [f64; 2] {
+            let [low, high] = self.part[axis];
+            [at, at + 1].map(|at| low + at as f64 * (high - low) / count[axis])
         };
-        (mean(&|node| node.exitance), mean(&|node| node.emission.incident_diffuse))
+        let [columns, rows] = count.map(|count| count as usize);
+        (0..columns).flat_map(|i| (0..rows).map(move |k| [place(0, i), place(1, k)])).collect()
     }
 
     /// The system's regular transmittance, which the parts have in common.
@@ -183,14 +265,38 @@ impl Leaf {
     }
 }
 
+/// Adds what parabolas and the steps from tile to tile may be off, relative.
+fn doubt(light: &mut Emission, relative: f64) {
+    light.uniform.error += relative * light.uniform.value;
+    light.cells.iter_mut().for_each(|cells| cells.relative_error += relative);
+    for bands in &mut light.bands {
+        bands.light.error += relative * bands.light.share();
+    }
+}
+
+/// Scattered light of all parts, means over the aperture.
+pub(super) fn mean_of(leaves: &[Leaf]) -> Emission {
+    let points = leaves
+        .iter()
+        .flat_map(|leaf| leaf.nodes.iter().zip(NODES).map(|(node, weight)| (weight * area(leaf.part), &node.emission)));
+    let mut mean = Emission::mixed(&points.collect::<Vec<_>>());
+    let (flux, left) = leaves
+        .iter()
+        .fold((0.0, 0.0), |(flux, left), leaf| (flux + leaf.flux(), left + leaf.left_over().iter().sum::<f64>()));
+    doubt(&mut mean, AT_POINTS + if flux > 0.0 { left / flux } else { 0.0 });
+    mean
+}
+
 /// Light of a part that is the same in all directions, as a parabola over it.
 pub(super) struct Smooth {
     part: Aperture,
     /// Luminance at the points, row by row. \[cd/m²\]
     values: [f64; 9],
-    /// Relative change from border to border along both sides.
-    change: [f64; 2],
-    /// Relative error of the parabola.
+    /// How far it rises and falls along both sides, relative.
+    uneven: [f64; 2],
+    /// Relative error of the parabola ...
+    relative: f64,
+    /// ... and what the points are off besides. \[cd/m²\]
     error: f64,
 }
 
@@ -231,10 +337,10 @@ impl Smooth {
     /// Illuminance at a sensor. \[lx\]
     pub fn at(&self, sensor: &Sensor) -> Estimate {
         let distance = self.part.distance(sensor.position);
-        let (count, steps) = TILES_OF_UNIFORM.of(self.change, self.part.size, distance);
+        let (count, steps) = TILES_OF_UNIFORM.of(self.uneven, self.part.size, distance);
         let corners = self.part.corners().map(|corner| corner - sensor.position);
         let (u, v) = (corners[1] - corners[0], corners[3] - corners[0]);
-        let mut sum = 0.0;
+        let (mut sum, mut solid) = (0.0, 0.0);
         for k in 0..count[1] as usize {
             let [low, high] = [k, k + 1].map(|k| k as f64 / count[1]);
             let across = parabola(low + high - 1.0);
@@ -244,79 +350,87 @@ impl Smooth {
                 let luminance: f64 = (0..9).map(|k| along[k % 3] * across[k / 3] * self.values[k]).sum();
                 let tile = [(left, low), (right, low), (right, high), (left, high)];
                 let tile = tile.map(|(x, y)| corners[0] + u * x + v * y);
-                sum += luminance.max(0.0) * projected_solid_angle(&tile, sensor.normal);
+                let seen = projected_solid_angle(&tile, sensor.normal);
+                sum += luminance.max(0.0) * seen;
+                solid += seen;
             }
         }
-        Estimate::new(sum, sum * (self.error + steps))
+        Estimate::new(sum, sum * (self.relative + steps) + solid * self.error)
     }
-}
-
-/// A part of an aperture as an aperture of its own.
-pub(super) fn part_of(aperture: &Aperture, part: Part) -> Aperture {
-    let [u, v] = [glam::DVec3::X, glam::DVec3::Y].map(|axis| aperture.surface.room_from_facade(axis));
-    let [w, h] = aperture.size;
-    Aperture {
-        surface: aperture.surface,
-        corner: aperture.corner + u * (w * part[0][0]) + v * (h * part[1][0]),
-        size: [w * (part[0][1] - part[0][0]), h * (part[1][1] - part[1][0])],
-    }
-}
-
-/// Share of `part` that lies in `other`.
-pub(super) fn overlap(part: Part, other: Part) -> f64 {
-    let side = |axis: usize| (part[axis][1].min(other[axis][1]) - part[axis][0].max(other[axis][0])).max(0.0);
-    side(0) * side(1) / area(part)
 }
 
 impl Session {
     /// Sky and ground at one point of an aperture.
     fn node(&self, scene: &Scene, index: usize, at: [f64; 2]) -> Node {
         let one = &scene.apertures[index];
-        let point = part_of(&one.aperture, [[at[0], 1.0], [at[1], 1.0]]).corner;
-        let outside = scene.outside.seen_from(scene.orientation.to_world(point));
+        let eye = scene.orientation.to_world(part_of(&one.aperture, [[at[0], 1.0], [at[1], 1.0]]).corner);
+        let outside = scene.outside.seen_from(eye);
         let facing = Facing { outside: &outside, sun: None, ..scene.facing(index) };
         let emission = self.emission_under(scene, index, &facing);
-        Node { fluxes: emission.fluxes(), exitance: emission.exitance(&facing), emission }
+        let exitance = emission.exitance(&facing);
+        let mut fluxes = emission.fluxes();
+        if emission.regular.is_some() {
+            fluxes.push((exitance.value - emission.scattered_exitance().value).max(0.0));
+        }
+        Node { emission, fluxes, exitance, eye }
     }
 
-    fn leaf(&self, scene: &Scene, index: usize, part: Part) -> Leaf {
-        let place = |axis: usize, at: usize| {
-            let [low, high] = part[axis];
-            middle(part[axis]) + 0.5 * (high - low) * POINT * (at as f64 - 1.0)
+    /// All points of some parts at once.
+    fn asked(&self, scene: &Scene, index: usize, parts: Vec<Part>) -> Vec<Leaf> {
+        let at = |part: Part, place: [f64; 2]| {
+            [0, 1].map(|axis| middle(part[axis]) + 0.5 * (part[axis][1] - part[axis][0]) * place[axis])
         };
-        let places: Vec<[f64; 2]> = (0..9).map(|k| [place(0, k % 3), place(1, k / 3)]).collect();
-        Leaf::new(part, places.par_iter().map(|at| self.node(scene, index, *at)).collect())
+        let nodes = (0..9).map(|k| [k % 3, k / 3].map(|step: usize| POINT * (step as f64 - 1.0)));
+        let own: Vec<[f64; 2]> = nodes.chain(TRIED).collect();
+        let places: Vec<[f64; 2]> = parts.iter().flat_map(|part| own.iter().map(|place| at(*part, *place))).collect();
+        let mut nodes: Vec<Node> = places.into_par_iter().map(|place| self.node(scene, index, place)).collect();
+        let mut leaves = Vec::with_capacity(parts.len());
+        for part in parts.into_iter().rev() {
+            leaves.push(Leaf::new(part, nodes.split_off(nodes.len() - own.len())));
+        }
+        leaves.reverse();
+        leaves
     }
 
     /// The parts of an aperture.
     pub(super) fn leaves(&self, scene: &Scene, index: usize) -> Vec<Leaf> {
-        let mut leaves = vec![self.leaf(scene, index, WHOLE)];
-        let dear = leaves[0]
-            .any()
-            .cells
-            .iter()
-            .any(|light| light.basis.len() > crate::compute::room::first_bounce::MOST_CELLS);
-        let most = if dear { MOST_DEAR_PARTS } else { MOST_PARTS };
+        let aperture = &scene.apertures[index].aperture;
         let target = SHARE * scene.error_target.unwrap_or(ORDINARY_TARGET);
+        let solids = scene.outside.surroundings().map_or(&[][..], |around| &around.solids);
+        let lines = creases(aperture, &outer_face(aperture, scene.orientation), solids);
+        let many = |light: &CellLight| light.basis.len() > crate::compute::room::first_bounce::MOST_CELLS;
+        let most_of = |any: &Emission| if any.cells.iter().any(many) { MOST_DEAR_PARTS } else { MOST_PARTS };
+        let parts = if lines.is_empty() {
+            vec![WHOLE]
+        } else {
+            cut_along(&lines, most_of(&self.node(scene, index, [0.5; 2]).emission).div_ceil(2))
+        };
+        let mut leaves = self.asked(scene, index, parts);
+        let any = leaves[0].any();
+        // Of what goes straight through only the flux is asked for: it scales what the room's patches see themselves.
+        let straight = any.cells.is_empty() && any.bands.is_empty() && leaves.iter().all(Leaf::is_straight);
+        let (most, target) = if straight { (MOST_STRAIGHT_PARTS, 10.0 * target) } else { (most_of(any), target) };
         loop {
-            let (flux, left): (f64, f64) =
-                leaves.iter().fold((0.0, 0.0), |(flux, left), leaf| (flux + leaf.flux(), left + leaf.left_over()));
+            let (flux, left): (f64, f64) = leaves.iter().fold((0.0, 0.0), |(flux, left), leaf| {
+                (flux + leaf.flux(), left + leaf.left_over().iter().sum::<f64>())
+            });
             if leaves.len() >= most || left <= target * flux {
                 return leaves;
             }
             // A sensor near the glass sees little of it: small parts count for more than their light.
-            let weight = |leaf: &Leaf| leaf.left_over() / area(leaf.part).sqrt();
+            let weight = |leaf: &Leaf| leaf.left_over().iter().sum::<f64>() / area(leaf.part).sqrt();
             let worst = (0..leaves.len()).max_by(|a, b| weight(&leaves[*a]).total_cmp(&weight(&leaves[*b])));
             let Some(worst) = worst else { return leaves };
             let leaf = leaves.swap_remove(worst);
-            let rest = leaf.rest();
-            let axis = usize::from(rest[1] > rest[0]);
-            let cut = middle(leaf.part[axis]);
-            for half in [[leaf.part[axis][0], cut], [cut, leaf.part[axis][1]]] {
-                let mut part = leaf.part;
-                part[axis] = half;
-                leaves.push(self.leaf(scene, index, part));
-            }
+            let [bent, off] = leaf.left_over();
+            // The points that were tried do not tell across which side.
+            let sides = if off > bent {
+                [0, 1].map(|axis| (leaf.part[axis][1] - leaf.part[axis][0]) * aperture.size[axis])
+            } else {
+                leaf.rest()
+            };
+            let axis = usize::from(sides[1] > sides[0]);
+            leaves.extend(self.asked(scene, index, halves(leaf.part, axis, middle(leaf.part[axis])).to_vec()));
         }
     }
 

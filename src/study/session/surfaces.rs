@@ -73,6 +73,7 @@ impl Session {
         let beams = landing.as_ref().map_or_else(|| vec![0.0; mesh.patches.len()], |landing| landing.direct.clone());
         let lit = first.lit(mesh);
         let gap = landing.as_ref().map_or(0.0, |landing| landing.gap).max(first.gap);
+        let misplaced = first.misplaced;
         check(progress)?;
         progress.advance("surfaces", 2, STEPS);
         let received = if Plan::new(scene).runs("interreflection") {
@@ -98,7 +99,7 @@ impl Session {
         };
         // What is not known of the flux that comes in is not known of what it becomes.
         let open = if flux.value > 0.0 { (flux.error + doubted) / flux.value } else { 0.0 };
-        let rest = (REST / mesh.patches.len() as f64).hypot(gap);
+        let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced);
         let patches = mesh
             .patches
             .iter()
