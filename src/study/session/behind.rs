@@ -2,7 +2,7 @@
 
 use super::outside_seen::OutsideSeen;
 use super::part::{Part, WHOLE, area, overlap, part_of};
-use super::split::{Leaf, Smooth, mean_of};
+use super::split::{Leaf, Smooth, any_of, mean_of};
 use super::{LidResult, Session, check, cubature};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
@@ -118,7 +118,7 @@ impl Session {
         let mut split = Split {
             whole: Emission::dark(),
             exitance: Estimate::default(),
-            regular: leaves[0].any().regular.clone().map(|tau| (tau, Estimate::default())),
+            regular: any_of(&leaves).regular.clone().map(|tau| (tau, Estimate::default())),
             thrown: [thrown(&one.aperture, &leaves, &tiles, same), Thrown::default()],
             smooth: leaves.iter().map(|leaf| leaf.smooth(&one.aperture)).filter(Smooth::is_lit).collect(),
             sun: None,
@@ -144,7 +144,7 @@ impl Session {
         whole.incident_diffuse = incident;
         whole.incident_sun = share * sun.incident_sun;
         whole.beam_source = sun.beam_source;
-        whole.notes = leaves[0].any().notes.iter().chain(&sun.notes).cloned().collect();
+        whole.notes = any_of(&leaves).notes.iter().chain(&sun.notes).cloned().collect();
         let beams: f64 = whole.beams.iter().map(|beam| beam.exitance).sum();
         split.exitance = whole.scattered_exitance() + Estimate::exact(beams);
         if split.regular.is_some() {
@@ -260,7 +260,7 @@ fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -
     let most = leaves.iter().map(|leaf| leaf.change[0].max(leaf.change[1])).fold(0.0, f64::max);
     OutsideSeen {
         aperture: index,
-        through: leaves[0].any().regular.is_some(),
+        through: any_of(&leaves).regular.is_some(),
         parts: scatters.then_some(if same { 0 } else { leaves.len() }),
         change: most,
         sunlit: (sun.incident_sun > 0.0).then_some(share),

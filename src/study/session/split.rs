@@ -92,8 +92,10 @@ fn parabola(x: f64) -> [f64; 3] {
 impl Leaf {
     /// `nodes`: the nine, then those that were tried.
     fn new(part: Part, mut nodes: Vec<Node>) -> Self {
+        // Where nothing comes in, as under a box on the glass, nothing is told by where it goes.
+        let count = nodes.iter().map(|node| node.fluxes.len()).max().unwrap_or(0);
+        nodes.iter_mut().for_each(|node| node.fluxes.resize(count, 0.0));
         let tried = nodes.split_off(9);
-        let count = nodes.first().map_or(0, |node| node.fluxes.len());
         let sum: f64 = nodes.iter().flat_map(|node| &node.fluxes).sum::<f64>() / 3.0;
         // Along a side, three lines of three points each: values in that order.
         let along = |axis: usize, of: &dyn Fn([f64; 3]) -> f64| -> f64 {
@@ -259,10 +261,21 @@ impl Leaf {
         (0..columns).flat_map(|i| (0..rows).map(move |k| [place(0, i), place(1, k)])).collect()
     }
 
-    /// The system's regular transmittance, which the parts have in common.
+    /// Light of the kinds that its points have in common; of those in the dark it may lack some.
     pub fn any(&self) -> &Emission {
-        &self.nodes[0].emission
+        fullest(self.nodes.iter().map(|node| &node.emission)).unwrap_or(&self.nodes[0].emission)
     }
+}
+
+/// The same of all parts; there is one at least.
+pub(super) fn any_of(leaves: &[Leaf]) -> &Emission {
+    fullest(leaves.iter().map(Leaf::any)).unwrap_or(leaves[0].any())
+}
+
+/// The first of those with most kinds of light.
+fn fullest<'a>(list: impl Iterator<Item = &'a Emission>) -> Option<&'a Emission> {
+    let kinds = |light: &Emission| light.cells.len() + light.bands.len() + usize::from(light.regular.is_some());
+    list.reduce(|best, one| if kinds(one) > kinds(best) { one } else { best })
 }
 
 /// Adds what parabolas and the steps from tile to tile may be off, relative.
@@ -406,7 +419,7 @@ impl Session {
             cut_along(&lines, most_of(&self.node(scene, index, [0.5; 2]).emission).div_ceil(2))
         };
         let mut leaves = self.asked(scene, index, parts);
-        let any = leaves[0].any();
+        let any = any_of(&leaves);
         // Of what goes straight through only the flux is asked for: it scales what the room's patches see themselves.
         let straight = any.cells.is_empty() && any.bands.is_empty() && leaves.iter().all(Leaf::is_straight);
         let (most, target) = if straight { (MOST_STRAIGHT_PARTS, 10.0 * target) } else { (most_of(any), target) };
