@@ -59,6 +59,9 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     if let Some(note) = light.and_then(|light| light.note()) {
         eprintln!("note: {note}");
     }
+    if !scene.outside.is_empty() {
+        eprintln!("note: the boxes outside are left out here: this is the sky that stands behind them");
+    }
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
     eprintln!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);

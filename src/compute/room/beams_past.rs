@@ -2,10 +2,11 @@
 
 use super::aperture::Aperture;
 use super::direct::{DirectLight, Sensor};
-use crate::compute::direction::Orientation;
+use crate::compute::direction::{Dir, Orientation, World};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::sky::sun_disc::{self, Edge};
+use crate::compute::sky::{SUN_HALF_ANGLE, Sun};
 use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::shading::lit_pieces;
 use crate::compute::surroundings::solid::Face;
@@ -34,12 +35,27 @@ pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (
     (pieces.iter().map(|piece| piece.iter().map(corner).collect()).collect(), share)
 }
 
+/// The same for points of the disc's rim, two across and two along: by how much the edges of shadows may be off where it
+/// is not known how a system turns the disc.
+pub fn lit_by_rim(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> Vec<Vec<Vec<DVec3>>> {
+    let Some(sun) = facing.sun else { return Vec::new() };
+    let middle = sun.direction.vector();
+    let (u, v) = middle.any_orthonormal_pair();
+    let by = |aside: DVec3| {
+        let direction = Dir::<World>::new(middle + SUN_HALF_ANGLE.tan() * aside).unwrap_or(sun.direction);
+        lit(aperture, &Facing { sun: Some(&Sun { direction, ..*sun }), ..*facing }, around).0
+    };
+    [u, -u, v, -v].map(by).into()
+}
+
 /// What a sensor gets from the sun's beams through an aperture. A straight beam is the part of the disc that the sensor
-/// sees past the boxes; a turned one comes from the pieces that the sun reaches, `lit`.
+/// sees past the boxes; a turned one comes from the pieces that the middle of the disc reaches, `lit`, and its error says
+/// what those that its `rim` reaches would change: the penumbra of the boxes is in neither.
 pub fn beams_past(
     sensor: &Sensor,
     aperture: &Aperture,
     lit: &[Vec<DVec3>],
+    rim: &[Vec<Vec<DVec3>>],
     beams: &[BeamLight],
     facing: &Facing<'_>,
     around: &Surroundings,
@@ -53,6 +69,7 @@ pub fn beams_past(
     let (mut sum, mut data_error) = (Estimate::default(), 0.0);
     for beam in beams {
         let to = beam.to.vector();
+        let mut off: f64 = 0.0;
         let e = if beam.straight {
             let bodies = bodies.get_or_insert_with(|| {
                 let eye = facing.orientation.to_world(sensor.position);
@@ -67,10 +84,12 @@ pub fn beams_past(
                     piece.iter().map(|corner| surface.facade_from_room(*corner - sensor.position)).collect();
                 sun_disc::share(to, view.normal, sun_disc::opening(&corners).into_iter().chain(own))
             };
-            lit.iter().map(through).sum()
+            let e = lit.iter().map(through).sum::<f64>();
+            off = rim.iter().map(|lit| (lit.iter().map(through).sum::<f64>() - e).abs()).fold(0.0, f64::max);
+            e
         };
         let e = beam.normal * e;
-        sum += Estimate::new(e, e * beam.error);
+        sum += Estimate::new(e, e * beam.error + beam.normal * off);
         data_error += e * beam.doubt;
     }
     DirectLight { all: sum, beam: sum.value, data_error }

@@ -123,9 +123,7 @@ impl PatchWeights {
         let first = self.rows.iter().map(|row| if row.is_empty() { 0.0 } else { scale * dot(row, luminance) });
         (first.collect(), (scale - 1.0).abs())
     }
-}
 
-impl PatchWeights {
     /// For weights of the patches' illuminance the weights of the cells' luminance, every cell's flux closed by itself.
     pub fn gathered(&self, weights: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.basis.len()];
@@ -286,8 +284,7 @@ impl FirstLight {
     /// Adds the light of luminaires in an aperture.
     pub fn add_lamps(&mut self, mesh: &Mesh, aperture: &Aperture, lamps: &Lamps) {
         let at = |sensor: &Sensor| lamps.illuminance(sensor.position, sensor.normal);
-        let first = seen_on_patches(mesh, aperture, &rules(3), at);
-        self.add_diffuse(scaled_to(mesh, lamps.flux(), first));
+        self.add_seen(mesh, aperture, Estimate::exact(lamps.flux()), at);
     }
 
     /// Adds light that lies on cells or bands. `weights`: what the patches receive by the cells of a basis.
@@ -295,9 +292,7 @@ impl FirstLight {
         for light in &emission.cells {
             let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
             let part = if light.basis.len() > MOST_CELLS {
-                let luminance = merging(&light.basis).apply(&luminance);
-                let merged = merged_cells();
-                weights(merged).illuminance(&luminance)
+                weights(merged_cells()).illuminance(&merging(&light.basis).apply(&luminance))
             } else {
                 weights(&light.basis).illuminance(&luminance)
             };

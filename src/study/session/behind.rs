@@ -12,7 +12,7 @@ use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::band_weights::BandWeights;
-use crate::compute::room::beams_past::{beams_past, lit};
+use crate::compute::room::beams_past::{beams_past, lit, lit_by_rim};
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
 use crate::compute::room::mesh::Mesh;
@@ -46,6 +46,8 @@ pub(super) struct Split {
     beams: Vec<BeamLight>,
     /// What of the aperture the sun reaches, and its share.
     lit: Vec<Vec<DVec3>>,
+    /// The same for points of its rim, where beams are turned.
+    rim: Vec<Vec<Vec<DVec3>>>,
     lit_share: f64,
     /// Luminance that the sun gives it there, the same in all directions. \[cd/m²\]
     glow: Estimate,
@@ -126,6 +128,12 @@ impl Session {
             beams: sun.beams.clone(),
             glow: sun.uniform,
             lit: if share > 0.0 { pieces } else { Vec::new() },
+            rim: match around {
+                Some(around) if sun.beams.iter().any(|beam| !beam.straight) => {
+                    lit_by_rim(&one.aperture, &facing, around)
+                }
+                _ => Vec::new(),
+            },
             lit_share: share,
             seen: seen(index, &leaves, same, &sun, share),
         };
@@ -279,6 +287,7 @@ impl Split {
             thrown: Default::default(),
             beams: Vec::new(),
             lit: Vec::new(),
+            rim: Vec::new(),
             lit_share: 0.0,
             glow: Estimate::default(),
             // What came from outside is in the files: there is nothing to be said of it.
@@ -379,7 +388,7 @@ impl Split {
             all.error += PAST_EDGES * all.value;
             sum += DirectLight { all, ..DirectLight::default() };
         }
-        sum += beams_past(sensor, aperture, &self.lit, &self.beams, facing, around);
+        sum += beams_past(sensor, aperture, &self.lit, &self.rim, &self.beams, facing, around);
         sum
     }
 
