@@ -21,8 +21,8 @@ use std::sync::Arc;
 pub const TARGET: f64 = 0.01;
 /// Of the sum over all fields, relative.
 const TARGET_SUM: f64 = 0.005;
-/// Hosts that cut luminous areas finely cut so much finer than others along each side.
-const FINE_HOST: usize = 3;
+/// Beams leave no longer tiles: a host that cuts areas finely blurs the edges of what they light by half of one. \[m\]
+const LONGEST_OF_BEAMS: f64 = 0.2;
 /// Side of a field. \[m\]
 const FIELD: f64 = 0.5;
 /// Distance of the points in it. \[m\]
@@ -59,8 +59,8 @@ impl Reached {
     pub fn sentence(&self) -> String {
         format!(
             "Direct light of all files together on {} fields of {FIELD} m x {FIELD} m of the scene's room, on the work plane \
-             and above it, at {NEAREST} m and more, in a host that cuts luminous areas into parts of a quarter or a \
-             twelfth of their distance: sum {:+.2} %, rms on the worst surface {:.2} %, worst field {:+.1} %.",
+             and above it, at {NEAREST} m and more, in a host that cuts luminous areas into parts of a quarter of their \
+             distance: sum {:+.2} %, rms on the worst surface {:.2} %, worst field {:+.1} %.",
             self.fields,
             100.0 * self.sum,
             100.0 * self.rms,
@@ -121,20 +121,11 @@ impl Probe {
         Ok(Self { fields })
     }
 
-    /// How well tiles do: in the host where they do worse, though in one that cuts finely only if they do well in the other.
+    /// How well tiles do.
     pub(super) fn reached(&self, surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Reached {
         let lamps = lamps(surface, tables);
-        let coarse = self.in_host(&lamps, 1);
-        if !coarse.holds() {
-            return coarse;
-        }
-        let fine = self.in_host(&lamps, FINE_HOST);
-        if fine.rms > coarse.rms || !fine.holds() { fine } else { coarse }
-    }
-
-    fn in_host(&self, lamps: &[Lamp], again: usize) -> Reached {
         let light = |sensor: &Sensor| -> f64 {
-            lamps.iter().map(|lamp| lamp.illuminance_of_parts(sensor.position, sensor.normal, again)).sum()
+            lamps.iter().map(|lamp| lamp.illuminance(sensor.position, sensor.normal)).sum()
         };
         let got: Vec<f64> = self
             .fields
@@ -257,7 +248,8 @@ pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, prob
     let mut before = None;
     'tilings: for longest in LONGEST {
         let tiling = Tiling::no_longer_than(place.size, longest);
-        if before == Some(tiling) || (best.is_some() && tiling.count() > MOST_TILES) {
+        let blurred = longest > LONGEST_OF_BEAMS && lid.beam_flux() > 0.0;
+        if blurred || before == Some(tiling) || (best.is_some() && tiling.count() > MOST_TILES) {
             continue;
         }
         before = Some(tiling);

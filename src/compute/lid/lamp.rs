@@ -32,18 +32,13 @@ impl Lamp {
 
     /// Illuminance at a point that faces `normal`, room frame. \[lx\] Nothing reaches points in or behind its plane.
     pub fn illuminance(&self, position: DVec3, normal: DVec3) -> f64 {
-        self.illuminance_of_parts(position, normal, 1)
-    }
-
-    /// The same in a host that cuts each of those parts again into so many along both sides.
-    pub fn illuminance_of_parts(&self, position: DVec3, normal: DVec3, again: usize) -> f64 {
         let Tile { centre, size } = self.tile;
         let to = self.surface.facade_from_room(position - centre);
         if to.z >= 0.0 {
             return 0.0;
         }
         let normal = self.surface.facade_from_room(normal);
-        let n = again * parts(size, to.length());
+        let n = parts(size, to.length());
         let at = |k: usize, length: f64| ((k as f64 + 0.5) / n as f64 - 0.5) * length;
         let mut sum = 0.0;
         for i in 0..n {
