@@ -246,10 +246,13 @@ pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, prob
     };
     let mut best: Option<Choice> = None;
     let mut before = None;
-    'tilings: for longest in LONGEST {
-        let tiling = Tiling::no_longer_than(place.size, longest);
-        let blurred = longest > LONGEST_OF_BEAMS && lid.beam_flux() > 0.0;
-        if blurred || before == Some(tiling) || (best.is_some() && tiling.count() > MOST_TILES) {
+    let tiling_of = |longest: f64| Tiling::no_longer_than(place.size, longest);
+    let few: Vec<f64> = LONGEST.into_iter().filter(|longest| tiling_of(*longest).count() <= MOST_TILES).collect();
+    let finest = few.last().copied().unwrap_or(f64::INFINITY);
+    let most = if lid.beam_flux() > 0.0 { finest.max(LONGEST_OF_BEAMS) } else { f64::INFINITY };
+    'tilings: for longest in few.into_iter().filter(|longest| *longest <= most) {
+        let tiling = tiling_of(longest);
+        if before == Some(tiling) {
             continue;
         }
         before = Some(tiling);
