@@ -268,7 +268,7 @@ fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -
     let most = leaves.iter().map(|leaf| leaf.change[0].max(leaf.change[1])).fold(0.0, f64::max);
     OutsideSeen {
         aperture: index,
-        through: any_of(&leaves).regular.is_some(),
+        through: any_of(leaves).regular.is_some(),
         parts: scatters.then_some(if same { 0 } else { leaves.len() }),
         change: most,
         sunlit: (sun.incident_sun > 0.0).then_some(share),
