@@ -3,7 +3,7 @@
 //!
 //! A host cuts a luminous area into parts of at most a quarter of their distance ([`parts`]) and takes each as a point
 //! with the tile's whole distribution. A beam is therefore widened to what such a part subtends at working distance
-//! ([`Spot`](super::c_gamma::Spot)): seen from the points, what their beams light there lies side by side and adds up to
+//! ([`Panel`](super::c_gamma::Panel)): seen from the points, what their beams light there lies side by side and adds up to
 //! the outline. Sky and scattered light are wide already and stay as they are.
 
 use crate::compute::direction::Surface;
