@@ -20,6 +20,8 @@ const OTHER_UNIT: f64 = 1.5;
 const OTHER_FACTOR: f64 = 4.0;
 /// Beyond this nothing but percent does: ten times as much as there can be.
 const SURELY_PERCENT: f64 = 10.0;
+/// What reflects so much as a fraction would, as percent, be darker than any surface.
+const DARKEST: f64 = 0.05;
 /// No percent exceed this.
 const MOST_PERCENT: f64 = 150.0;
 
@@ -124,6 +126,12 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         // What is zero is so in any unit.
         let rest: Vec<Component> = rated.iter().map(|(component, _)| *component).collect();
         let rest: Vec<Component> = rest.into_iter().filter(|c| !percent.contains(c) && largest(*c) > 0.0).collect();
+        // A file has one unit, and what looks like fractions may be percent of a dark system, unless that were too dark.
+        let told = |c: &Component| ratio(*c).is_some_and(|ratio| (50.0..200.0).contains(&ratio));
+        let mixed = rest.is_empty()
+            || rest.iter().any(|c| !c.is_transmission() && hemispherical(*c) > DARKEST)
+            || percent.iter().all(told);
+        let confidence = if mixed { confidence } else { Confidence::Likely };
         let most = percent.iter().map(|c| largest(*c)).fold(0.0, f64::max);
         let mut message = format!(
             "{} ({}): directional-hemispherical sums up to {most:.2} where at most 1 is possible: {} percent instead of \
@@ -142,6 +150,10 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         }
         if !rest.is_empty() {
             message.push_str(&format!(" {} may be in fractions already and would stay.", names(&rest)));
+            if !mixed {
+                let all = at.repair(RepairKind::DivideBy100, BlockScope::All);
+                message.push_str(&format!(" As well possible: all are percent ({all})."));
+            }
         }
         let scopes: Vec<BlockScope> =
             if rest.is_empty() { vec![BlockScope::All] } else { percent.iter().map(|c| BlockScope::One(*c)).collect() };
