@@ -20,8 +20,6 @@ const OTHER_UNIT: f64 = 1.5;
 const OTHER_FACTOR: f64 = 4.0;
 /// Beyond this nothing but percent does: ten times as much as there can be.
 const SURELY_PERCENT: f64 = 10.0;
-/// What reflects so much as a fraction would, as percent, be darker than any surface.
-const DARKEST: f64 = 0.05;
 /// No percent exceed this.
 const MOST_PERCENT: f64 = 150.0;
 
@@ -126,11 +124,10 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         // What is zero is so in any unit.
         let rest: Vec<Component> = rated.iter().map(|(component, _)| *component).collect();
         let rest: Vec<Component> = rest.into_iter().filter(|c| !percent.contains(c) && largest(*c) > 0.0).collect();
-        // A file has one unit, and what looks like fractions may be percent of a dark system, unless that were too dark.
-        let told = |c: &Component| ratio(*c).is_some_and(|ratio| (50.0..200.0).contains(&ratio));
-        let mixed = rest.is_empty()
-            || rest.iter().any(|c| !c.is_transmission() && hemispherical(*c) > DARKEST)
-            || percent.iter().all(told);
+        // A file has one unit, and what looks like fractions may be percent of something dark, unless the same function
+        // of the other side is there in fractions.
+        let mixed = percent.iter().all(|component| rest.contains(&component.other_side()));
+        let mixed = mixed || rest.is_empty();
         let confidence = if mixed { confidence } else { Confidence::Likely };
         let most = percent.iter().map(|c| largest(*c)).fold(0.0, f64::max);
         let mut message = format!(

@@ -8,7 +8,7 @@
 use super::blocks::Blocks;
 use super::copies::copied;
 use super::hypotheses::{Fault, Hypothesis, hypotheses};
-use super::reading::{Reading, as_it_is};
+use super::reading::{Factor, Reading, as_it_is};
 use super::repair::BandScope;
 use super::witnesses::{Answers, Question, Witnesses};
 use crate::compute::btdf::{Band, Component, Scattered, TreeRank};
@@ -140,7 +140,9 @@ pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
         .collect();
     let mut rated: Vec<(Candidate, Vec<Reading>)> = Vec::new();
     let mut put = |hypothesis: &Hypothesis, bands: BandScope, costs: &[f64], readings: Vec<Reading>| {
-        let further = FURTHER * (hypothesis.scopes.len() - 1) as f64;
+        // Black systems are as rare as fluxes in the place of luminances.
+        let black = hypothesis.fault == Fault::Factor(Factor::SolidAngle);
+        let further = FURTHER * (hypothesis.scopes.len() - 1 + usize::from(black)) as f64;
         let gain = before - all(costs, [&readings[0], &readings[last]]) - further;
         rated.push((Candidate { hypothesis: hypothesis.clone(), bands, gain }, readings));
     };
@@ -161,7 +163,8 @@ pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
         }
     }
     // Stable: of hypotheses that are as good the one named first.
-    rated.sort_by(|a, b| b.0.gain.total_cmp(&a.0.gain));
+    let rank = |one: &Candidate| (one.gain / NOTHING).round();
+    rated.sort_by(|a, b| rank(&b.0).total_cmp(&rank(&a.0)));
     let (best, readings) = rated.iter().find(|(one, _)| one.hypothesis.fault.repair().is_some())?.clone();
     let same = |other: &[Reading]| {
         sides.iter().zip(&readings).zip(other).all(|((side, a), b)| side.witnesses.same(a, b, NOTHING))

@@ -44,6 +44,8 @@ use crate::compute::btdf::{Band, Dataset, Finding};
 use at::At;
 use blocks::Blocks;
 use judgement::{Side, Verdict};
+use rayon::prelude::*;
+use std::borrow::Borrow;
 
 /// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's. A finding
 /// that asks for several repairs comes once with each of them, one after the other.
@@ -68,6 +70,27 @@ pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     kept
 }
 
+/// What is to be said about each of several datasets, side by side; states of the same data are examined once.
+pub fn examine_all(datasets: &[impl Borrow<Dataset> + Sync]) -> Vec<Vec<Diagnosis>> {
+    let same = |a: &Dataset, b: &Dataset| {
+        (&a.name, &a.manufacturer, &a.format, &a.derived, &a.findings)
+            == (&b.name, &b.manufacturer, &b.format, &b.derived, &b.findings)
+            && a.visible == b.visible
+            && a.solar == b.solar
+    };
+    let mut different: Vec<&Dataset> = Vec::new();
+    let place = |dataset: &Dataset, different: &[&Dataset]| different.iter().position(|other| same(other, dataset));
+    let mut places = Vec::with_capacity(datasets.len());
+    for dataset in datasets.iter().map(Borrow::borrow) {
+        places.push(place(dataset, &different).unwrap_or_else(|| {
+            different.push(dataset);
+            different.len() - 1
+        }));
+    }
+    let found: Vec<Vec<Diagnosis>> = different.into_par_iter().map(examine).collect();
+    places.into_iter().map(|place| found[place].clone()).collect()
+}
+
 /// What the doctor itself finds, without the reader's findings.
 pub fn findings(dataset: &Dataset) -> Vec<Finding> {
     examined(dataset).into_iter().map(|one| one.finding).collect()
@@ -85,7 +108,17 @@ fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
     // One explanation is enough: numbers in another unit, or of another function, upset every comparison.
     if !list.iter().any(|one| ["percent", "block-mislabelled"].contains(&one.finding.code)) {
         let verdict = judged(dataset, blocks.as_ref(), solar.as_ref().and_then(|(_, blocks)| blocks.as_ref()));
-        list.extend(verdict.iter().flat_map(told::told));
+        for one in verdict.iter().flat_map(told::told) {
+            // That there is a copy is known already; now also which it is.
+            let known = list.iter_mut().find(|fact| fact.finding.code == one.finding.code && fact.repair.is_none());
+            match known.filter(|_| one.finding.code == "copied-block") {
+                Some(fact) => {
+                    fact.finding.message.push_str(&format!(" {}", one.finding.message));
+                    fact.repair = one.repair;
+                }
+                None => list.push(one),
+            }
+        }
     }
     list.extend(orientation::check(dataset, blocks.as_ref()));
     list.extend(resolution::check(dataset));

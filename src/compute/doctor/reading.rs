@@ -21,6 +21,11 @@ pub(super) enum Factor {
 }
 
 impl Factor {
+    /// Is it one of the emergent angle or cell?
+    pub(super) const fn of_emergence(self) -> bool {
+        !matches!(self, Self::IncidentTooLittle | Self::IncidentTooMuch)
+    }
+
     /// What undoes it for an incident and an emergent cell, as a product of both.
     pub(super) fn undone(self, blocks: &Blocks) -> (Vec<f64>, Vec<f64>) {
         let one = vec![1.0; blocks.weight.len()];

@@ -9,6 +9,7 @@ use crate::compute::btdf::Component;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::rc::Rc;
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -88,6 +89,7 @@ pub(super) struct Witnesses<'a> {
     pub(super) blocks: &'a Blocks,
     kinds: [Option<Kind>; 4],
     sums: RefCell<BTreeMap<(usize, Option<Factor>), Sums>>,
+    values: RefCell<BTreeMap<(usize, Option<Turn>, bool), Rc<Vec<f64>>>>,
     compared: RefCell<BTreeMap<(Part, Part, bool), f64>>,
 }
 
@@ -97,23 +99,30 @@ pub(super) type Answers = Vec<(Question, f64)>;
 impl<'a> Witnesses<'a> {
     /// `heard`: which blocks may be asked.
     pub(super) fn new(blocks: &'a Blocks, heard: impl Fn(Component) -> bool) -> Self {
-        let kind = |block: &Block| {
-            let straight = blocks.straight_share(block);
-            let alike = || {
-                [Turn::UpDown, Turn::LeftRight, Turn::QuarterRound]
-                    .iter()
-                    .all(|turn| blocks.asymmetry(block, *turn) < ALIKE)
-            };
-            match straight {
-                STRAIGHT.. if alike() => Kind::Straight,
-                ..=STRAIGHT if alike() => Kind::Diffuse,
-                _ => Kind::Directed,
-            }
-        };
         // What is zero says nothing, nor does what was measured from a few directions alone.
         let lit = |block: &&Block| 2 * block.tau.iter().filter(|tau| **tau > DARK).count() > block.tau.len();
-        let kinds = Component::ALL.map(|c| blocks.get(c).filter(lit).filter(|_| heard(c)).map(kind));
-        Self { blocks, kinds, sums: RefCell::default(), compared: RefCell::default() }
+        let mut all = Self {
+            blocks,
+            kinds: [None; 4],
+            sums: RefCell::default(),
+            values: RefCell::default(),
+            compared: RefCell::default(),
+        };
+        all.kinds =
+            Component::ALL.map(|c| blocks.get(c).filter(lit).filter(|_| heard(c)).map(|block| all.kind(c, block)));
+        all
+    }
+
+    fn kind(&self, component: Component, block: &Block) -> Kind {
+        let part = Part::plain(component as usize);
+        let image = |turn: Turn| Part { turn: Some(turn), ..part };
+        let mut turns = [Turn::UpDown, Turn::LeftRight, Turn::QuarterRound].into_iter();
+        let alike = turns.all(|turn| self.difference(part, image(turn), false) < ALIKE);
+        match self.blocks.straight_share(block) {
+            STRAIGHT.. if alike => Kind::Straight,
+            ..=STRAIGHT if alike => Kind::Diffuse,
+            _ => Kind::Directed,
+        }
     }
 
     /// Does a block hold light?
@@ -128,14 +137,13 @@ impl<'a> Witnesses<'a> {
 
     /// Sums over rows and columns of a block read so.
     pub(super) fn sums(&self, part: Part) -> Sums {
-        let plain = |factor| {
-            self.sums
-                .borrow_mut()
-                .entry((part.source, factor))
-                .or_insert_with(|| self.summed(part.source, factor))
-                .clone()
-        };
-        let Sums { tau, emitted } = plain(part.factor);
+        let key = (part.source, part.factor);
+        let known = self.sums.borrow().get(&key).cloned();
+        let Sums { tau, emitted } = known.unwrap_or_else(|| {
+            let made = self.summed(part.source, part.factor);
+            self.sums.borrow_mut().insert(key, made.clone());
+            made
+        });
         let (tau, emitted) = if part.transposed { (emitted, tau) } else { (tau, emitted) };
         match part.turn {
             None => Sums { tau, emitted },
@@ -149,17 +157,29 @@ impl<'a> Witnesses<'a> {
     fn summed(&self, source: usize, factor: Option<Factor>) -> Sums {
         let (block, weight) = (self.block(source), &self.blocks.weight);
         let n = weight.len();
-        let ones = || (vec![1.0; n], vec![1.0; n]);
-        let (rows, columns) = factor.map_or_else(ones, |factor| factor.undone(self.blocks));
-        let (mut tau, mut emitted) = (vec![0.0; n], vec![0.0; n]);
-        for (i, row) in block.q.chunks_exact(n).enumerate() {
-            for (o, q) in row.iter().enumerate() {
-                let q = q * rows[i] * columns[o];
-                tau[i] += q * weight[o];
-                emitted[o] += q * weight[i];
+        let Some(factor) = factor else {
+            let mut emitted = vec![0.0; n];
+            for (row, w) in block.q.chunks_exact(n).zip(weight) {
+                emitted.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
             }
+            return Sums { tau: block.tau.clone(), emitted };
+        };
+        // What an incident cell shares comes before its sum, what an emergent one shares before the other's.
+        let (rows, columns) = factor.undone(self.blocks);
+        let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+        let plain = self.sums(Part::plain(source));
+        if factor.of_emergence() {
+            let weight = product(weight, &columns);
+            let sum = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum();
+            Sums { tau: block.q.chunks_exact(n).map(sum).collect(), emitted: product(&plain.emitted, &columns) }
+        } else {
+            let weight = product(weight, &rows);
+            let mut emitted = vec![0.0; n];
+            for (row, w) in block.q.chunks_exact(n).zip(&weight) {
+                emitted.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
+            }
+            Sums { tau: product(&plain.tau, &rows), emitted }
         }
-        Sums { tau, emitted }
     }
 
     /// How far two blocks are apart, `reversed`: one of them as the light goes the other way. Remembered.
@@ -171,14 +191,54 @@ impl<'a> Witnesses<'a> {
         if let Some(known) = self.compared.borrow().get(&(a, b, reversed)) {
             return *known;
         }
-        let (a_view, b_view) = (View::new(self, a), View::new(self, b));
-        let apart = if reversed {
-            self.blocks.difference(|i, o| a_view.at(i, o), |i, o| b_view.at(o, i))
-        } else {
-            self.blocks.difference(|i, o| a_view.at(i, o), |i, o| b_view.at(i, o))
-        };
+        let apart = self.difference(a, b, reversed);
         self.compared.borrow_mut().insert((a, b, reversed), apart);
         apart
+    }
+
+    /// Values of a block turned so, by rows of incident cells, or of emergent ones when exchanged. Remembered.
+    fn values(&self, source: usize, turn: Option<Turn>, exchanged: bool) -> Rc<Vec<f64>> {
+        let made = || {
+            let (q, n) = (&self.block(source).q, self.blocks.weight.len());
+            let places: Vec<usize> = (0..n).map(|k| turn.map_or(k, |turn| self.blocks.turned(turn, k))).collect();
+            let mut values = Vec::with_capacity(n * n);
+            for &row in &places {
+                if exchanged {
+                    values.extend(places.iter().map(|column| q[column * n + row]));
+                } else {
+                    let row = &q[row * n..(row + 1) * n];
+                    values.extend(places.iter().map(|column| row[*column]));
+                }
+            }
+            Rc::new(values)
+        };
+        self.values.borrow_mut().entry((source, turn, exchanged)).or_insert_with(made).clone()
+    }
+
+    /// As [`Blocks::difference`], of rows side by side.
+    fn difference(&self, a: Part, b: Part, reversed: bool) -> f64 {
+        let weight = &self.blocks.weight;
+        let n = weight.len();
+        let (values_a, values_b) =
+            (self.values(a.source, a.turn, a.transposed), self.values(b.source, b.turn, b.transposed ^ reversed));
+        // Cells of one ring share their factors, so that a turn need not turn those.
+        let factors = |part: Part| part.factor.map_or_else(|| (vec![1.0; n], vec![1.0; n]), |f| f.undone(self.blocks));
+        let (rows_a, columns_a) = factors(a);
+        let (rows_b, columns_b) = factors(b);
+        let (rows_b, columns_b) = if reversed { (columns_b, rows_b) } else { (rows_b, columns_b) };
+        let (mut difference, mut sum) = (0.0, 0.0);
+        for (i, (row_a, row_b)) in values_a.chunks_exact(n).zip(values_b.chunks_exact(n)).enumerate() {
+            let (mut off, mut all) = ([0.0; 4], [0.0; 4]);
+            let columns = columns_a.iter().zip(&columns_b).zip(weight);
+            for (k, ((a, b), ((in_a, in_b), w))) in row_a.iter().zip(row_b).zip(columns).enumerate() {
+                let (a, b) = (a * rows_a[i] * in_a, b * rows_b[i] * in_b);
+                off[k % 4] += w * (a - b).abs();
+                all[k % 4] += 0.5 * w * (a + b).abs();
+            }
+            difference += weight[i] * off.iter().sum::<f64>();
+            sum += weight[i] * all.iter().sum::<f64>();
+        }
+        if sum > 0.0 { difference / sum } else { 0.0 }
     }
 
     /// Do two readings come to the same functions?
@@ -336,31 +396,4 @@ fn canonical(a: Part, b: Part, reversed: bool) -> (Part, Part, bool) {
     let reversed = reversed ^ a.transposed ^ b.transposed;
     let (first, second) = (a.source.min(b.source), a.source.max(b.source));
     (Part::plain(first), Part { turn, ..Part::plain(second) }, reversed)
-}
-
-/// A block read in some way, value by value.
-struct View<'a> {
-    q: &'a [f64],
-    places: Vec<usize>,
-    transposed: bool,
-    rows: Vec<f64>,
-    columns: Vec<f64>,
-}
-
-impl<'a> View<'a> {
-    fn new(witnesses: &Witnesses<'a>, part: Part) -> Self {
-        let blocks = witnesses.blocks;
-        let n = blocks.weight.len();
-        let places = (0..n).map(|k| part.turn.map_or(k, |turn| blocks.turned(turn, k))).collect();
-        let ones = || (vec![1.0; n], vec![1.0; n]);
-        let (rows, columns) = part.factor.map_or_else(ones, |factor| factor.undone(blocks));
-        Self { q: &witnesses.block(part.source).q, places, transposed: part.transposed, rows, columns }
-    }
-
-    /// Value of a pair of cells; cells of one ring share their factors, so that a turn need not turn those.
-    fn at(&self, i: usize, o: usize) -> f64 {
-        let n = self.places.len();
-        let (row, column) = if self.transposed { (o, i) } else { (i, o) };
-        self.q[self.places[row] * n + self.places[column]] * self.rows[i] * self.columns[o]
-    }
 }
