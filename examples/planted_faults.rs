@@ -1,17 +1,17 @@
 //! What the data doctor makes of faults whose truth is known: good files with one fault planted in each, and the good
 //! files themselves. Prints, fault by fault, how often it was mended unasked, asked about with the right repair among
-//! those offered, told without it, missed, or made worse; then every genuine file that is touched or asked about, and
-//! how far each statistic lies from zero in genuine files and which leads hypotheses reach when they are right and when
-//! they are wrong.
+//! those offered, told without it, missed, or made worse; then every genuine file that is touched or asked about, and the
+//! genuine files whose best explanation comes nearest to being asked about.
 //!
 //! `cargo run --release --example planted_faults [FILE…]`; without files all XML under `$CFS_TEST_DATA` or `../shared`.
 //!
-//! By these tables are judged `NOISE`, `ASK` and `SURE` of `compute::doctor::judgement`.
+//! By these tables are judged `scale`, `ASK` and `SURE` of `compute::doctor::judgement`: nothing may be made worse, and no
+//! genuine file may be asked about what stands in the list of hypotheses.
 
 use anyhow::Context as _;
 use cfs::compute::basis::{AzimuthMap, Cell, RingBasis};
 use cfs::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, Severity, tau_max};
-use cfs::compute::doctor::{BlockScope, Diagnosis, Repair, RepairKind, examine, repaired, repaired_all};
+use cfs::compute::doctor::{BlockScope, Diagnosis, Repair, RepairKind, examine, repaired, repaired_all, standing};
 use cfs::formats::bsdf_xml;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -353,6 +353,13 @@ fn main() -> anyhow::Result<()> {
                 println!("  {}: {}{} {repair}", good.name, if one.sure { "SURE " } else { "" }, one.finding.code);
             }
         }
+    }
+    println!("\ngenuine files nearest to a question, with what their best explanation gains and how far it leads:");
+    let mut near: Vec<_> = goods.iter().filter_map(|good| Some((standing(&good.dataset)?, &good.name))).collect();
+    near.sort_by(|a, b| b.0.gain.total_cmp(&a.0.gain));
+    for (best, name) in near.iter().take(8) {
+        let repairs = best.repairs.iter().map(Repair::to_string).collect::<Vec<_>>().join(" ");
+        println!("  {:>6.2} {:>6.2}  {name}: {repairs}", best.gain, best.lead);
     }
     Ok(())
 }

@@ -5,11 +5,11 @@
 //! finding offers, and nothing is ever mended without being asked for.
 //!
 //! Comparisons between functions are made on common cells in through-names ([`blocks`]), where a clear pane is a
-//! diagonal matrix and reciprocity a plain transpose. Three independent witnesses decide what is wrong with a block:
-//! the block of the other side (reciprocity of transmission), the block itself (reciprocity of reflection), and the
-//! light that is left over (what is not transmitted is mostly reflected). Where no witness speaks against a reading,
-//! as when all functions are upside down together, the data cannot tell; the sentence about the sun then asks the
-//! user.
+//! diagonal matrix and reciprocity a plain transpose. What is wrong is a hypothesis about all blocks of a file together
+//! (`hypotheses`): the numbers are read as if it were undone (`reading`), every reading is asked the same few questions
+//! (`witnesses`), and what explains most is told, or done where it stands far ahead of everything else (`judgement`).
+//! Where no witness speaks against a reading, as when all functions are upside down together, the data cannot tell; the
+//! sentence about the sun then asks the user.
 
 mod at;
 pub mod blocks;

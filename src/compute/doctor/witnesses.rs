@@ -34,21 +34,6 @@ pub(super) enum Question {
     Shape,
 }
 
-impl Question {
-    /// All of them.
-    pub(super) const ALL: [Self; 9] = [
-        Self::Between,
-        Self::Alone,
-        Self::Own,
-        Self::Even,
-        Self::Opposed,
-        Self::Rest,
-        Self::Won,
-        Self::Lost,
-        Self::Shape,
-    ];
-}
-
 /// Less than this share of what there can be is rounding.
 const DARK: f64 = 1e-9;
 /// Light that is won up to here is measuring error.
