@@ -6,7 +6,7 @@ use super::shelf::Shelf;
 use super::work::Outcome;
 use crate::catalogue::{Doubt, Gathered, Grouping, Known, NewProduct, SourceFile, content_of, gathered, propose};
 use crate::compute::btdf::Dataset;
-use crate::compute::doctor::{examine, repaired_all};
+use crate::compute::doctor::{examine_all, repaired_all};
 use crate::compute::estimate::Progress;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -255,7 +255,7 @@ fn of_files(files: &[&SourceFile], ids: Vec<String>, part: Part) -> Proposed {
 
 /// A product of datasets with what is told about it.
 fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed {
-    let diagnoses = datasets.par_iter().map(examine).collect();
+    let diagnoses = examine_all(&datasets);
     let datasets: Vec<_> = datasets.into_iter().map(Arc::new).collect();
     let fields = ImportFields {
         name: if meta.name.is_empty() { stem.to_owned() } else { meta.name.clone() },
@@ -312,10 +312,10 @@ fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
 
 /// The product with its repairs made on all states, and examined.
 fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
-    let mended: Result<Vec<_>, _> =
-        product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs)).collect();
-    let diagnoses = mended?.into_iter().map(|dataset| (examine(&dataset), Arc::new(dataset)));
-    let (diagnoses, datasets): (_, Vec<Arc<Dataset>>) = diagnoses.unzip();
+    let mended: Result<Vec<Arc<Dataset>>, _> =
+        product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs).map(Arc::new)).collect();
+    let datasets = mended?;
+    let diagnoses = examine_all(&datasets);
     Ok(Proposed { diagnoses, taus: taus(&datasets), datasets, ..product.clone() })
 }
 

@@ -5,7 +5,7 @@ use crate::compute::btdf::{
     Btdf, Component, Dataset, Scattered, Severity, Thermal, ThermalKey, TreeRank, reciprocity_error,
 };
 use crate::compute::direction::Incident;
-use crate::compute::doctor::{Diagnosis, examine};
+use crate::compute::doctor::{Diagnosis, examine_all};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -31,12 +31,13 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
         return print(&text);
     }
     let datasets = dataset_file::read(&args.file)?;
+    let examined = datasets.iter().zip(examine_all(&datasets));
     let text = if args.json {
-        let mut list: Vec<Value> = datasets.iter().map(|dataset| to_json(dataset, &datasets)).collect();
+        let mut list: Vec<Value> = examined.map(|(dataset, found)| to_json(dataset, &datasets, &found)).collect();
         let value = if list.len() == 1 { list.remove(0) } else { Value::Array(list) };
         serde_json::to_string_pretty(&value)? + "\n"
     } else {
-        datasets.iter().map(to_text).collect::<Vec<_>>().join("\n")
+        examined.map(|(dataset, found)| to_text(dataset, &found)).collect::<Vec<_>>().join("\n")
     };
     print(&text)
 }
@@ -50,7 +51,7 @@ fn print(text: &str) -> anyhow::Result<()> {
 }
 
 /// Keys as the contract of the scene file's page lists them.
-fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
+fn to_json(dataset: &Dataset, all: &[Dataset], found: &[Diagnosis]) -> Value {
     let key = |component: &Component| Value::from(component.key());
     let transmission = dataset.transmission();
     let mut object = Map::new();
@@ -85,7 +86,7 @@ fn to_json(dataset: &Dataset, all: &[Dataset]) -> Value {
     // An empty list, so that loops over it need no exception.
     object.insert("tau_dir_hem".into(), transmission.map_or_else(|| json!([]), tau_dir_hem));
     object.insert("reciprocity_error".into(), reciprocity(dataset).into());
-    object.insert("findings".into(), examine(dataset).iter().map(finding_json).collect::<Vec<_>>().into());
+    object.insert("findings".into(), found.iter().map(finding_json).collect::<Vec<_>>().into());
     Value::Object(object)
 }
 
@@ -182,7 +183,7 @@ const fn unit(key: ThermalKey) -> &'static str {
     }
 }
 
-fn to_text(dataset: &Dataset) -> String {
+fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     let mut text = String::new();
     let mut line = |label: &str, value: &str| {
         if !value.is_empty() {
@@ -221,12 +222,11 @@ fn to_text(dataset: &Dataset) -> String {
         let _ = write!(text, "\n{}", tau_table(transmission));
     }
     let _ = writeln!(text, "\nFindings");
-    let found = examine(dataset);
     if found.is_empty() {
         let _ = writeln!(text, "  none");
     }
     let mut last = None;
-    for Diagnosis { finding, meaning, repair, sure } in &found {
+    for Diagnosis { finding, meaning, repair, sure } in found {
         // A finding that asks for several repairs is said once.
         if last.replace(finding) != Some(finding) {
             let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);

@@ -2,7 +2,7 @@
 
 use crate::cli::dataset_file;
 use crate::compute::btdf::Dataset;
-use crate::compute::doctor::{Repair, examine, record, recorded, repaired_all, sun_from_above};
+use crate::compute::doctor::{Diagnosis, Repair, examine, record, recorded, repaired_all, sun_from_above};
 use crate::formats::{format_to_write, write_dataset};
 use crate::study::files;
 use anyhow::{anyhow, bail};
@@ -36,8 +36,9 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
     let mut datasets = dataset_file::read(&args.file)?;
     for dataset in &mut datasets {
-        let repairs = if args.undo { undoing(dataset)? } else { asked(dataset, &args.repair)? };
-        let questions = if args.undo { String::new() } else { questions(dataset, &repairs) };
+        let found = if args.undo { Vec::new() } else { examine(dataset) };
+        let repairs = if args.undo { undoing(dataset)? } else { asked(&found, &args.repair)? };
+        let questions = questions(&found, &repairs);
         if repairs.is_empty() {
             let rest = if args.undo {
                 bail!("{name}: no repair is recorded in it; expected a file that `cfs repair` wrote");
@@ -69,11 +70,11 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
+fn asked(found: &[Diagnosis], words: &[String]) -> anyhow::Result<Vec<Repair>> {
     let mut list = Vec::new();
     for word in words {
         if word == "auto" {
-            let offered = examine(dataset).into_iter().filter(|one| one.sure);
+            let offered = found.iter().filter(|one| one.sure);
             for repair in offered.filter_map(|one| one.repair) {
                 if !list.contains(&repair) {
                     list.push(repair);
@@ -87,9 +88,9 @@ fn asked(dataset: &Dataset, words: &[String]) -> anyhow::Result<Vec<Repair>> {
 }
 
 /// Repairs that are offered and only somebody who knows the product can decide on, those that are made left out.
-fn questions(dataset: &Dataset, made: &[Repair]) -> String {
+fn questions(found: &[Diagnosis], made: &[Repair]) -> String {
     let mut words: Vec<String> = Vec::new();
-    for repair in examine(dataset).into_iter().filter(|one| !one.sure).filter_map(|one| one.repair) {
+    for repair in found.iter().filter(|one| !one.sure).filter_map(|one| one.repair) {
         let word = repair.to_string();
         if !made.contains(&repair) && !words.contains(&word) {
             words.push(word);

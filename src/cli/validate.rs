@@ -4,7 +4,7 @@ use super::dataset_file;
 use super::output::print;
 use crate::catalogue::{Catalogue, ProductFinding, Query};
 use crate::compute::btdf::Severity;
-use crate::compute::doctor::{examine, meaning};
+use crate::compute::doctor::{examine_all, meaning};
 use anyhow::bail;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -101,8 +101,9 @@ pub(super) fn finding_json(finding: &ProductFinding) -> Value {
 /// What reader and doctor say about a file.
 fn of_file(path: &Path) -> anyhow::Result<Vec<Judged>> {
     let mut list = Vec::new();
-    for dataset in dataset_file::read(path)? {
-        list.extend(examine(&dataset).into_iter().map(|one| Judged {
+    let datasets = dataset_file::read(path)?;
+    for (dataset, found) in datasets.iter().zip(examine_all(&datasets)) {
+        list.extend(found.into_iter().map(|one| Judged {
             finding: ProductFinding {
                 state: dataset.state.clone(),
                 severity: one.finding.severity,

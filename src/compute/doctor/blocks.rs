@@ -19,7 +19,7 @@ pub struct Block {
 }
 
 /// A turn or mirror image of the hemisphere.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Turn {
     /// Up and down exchanged.
     UpDown,
@@ -143,7 +143,8 @@ impl Blocks {
         self.by_ring(&sums)
     }
 
-    fn by_ring(&self, values: &[f64]) -> Vec<(f64, f64)> {
+    /// Means of values of the cells over the rings, from the normal outwards, with the polar angle of each. \[rad\]
+    pub(super) fn by_ring(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let mean = |ring: usize| {
             let (from, to) =
                 (self.basis.first_cell(ring), self.basis.first_cell(ring) + self.basis.rings()[ring].sectors);

@@ -1,10 +1,8 @@
 //! Blocks that are there twice, empty, or not at all.
 
 use super::at::At;
-use super::blocks::Blocks;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BandScope, BlockScope, RepairKind};
-use super::sides;
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
 
 /// Do two functions hold the same numbers in the same order, as when one is a copy of the other?
@@ -89,16 +87,14 @@ fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Di
 /// Bands whose functions differ by less, as shares of the larger, are those of a neutral material.
 const NEUTRAL: f64 = 0.02;
 
-/// Are the transmissions of both sides the same numbers?
-pub(super) fn transmissions_alike(band: &Band) -> bool {
-    match (&band.transmission_front, &band.transmission_back) {
-        (Some(front), Some(back)) => repeats(front, back),
-        _ => false,
-    }
+/// Are the transmissions of both sides the same numbers, and the reflections?
+pub(super) fn copied(band: &Band) -> [bool; 2] {
+    let alike = |a: &Option<Btdf>, b: &Option<Btdf>| a.as_ref().zip(b.as_ref()).is_some_and(|(a, b)| repeats(a, b));
+    [alike(&band.transmission_front, &band.transmission_back), alike(&band.reflection_front, &band.reflection_back)]
 }
 
-pub(super) fn check(at: &At, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
-    let mut list: Vec<Diagnosis> = copied_transmission(at, blocks).into_iter().collect();
+pub(super) fn check(at: &At) -> Vec<Diagnosis> {
+    let mut list: Vec<Diagnosis> = copied_transmission(at).into_iter().collect();
     list.extend(copied_reflection(at));
     list.extend(reflection_of_transmission(at));
     list.extend(empty(at));
@@ -106,21 +102,15 @@ pub(super) fn check(at: &At, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     list
 }
 
-fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
+fn copied_transmission(at: &At) -> Option<Diagnosis> {
     let (front, back) = (at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?);
     if tau_max(front) == 0.0 || !repeats(front, back) {
         return None;
     }
     let error = reciprocity_error(front, back).filter(|error| *error > 0.01)?;
     let confidence = if error > 0.5 { Confidence::Certain } else { Confidence::Likely };
-    let copy = blocks.and_then(sides::false_copy);
-    let which = match copy {
-        Some(component) => format!("The light left over for reflection speaks against {}.", component.words()),
-        None => {
-            "Which of both is the copy, the numbers do not tell; derive by reciprocity the one that is not its own."
-                .to_owned()
-        }
-    };
+    let which =
+        "Which of both is the copy, the light left over may tell; derive by reciprocity the one that is not its own.";
     let message = format!(
         "Transmission Back ({}) repeats the front number by number although light does not go both ways alike \
          (reciprocity error {:.0} %): {} a copied block. {which}",
@@ -133,11 +123,7 @@ fn copied_transmission(at: &At, blocks: Option<&Blocks>) -> Option<Diagnosis> {
     } else {
         Finding::info("copied-block", message).into()
     };
-    // The genuine block would be lost if it were the other way round: never without being asked.
-    Some(match copy {
-        Some(component) => one.asking(at.repair(RepairKind::DeriveByReciprocity, BlockScope::One(component))),
-        None => one,
-    })
+    Some(one)
 }
 
 /// Two sides of a system measured apart never agree in every digit; that they do is telling when their transmissions

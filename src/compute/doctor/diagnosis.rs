@@ -75,8 +75,7 @@ impl Diagnosis {
 }
 
 /// Findings of both bands; what both show in the same way is said once and mended in both.
-pub(super) fn merged(mut visible: Vec<Diagnosis>, mut solar: Vec<Diagnosis>) -> Vec<Diagnosis> {
-    doubted(&mut visible, &mut solar);
+pub(super) fn merged(mut visible: Vec<Diagnosis>, solar: Vec<Diagnosis>) -> Vec<Diagnosis> {
     for other in solar {
         let kind = |one: &Diagnosis| one.repair.map(|repair| (repair.kind, repair.blocks));
         let twin = visible.iter_mut().find(|one| {
@@ -97,31 +96,4 @@ pub(super) fn merged(mut visible: Vec<Diagnosis>, mut solar: Vec<Diagnosis>) -> 
         }
     }
     visible
-}
-
-/// What says that a function lies the wrong way round.
-const WAYS: [&str; 4] = ["upside-down-block", "mirrored-block", "transposed-block", "sides-swapped"];
-
-/// Both bands of a file come from one device set up in one way. Where each asks for a repair that the other does not,
-/// at most one of them is right, and mending both would set them against each other: both become questions.
-fn doubted(visible: &mut [Diagnosis], solar: &mut [Diagnosis]) {
-    let way = |one: &Diagnosis| {
-        one.repair.filter(|_| WAYS.contains(&one.finding.code)).map(|repair| (repair.kind, repair.blocks))
-    };
-    let (ours, theirs): (Vec<_>, Vec<_>) =
-        (visible.iter().filter_map(way).collect(), solar.iter().filter_map(way).collect());
-    let apart = ours.iter().any(|one| !theirs.contains(one)) && theirs.iter().any(|one| !ours.contains(one));
-    if !apart {
-        return;
-    }
-    for one in visible.iter_mut().chain(solar).filter(|one| way(one).is_some()) {
-        if one.sure {
-            one.finding.severity = Confidence::Likely.severity();
-            one.finding.message = one.finding.message.replace(Confidence::Certain.word(), Confidence::Likely.word());
-            one.sure = false;
-        }
-        one.finding.message.push_str(
-            " The other band asks for another repair, so that at most one of both is right: compare with the product.",
-        );
-    }
 }

@@ -124,6 +124,11 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         // What is zero is so in any unit.
         let rest: Vec<Component> = rated.iter().map(|(component, _)| *component).collect();
         let rest: Vec<Component> = rest.into_iter().filter(|c| !percent.contains(c) && largest(*c) > 0.0).collect();
+        // A file has one unit, and what looks like fractions may be percent of something dark, unless the same function
+        // of the other side is there in fractions.
+        let mixed = percent.iter().all(|component| rest.contains(&component.other_side()));
+        let mixed = mixed || rest.is_empty();
+        let confidence = if mixed { confidence } else { Confidence::Likely };
         let most = percent.iter().map(|c| largest(*c)).fold(0.0, f64::max);
         let mut message = format!(
             "{} ({}): directional-hemispherical sums up to {most:.2} where at most 1 is possible: {} percent instead of \
@@ -142,6 +147,10 @@ fn percent(at: &At) -> Vec<Diagnosis> {
         }
         if !rest.is_empty() {
             message.push_str(&format!(" {} may be in fractions already and would stay.", names(&rest)));
+            if !mixed {
+                let all = at.repair(RepairKind::DivideBy100, BlockScope::All);
+                message.push_str(&format!(" As well possible: all are percent ({all})."));
+            }
         }
         let scopes: Vec<BlockScope> =
             if rest.is_empty() { vec![BlockScope::All] } else { percent.iter().map(|c| BlockScope::One(*c)).collect() };

@@ -40,6 +40,9 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
     let mut done = false;
     if repair.bands != BandScope::Solar {
         done |= mend(&mut out.visible, repair)?;
+        for component in &dataset.derived {
+            rederive(&mut out.visible, *component, repair);
+        }
         if matches!(repair.kind, RepairKind::DropBlock) {
             out.derived.retain(|component| out.visible.get(*component).is_some());
         }
@@ -70,6 +73,28 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
     // What was mended is no longer what the description gives.
     out.described = None;
     Ok(out)
+}
+
+/// Makes a derived function anew where its origin changed and it did not change as that did: factors of emergent angles
+/// are not those of the light that goes the other way.
+fn rederive(band: &mut Band, component: Component, repair: Repair) {
+    let factor = matches!(
+        repair.kind,
+        RepairKind::RemoveCosine
+            | RepairKind::MultiplyCosine
+            | RepairKind::RemoveSolidAngle
+            | RepairKind::MultiplySolidAngle
+    );
+    let alone = !repair.blocks.holds(component);
+    let whole = matches!(repair.kind, RepairKind::DropBlock | RepairKind::DeriveByReciprocity | RepairKind::SwapSides);
+    let origin = component.other_side();
+    if repair.blocks.holds(origin)
+        && !whole
+        && (factor || alone)
+        && let Some((made, _)) = band.get(origin).and_then(|origin| by_reciprocity(origin, component.is_front()))
+    {
+        band.set(component, made);
+    }
 }
 
 /// Several repairs, one after the other.

@@ -1,0 +1,384 @@
+//! What the numbers of a band say about a way to read them: a few misfits, each 0 where physics and experience put it.
+//!
+//! All are asked of the same sums over rows and columns of the blocks, which are made once; only whether light goes both
+//! ways alike needs all pairs of directions, and is remembered.
+
+use super::blocks::{Block, Blocks, Turn};
+use super::reading::{Factor, Part, Reading, after, as_it_is};
+use crate::compute::btdf::Component;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+/// What is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Question {
+    /// Do the transmissions of both sides belong together? Exact for every system.
+    Between,
+    /// Does a lone transmission go both ways alike, as it does in systems that are alike on both sides?
+    Alone,
+    /// Does a reflection go both ways alike? Exact for every system.
+    Own,
+    /// Is as much light left over, neither transmitted nor reflected, from above as from below, from right as from left?
+    Even,
+    /// Does light that passes well from one side, above or below, come back the less from there?
+    Opposed,
+    /// Is as much light left over from every angle to the normal?
+    Rest,
+    /// Is light won?
+    Won,
+    /// Is nearly all light lost?
+    Lost,
+    /// Do panes, mirrors and diffusers depend on the angle as such materials do?
+    Shape,
+}
+
+/// Less than this share of what there can be is rounding.
+const DARK: f64 = 1e-9;
+/// Light that is won up to here is measuring error.
+const PLAUSIBLE: f64 = 1.01;
+/// A block that keeps more of its light straight is a pane or a mirror, one that keeps less than the rest a diffuser.
+const STRAIGHT: f64 = 0.9;
+/// Blocks that differ less from their own images depend on the angle alone.
+const ALIKE: f64 = 0.05;
+/// Less than this between above and below is no preference.
+const PREFERRED: f64 = 0.015;
+/// A surface that keeps its light straight reflects at least this share of what it does not reflect at the normal more at
+/// grazing angles.
+const GRAZING: f64 = 0.25;
+/// A file whose light is lost but for this is black, or its values are no luminances.
+const BLACK: f64 = 0.06;
+
+/// Sums of one block without a factor: what leaves of an incident cell, and what each emergent cell sends for even
+/// light. \[1\]
+#[derive(Debug, Clone)]
+pub(super) struct Sums {
+    tau: Vec<f64>,
+    emitted: Vec<f64>,
+}
+
+/// What a block is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// Keeps its light straight and depends on the angle of incidence alone.
+    Straight,
+    /// Scatters, and does not care about azimuths.
+    Diffuse,
+    /// Anything else.
+    Directed,
+}
+
+/// The blocks of a band, ready to be asked.
+pub(super) struct Witnesses<'a> {
+    pub(super) blocks: &'a Blocks,
+    kinds: [Option<Kind>; 4],
+    sums: RefCell<BTreeMap<(usize, Option<Factor>), Sums>>,
+    values: RefCell<BTreeMap<(usize, Option<Turn>, bool), Rc<Vec<f64>>>>,
+    compared: RefCell<BTreeMap<(Part, Part, bool), f64>>,
+}
+
+/// Answers to the questions, in their order; what does not apply is left out in every reading alike.
+pub(super) type Answers = Vec<(Question, f64)>;
+
+impl<'a> Witnesses<'a> {
+    /// `heard`: which blocks may be asked.
+    pub(super) fn new(blocks: &'a Blocks, heard: impl Fn(Component) -> bool) -> Self {
+        // What is zero says nothing, nor does what was measured from a few directions alone.
+        let lit = |block: &&Block| 2 * block.tau.iter().filter(|tau| **tau > DARK).count() > block.tau.len();
+        let mut all = Self {
+            blocks,
+            kinds: [None; 4],
+            sums: RefCell::default(),
+            values: RefCell::default(),
+            compared: RefCell::default(),
+        };
+        all.kinds =
+            Component::ALL.map(|c| blocks.get(c).filter(lit).filter(|_| heard(c)).map(|block| all.kind(c, block)));
+        all
+    }
+
+    fn kind(&self, component: Component, block: &Block) -> Kind {
+        let part = Part::plain(component as usize);
+        let image = |turn: Turn| Part { turn: Some(turn), ..part };
+        let mut turns = [Turn::UpDown, Turn::LeftRight, Turn::QuarterRound].into_iter();
+        let alike = turns.all(|turn| self.difference(part, image(turn), false) < ALIKE);
+        match self.blocks.straight_share(block) {
+            STRAIGHT.. if alike => Kind::Straight,
+            ..=STRAIGHT if alike => Kind::Diffuse,
+            _ => Kind::Directed,
+        }
+    }
+
+    /// Does a block hold light?
+    pub(super) fn lit(&self, source: usize) -> bool {
+        self.kinds[source].is_some()
+    }
+
+    fn block(&self, source: usize) -> &'a Block {
+        // A part is made of a block that is there.
+        self.blocks.given[source].as_ref().expect("a reading names given blocks")
+    }
+
+    /// Sums over rows and columns of a block read so.
+    pub(super) fn sums(&self, part: Part) -> Sums {
+        let key = (part.source, part.factor);
+        let known = self.sums.borrow().get(&key).cloned();
+        let Sums { tau, emitted } = known.unwrap_or_else(|| {
+            let made = self.summed(part.source, part.factor);
+            self.sums.borrow_mut().insert(key, made.clone());
+            made
+        });
+        let (tau, emitted) = if part.transposed { (emitted, tau) } else { (tau, emitted) };
+        match part.turn {
+            None => Sums { tau, emitted },
+            Some(turn) => {
+                let turned = |list: Vec<f64>| (0..list.len()).map(|k| list[self.blocks.turned(turn, k)]).collect();
+                Sums { tau: turned(tau), emitted: turned(emitted) }
+            }
+        }
+    }
+
+    fn summed(&self, source: usize, factor: Option<Factor>) -> Sums {
+        let (block, weight) = (self.block(source), &self.blocks.weight);
+        let n = weight.len();
+        let Some(factor) = factor else {
+            let mut emitted = vec![0.0; n];
+            for (row, w) in block.q.chunks_exact(n).zip(weight) {
+                emitted.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
+            }
+            return Sums { tau: block.tau.clone(), emitted };
+        };
+        // What an incident cell shares comes before its sum, what an emergent one shares before the other's.
+        let (rows, columns) = factor.undone(self.blocks);
+        let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+        let plain = self.sums(Part::plain(source));
+        if factor.of_emergence() {
+            let weight = product(weight, &columns);
+            let sum = |row: &[f64]| row.iter().zip(&weight).map(|(q, w)| q * w).sum();
+            Sums { tau: block.q.chunks_exact(n).map(sum).collect(), emitted: product(&plain.emitted, &columns) }
+        } else {
+            let weight = product(weight, &rows);
+            let mut emitted = vec![0.0; n];
+            for (row, w) in block.q.chunks_exact(n).zip(&weight) {
+                emitted.iter_mut().zip(row).for_each(|(sum, q)| *sum += w * q);
+            }
+            Sums { tau: product(&plain.tau, &rows), emitted }
+        }
+    }
+
+    /// How far two blocks are apart, `reversed`: one of them as the light goes the other way. Remembered.
+    pub(super) fn apart(&self, a: Part, b: Part, reversed: bool) -> f64 {
+        let (a, b, reversed) = canonical(a, b, reversed);
+        if a == b && !reversed {
+            return 0.0;
+        }
+        if let Some(known) = self.compared.borrow().get(&(a, b, reversed)) {
+            return *known;
+        }
+        let apart = self.difference(a, b, reversed);
+        self.compared.borrow_mut().insert((a, b, reversed), apart);
+        apart
+    }
+
+    /// Values of a block turned so, by rows of incident cells, or of emergent ones when exchanged. Remembered.
+    fn values(&self, source: usize, turn: Option<Turn>, exchanged: bool) -> Rc<Vec<f64>> {
+        let made = || {
+            let (q, n) = (&self.block(source).q, self.blocks.weight.len());
+            let places: Vec<usize> = (0..n).map(|k| turn.map_or(k, |turn| self.blocks.turned(turn, k))).collect();
+            let mut values = Vec::with_capacity(n * n);
+            for &row in &places {
+                if exchanged {
+                    values.extend(places.iter().map(|column| q[column * n + row]));
+                } else {
+                    let row = &q[row * n..(row + 1) * n];
+                    values.extend(places.iter().map(|column| row[*column]));
+                }
+            }
+            Rc::new(values)
+        };
+        self.values.borrow_mut().entry((source, turn, exchanged)).or_insert_with(made).clone()
+    }
+
+    /// As [`Blocks::difference`], of rows side by side.
+    fn difference(&self, a: Part, b: Part, reversed: bool) -> f64 {
+        let weight = &self.blocks.weight;
+        let n = weight.len();
+        let (values_a, values_b) =
+            (self.values(a.source, a.turn, a.transposed), self.values(b.source, b.turn, b.transposed ^ reversed));
+        // Cells of one ring share their factors, so that a turn need not turn those.
+        let factors = |part: Part| part.factor.map_or_else(|| (vec![1.0; n], vec![1.0; n]), |f| f.undone(self.blocks));
+        let (rows_a, columns_a) = factors(a);
+        let (rows_b, columns_b) = factors(b);
+        let (rows_b, columns_b) = if reversed { (columns_b, rows_b) } else { (rows_b, columns_b) };
+        let (mut difference, mut sum) = (0.0, 0.0);
+        for (i, (row_a, row_b)) in values_a.chunks_exact(n).zip(values_b.chunks_exact(n)).enumerate() {
+            let (mut off, mut all) = ([0.0; 4], [0.0; 4]);
+            let columns = columns_a.iter().zip(&columns_b).zip(weight);
+            for (k, ((a, b), ((in_a, in_b), w))) in row_a.iter().zip(row_b).zip(columns).enumerate() {
+                let (a, b) = (a * rows_a[i] * in_a, b * rows_b[i] * in_b);
+                off[k % 4] += w * (a - b).abs();
+                all[k % 4] += 0.5 * w * (a + b).abs();
+            }
+            difference += weight[i] * off.iter().sum::<f64>();
+            sum += weight[i] * all.iter().sum::<f64>();
+        }
+        if sum > 0.0 { difference / sum } else { 0.0 }
+    }
+
+    /// Do two readings come to the same functions?
+    pub(super) fn same(&self, a: &Reading, b: &Reading, nothing: f64) -> bool {
+        a.iter().zip(b).all(|(a, b)| match (a, b) {
+            (Some(a), Some(b)) => a == b || self.apart(*a, *b, false) < nothing,
+            (None, None) => true,
+            _ => false,
+        })
+    }
+
+    /// What the numbers say about a reading.
+    pub(super) fn answers(&self, reading: &Reading) -> Answers {
+        let lit = as_it_is(self.blocks).map(|part| part.filter(|part| self.lit(part.source)));
+        let there = |slot: usize| lit[slot].and(reading[slot]);
+        let mut list = Vec::new();
+        match (there(0), there(1)) {
+            (Some(front), Some(back)) => list.push((Question::Between, self.apart(front, back, true))),
+            (Some(one), None) | (None, Some(one)) => list.push((Question::Alone, self.own(one))),
+            (None, None) => {}
+        }
+        list.extend([2, 3].into_iter().filter_map(there).map(|part| (Question::Own, self.own(part))));
+        let sums = [0, 1, 2, 3].map(|slot| there(slot).map(|part| self.sums(part)));
+        let held = |sums: &Sums| self.mean(sums.tau.iter().copied());
+        let plain = lit.iter().flatten().map(|part| held(&self.sums(*part))).fold(0.0, f64::max);
+        // What is black as it stands has nothing left over that could be compared.
+        if plain < BLACK && sums[0].is_some() && sums[2].is_some() {
+            let most = sums.iter().flatten().map(held).fold(0.0, f64::max);
+            list.push((Question::Lost, (BLACK / most).ln().max(0.0)));
+            return list;
+        }
+        for (through, back) in [(0, 2), (1, 3)] {
+            let total: Option<Vec<f64>> = match (&sums[through], &sums[back]) {
+                (Some(t), Some(r)) => Some(t.tau.iter().zip(&r.tau).map(|(t, r)| t + r).collect()),
+                (Some(one), None) | (None, Some(one)) => Some(one.tau.clone()),
+                (None, None) => None,
+            };
+            let Some(total) = total else { continue };
+            if let (Some(t), Some(r)) = (&sums[through], &sums[back]) {
+                list.push((Question::Opposed, self.together(&t.tau, &r.tau)));
+                list.push((Question::Even, self.one_sided(&total)));
+                list.push((Question::Rest, self.by_angle(&total)));
+            }
+            list.push((Question::Won, self.rms(total.iter().map(|sum| (sum - PLAUSIBLE).max(0.0)))));
+        }
+        for slot in 0..4 {
+            if let (Some(part), Some(sums)) = (there(slot), &sums[slot])
+                && let Some(misfit) = self.shape(part, sums, slot < 2)
+            {
+                list.push((Question::Shape, misfit));
+            }
+        }
+        list
+    }
+
+    /// How far the sums of a function in two bands are apart, each by its own mean.
+    pub(super) fn shapes_apart(&self, part: Part, other: &Self, of_other: Part) -> f64 {
+        let (a, b) = (self.sums(part), other.sums(of_other));
+        let apart = |a: &[f64], b: &[f64]| {
+            let (mean_a, mean_b) = (self.mean(a.iter().copied()), self.mean(b.iter().copied()));
+            self.mean(a.iter().zip(b).map(|(a, b)| (a / mean_a - b / mean_b).abs()))
+        };
+        0.5 * (apart(&a.tau, &b.tau) + apart(&a.emitted, &b.emitted))
+    }
+
+    /// A function against itself as the light goes the other way.
+    fn own(&self, part: Part) -> f64 {
+        // Names of light that leaves on the side where it came from are turned by 180°.
+        self.apart(part, Part { turn: after(part.turn, Some(Turn::HalfRound)), ..part }, true)
+    }
+
+    /// Mean over even light.
+    fn mean(&self, values: impl Iterator<Item = f64>) -> f64 {
+        values.zip(&self.blocks.weight).map(|(value, w)| w * value).sum::<f64>() / PI
+    }
+
+    fn rms(&self, values: impl Iterator<Item = f64>) -> f64 {
+        self.mean(values.map(|value| value * value)).sqrt()
+    }
+
+    /// How far values are from their mean.
+    fn uneven(&self, values: &[f64]) -> f64 {
+        let mean = self.mean(values.iter().copied());
+        self.rms(values.iter().map(|value| value - mean))
+    }
+
+    /// How far values are from their own images above and below, right and left.
+    fn one_sided(&self, values: &[f64]) -> f64 {
+        let apart =
+            |turn| self.rms(values.iter().enumerate().map(|(k, value)| value - values[self.blocks.turned(turn, k)]));
+        apart(Turn::UpDown).hypot(apart(Turn::LeftRight))
+    }
+
+    /// Correlation of what transmission and reflection prefer, above or below, where both prefer anything; 0 where they
+    /// oppose each other as they should.
+    fn together(&self, t: &[f64], r: &[f64]) -> f64 {
+        let preference = |values: &[f64]| -> Vec<f64> {
+            (0..values.len()).map(|k| values[k] - values[self.blocks.turned(Turn::UpDown, k)]).collect()
+        };
+        let (t, r) = (preference(t), preference(r));
+        let (through, back) = (self.rms(t.iter().copied()), self.rms(r.iter().copied()));
+        if through.min(back) < PREFERRED {
+            return 0.0;
+        }
+        (self.mean(t.iter().zip(&r).map(|(t, r)| t * r)) / (through * back)).max(0.0)
+    }
+
+    /// How far their means over rings are from the mean of all.
+    fn by_angle(&self, values: &[f64]) -> f64 {
+        let basis = &self.blocks.basis;
+        let mean = |ring: usize| {
+            let cells = basis.first_cell(ring)..basis.first_cell(ring) + basis.rings()[ring].sectors;
+            let count = cells.len();
+            std::iter::repeat_n(values[cells].iter().sum::<f64>() / count as f64, count)
+        };
+        let means: Vec<f64> = (0..basis.rings().len()).flat_map(mean).collect();
+        self.uneven(&means)
+    }
+
+    /// Means over rings from the normal outwards, with the cosine of each.
+    fn rings(&self, values: &[f64]) -> Vec<(f64, f64)> {
+        self.blocks.by_ring(values).into_iter().map(|(theta, mean)| (theta.cos(), mean)).collect()
+    }
+
+    /// What materials of its kind do not do: a pane that changes before 40°, a mirror that does not reflect more towards
+    /// grazing, a diffuser that sends unevenly what it takes evenly. Logarithms of ratios.
+    fn shape(&self, part: Part, sums: &Sums, transmission: bool) -> Option<f64> {
+        let rings = self.rings(&sums.tau);
+        let (first, last) = (rings.first()?.1, rings.last()?.1);
+        let middle = rings.iter().min_by(|a, b| (a.0 - MIDDLE).abs().total_cmp(&(b.0 - MIDDLE).abs()))?.1;
+        match self.kinds[part.source]? {
+            Kind::Straight if first <= DARK || middle <= DARK => None,
+            Kind::Straight if transmission => Some((middle / first).ln().abs()),
+            Kind::Straight => Some(((first + GRAZING * (1.0 - first).max(0.0)) / last.max(DARK)).ln().max(0.0)),
+            Kind::Diffuse => {
+                let spread = |values: &[f64]| self.uneven(values) / self.mean(values.iter().copied());
+                let (taken, sent) = (spread(&sums.tau), spread(&sums.emitted));
+                Some((sent - taken).max(0.0) * (ALIKE / (ALIKE + taken)))
+            }
+            Kind::Directed => None,
+        }
+    }
+}
+
+/// Cosine of the angle up to which panes keep their transmittance.
+const MIDDLE: f64 = 0.77;
+
+/// The same comparison in the one way in which it is remembered.
+fn canonical(a: Part, b: Part, reversed: bool) -> (Part, Part, bool) {
+    if a.factor.is_some() || b.factor.is_some() {
+        return (a, b, reversed);
+    }
+    // Turned and transposed together, both stay as far apart; only what is between them counts.
+    let turn = after(a.turn, b.turn);
+    let reversed = reversed ^ a.transposed ^ b.transposed;
+    let (first, second) = (a.source.min(b.source), a.source.max(b.source));
+    (Part::plain(first), Part { turn, ..Part::plain(second) }, reversed)
+}
