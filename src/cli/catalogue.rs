@@ -12,7 +12,8 @@ use crate::cli::output::print;
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::cli::subscriptions::{self, SubscribeArgs, SubscriptionsArgs, UnsubscribeArgs};
 use crate::cli::validate::{ValidateArgs, finding_json, validate};
-use crate::study::files;
+use crate::cli::writing::Over;
+use crate::formats::FileKind;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -82,6 +83,9 @@ pub struct ExportArgs {
     /// The package to write.
     #[arg(long)]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// Does what the arguments say with the catalogue of a file, or with the user's own.
@@ -105,9 +109,10 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Unsubscribe(args) => subscriptions::unsubscribe(&mut open()?, args),
         Action::Subscriptions(args) => subscriptions::list(&mut open()?, args),
         Action::Export(args) => {
+            args.over.check([], Some(&args.out), FileKind::Package)?;
             let mut catalogue = open()?;
             provide(&mut catalogue, &args.keys)?;
-            Ok(files::write(&args.out, &catalogue.export_package(&args.keys)?)?)
+            Ok(args.over.write(&args.out, FileKind::Package, &catalogue.export_package(&args.keys)?)?)
         }
         Action::Validate(args) => validate(&open()?, args),
         Action::Diff(args) => packages::diff(args),

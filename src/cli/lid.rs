@@ -2,12 +2,14 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
+use crate::formats::FileKind;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire::Description;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::{Session, files, load_scene, read_scene_file, system::SystemLibrary};
+use crate::study::{Session, load_scene, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -23,6 +25,9 @@ pub struct LidArgs {
     /// File to write: .ldt (EULUMDAT), .ies (LM-63), .csv (table), .png or .svg (polar diagram)
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Edition of LM-63 for .ies
     #[arg(long, value_enum, default_value_t = EditionArg::Y2002)]
     pub edition: EditionArg,
@@ -94,9 +99,17 @@ fn write_distribution(
         AimArg::Mounted => Aim::Mounted,
         AimArg::Down => Aim::Down,
     });
+    let kind = match format {
+        LidFormat::Eulumdat => FileKind::Eulumdat,
+        LidFormat::Ies(_) => FileKind::Ies,
+        LidFormat::Csv => FileKind::Csv,
+        LidFormat::Png => FileKind::Png,
+        LidFormat::Svg => FileKind::Svg,
+    };
+    args.over.check([&*args.scene], Some(&args.out), kind)?;
     let (lid, text) = distribution(&args.scene, args.aperture as usize - 1)?;
     let file = encode(&lid, text, format, aim, step).with_context(|| format!("{shown}"))?;
-    files::write(&args.out, &file.bytes)?;
+    args.over.write(&args.out, kind, &file.bytes)?;
     if args.json {
         let summary = serde_json::json!({
             "out": args.out.to_string_lossy(),

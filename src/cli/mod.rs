@@ -28,10 +28,13 @@ pub mod room;
 pub mod sky;
 pub mod subscriptions;
 pub mod validate;
+mod writing;
 
 pub use args::{Arguments, Command};
+pub use writing::Over;
 
-use crate::study::Library;
+use crate::catalogue::default_path;
+use crate::study::{Library, files};
 use std::path::Path;
 
 /// Runs a subcommand.
@@ -39,6 +42,10 @@ use std::path::Path;
 /// # Errors
 /// One line that names the file, the place in it, what is wrong and what would be right.
 pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
+    // What the results come from, wherever it is opened.
+    if let Some(path) = catalogue.map(Path::to_owned).or_else(|| default_path().ok()) {
+        files::keep(&path);
+    }
     let library = Library::with_catalogue(catalogue);
     match command {
         Command::Room(args) => room::run(args, &library),

@@ -2,8 +2,10 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::compute::lid::BeamSource;
-use crate::study::{RoomResult, Scene, Session, files, load_scene, system::SystemLibrary};
+use crate::formats::FileKind;
+use crate::study::{RoomResult, Scene, Session, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::path::PathBuf;
@@ -26,6 +28,9 @@ pub struct RoomArgs {
     /// CSV file to write
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Results for programs, on standard output
     #[arg(long)]
     pub json: bool,
@@ -33,6 +38,7 @@ pub struct RoomArgs {
 
 /// Runs the command.
 pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let scene = load_scene(&args.scene, library)?;
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
@@ -50,7 +56,7 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
         csv.push('\n');
     }
     if let Some(path) = &args.out {
-        files::write(path, csv.as_bytes())?;
+        args.over.write(path, FileKind::Csv, csv.as_bytes())?;
     }
     if args.json {
         print(&format!("{:#}\n", to_json(&scene, &result)))?;

@@ -15,6 +15,7 @@ mod family;
 pub mod figures_table;
 pub mod gazetteer;
 pub mod ies;
+mod kind;
 pub mod lid_tables;
 mod location;
 pub mod luminaire;
@@ -25,6 +26,7 @@ mod written;
 
 pub use btdf_text::CatalogueFields;
 pub use family::{is_one_function, merge_sides};
+pub use kind::{FileKind, HEAD};
 pub use location::{FormatError, Location};
 pub use written::Written;
 

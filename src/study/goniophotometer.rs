@@ -292,7 +292,7 @@ impl Described {
         dataset.described = self.described(state, library);
         if let Some(path) = &kept {
             // A state that cannot be kept is computed again next time: nothing is lost.
-            drop(std::fs::write(path, dataset_blob::encode(&dataset)));
+            drop(files::write_at_once(path, &dataset_blob::encode(&dataset)));
         }
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
     }

@@ -19,6 +19,7 @@ pub mod files;
 pub mod goniophotometer;
 pub mod incidence;
 pub mod incoming;
+pub mod inputs;
 pub mod intake;
 pub mod leaving_out;
 pub mod library;
@@ -26,6 +27,7 @@ pub mod luminaire_file;
 pub mod moment;
 pub mod near_field;
 pub mod outside;
+mod part;
 pub mod places;
 pub mod plan;
 pub mod product_control;
@@ -55,7 +57,7 @@ use std::path::Path;
 /// Reads a scene file. The error names the file.
 pub fn read_scene_file(path: &Path) -> Result<SceneFile, StudyError> {
     let error = |message: String| StudyError::File { path: path.to_owned(), message };
-    let text = std::fs::read_to_string(path).map_err(|e| error(format!("cannot be read: {e}")))?;
+    let text = String::from_utf8(files::read(path)?).map_err(|e| error(format!("cannot be read: {e}")))?;
     SceneFile::parse(&text).map_err(|e| error(e.to_string()))
 }
 
