@@ -91,7 +91,7 @@ pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, Catalogue
         for state in &product.states {
             let hash = state.dataset.clone();
             let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
-            let mut dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
+            let mut dataset = decode(blob).map_err(|cause| CatalogueError::Dataset { hash, cause })?;
             if dataset.state != state.key {
                 return Err(CatalogueError::Import(format!(
                     "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",

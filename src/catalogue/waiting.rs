@@ -3,6 +3,7 @@
 use super::described::described_state;
 use super::record::{Record, figured, light, named_state, stored};
 use super::store::{insert_findings, read_product};
+use super::verified::blob_of;
 use super::{Catalogue, CatalogueError, Product, ProductFinding, State, StateName};
 use crate::compute::btdf::{Btdf, Dataset, LightFigures};
 use crate::compute::estimate::Progress;
@@ -96,9 +97,7 @@ impl Catalogue {
             if progress.cancelled() {
                 break;
             }
-            let blob: Option<Vec<u8>> =
-                self.db.query_row("SELECT blob FROM dataset WHERE hash = ?", [hash], |row| row.get(0)).optional()?;
-            let Some(dataset) = blob.and_then(|blob| decode(&blob).ok()) else { continue };
+            let Some(dataset) = blob_of(&self.db, hash).ok().and_then(|blob| decode(&blob).ok()) else { continue };
             let Some(transmission) = transmission(&dataset) else { continue };
             let figures = light(transmission, described_state(system, state).as_ref());
             let tx = self.change()?;

@@ -65,7 +65,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             Some(hours) => format!("direct sun through it for {hours:.1} h"),
             None => "its slats are not known: whether direct sun passes is not told".to_owned(),
         };
-        eprintln!(
+        tell!(
             "aperture {}: {} ({}), {} movements, sun on it for {:.1} h, {direct}",
             one.aperture,
             one.device.name,
@@ -74,7 +74,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             sum.sun_hours
         );
         if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
-            eprintln!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
+            tell!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
         }
     }
     Ok(())

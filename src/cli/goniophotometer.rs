@@ -147,7 +147,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
             let of =
                 if one.dataset.state.is_empty() { String::new() } else { format!("state {}: ", one.dataset.state) };
             let Request { error, .. } = request;
-            eprintln!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
+            tell!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
         }
     }
     let told = if args.json {
@@ -198,7 +198,7 @@ fn write_results(
                 for (path, written) in written_state(&path, *format, &dataset)? {
                     for finding in written.findings {
                         if told.insert(finding.message.clone()) {
-                            eprintln!("note: {}: {}", path.display(), finding.message);
+                            tell!("note: {}: {}", path.display(), finding.message);
                         }
                     }
                     files.push((path, written.bytes));

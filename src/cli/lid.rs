@@ -9,7 +9,7 @@ use crate::formats::FileKind;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire::Description;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::{Session, load_scene, read_scene_file, system::SystemLibrary};
+use crate::study::{Session, clock, load_scene, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -72,9 +72,9 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
-            eprintln!("note: {note}");
+            tell!("note: {note}");
         }
-        let date = jiff::Zoned::now().date().to_string();
+        let date = clock::now().date().to_string();
         let text = describe(&name, &read_scene_file(path)?, index, &date);
         Ok((Session::new().lid(&scene, index, &TerminalProgress::new())?.lid, text))
     })
@@ -123,7 +123,7 @@ fn write_distribution(
         });
         print(&format!("{summary:#}\n"))?;
     } else {
-        eprintln!(
+        tell!(
             "{shown}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
             file.flux.value,
             file.peak,

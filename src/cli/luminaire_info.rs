@@ -3,6 +3,7 @@
 use crate::formats::luminaire::{Luminaire, Photometry};
 use crate::formats::{eulumdat, ies};
 use crate::study::files;
+use crate::texts::one_line;
 use anyhow::anyhow;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -104,7 +105,7 @@ fn to_text(luminaire: &Luminaire) -> String {
     let mut text = String::new();
     let mut line = |label: &str, value: &str| {
         if !value.is_empty() {
-            let _ = writeln!(text, "{label:<22}{value}");
+            let _ = writeln!(text, "{label:<22}{}", one_line(value));
         }
     };
     let range = |angles: &[f64]| match angles {
@@ -139,7 +140,7 @@ fn to_text(luminaire: &Luminaire) -> String {
         let _ = writeln!(text, "  none");
     }
     for finding in &luminaire.findings {
-        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, one_line(&finding.message));
     }
     text
 }

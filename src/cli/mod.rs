@@ -1,9 +1,15 @@
 //! The command line: arguments in, files and tables out, no display needed.
 
+/// A message on standard error, as `eprintln!` would say it.
+macro_rules! tell {
+    ($($text:tt)*) => { $crate::cli::output::to_stderr(format_args!($($text)*)) };
+}
+
 pub mod accuracy;
 mod args;
 mod builtin;
 pub mod catalogue;
+pub mod check;
 pub mod compact;
 pub mod compare;
 pub mod control;
@@ -63,4 +69,15 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Repair(args) => repair::run(args),
         Command::Catalogue(args) => catalogue::run(args, catalogue),
     }
+}
+
+/// Is it a verdict about what was read, rather than something that could not be done?
+pub fn is_judgement(error: &anyhow::Error) -> bool {
+    error.is::<validate::NotFit>() || error.is::<packages::Differ>() || error.is::<check::Damaged>()
+}
+
+/// Says on standard error why the program did not do what it was asked: one line whatever the causes say, so that scripts
+/// can show it.
+pub fn tell_error(error: &anyhow::Error) {
+    tell!("cfs: {}", output::sentence(error));
 }

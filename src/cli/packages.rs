@@ -127,10 +127,10 @@ pub fn merge(args: &MergeArgs) -> anyhow::Result<()> {
     let merged = merge_packages(&read(&args.first)?, &read(&args.second)?)?;
     args.over.write(&args.out, FileKind::Package, &package::write(&merged.package)?)?;
     for key in &merged.same {
-        eprintln!("note: {key}: the same in both, kept once");
+        tell!("note: {key}: the same in both, kept once");
     }
     for (key, new) in &merged.renamed {
-        eprintln!("note: {key}: other content in {}, kept as {new}", args.second.display());
+        tell!("note: {key}: other content in {}, kept as {new}", args.second.display());
     }
     output::print(&format!("{} products\n", merged.package.products.len()))
 }

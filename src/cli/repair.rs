@@ -56,19 +56,19 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
         // What the description recorded before is kept, and undone repairs cancel out.
         mended.description = record(&dataset.description, &repairs);
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
-        eprintln!("repaired: {}", words.join(", "));
+        tell!("repaired: {}", words.join(", "));
         if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
-            eprintln!("asked, not done: {questions}");
+            tell!("asked, not done: {questions}");
         }
         if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
-            eprintln!("{sentence}");
+            tell!("{sentence}");
         }
         *dataset = mended;
     }
     let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
     args.over.write(&args.out, FileKind::Dataset(format), &written.bytes)?;
     for finding in &written.findings {
-        eprintln!("{}: {}", finding.severity.word(), finding.message);
+        tell!("{}: {}", finding.severity.word(), finding.message);
     }
     Ok(())
 }

@@ -72,11 +72,11 @@ const UNPLACED: f64 = 0.1;
 /// What a person should know beside the numbers, on standard error.
 fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
-        eprintln!("note: {note}");
+        tell!("note: {note}");
     }
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
-            eprintln!(
+            tell!(
                 "note: {count} of {} sensors lie nearer than {distance:.3} m to aperture {}, where they would see the \
                  slats or cuts of {} one by one; the data hold its mean alone",
                 scene.sensors.len(),
@@ -88,7 +88,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
     for (number, (aperture, (source, reason))) in scene.apertures.iter().zip(&result.beams).enumerate() {
         let doubted = result.data_share();
         if *source == BeamSource::Cells && doubted > UNPLACED {
-            eprintln!(
+            tell!(
                 "note: sun patches cannot be placed with the data of aperture {} ({}): {reason}; {:.0} % of the light at \
                  the sensors is left open by the data",
                 number + 1,
@@ -100,9 +100,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(target) = scene.error_target {
         let (reached, target) = (100.0 * result.reached(), 100.0 * target);
         let word = if reached <= target { "reached" } else { "not reached" };
-        eprintln!(
-            "note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error"
-        );
+        tell!("note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error");
     }
 }
 

@@ -63,13 +63,13 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     }
     let light = illuminances(&scene.sky, &scene.site).map_err(|error| anyhow!("{name}: {error}"))?;
     if let Some(note) = light.and_then(|light| light.note()) {
-        eprintln!("note: {note}");
+        tell!("note: {note}");
     }
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
-    eprintln!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
+    tell!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
     let beam = facade_beam(&outside, sun.as_ref(), facade);
-    eprintln!("facade: diffuse {:.6} lx, direct {beam:.6} lx, global {:.6} lx", vertical.value, vertical.value + beam);
+    tell!("facade: diffuse {:.6} lx, direct {beam:.6} lx, global {:.6} lx", vertical.value, vertical.value + beam);
     Ok(())
 }
 

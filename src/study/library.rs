@@ -62,11 +62,16 @@ impl Library {
     }
 
     /// Computes the state of a built-in product that is asked for before the catalogue holds its data, and keeps them.
-    fn provide(&self, product: &str, state: Option<&str>) -> Result<(), StudyError> {
-        let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(()) };
+    /// Where nothing can be kept – a read-only place, a full disk – they come back.
+    fn provide(&self, product: &str, state: Option<&str>) -> Result<Option<Dataset>, StudyError> {
+        let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(None) };
         let product = self.in_catalogue(|catalogue| catalogue.product(product))?;
         let dataset = builtin::compute(&product, &state, self, &Silent)?;
-        self.in_catalogue(|catalogue| catalogue.put_state(&product, &dataset))
+        let kept = self.in_catalogue(|catalogue| match catalogue.put_state(&product, &dataset) {
+            Err(error) if error.of_place() => Ok(false),
+            other => other.map(|()| true),
+        })?;
+        Ok((!kept).then_some(dataset))
     }
 }
 
@@ -163,9 +168,13 @@ impl SystemLibrary for Library {
                 Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
             }
             SystemKeys::Catalogue { key, state } => {
-                self.provide(key, state.as_deref())?;
+                let computed = self.provide(key, state.as_deref())?;
                 let (dataset, label) = self.in_catalogue(|catalogue| {
-                    Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?.name))
+                    let dataset = match computed {
+                        Some(dataset) => Arc::new(dataset),
+                        None => catalogue.dataset(key, state.as_deref())?,
+                    };
+                    Ok((dataset, catalogue.product(key)?.name))
                 })?;
                 let very = self.very_of(&dataset);
                 Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))

@@ -1,0 +1,56 @@
+//! What SQLite says, in one sentence for who keeps the catalogue.
+
+use rusqlite::{Error, ErrorCode};
+
+/// What is wrong and what would be right, without SQL.
+pub(super) fn told(error: &Error) -> String {
+    let said = said(error);
+    match error.sqlite_error_code() {
+        Some(ErrorCode::DiskFull) => "the disk is full; nothing was changed; make room and try again".to_owned(),
+        Some(ErrorCode::ReadOnly) => {
+            "nothing can be written where it lies; it can be read, and changed after it is copied to another place"
+                .to_owned()
+        }
+        Some(ErrorCode::DatabaseCorrupt) => damaged(&said),
+        Some(ErrorCode::NotADatabase) => format!("it is no catalogue, or its beginning is damaged ({said})"),
+        Some(ErrorCode::CannotOpen | ErrorCode::PermissionDenied) => {
+            format!("it cannot be opened ({said}); check path and rights")
+        }
+        Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => {
+            "another program has been writing to it for too long; try again".to_owned()
+        }
+        Some(ErrorCode::SystemIoFailure) => format!("the disk fails ({said}); nothing was changed"),
+        _ => match error {
+            Error::FromSqlConversionFailure(..) | Error::InvalidColumnType(..) | Error::IntegralValueOutOfRange(..) => {
+                damaged(&said)
+            }
+            // A table or column that ought to be there.
+            Error::SqlInputError { .. } => format!("it is not laid out as a catalogue is ({said}); {REMEDY}"),
+            _ => said,
+        },
+    }
+}
+
+/// What is offered for damages.
+pub(super) const REMEDY: &str = "`cfs catalogue check --repair` mends what can be mended, and tells the rest";
+
+fn damaged(said: &str) -> String {
+    format!("it is damaged ({said}); {REMEDY}")
+}
+
+/// SQLite's own words, without the statement.
+fn said(error: &Error) -> String {
+    match error {
+        Error::SqlInputError { msg, .. } => msg.clone(),
+        Error::SqliteFailure(_, Some(message)) => message.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// Is it the place that refuses, so that reading may still be possible?
+pub(super) fn of_place(error: &Error) -> bool {
+    matches!(
+        error.sqlite_error_code(),
+        Some(ErrorCode::ReadOnly | ErrorCode::DiskFull | ErrorCode::CannotOpen | ErrorCode::SystemIoFailure)
+    )
+}
