@@ -268,6 +268,44 @@ mod tests {
     }
 
     #[test]
+    fn where_nothing_can_be_written_it_is_read_and_says_so_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a ü?#%.sqlite");
+        drop(Catalogue::open(&path).unwrap());
+        let named = |path: &Path| {
+            let db = Connection::open_with_flags(unchanging(path), READING | OpenFlags::SQLITE_OPEN_URI)?;
+            db.query_row("SELECT count(*) FROM product", [], |row| row.get::<_, i64>(0))
+        };
+        assert!(named(&path).unwrap() > 10, "the name is the file's");
+        let mut catalogue = Catalogue::open_for_reading(&path).unwrap();
+        assert!(catalogue.product("clear-single").is_ok() && !catalogue.waiting().unwrap().is_empty());
+        let error = catalogue.set_favourite("clear-single", true).unwrap_err();
+        assert!(error.of_place());
+        let told = error.to_string();
+        assert!(told.contains("nothing can be written") && told.matches("catalogue").count() == 1, "{told}");
+        // An older layout cannot be brought to the present one there.
+        catalogue = Catalogue::open(&path).unwrap();
+        catalogue.db.execute_batch("ALTER TABLE product DROP COLUMN seal; PRAGMA user_version = 7").unwrap();
+        drop(catalogue);
+        assert!(matches!(Catalogue::open_for_reading(&path), Err(CatalogueError::Older { found: 7, .. })));
+        Catalogue::open(&path).unwrap();
+    }
+
+    #[test]
+    fn a_number_that_is_no_layout_ends() {
+        let mut catalogue = bare();
+        catalogue.migrate(MIGRATIONS).unwrap();
+        for number in [-1_i64, i64::from(i32::MIN), 0] {
+            catalogue.db.pragma_update(None, "user_version", number).unwrap();
+            let told = catalogue.judge().unwrap_err();
+            assert!(matches!(told, CatalogueError::Layout { found, .. } if found == number), "{told}");
+        }
+        catalogue.db.pragma_update(None, "user_version", -1).unwrap();
+        assert!(catalogue.migrate(MIGRATIONS).is_err());
+        assert_eq!(layout_of(&catalogue.db).unwrap(), Some(MIGRATIONS.len() as i64));
+    }
+
+    #[test]
     fn a_failing_step_leaves_nothing_behind() {
         let mut catalogue = bare();
         catalogue.migrate(MIGRATIONS).unwrap();

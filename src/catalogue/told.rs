@@ -54,3 +54,27 @@ pub(super) fn of_place(error: &Error) -> bool {
         Some(ErrorCode::ReadOnly | ErrorCode::DiskFull | ErrorCode::CannotOpen | ErrorCode::SystemIoFailure)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rusqlite::{Connection, ffi};
+
+    #[test]
+    fn no_sentence_has_sql_in_it() {
+        let db = Connection::open_in_memory().unwrap();
+        let error = db.execute("SELECT nothing FROM nowhere", []).unwrap_err();
+        let said = told(&error);
+        assert!(said.contains("no such table") && !said.contains("SELECT") && said.contains(REMEDY), "{said}");
+        for (code, words) in [
+            (ffi::SQLITE_FULL, "the disk is full"),
+            (ffi::SQLITE_READONLY, "nothing can be written"),
+            (ffi::SQLITE_CORRUPT, "it is damaged"),
+            (ffi::SQLITE_BUSY, "another program"),
+        ] {
+            let error = Error::SqliteFailure(ffi::Error::new(code), Some("as SQLite says".to_owned()));
+            assert!(told(&error).contains(words), "{}", told(&error));
+            assert_eq!(of_place(&error), code == ffi::SQLITE_FULL || code == ffi::SQLITE_READONLY);
+        }
+    }
+}

@@ -61,7 +61,7 @@ impl FileKind {
             // Other archives have other entries.
             Self::Package => head.starts_with(package::MAGIC) && (holds("manifest.json") || holds("datasets/")),
             Self::Dataset(format) => Format::sniff("", head) == Some(format),
-            Self::Ies => head.trim_ascii_start().starts_with(b"IESNA"),
+            Self::Ies => head.trim_ascii_start().starts_with(b"IES"),
             Self::Eulumdat => eulumdat::read(head).is_ok(),
             Self::Svg => text(head).is_some_and(|text| text.contains("<svg")),
             Self::Json => text(head).is_some_and(is_json),

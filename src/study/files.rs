@@ -17,7 +17,7 @@ pub const LARGEST_FILE: u64 = 1 << 30;
 /// The files that this run of the program has read.
 static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-pub(super) fn wrong(path: &Path, message: String) -> StudyError {
+fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }
 }
 
