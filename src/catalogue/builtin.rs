@@ -151,6 +151,12 @@ fn with_figures(state: State, row: &FigureRow) -> State {
     }
 }
 
+/// Is this the key of a product that comes with the program?
+pub(super) fn is_builtin(key: &str) -> bool {
+    PRODUCTS.iter().any(|(_, product)| product.key == key)
+        || ideals().iter().any(|(product, _)| product.key.as_deref() == Some(key))
+}
+
 /// Is what results hang on of a built-in product other than this program brings it? One of another program's description is
 /// not judged.
 pub(super) fn differs(product: &Product) -> bool {

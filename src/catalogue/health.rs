@@ -2,13 +2,14 @@
 
 use super::builtin::differs;
 use super::open::{APPLICATION, READING, layout_of};
-use super::salvage::salvage;
-use super::store::read_product;
+use super::salvage::{all_come_anew, salvage};
+use super::store::{put_blob, read_product};
+use super::told::said;
 use super::verified::{blob_of, sealed};
 use super::{Catalogue, CatalogueError};
 use crate::formats::dataset_blob::{content_hash, decode};
 use rusqlite::backup::Backup;
-use rusqlite::{Connection, OpenFlags, params};
+use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -127,7 +128,15 @@ fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
     let mut told = Vec::new();
     for pragma in [format!("PRAGMA integrity_check({MOST_TOLD})"), "PRAGMA foreign_key_check".to_owned()] {
         let keys = pragma.contains("foreign");
-        let mut ask = db.prepare(&pragma)?;
+        let mut ask = match db.prepare(&pragma) {
+            Ok(ask) => ask,
+            // Not even the list of tables can be read.
+            Err(error) if error.sqlite_error_code() == Some(ErrorCode::DatabaseCorrupt) => {
+                told.push(said(&error));
+                break;
+            }
+            Err(error) => return Err(error.into()),
+        };
         let mut rows = ask.query([])?;
         loop {
             match rows.next() {
@@ -142,7 +151,7 @@ fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
                 }
                 // So broken that it cannot even be looked through.
                 Err(error) => {
-                    told.push(super::told::told(&error));
+                    told.push(said(&error));
                     break;
                 }
             }
@@ -168,7 +177,7 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
                 continue;
             }
             Err(CatalogueError::Sql(error)) => {
-                health.tell(place(), format!("product \"{key}\" cannot be read: {}", super::told::told(&error)));
+                health.tell(place(), format!("product \"{key}\" cannot be read: {}", said(&error)));
                 continue;
             }
             Err(other) => return Err(other),
@@ -182,7 +191,7 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
             let wrong = match blob_of(db, hash) {
                 Ok(blob) => decode(&blob).err().map(|error| error.to_string()),
                 Err(CatalogueError::Damaged(how)) => Some(how),
-                Err(CatalogueError::Sql(error)) => Some(super::told::told(&error)),
+                Err(CatalogueError::Sql(error)) => Some(said(&error)),
                 Err(other) => return Err(other),
             };
             if let Some(how) = wrong {
@@ -234,7 +243,9 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     let holds = |health: &Health, place: &Place| health.damages.iter().any(|damage| damage.place == *place);
     if holds(health, &Place::Pages) {
         // An index is made of its table.
-        let mended = db.execute_batch("REINDEX").is_ok() && broken_pages(&db).is_ok_and(|pages| pages.is_empty());
+        let mended = db.execute_batch("REINDEX").is_ok()
+            && broken_pages(&db).is_ok_and(|pages| pages.is_empty())
+            && layout_of(&db)?.is_some();
         if !mended {
             let saved = salvage(&db)?;
             lost = saved.lost;
@@ -252,10 +263,17 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     let tx = db.transaction()?;
     for damage in &rest.damages {
         match &damage.place {
-            Place::Product { key, builtin: true } => {
-                tx.execute("DELETE FROM product WHERE key = ? AND builtin = 1", [key])?;
-            }
+            Place::Product { key, builtin: true } => come_anew(&tx, key)?,
+            // Without a description its data are not computed: they come with the product.
+            Place::Data { product, builtin: true, .. } if !is_described(&tx, product)? => come_anew(&tx, product)?,
             Place::Data { hash, builtin: true, .. } => {
+                // Found in the data, and found in them again.
+                tx.execute(
+                    "DELETE FROM finding WHERE EXISTS (SELECT 1 FROM state s JOIN product p ON p.id = s.product
+                       WHERE s.dataset = ?1 AND p.builtin = 1
+                         AND s.product = finding.product AND s.position = finding.state)",
+                    [hash],
+                )?;
                 tx.execute(
                     "UPDATE state SET dataset = NULL WHERE dataset = ?1
                        AND product IN (SELECT id FROM product WHERE builtin = 1)",
@@ -277,6 +295,20 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     Ok(lost)
 }
 
+fn is_described(db: &Connection, key: &str) -> Result<bool, CatalogueError> {
+    Ok(db.query_row("SELECT system <> '' FROM product WHERE key = ?", [key], |row| row.get(0))?)
+}
+
+/// Takes a built-in product out, so that it comes again when the file is opened.
+fn come_anew(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
+    if !is_described(tx, key)? {
+        // Those without a description come with all others.
+        all_come_anew(tx)?;
+    }
+    tx.execute("DELETE FROM product WHERE key = ? AND builtin = 1", [key])?;
+    Ok(())
+}
+
 impl Catalogue {
     /// Puts the bytes of a dataset back that a state names and that are damaged or gone. False: they are not the bytes that
     /// were stored, or no state names them.
@@ -291,10 +323,7 @@ impl Catalogue {
         let named: bool =
             tx.query_row("SELECT EXISTS (SELECT 1 FROM state WHERE dataset = ?)", [hash], |row| row.get(0))?;
         if named {
-            tx.execute(
-                "INSERT INTO dataset (hash, blob) VALUES (?1, ?2) ON CONFLICT (hash) DO UPDATE SET blob = ?2",
-                params![hash, blob],
-            )?;
+            put_blob(&tx, hash, blob)?;
             tx.commit()?;
         }
         Ok(named)

@@ -87,7 +87,7 @@ impl Catalogue {
         match opened {
             Err(error) if error.of_place() && path.is_file() => match Self::open_for_reading(path) {
                 // Why nothing can be written says more than why nothing can be read.
-                Err(CatalogueError::Sql(_)) => Err(located(error, path)),
+                Err(CatalogueError::Sql(_) | CatalogueError::Older { found: 0, .. }) => Err(located(error, path)),
                 other => other.map_err(|error| located(error, path)),
             },
             other => other.map_err(|error| located(error, path)),
@@ -102,7 +102,8 @@ impl Catalogue {
         let open = |name: &Path, more: OpenFlags| {
             let db = Connection::open_with_flags(name, READING | more)?;
             db.busy_timeout(PATIENCE)?;
-            let catalogue = Self { db, recent: RefCell::default(), index: RefCell::default() };
+            let catalogue =
+                Self { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() };
             let found = catalogue.judge()?;
             let known = MIGRATIONS.len() as i64;
             if found < known {
@@ -142,9 +143,15 @@ impl Catalogue {
     fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
         db.busy_timeout(PATIENCE)?;
         db.pragma_update(None, "foreign_keys", true)?;
-        let mut catalogue = Self { db, recent: RefCell::default(), index: RefCell::default() };
+        let mut catalogue =
+            Self { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() };
         // Judged before anything is written: a foreign file stays as it is.
-        catalogue.judge()?;
+        let found = catalogue.judge()?;
+        let known = known_layout();
+        // A step that is taken twice takes away what later ones brought.
+        if (1..known).contains(&found) && layout_of(&catalogue.db)? != Some(found) && catalogue.judge()? == found {
+            return Err(CatalogueError::Layout { path: String::new(), found, known });
+        }
         catalogue.write_ahead()?;
         catalogue.migrate(MIGRATIONS)?;
         Ok(catalogue)
@@ -188,7 +195,10 @@ impl Catalogue {
             return Err(CatalogueError::Newer { path: String::new(), found, known });
         }
         // A new file has the layout 0, and nothing in it.
-        if found < 0 || (found == 0) != (tables == 0) {
+        if tables == 0 && found != 0 {
+            return Err(CatalogueError::NotACatalogue(String::new()));
+        }
+        if found < 0 || (found == 0 && tables > 0) {
             return Err(CatalogueError::Layout { path: String::new(), found, known });
         }
         Ok(found)
@@ -222,20 +232,27 @@ pub(super) const fn known_layout() -> i64 {
     MIGRATIONS.len() as i64
 }
 
-/// Names of tables and indices with the statements that made them.
-fn schema(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
-    let sql = "SELECT name, coalesce(sql, '') FROM sqlite_schema ORDER BY name";
-    db.prepare(sql)?.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect()
+/// Tables with their columns.
+fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
+    let sql = "SELECT t.name, (SELECT group_concat(c.name) FROM pragma_table_info(t.name) c) FROM sqlite_schema t
+               WHERE t.type = 'table' AND t.name NOT LIKE 'sqlite!_%' ESCAPE '!' ORDER BY t.name";
+    db.prepare(sql)?
+        .query_map([], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?.unwrap_or_default())))?
+        .collect()
 }
 
 /// The layout that a file has, whatever number it names: by its tables. `None`: of none that this program knows.
 pub(super) fn layout_of(db: &Connection) -> Result<Option<i64>, CatalogueError> {
-    let found = schema(db)?;
-    let mut known =
-        Catalogue { db: Connection::open_in_memory()?, recent: RefCell::default(), index: RefCell::default() };
+    let found = shape(db)?;
+    let mut known = Catalogue {
+        db: Connection::open_in_memory()?,
+        recent: RefCell::default(),
+        held: RefCell::default(),
+        index: RefCell::default(),
+    };
     for steps in 1..=MIGRATIONS.len() {
         known.migrate(&MIGRATIONS[..steps])?;
-        if schema(&known.db)? == found {
+        if shape(&known.db)? == found {
             return Ok(Some(steps as i64));
         }
     }
@@ -249,11 +266,13 @@ mod tests {
     fn bare() -> Catalogue {
         let db = Connection::open_in_memory().unwrap();
         db.pragma_update(None, "foreign_keys", true).unwrap();
-        Catalogue { db, recent: RefCell::default(), index: RefCell::default() }
+        Catalogue { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() }
     }
 
     fn schema(db: &Connection) -> Vec<(String, String)> {
-        super::schema(db).unwrap()
+        let sql = "SELECT name, coalesce(sql, '') FROM sqlite_schema ORDER BY name";
+        let mut statement = db.prepare(sql).unwrap();
+        statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?))).unwrap().map(Result::unwrap).collect()
     }
 
     #[test]
@@ -279,6 +298,16 @@ mod tests {
         assert!(named(&path).unwrap() > 10, "the name is the file's");
         let mut catalogue = Catalogue::open_for_reading(&path).unwrap();
         assert!(catalogue.product("clear-single").is_ok() && !catalogue.waiting().unwrap().is_empty());
+        // What is computed is there as long as the catalogue is open.
+        let mut pane = catalogue.product("clear-single").unwrap();
+        let mut dataset = crate::compute::btdf::Dataset::default();
+        dataset.visible.transmission_front = Some(crate::compute::btdf::Btdf::ideal_diffuse(0.25));
+        assert_eq!(catalogue.to_compute("clear-single", None).unwrap().as_deref(), Some(""));
+        pane.description.clear();
+        catalogue.keep_state(&pane, &dataset).unwrap();
+        assert_eq!(catalogue.to_compute("clear-single", None).unwrap(), None);
+        let held = catalogue.dataset("clear-single", None).unwrap();
+        assert!((held.transmission().unwrap().tau_hemispherical() - 0.25).abs() < 1e-6 && held.described.is_some());
         let error = catalogue.set_favourite("clear-single", true).unwrap_err();
         assert!(error.of_place());
         let told = error.to_string();

@@ -1,5 +1,7 @@
 //! What can still be read of a catalogue with broken pages, in a whole one.
 
+use super::builtin::is_builtin;
+use super::told::said;
 use super::{Catalogue, CatalogueError};
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
@@ -41,7 +43,7 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
     let mut lost = Vec::new();
     for table in TABLES {
         if let Err(error) = copied(damaged, &db, table) {
-            lost.push(format!("rows of table {table}: {}", super::told::told(&error)));
+            lost.push(format!("rows of table {table} that lie on broken pages ({})", said(&error)));
         }
     }
     // What is left of others' rows.
@@ -50,10 +52,26 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
          DELETE FROM finding WHERE NOT EXISTS
            (SELECT 1 FROM state s WHERE s.product = finding.product AND s.position = finding.state);
          DELETE FROM control_point WHERE product NOT IN (SELECT id FROM product);
-         DELETE FROM tag WHERE product NOT IN (SELECT id FROM product);
-         UPDATE state SET dataset = NULL WHERE dataset NOT IN (SELECT hash FROM dataset)
-           AND product IN (SELECT id FROM product WHERE builtin = 1);",
+         DELETE FROM tag WHERE product NOT IN (SELECT id FROM product);",
     )?;
+    // Those come with the program.
+    db.execute_batch(
+        "DELETE FROM state WHERE product IN (SELECT id FROM product WHERE builtin = 1);
+         DELETE FROM finding WHERE product IN (SELECT id FROM product WHERE builtin = 1);
+         DELETE FROM control_point WHERE product IN (SELECT id FROM product WHERE builtin = 1);
+         DELETE FROM tag WHERE product IN (SELECT id FROM product WHERE builtin = 1);
+         DELETE FROM product WHERE builtin = 1;
+         DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state WHERE dataset IS NOT NULL);",
+    )?;
+    all_come_anew(&db)?;
+    let stateless: Vec<String> = {
+        let mut ask = db.prepare("SELECT key FROM product WHERE id NOT IN (SELECT product FROM state) ORDER BY key")?;
+        ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?
+    };
+    for key in stateless {
+        db.execute("DELETE FROM product WHERE key = ?", [&key])?;
+        lost.push(format!("states of product \"{key}\""));
+    }
     let gone: BTreeSet<String> = {
         let mut ask = db.prepare(
             "SELECT product_key FROM (SELECT product_key FROM history UNION SELECT product_key FROM favourite
@@ -63,8 +81,8 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
         )?;
         ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?
     };
-    lost.extend(gone.into_iter().map(|key| format!("product \"{key}\"")));
-    // Data that are gone: the state cannot stay without, as only built-in ones are computed.
+    let own = gone.into_iter().filter(|key| !is_builtin(key));
+    lost.extend(own.map(|key| format!("product \"{key}\"")));
     let mut ask = db.prepare(
         "SELECT p.key, s.key FROM state s JOIN product p ON p.id = s.product
          WHERE s.dataset IS NOT NULL AND s.dataset NOT IN (SELECT hash FROM dataset) ORDER BY p.key, s.position",
@@ -74,6 +92,15 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
     drop(ask);
     lost.extend(states.iter().map(|(product, state)| format!("data of \"{product}\", state \"{state}\"")));
     Ok(Saved { db, lost })
+}
+
+/// Lets all built-in products come again when the file is opened.
+///
+/// # Errors
+/// Of SQLite.
+pub(super) fn all_come_anew(db: &Connection) -> Result<(), CatalogueError> {
+    db.execute("DELETE FROM meta WHERE key = 'builtin_version'", [])?;
+    Ok(())
 }
 
 /// Copies the rows of a table that can be read, from the first until one that cannot, then from the last.

@@ -29,6 +29,16 @@ pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, Catalogu
     Ok(key)
 }
 
+/// Writes the bytes of a dataset under their hash: once, and over bytes that are damaged.
+pub(super) fn put_blob(tx: &Transaction, hash: &str, blob: &[u8]) -> Result<(), CatalogueError> {
+    tx.prepare_cached(
+        "INSERT INTO dataset (hash, blob) VALUES (?1, ?2)
+         ON CONFLICT (hash) DO UPDATE SET blob = excluded.blob WHERE blob IS NOT excluded.blob",
+    )?
+    .execute(params![hash, blob])?;
+    Ok(())
+}
+
 /// Writes a product under the key it has.
 pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(), CatalogueError> {
     let (p, from) = (&record.product, &record.product.provenance);
@@ -58,7 +68,7 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     ])?;
     let id = tx.last_insert_rowid();
     for (hash, blob) in &record.datasets {
-        tx.prepare_cached("INSERT OR IGNORE INTO dataset (hash, blob) VALUES (?, ?)")?.execute(params![hash, blob])?;
+        put_blob(tx, hash, blob)?;
     }
     for (position, s) in record.product.states.iter().enumerate() {
         let curve = serde_json::json!(s.tau_profile).to_string();
@@ -279,7 +289,9 @@ impl Catalogue {
                 states.iter().find(|s| s.key == state).ok_or_else(|| wrong(format!("no state \"{state}\"")))?
             }
         };
-        let hash = found.dataset.as_ref().ok_or_else(|| not_computed(key, &found.key))?;
+        let Some(hash) = &found.dataset else {
+            return self.held(key, &found.key).ok_or_else(|| not_computed(key, &found.key));
+        };
         self.dataset_of_hash(hash, described_state(&product.system, &found.key))
     }
 

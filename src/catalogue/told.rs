@@ -1,6 +1,6 @@
 //! What SQLite says, in one sentence for who keeps the catalogue.
 
-use rusqlite::{Error, ErrorCode};
+use rusqlite::{Error, ErrorCode, ffi};
 
 /// What is wrong and what would be right, without SQL.
 pub(super) fn told(error: &Error) -> String {
@@ -8,7 +8,7 @@ pub(super) fn told(error: &Error) -> String {
     match error.sqlite_error_code() {
         Some(ErrorCode::DiskFull) => "the disk is full; nothing was changed; make room and try again".to_owned(),
         Some(ErrorCode::ReadOnly) => {
-            "nothing can be written where it lies; it can be read, and changed after it is copied to another place"
+            "nothing can be written where it lies, a read-only place or a full disk; it can be read, not changed"
                 .to_owned()
         }
         Some(ErrorCode::DatabaseCorrupt) => damaged(&said),
@@ -24,8 +24,9 @@ pub(super) fn told(error: &Error) -> String {
             Error::FromSqlConversionFailure(..) | Error::InvalidColumnType(..) | Error::IntegralValueOutOfRange(..) => {
                 damaged(&said)
             }
-            // A table or column that ought to be there.
-            Error::SqlInputError { .. } => format!("it is not laid out as a catalogue is ({said}); {REMEDY}"),
+            // A table or column that ought to be there, or ought not.
+            Error::SqlInputError { .. } => misplaced(&said),
+            Error::SqliteFailure(failure, _) if failure.extended_code == ffi::SQLITE_ERROR => misplaced(&said),
             _ => said,
         },
     }
@@ -34,12 +35,16 @@ pub(super) fn told(error: &Error) -> String {
 /// What is offered for damages.
 pub(super) const REMEDY: &str = "`cfs catalogue check --repair` mends what can be mended, and tells the rest";
 
+fn misplaced(said: &str) -> String {
+    format!("it is not laid out as a catalogue is ({said}); {REMEDY}")
+}
+
 fn damaged(said: &str) -> String {
     format!("it is damaged ({said}); {REMEDY}")
 }
 
 /// SQLite's own words, without the statement.
-fn said(error: &Error) -> String {
+pub(super) fn said(error: &Error) -> String {
     match error {
         Error::SqlInputError { msg, .. } => msg.clone(),
         Error::SqliteFailure(_, Some(message)) => message.clone(),
@@ -58,12 +63,12 @@ pub(super) fn of_place(error: &Error) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rusqlite::{Connection, ffi};
+    use rusqlite::Connection;
 
     #[test]
     fn no_sentence_has_sql_in_it() {
         let db = Connection::open_in_memory().unwrap();
-        let error = db.execute("SELECT nothing FROM nowhere", []).unwrap_err();
+        let error = db.execute("SELECT x FROM nowhere", []).unwrap_err();
         let said = told(&error);
         assert!(said.contains("no such table") && !said.contains("SELECT") && said.contains(REMEDY), "{said}");
         for (code, words) in [

@@ -65,7 +65,7 @@ impl FileKind {
             Self::Eulumdat => eulumdat::read(head).is_ok(),
             Self::Svg => text(head).is_some_and(|text| text.contains("<svg")),
             Self::Json => text(head).is_some_and(is_json),
-            Self::Csv => text(head).is_some_and(is_csv),
+            Self::Csv => text(head).is_some_and(|text| !is_json(text) && is_csv(text)),
             Self::Comparison => text(head).is_some_and(|text| text.lines().any(|line| line.starts_with("figure "))),
         }
     }

@@ -16,13 +16,23 @@ pub struct TomlPlace {
     pub message: String,
 }
 
-/// Where an error lies. `unit`: of the number under a key.
-pub fn place(text: &str, error: &toml::de::Error, unit: impl Fn(&str) -> Option<&'static str>) -> TomlPlace {
+/// Where an error lies. `first`: number of the first in a list, as messages about such files count; `unit`: of the number
+/// under a key.
+pub fn place(
+    text: &str,
+    error: &toml::de::Error,
+    first: usize,
+    unit: impl Fn(&str) -> Option<&'static str>,
+) -> TomlPlace {
     let at = error.span().map_or(0, |span| span.start.min(text.len()));
     let before = text.get(..at).unwrap_or_default();
     let mut key = String::new();
     if let (Some(span), Ok(root)) = (error.span(), DeTable::parse(text)) {
-        within(root.get_ref(), &span, &mut key);
+        within(root.get_ref(), &span, first, &mut key);
+    }
+    // What is not known has no place of its own: it is named where it was expected.
+    if error.message().starts_with("unknown field") {
+        key.truncate(key.rfind('.').unwrap_or(0));
     }
     TomlPlace {
         line: before.matches('\n').count() + 1,
@@ -73,14 +83,14 @@ fn said(message: &str, unit: Option<&str>) -> String {
 }
 
 /// Follows a span to the innermost value that holds it.
-fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, key: &mut String) {
+fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, first: usize, key: &mut String) {
     for (name, value) in table {
         if value.span().start <= span.start && span.end <= value.span().end || name.span() == *span {
             if !key.is_empty() {
                 key.push('.');
             }
             key.push_str(name.get_ref());
-            return inside(value, span, key);
+            return inside(value, span, first, key);
         }
     }
     // A table that is written in several places: its span is that of its name.
@@ -91,7 +101,7 @@ fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, key: &mut String) 
         }
         deeper.push_str(name.get_ref());
         let length = deeper.len();
-        inside(value, span, &mut deeper);
+        inside(value, span, first, &mut deeper);
         if deeper.len() > length {
             *key = deeper;
             return;
@@ -99,15 +109,15 @@ fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, key: &mut String) 
     }
 }
 
-fn inside(value: &Spanned<DeValue<'_>>, span: &std::ops::Range<usize>, key: &mut String) {
+fn inside(value: &Spanned<DeValue<'_>>, span: &std::ops::Range<usize>, first: usize, key: &mut String) {
     match value.get_ref() {
-        DeValue::Table(table) => within(table, span, key),
+        DeValue::Table(table) => within(table, span, first, key),
         DeValue::Array(list) => {
             for (place, one) in list.iter().enumerate() {
-                let mut deeper = format!("{key}[{}]", place + 1);
+                let mut deeper = format!("{key}[{}]", place + first);
                 let length = deeper.len();
                 let holds = one.span().start <= span.start && span.end <= one.span().end;
-                inside(one, span, &mut deeper);
+                inside(one, span, first, &mut deeper);
                 if holds || deeper.len() > length {
                     *key = deeper;
                     return;
@@ -146,7 +156,7 @@ mod tests {
 
     fn wrong(text: &str) -> (usize, String, String) {
         let error = toml::from_str::<File>(text).unwrap_err();
-        let place = place(text, &error, |key| (key == "room.width" || key == "aperture.size").then_some("m"));
+        let place = place(text, &error, 1, |key| (key == "room.width" || key == "aperture.size").then_some("m"));
         (place.line, place.key, place.message)
     }
 
@@ -160,7 +170,7 @@ mod tests {
         assert_eq!((line, &*key), (6, "aperture[2].size[2]"));
         assert!(message.contains("in m"), "{message}");
         let (_, key, _) = wrong("[room]\nwidth = 4\nwidht = 3\n");
-        assert_eq!(key, "room.widht");
+        assert_eq!(key, "room");
         assert_eq!(wrong("[room\n").1, "");
     }
 }

@@ -62,16 +62,11 @@ impl Library {
     }
 
     /// Computes the state of a built-in product that is asked for before the catalogue holds its data, and keeps them.
-    /// Where nothing can be kept – a read-only place, a full disk – they come back.
-    fn provide(&self, product: &str, state: Option<&str>) -> Result<Option<Dataset>, StudyError> {
-        let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(None) };
+    fn provide(&self, product: &str, state: Option<&str>) -> Result<(), StudyError> {
+        let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(()) };
         let product = self.in_catalogue(|catalogue| catalogue.product(product))?;
         let dataset = builtin::compute(&product, &state, self, &Silent)?;
-        let kept = self.in_catalogue(|catalogue| match catalogue.put_state(&product, &dataset) {
-            Err(error) if error.of_place() => Ok(false),
-            other => other.map(|()| true),
-        })?;
-        Ok((!kept).then_some(dataset))
+        self.in_catalogue(|catalogue| catalogue.keep_state(&product, &dataset))
     }
 }
 
@@ -168,13 +163,9 @@ impl SystemLibrary for Library {
                 Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
             }
             SystemKeys::Catalogue { key, state } => {
-                let computed = self.provide(key, state.as_deref())?;
+                self.provide(key, state.as_deref())?;
                 let (dataset, label) = self.in_catalogue(|catalogue| {
-                    let dataset = match computed {
-                        Some(dataset) => Arc::new(dataset),
-                        None => catalogue.dataset(key, state.as_deref())?,
-                    };
-                    Ok((dataset, catalogue.product(key)?.name))
+                    Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?.name))
                 })?;
                 let very = self.very_of(&dataset);
                 Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))

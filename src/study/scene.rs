@@ -111,7 +111,7 @@ impl SceneFile {
     /// Reads the TOML text of a scene.
     pub fn parse(text: &str) -> Result<Self, StudyError> {
         toml::from_str(text).map_err(|error| {
-            let TomlPlace { line, column, key, message } = place(text, &error, unit_of);
+            let TomlPlace { line, column, key, message } = place(text, &error, 1, unit_of);
             let message = if key.is_empty() { message } else { format!("{key}: {message}") };
             StudyError::Syntax { line, column, message }
         })

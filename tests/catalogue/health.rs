@@ -59,6 +59,30 @@ fn built_in_data_that_are_damaged_are_computed_anew() {
 }
 
 #[test]
+fn an_ideal_system_comes_again_and_importing_again_mends() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    let spoil = |key: &str| {
+        let db = Connection::open(&path).unwrap();
+        let sql = "UPDATE dataset SET blob = zeroblob(9) WHERE hash =
+                     (SELECT dataset FROM state s JOIN product p ON p.id = s.product WHERE p.key = ?)";
+        assert_eq!(db.execute(sql, [key]).unwrap(), 1);
+    };
+    spoil("ideal-diffuser");
+    let mended = mend(&path, &check_file(&path).unwrap()).unwrap();
+    assert!(mended.lost.is_empty(), "{mended:?}");
+    let mut catalogue = Catalogue::open(&path).unwrap();
+    let tau = catalogue.dataset("ideal-diffuser", None).unwrap().transmission().unwrap().tau_hemispherical();
+    assert!((tau - 0.5).abs() < 1e-9 && catalogue.product("mine-0").is_ok());
+    spoil("mine-0");
+    assert!(catalogue.dataset("mine-0", None).is_err());
+    catalogue.import(&[opal(0.1)], NewProduct::default()).unwrap();
+    assert!(catalogue.dataset("mine-0", None).is_ok());
+    drop(catalogue);
+    assert!(check_file(&path).unwrap().damages.is_empty());
+}
+
+#[test]
 fn what_results_hang_on_beside_the_data_is_sealed() {
     let folder = tempfile::tempdir().unwrap();
     let path = filled(folder.path(), 1);

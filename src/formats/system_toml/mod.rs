@@ -59,7 +59,7 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     let text = utf8(bytes)
         .map_err(|error| FormatError::new(Location::line(error.line), error.encoding.name(), "text saved as UTF-8"))?;
     let keys: Keys = toml::from_str(text).map_err(|error| {
-        let TomlPlace { line, key, message, .. } = place(text, &error, |_| None);
+        let TomlPlace { line, key, message, .. } = place(text, &error, 0, |_| None);
         let at = if key.is_empty() { Location::line(line) } else { Location::line(line).in_element(key) };
         match message.split_once(", expected ") {
             Some((found, expected)) => FormatError::new(at, found, expected),
