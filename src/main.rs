@@ -12,11 +12,9 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // One line whatever the causes say, so that scripts can show it.
-            eprintln!("cfs: {}", format!("{error:#}").replace('\n', " "));
+            cfs::cli::tell_error(&error);
             // 1: read and judged, but not fit for use, or different; 2: anything that could not be done.
-            let judged = error.is::<cfs::cli::validate::NotFit>() || error.is::<cfs::cli::packages::Differ>();
-            ExitCode::from(if judged { 1 } else { 2 })
+            ExitCode::from(if cfs::cli::is_judgement(&error) { 1 } else { 2 })
         }
     }
 }

@@ -119,7 +119,7 @@ impl Shelf for CatalogueShelf {
         let compute = || {
             let product = self.lock().product(product)?;
             let dataset = builtin::compute(&product, &one.state, &Library::default(), progress)?;
-            Ok(self.lock().put_state(&product, &dataset)?)
+            Ok(self.lock().keep_state(&product, &dataset)?)
         };
         self.at_work.once(&one, progress, is_there, compute)
     }

@@ -1,8 +1,9 @@
 //! The time of day where the user is.
 
+use crate::study::clock::now as zoned;
 use crate::texts::{Text, scene as texts};
+use jiff::Timestamp;
 use jiff::civil::Date;
-use jiff::{Timestamp, Zoned};
 
 /// Months: by name in English, by number in German, as short dates are written.
 const MONTHS: [Text; 12] = [
@@ -29,18 +30,18 @@ pub fn date(day: Date) -> String {
 
 /// Hours and minutes now, e.g. `14:03`.
 pub fn now() -> String {
-    Zoned::now().strftime("%H:%M").to_string()
+    zoned().strftime("%H:%M").to_string()
 }
 
 /// Now as UTC, e.g. `2026-03-21T13:03:59.123456Z`.
 pub fn stamp() -> String {
-    Timestamp::now().to_string()
+    zoned().timestamp().to_string()
 }
 
 /// A stamp in words of the user's own time: the clock time of today, else with its date. As it is where it is none.
 pub fn words(stamp: &str) -> String {
     let Ok(time) = stamp.parse::<Timestamp>() else { return stamp.to_owned() };
-    let now = Zoned::now();
+    let now = zoned();
     let then = time.to_zoned(now.time_zone().clone());
     let clock = then.strftime("%H:%M");
     if then.date() == now.date() { clock.to_string() } else { format!("{}, {clock}", date(then.date())) }

@@ -1,7 +1,7 @@
 //! Whole files, read and written as the study does, for results that carry the window's errors.
 
 use super::error::AppError;
-use crate::study::files;
+use crate::study::files::{self, Output, Replace};
 use std::path::{Path, PathBuf};
 
 /// Reads a file that is not larger than anything the program knows.
@@ -9,10 +9,18 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, AppError> {
     Ok(files::read(path)?)
 }
 
-/// Writes a file whole or not at all; its path comes back.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, AppError> {
-    files::write(path, bytes)?;
+/// Writes a file whole or not at all, in the place of whatever is there – somebody was asked –, except what it is made
+/// from; its path comes back.
+pub fn write_whole(path: &Path, bytes: &[u8], made_from: &[PathBuf]) -> Result<PathBuf, AppError> {
+    files::write(path, bytes, Replace::But(made_from))?;
     Ok(path.to_owned())
+}
+
+/// Writes files, all of them or none, as [`write_whole`] does.
+pub fn write_several(list: &[(PathBuf, Vec<u8>)], made_from: &[PathBuf]) -> Result<(), AppError> {
+    let replace = Replace::But(made_from);
+    let outputs: Vec<Output<'_>> = list.iter().map(|(path, bytes)| Output { path, bytes, replace }).collect();
+    Ok(files::write_all(&outputs)?)
 }
 
 /// Does a path end so? Case does not matter.

@@ -5,6 +5,7 @@ use crate::catalogue::CatalogueError;
 use crate::compute::doctor::RepairError;
 use crate::formats::FormatError;
 use crate::formats::control_curve::CurveError;
+use crate::formats::encoding::NotText;
 use crate::report::ReportError;
 use crate::study::StudyError;
 use crate::study::luminaire_file::LuminaireFileError;
@@ -77,9 +78,9 @@ pub enum AppError {
     /// An error that is about a file of this name or path.
     #[error("{0}: {1}")]
     About(String, Box<Self>),
-    /// Bytes where text is expected: the first that is wrong, and what is expected, e.g. `a scene`.
-    #[error("{}", shell::not_text(.0, .1))]
-    NotText(usize, &'static str),
+    /// Bytes where text in UTF-8 is expected: what they are, and what is expected, e.g. `a scene`.
+    #[error("{}", shell::not_text(.0.encoding.name(), .0.byte, .1))]
+    NotText(NotText, &'static str),
     /// An ending other than that of a tile's numbers.
     #[error("{}", shell::tile_ending(.0))]
     TileEnding(String),

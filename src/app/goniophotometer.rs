@@ -2,7 +2,7 @@
 //!
 //! Every state is a job of its own, so that finished ones show at once and stay when the run is stopped.
 
-use super::disk::{ends_in, write_whole};
+use super::disk::{ends_in, write_several, write_whole};
 use super::error::AppError;
 use super::jobs::JobState;
 use crate::catalogue::{Catalogue, CatalogueError, NewProduct};
@@ -243,17 +243,19 @@ pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
 }
 
 /// Writes all states: one package (.cfsp), or a file a state (.xml, .btdf.txt), named by the states if there are several.
-pub fn export(run: &Run, path: &Path) -> Result<PathBuf, AppError> {
+pub fn export(run: &Run, path: &Path, made_from: &[PathBuf]) -> Result<PathBuf, AppError> {
     let told = |error: AppError| error.about(path.display());
     if ends_in(path, "cfsp") {
-        return write_whole(path, &package(run).map_err(|error| told(error.into()))?);
+        return write_whole(path, &package(run).map_err(|error| told(error.into()))?, made_from);
     }
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let format = Format::from_name(&name).ok_or_else(|| told(AppError::MeasuredEnding))?;
+    let mut files = Vec::new();
     for (one, path) in run.finished.iter().zip(targets(run, path)) {
         let written = write_dataset(format, std::slice::from_ref(&*one.dataset));
-        write_whole(&path, &written.map_err(|error| told(error.into()))?.bytes)?;
+        files.push((path, written.map_err(|error| told(error.into()))?.bytes));
     }
+    write_several(&files, made_from)?;
     Ok(path.to_owned())
 }
 

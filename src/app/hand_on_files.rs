@@ -1,6 +1,6 @@
 //! The bytes of what is handed on, and what is seen of them before. Runs in jobs.
 
-use super::disk::write_whole;
+use super::disk::write_several;
 use super::engine::{Engine, Question};
 use super::error::AppError;
 use super::hand_on::{Choices, MOST_FILES, Moment, Preview, ReportKind, What, moments};
@@ -18,6 +18,7 @@ use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
 use crate::report::{Look, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
+use crate::study::inputs::inputs_of;
 use crate::study::luminaire_file::LidFormat;
 use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish};
 use crate::study::moment;
@@ -41,6 +42,8 @@ pub struct Order {
     pub dataset: Option<Arc<Dataset>>,
     /// Of the candidates in a study: which tile, and which of them the others are less.
     pub compared: (TileKind, usize),
+    /// The scene's file, if it has one.
+    pub scene_path: Option<PathBuf>,
     /// Numbers of the tile.
     pub numbers: Option<String>,
     /// Computes.
@@ -226,18 +229,10 @@ impl Order {
         };
         // Withdrawn after the last computation: nothing is written either.
         check(progress)?;
-        let mut new: Vec<&Path> = Vec::new();
-        for (target, bytes) in &files {
-            let there = target.exists();
-            if let Err(error) = write_whole(target, bytes) {
-                // What was new goes again; the first error is what matters.
-                new.iter().for_each(|path| drop(std::fs::remove_file(path)));
-                return Err(error);
-            }
-            if !there {
-                new.push(target);
-            }
-        }
+        let mut made_from = inputs_of(&self.question.scene, &self.question.base);
+        // A scene may take its own place.
+        made_from.extend(self.scene_path.clone().filter(|_| self.choices.what != What::Scene));
+        write_several(&files, &made_from)?;
         Ok(path.to_owned())
     }
 

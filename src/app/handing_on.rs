@@ -122,6 +122,7 @@ impl App {
             product: Some(product),
             dataset: state.dataset.value.clone().filter(|_| !state.dataset.stale),
             compared: compared(state),
+            scene_path: state.scene_path.clone(),
             numbers,
             engine: self.services.engine.clone(),
         })

@@ -1,7 +1,7 @@
 //! What the window says: shown for as long as it takes to read, then kept in a list.
 
 use super::clock;
-use crate::texts::{Text, shell};
+use crate::texts::{Text, shell, short_numbers, visible};
 use std::collections::VecDeque;
 
 /// Messages kept.
@@ -72,6 +72,8 @@ pub fn seconds(text: &str) -> f64 {
 impl Messages {
     fn say(&mut self, weight: Weight, text: String) {
         self.next += 1;
+        // What it quotes may come from any file.
+        let text = short_numbers(&visible(&text)).into_owned();
         let left = seconds(&text);
         // The same again is not said twice at a time.
         self.list.iter_mut().filter(|other| other.text == text).for_each(|other| other.left = 0.0);

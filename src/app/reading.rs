@@ -9,6 +9,7 @@ use super::work::{Outcome, ReadDataset};
 use crate::catalogue::Grouping;
 use crate::compute::estimate::Progress;
 use crate::formats::control_curve::read_control_curve;
+use crate::formats::encoding::utf8;
 use crate::study::intake::{Single, take_in};
 use crate::study::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
@@ -29,8 +30,9 @@ pub struct Asked {
 }
 
 fn text_of(path: &Path, what: &'static str) -> Result<String, AppError> {
-    let wrong = |byte| AppError::NotText(byte, what).about(path.display());
-    String::from_utf8(read_bytes(path)?).map_err(|error| wrong(error.utf8_error().valid_up_to()))
+    let bytes = read_bytes(path)?;
+    let text = utf8(&bytes).map_err(|error| AppError::NotText(error, what).about(path.display()))?;
+    Ok(text.to_owned())
 }
 
 /// Reads a file that is opened by itself.

@@ -22,6 +22,7 @@ use crate::compute::sky::{Outside, Sun};
 use crate::study::accuracy::Accuracy;
 use crate::study::comparison::same_question;
 use crate::study::control::year::CONTROLLED;
+use crate::study::inputs::inputs_of;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
 use crate::texts::{Text, catalogue as subscribing, shell};
@@ -430,6 +431,16 @@ impl State {
     /// What relative paths of the scene start from.
     pub fn base(&self) -> PathBuf {
         self.scene_path.as_deref().and_then(std::path::Path::parent).map(PathBuf::from).unwrap_or_default()
+    }
+
+    /// The files that the scene names.
+    pub fn files_of_scene(&self) -> Vec<PathBuf> {
+        inputs_of(&self.document.scene, &self.base())
+    }
+
+    /// What results are made from: the scene and the files that it names.
+    pub fn made_from(&self) -> Vec<PathBuf> {
+        self.scene_path.iter().cloned().chain(self.files_of_scene()).collect()
     }
 
     /// The catalogue, once it is ready.

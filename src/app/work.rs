@@ -226,16 +226,16 @@ pub(super) fn take_from_shelf(
 }
 
 /// Saves the scene.
-pub fn save_scene(path: &Path, text: Result<String, toml::ser::Error>) -> Outcome {
-    let written = text.map_err(AppError::from).and_then(|text| write_whole(path, text.as_bytes()));
+pub fn save_scene(path: &Path, text: Result<String, toml::ser::Error>, made_from: &[PathBuf]) -> Outcome {
+    let written = text.map_err(AppError::from).and_then(|text| write_whole(path, text.as_bytes(), made_from));
     Outcome::Written(PathUse::SaveScene, written)
 }
 
 /// Writes the LID as a luminaire file.
-pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine) -> Outcome {
+pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine, made_from: &[PathBuf]) -> Outcome {
     let written = lid
         .ok_or(AppError::NoLid)
         .and_then(|lid| engine.luminaire(lid, path))
-        .and_then(|bytes| write_whole(path, &bytes));
+        .and_then(|bytes| write_whole(path, &bytes, made_from));
     Outcome::Written(PathUse::ExportLid, written)
 }

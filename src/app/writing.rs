@@ -90,7 +90,8 @@ impl App {
             PathUse::Subscribe => self.shelve(Shelving::SubscribeTo(path)),
             PathUse::SaveScene => {
                 let text = toml::to_string_pretty(&self.state.document.scene);
-                self.start_writing(move || save_scene(&path, text));
+                let made_from = self.state.files_of_scene();
+                self.start_writing(move || save_scene(&path, text, &made_from));
             }
             PathUse::ExportTile(tile) => self.export_tile(tile, path),
             PathUse::HandOn => self.write_hand_on(path),
@@ -98,7 +99,10 @@ impl App {
                 self.state.sheet = Some(Sheet::Goniophotometer);
                 match self.state.goniophotometer.run.clone() {
                     Some(run) => {
-                        self.start_writing(move || Outcome::Written(what, goniophotometer::export(&run, &path)));
+                        let made_from = self.state.made_from();
+                        self.start_writing(move || {
+                            Outcome::Written(what, goniophotometer::export(&run, &path, &made_from))
+                        });
                     }
                     None => self.toasts.info(texts::COMPUTE_FIRST),
                 }
@@ -115,7 +119,8 @@ impl App {
             return;
         }
         let (engine, lid) = (self.services.engine.clone(), shown.value.clone());
-        self.start_writing(move || export_lid(&path, lid.as_deref(), &*engine));
+        let made_from = self.state.made_from();
+        self.start_writing(move || export_lid(&path, lid.as_deref(), &*engine, &made_from));
     }
 
     fn export_tile(&mut self, tile: Tile, path: PathBuf) {
@@ -145,8 +150,9 @@ impl App {
             return self.write_lid(path);
         }
         if let Some((tile, path, text)) = self.export.next_numbers() {
+            let made_from = self.state.made_from();
             self.start_writing(move || {
-                Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes()))
+                Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes(), &made_from))
             });
         }
     }

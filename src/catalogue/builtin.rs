@@ -151,6 +151,27 @@ fn with_figures(state: State, row: &FigureRow) -> State {
     }
 }
 
+/// Is this the key of a product that comes with the program?
+pub(super) fn is_builtin(key: &str) -> bool {
+    PRODUCTS.iter().any(|(_, product)| product.key == key)
+        || ideals().iter().any(|(product, _)| product.key.as_deref() == Some(key))
+}
+
+/// Is what results hang on of a built-in product other than this program brings it? One of another program's description is
+/// not judged.
+pub(super) fn differs(product: &Product) -> bool {
+    PRODUCTS.iter().map(|(_, own)| own).any(|own| {
+        own.provenance.source_hash == product.provenance.source_hash
+            && (own.system != product.system
+                || own.control_curve != product.control_curve
+                || !own
+                    .states
+                    .iter()
+                    .map(|one| (&one.key, one.value))
+                    .eq(product.states.iter().map(|one| (&one.key, one.value))))
+    })
+}
+
 /// Names of the built-in descriptions whose products are not in the file as they are now.
 fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
     let mut ask = db.prepare_cached("SELECT source_hash FROM product WHERE builtin = 1")?;

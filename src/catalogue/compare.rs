@@ -159,7 +159,7 @@ fn diff_states(
 ) -> Result<StateDiff, CatalogueError> {
     let dataset = |state: &PackageState, package: &Package| {
         let blob = package.datasets.get(&state.dataset).map(Vec::as_slice).unwrap_or_default();
-        decode(blob).map_err(|source| CatalogueError::Dataset { hash: state.dataset.clone(), source })
+        decode(blob).map_err(|cause| CatalogueError::Dataset { hash: state.dataset.clone(), cause })
     };
     let (x, y) = (dataset(a, first)?, dataset(b, second)?);
     let (x, y) = (x.transmission(), y.transmission());

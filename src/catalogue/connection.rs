@@ -14,6 +14,8 @@ pub struct Catalogue {
     pub(super) db: Connection,
     /// The datasets used last, decoded, newest at the end.
     pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
+    /// Computed states that cannot be kept where the file lies, by the keys of product and state.
+    pub(super) held: RefCell<Vec<([String; 2], Arc<Dataset>)>>,
     /// What the search looks through, with the state of the file that it was made of.
     pub(super) index: RefCell<Option<(Stamp, Arc<Index>)>>,
 }

@@ -1,5 +1,6 @@
 //! What can go wrong with the catalogue.
 
+use super::told::{REMEDY, of_place, told};
 use crate::formats::dataset_blob::BlobError;
 use crate::formats::package::PackageError;
 use std::path::PathBuf;
@@ -8,21 +9,59 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogueError {
     /// The file cannot be opened or made.
-    #[error("catalogue {path}: {source}")]
+    #[error("catalogue {}: {}", path.display(), told(cause))]
     Open {
         /// Which file.
         path: PathBuf,
-        /// What SQLite says.
-        source: rusqlite::Error,
+        /// What SQLite says. Not a source: it is part of the sentence.
+        cause: rusqlite::Error,
     },
     /// The folder of the file cannot be made.
-    #[error("catalogue folder {path}: {source}")]
+    #[error("catalogue folder {} cannot be made ({cause}); check path and rights", path.display())]
     Folder {
         /// Which folder.
         path: PathBuf,
         /// What the system says.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
+    /// A layout that no program writes.
+    #[error(
+        "the catalogue {path} is damaged: its layout has the number {found}, programs write 1 to {known}; {REMEDY}"
+    )]
+    Layout {
+        /// Which file.
+        path: String,
+        /// Layout that the file names.
+        found: i64,
+        /// Newest layout this program knows.
+        known: i64,
+    },
+    /// Written by an older program, where nothing can be written.
+    #[error(
+        "the catalogue {path} has the layout {found} of an older version of cfs and lies where it cannot be brought to layout \
+         {known}; copy it to a place that can be written"
+    )]
+    Older {
+        /// Which file.
+        path: String,
+        /// Layout of the file.
+        found: i64,
+        /// Layout that this program reads.
+        known: i64,
+    },
+    /// Changes wait in a file beside it, which can be read only where something can be written.
+    #[error(
+        "the catalogue {} lies where nothing can be written, and its last changes in {}-wal cannot be read there; copy both to \
+         another place",
+        path.display(), path.display()
+    )]
+    Waiting {
+        /// Which file.
+        path: PathBuf,
+    },
+    /// What is stored is not what was stored.
+    #[error("the catalogue is damaged: {0}; {REMEDY}")]
+    Damaged(String),
     /// The system names no folder for a user's data.
     #[error("no folder for the catalogue is known; name a file with CFS_CATALOGUE or --catalogue")]
     NoHome,
@@ -104,17 +143,34 @@ pub enum CatalogueError {
     #[error("product \"{0}\" is not deleted")]
     NotDeleted(String),
     /// A stored or packed dataset cannot be read.
-    #[error("dataset {hash}: {source}")]
+    #[error("dataset {hash}: {cause}")]
     Dataset {
         /// Its hash.
         hash: String,
         /// Why.
-        source: BlobError,
+        cause: BlobError,
     },
     /// A package cannot be read or written.
     #[error(transparent)]
     Package(#[from] PackageError),
     /// SQLite.
-    #[error("catalogue: {0}")]
-    Sql(#[from] rusqlite::Error),
+    #[error("catalogue: {}", told(.0))]
+    Sql(rusqlite::Error),
+}
+
+// Not as a source: the sentence has it already, and a chain of causes would say it twice.
+impl From<rusqlite::Error> for CatalogueError {
+    fn from(error: rusqlite::Error) -> Self {
+        Self::Sql(error)
+    }
+}
+
+impl CatalogueError {
+    /// Is it the place of the file that refuses to be written to?
+    pub fn of_place(&self) -> bool {
+        match self {
+            Self::Open { cause, .. } | Self::Sql(cause) => of_place(cause),
+            _ => false,
+        }
+    }
 }

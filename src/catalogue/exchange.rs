@@ -5,7 +5,7 @@ use super::described::described_state;
 use super::history::{note, set_paths};
 use super::record::{Record, prepare};
 use super::sight::bring_back;
-use super::store::{USER_RANK, free_key, insert, read_record};
+use super::store::{USER_RANK, free_key, insert, put_blob, read_record};
 use super::waiting::adopt;
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
 use crate::compute::btdf::Dataset;
@@ -54,6 +54,8 @@ impl Catalogue {
         for (asked, record) in records {
             let key = record.product.key.clone();
             list.push(if asked && is_there(&tx, &record.product)? {
+                // The same again mends what was damaged since.
+                record.datasets.iter().try_for_each(|(hash, blob)| put_blob(&tx, hash, blob))?;
                 // What is imported is wanted in sight.
                 bring_back(&tx, &key)?;
                 Stored { imported: Imported { same_content_as: vec![key.clone()], key }, new: false }
@@ -91,7 +93,7 @@ pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, Catalogue
         for state in &product.states {
             let hash = state.dataset.clone();
             let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
-            let mut dataset = decode(blob).map_err(|source| CatalogueError::Dataset { hash, source })?;
+            let mut dataset = decode(blob).map_err(|cause| CatalogueError::Dataset { hash, cause })?;
             if dataset.state != state.key {
                 return Err(CatalogueError::Import(format!(
                     "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",

@@ -16,13 +16,52 @@ const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0005_no_text_index.sql"),
     include_str!("../../migrations/0006_history.sql"),
     include_str!("../../migrations/0007_collections.sql"),
+    include_str!("../../migrations/0008_seal.sql"),
 ];
 
+/// How a file is opened that may be changed, and made.
+const WRITING: OpenFlags =
+    OpenFlags::SQLITE_OPEN_READ_WRITE.union(OpenFlags::SQLITE_OPEN_CREATE).union(OpenFlags::SQLITE_OPEN_NO_MUTEX);
+/// How a file is opened that is only read.
+pub(super) const READING: OpenFlags = OpenFlags::SQLITE_OPEN_READ_ONLY.union(OpenFlags::SQLITE_OPEN_NO_MUTEX);
+
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.
-const APPLICATION: i64 = 0x4346_5358;
+pub(super) const APPLICATION: i64 = 0x4346_5358;
 
 /// How long a connection waits for another one to finish writing.
 const PATIENCE: Duration = Duration::from_secs(10);
+
+/// The same error with the file's name.
+fn located(error: CatalogueError, path: &Path) -> CatalogueError {
+    let shown = || path.display().to_string();
+    match error {
+        CatalogueError::Sql(cause) => CatalogueError::Open { path: path.to_owned(), cause },
+        CatalogueError::Newer { found, known, .. } => CatalogueError::Newer { path: shown(), found, known },
+        CatalogueError::Older { found, known, .. } => CatalogueError::Older { path: shown(), found, known },
+        CatalogueError::Layout { found, known, .. } => CatalogueError::Layout { path: shown(), found, known },
+        CatalogueError::NotACatalogue(_) => CatalogueError::NotACatalogue(shown()),
+        other => other,
+    }
+}
+
+/// A file's name that tells SQLite that nobody changes it.
+fn unchanging(path: &Path) -> String {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut name = String::from("file:");
+    let slashed = path.to_string_lossy().replace('\\', "/");
+    // On Windows a name begins with its drive.
+    if !slashed.starts_with('/') {
+        name.push_str("///");
+    }
+    for byte in slashed.bytes() {
+        if byte.is_ascii_alphanumeric() || b"/-._~:".contains(&byte) {
+            name.push(char::from(byte));
+        } else {
+            name.push_str(&format!("%{byte:02X}"));
+        }
+    }
+    name + "?immutable=1"
+}
 
 /// The user's catalogue: `CFS_CATALOGUE` when set, else `catalogue.sqlite` in the user's folder for data.
 pub fn default_path() -> Result<PathBuf, CatalogueError> {
@@ -37,22 +76,47 @@ impl Catalogue {
     /// Opens a catalogue file, makes it when missing, brings it to the present layout and its built-in products to
     /// this program's version. Nothing is computed here: of built-in products the figures are known, and their data
     /// come when they are asked for.
+    ///
+    /// Where nothing can be written – a read-only place, a full disk – it is opened for reading.
     pub fn open(path: &Path) -> Result<Self, CatalogueError> {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder)
-                .map_err(|source| CatalogueError::Folder { path: folder.to_owned(), source })?;
+                .map_err(|cause| CatalogueError::Folder { path: folder.to_owned(), cause })?;
         }
-        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-        let opened = Connection::open_with_flags(path, flags);
-        let located = |source| CatalogueError::Open { path: path.to_owned(), source };
-        Self::prepare(opened.map_err(located)?).map_err(|error| match error {
-            CatalogueError::Sql(source) => located(source),
-            CatalogueError::Newer { found, known, .. } => {
-                CatalogueError::Newer { path: path.display().to_string(), found, known }
+        let opened = Connection::open_with_flags(path, WRITING).map_err(CatalogueError::from).and_then(Self::prepare);
+        match opened {
+            Err(error) if error.of_place() && path.is_file() => match Self::open_for_reading(path) {
+                // Why nothing can be written says more than why nothing can be read.
+                Err(CatalogueError::Sql(_) | CatalogueError::Older { found: 0, .. }) => Err(located(error, path)),
+                other => other.map_err(|error| located(error, path)),
+            },
+            other => other.map_err(|error| located(error, path)),
+        }
+    }
+
+    /// Opens a file that is there, and writes nothing, not even beside it.
+    pub(super) fn open_for_reading(path: &Path) -> Result<Self, CatalogueError> {
+        let mut wal = path.as_os_str().to_owned();
+        wal.push("-wal");
+        let waiting = std::fs::metadata(wal).is_ok_and(|meta| meta.len() > 0);
+        let open = |name: &Path, more: OpenFlags| {
+            let db = Connection::open_with_flags(name, READING | more)?;
+            db.busy_timeout(PATIENCE)?;
+            let catalogue =
+                Self { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() };
+            let found = catalogue.judge()?;
+            let known = MIGRATIONS.len() as i64;
+            if found < known {
+                return Err(CatalogueError::Older { path: String::new(), found, known });
             }
-            CatalogueError::NotACatalogue(_) => CatalogueError::NotACatalogue(path.display().to_string()),
+            Ok(catalogue)
+        };
+        match open(path, OpenFlags::empty()) {
+            // Write-ahead logging wants to write beside the file. Without waiting changes there is nothing to log.
+            Err(CatalogueError::Sql(_)) if !waiting => open(Path::new(&unchanging(path)), OpenFlags::SQLITE_OPEN_URI),
+            Err(CatalogueError::Sql(_)) => Err(CatalogueError::Waiting { path: path.to_owned() }),
             other => other,
-        })
+        }
     }
 
     /// The user's own catalogue, see [`default_path`].
@@ -79,9 +143,15 @@ impl Catalogue {
     fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
         db.busy_timeout(PATIENCE)?;
         db.pragma_update(None, "foreign_keys", true)?;
-        let mut catalogue = Self { db, recent: RefCell::default(), index: RefCell::default() };
+        let mut catalogue =
+            Self { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() };
         // Judged before anything is written: a foreign file stays as it is.
-        catalogue.judge()?;
+        let found = catalogue.judge()?;
+        let known = known_layout();
+        // A step that is taken twice takes away what later ones brought.
+        if (1..known).contains(&found) && layout_of(&catalogue.db)? != Some(found) && catalogue.judge()? == found {
+            return Err(CatalogueError::Layout { path: String::new(), found, known });
+        }
         catalogue.write_ahead()?;
         catalogue.migrate(MIGRATIONS)?;
         Ok(catalogue)
@@ -109,8 +179,8 @@ impl Catalogue {
         Ok(db.pragma_query_value(None, "user_version", |row| row.get(0))?)
     }
 
-    /// Refuses files of other programs and of newer ones.
-    fn judge(&self) -> Result<(), CatalogueError> {
+    /// Refuses files of other programs and of newer ones, and layouts that there are not; the layout.
+    fn judge(&self) -> Result<i64, CatalogueError> {
         // One look at all three: another program may be making the file at this moment.
         let look = self.db.unchecked_transaction()?;
         let found = Self::version(&look)?;
@@ -121,7 +191,17 @@ impl Catalogue {
             return Err(CatalogueError::NotACatalogue(String::new()));
         }
         let known = MIGRATIONS.len() as i64;
-        if found > known { Err(CatalogueError::Newer { path: String::new(), found, known }) } else { Ok(()) }
+        if found > known {
+            return Err(CatalogueError::Newer { path: String::new(), found, known });
+        }
+        // A new file has the layout 0, and nothing in it.
+        if tables == 0 && found != 0 {
+            return Err(CatalogueError::NotACatalogue(String::new()));
+        }
+        if found < 0 || (found == 0 && tables > 0) {
+            return Err(CatalogueError::Layout { path: String::new(), found, known });
+        }
+        Ok(found)
     }
 
     /// Takes the missing steps, each in one transaction.
@@ -130,14 +210,53 @@ impl Catalogue {
             let step = self.db.transaction_with_behavior(TransactionBehavior::Immediate)?;
             // Another connection may have taken it while this one waited.
             let done = Self::version(&step)?;
-            if let Some(sql) = usize::try_from(done).ok().and_then(|done| steps.get(done)) {
-                step.execute_batch(sql)?;
-                step.pragma_update(None, "user_version", done + 1)?;
-            }
+            let next = usize::try_from(done).ok();
+            let Some(sql) = next.and_then(|done| steps.get(done)) else {
+                // Taken, all of them; or a number that no step leads on from.
+                if done < 0 {
+                    let known = steps.len() as i64;
+                    return Err(CatalogueError::Layout { path: String::new(), found: done, known });
+                }
+                break;
+            };
+            step.execute_batch(sql)?;
+            step.pragma_update(None, "user_version", done + 1)?;
             step.commit()?;
         }
         Ok(())
     }
+}
+
+/// The newest layout that this program knows.
+pub(super) const fn known_layout() -> i64 {
+    MIGRATIONS.len() as i64
+}
+
+/// Tables with their columns.
+fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
+    let sql = "SELECT t.name, (SELECT group_concat(c.name) FROM pragma_table_info(t.name) c) FROM sqlite_schema t
+               WHERE t.type = 'table' AND t.name NOT LIKE 'sqlite!_%' ESCAPE '!' ORDER BY t.name";
+    db.prepare(sql)?
+        .query_map([], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?.unwrap_or_default())))?
+        .collect()
+}
+
+/// The layout that a file has, whatever number it names: by its tables. `None`: of none that this program knows.
+pub(super) fn layout_of(db: &Connection) -> Result<Option<i64>, CatalogueError> {
+    let found = shape(db)?;
+    let mut known = Catalogue {
+        db: Connection::open_in_memory()?,
+        recent: RefCell::default(),
+        held: RefCell::default(),
+        index: RefCell::default(),
+    };
+    for steps in 1..=MIGRATIONS.len() {
+        known.migrate(&MIGRATIONS[..steps])?;
+        if shape(&known.db)? == found {
+            return Ok(Some(steps as i64));
+        }
+    }
+    Ok(None)
 }
 
 #[cfg(test)]
@@ -147,7 +266,7 @@ mod tests {
     fn bare() -> Catalogue {
         let db = Connection::open_in_memory().unwrap();
         db.pragma_update(None, "foreign_keys", true).unwrap();
-        Catalogue { db, recent: RefCell::default(), index: RefCell::default() }
+        Catalogue { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() }
     }
 
     fn schema(db: &Connection) -> Vec<(String, String)> {
@@ -165,6 +284,54 @@ mod tests {
             old.migrate(MIGRATIONS).unwrap();
             assert_eq!(schema(&old.db), schema(&new.db), "from {from}");
         }
+    }
+
+    #[test]
+    fn where_nothing_can_be_written_it_is_read_and_says_so_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a ü?#%.sqlite");
+        drop(Catalogue::open(&path).unwrap());
+        let named = |path: &Path| {
+            let db = Connection::open_with_flags(unchanging(path), READING | OpenFlags::SQLITE_OPEN_URI)?;
+            db.query_row("SELECT count(*) FROM product", [], |row| row.get::<_, i64>(0))
+        };
+        assert!(named(&path).unwrap() > 10, "the name is the file's");
+        let mut catalogue = Catalogue::open_for_reading(&path).unwrap();
+        assert!(catalogue.product("clear-single").is_ok() && !catalogue.waiting().unwrap().is_empty());
+        // What is computed is there as long as the catalogue is open.
+        let mut pane = catalogue.product("clear-single").unwrap();
+        let mut dataset = crate::compute::btdf::Dataset::default();
+        dataset.visible.transmission_front = Some(crate::compute::btdf::Btdf::ideal_diffuse(0.25));
+        assert_eq!(catalogue.to_compute("clear-single", None).unwrap().as_deref(), Some(""));
+        pane.description.clear();
+        catalogue.keep_state(&pane, &dataset).unwrap();
+        assert_eq!(catalogue.to_compute("clear-single", None).unwrap(), None);
+        let held = catalogue.dataset("clear-single", None).unwrap();
+        assert!((held.transmission().unwrap().tau_hemispherical() - 0.25).abs() < 1e-6 && held.described.is_some());
+        let error = catalogue.set_favourite("clear-single", true).unwrap_err();
+        assert!(error.of_place());
+        let told = error.to_string();
+        assert!(told.contains("nothing can be written") && told.matches("catalogue").count() == 1, "{told}");
+        // An older layout cannot be brought to the present one there.
+        catalogue = Catalogue::open(&path).unwrap();
+        catalogue.db.execute_batch("ALTER TABLE product DROP COLUMN seal; PRAGMA user_version = 7").unwrap();
+        drop(catalogue);
+        assert!(matches!(Catalogue::open_for_reading(&path), Err(CatalogueError::Older { found: 7, .. })));
+        Catalogue::open(&path).unwrap();
+    }
+
+    #[test]
+    fn a_number_that_is_no_layout_ends() {
+        let mut catalogue = bare();
+        catalogue.migrate(MIGRATIONS).unwrap();
+        for number in [-1_i64, i64::from(i32::MIN), 0] {
+            catalogue.db.pragma_update(None, "user_version", number).unwrap();
+            let told = catalogue.judge().unwrap_err();
+            assert!(matches!(told, CatalogueError::Layout { found, .. } if found == number), "{told}");
+        }
+        catalogue.db.pragma_update(None, "user_version", -1).unwrap();
+        assert!(catalogue.migrate(MIGRATIONS).is_err());
+        assert_eq!(layout_of(&catalogue.db).unwrap(), Some(MIGRATIONS.len() as i64));
     }
 
     #[test]

@@ -172,7 +172,7 @@ pub(super) fn stored(
 ) -> Result<(String, Vec<u8>, Dataset, Vec<Finding>), CatalogueError> {
     let blob = encode(given);
     let hash = content_hash(&blob);
-    let dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.clone(), source })?;
+    let dataset = decode(&blob).map_err(|cause| CatalogueError::Dataset { hash: hash.clone(), cause })?;
     let findings = ask(&dataset);
     Ok((hash, blob, dataset, findings))
 }

@@ -3,9 +3,10 @@
 use super::described::described_state;
 use super::record::Record;
 use super::rows::list_of;
+use super::verified::{blob_of, seal_of, sealed};
 use super::{Catalogue, CatalogueError, CurvePoint, Origin, Product, ProductFinding, Provenance, State, check};
 use crate::compute::btdf::{Dataset, DescribedState, LightFigures, Severity};
-use crate::formats::dataset_blob::{content_hash, decode};
+use crate::formats::dataset_blob::decode;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::sync::Arc;
 
@@ -28,13 +29,23 @@ pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, Catalogu
     Ok(key)
 }
 
+/// Writes the bytes of a dataset under their hash: once, and over bytes that are damaged.
+pub(super) fn put_blob(tx: &Transaction, hash: &str, blob: &[u8]) -> Result<(), CatalogueError> {
+    tx.prepare_cached(
+        "INSERT INTO dataset (hash, blob) VALUES (?1, ?2)
+         ON CONFLICT (hash) DO UPDATE SET blob = excluded.blob WHERE blob IS NOT excluded.blob",
+    )?
+    .execute(params![hash, blob])?;
+    Ok(())
+}
+
 /// Writes a product under the key it has.
 pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(), CatalogueError> {
     let (p, from) = (&record.product, &record.product.provenance);
     tx.prepare_cached(
         "INSERT INTO product (key, name, manufacturer, kind, description, origin, author, method, date, source_file,
-                              source_hash, inside_face, builtin, rank, system, license)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
+                              source_hash, inside_face, builtin, rank, system, license, seal)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
     )?
     .execute(params![
         p.key,
@@ -52,11 +63,12 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
         p.builtin,
         rank,
         p.system,
-        p.license
+        p.license,
+        seal_of(p)
     ])?;
     let id = tx.last_insert_rowid();
     for (hash, blob) in &record.datasets {
-        tx.prepare_cached("INSERT OR IGNORE INTO dataset (hash, blob) VALUES (?, ?)")?.execute(params![hash, blob])?;
+        put_blob(tx, hash, blob)?;
     }
     for (position, s) in record.product.states.iter().enumerate() {
         let curve = serde_json::json!(s.tau_profile).to_string();
@@ -235,14 +247,12 @@ fn not_computed(product: &str, state: &str) -> CatalogueError {
 
 /// A product with its datasets, all of which have to be there.
 pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, CatalogueError> {
-    let product = read_product(db, key)?;
+    let product = sealed(db, read_product(db, key)?)?;
     let mut datasets: Vec<(String, Vec<u8>)> = Vec::new();
     for state in &product.states {
         let Some(wanted) = &state.dataset else { return Err(not_computed(key, &state.key)) };
         if datasets.iter().all(|(hash, _)| hash != wanted) {
-            let blob =
-                db.prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?.query_row([wanted], |row| row.get(0))?;
-            datasets.push((wanted.clone(), blob));
+            datasets.push((wanted.clone(), blob_of(db, wanted)?));
         }
     }
     let mut ask = db.prepare_cached(
@@ -253,11 +263,12 @@ pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, Catalogu
 }
 
 impl Catalogue {
-    /// The product of a key.
+    /// The product of a key, if it is what was stored.
     pub fn product(&self, key: &str) -> Result<Product, CatalogueError> {
         // One snapshot for all the reads.
         let snapshot = self.db.unchecked_transaction()?;
-        read_product(&snapshot, key)
+        let product = read_product(&snapshot, key)?;
+        sealed(&snapshot, product)
     }
 
     /// The dataset of a state. `None`: the only state; an error when there are several.
@@ -278,7 +289,9 @@ impl Catalogue {
                 states.iter().find(|s| s.key == state).ok_or_else(|| wrong(format!("no state \"{state}\"")))?
             }
         };
-        let hash = found.dataset.as_ref().ok_or_else(|| not_computed(key, &found.key))?;
+        let Some(hash) = &found.dataset else {
+            return self.held(key, &found.key).ok_or_else(|| not_computed(key, &found.key));
+        };
         self.dataset_of_hash(hash, described_state(&product.system, &found.key))
     }
 
@@ -293,9 +306,8 @@ impl Catalogue {
             recent.push_back(entry);
             return Ok(dataset);
         }
-        let blob: Vec<u8> =
-            self.db.prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?.query_row([hash], |row| row.get(0))?;
-        let mut dataset = decode(&blob).map_err(|source| CatalogueError::Dataset { hash: hash.to_owned(), source })?;
+        let blob = blob_of(&self.db, hash)?;
+        let mut dataset = decode(&blob).map_err(|cause| CatalogueError::Dataset { hash: hash.to_owned(), cause })?;
         dataset.described = described;
         let dataset = Arc::new(dataset);
         if recent.len() >= RECENT {
@@ -339,12 +351,14 @@ impl Catalogue {
                 waiting += 1;
                 continue;
             };
-            let blob: Vec<u8> = snapshot
-                .prepare_cached("SELECT blob FROM dataset WHERE hash = ?")?
-                .query_row([hash], |row| row.get(0))?;
-            if content_hash(&blob) != *hash {
-                tell(Severity::Error, "hash-differs", format!("the stored bytes are not those of {hash}"));
-            }
+            let blob = match blob_of(&snapshot, hash) {
+                Ok(blob) => blob,
+                Err(CatalogueError::Damaged(how)) => {
+                    tell(Severity::Error, "hash-differs", how);
+                    continue;
+                }
+                Err(other) => return Err(other),
+            };
             match decode(&blob) {
                 Err(error) => tell(Severity::Error, "unreadable", error.to_string()),
                 Ok(dataset) => {

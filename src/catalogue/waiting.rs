@@ -2,12 +2,14 @@
 
 use super::described::described_state;
 use super::record::{Record, figured, light, named_state, stored};
-use super::store::{insert_findings, read_product};
+use super::store::{insert_findings, put_blob, read_product};
+use super::verified::blob_of;
 use super::{Catalogue, CatalogueError, Product, ProductFinding, State, StateName};
 use crate::compute::btdf::{Btdf, Dataset, LightFigures};
 use crate::compute::estimate::Progress;
 use crate::formats::dataset_blob::decode;
 use rusqlite::{OptionalExtension, Transaction, params};
+use std::sync::Arc;
 
 /// A state of a product.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -48,7 +50,30 @@ impl Catalogue {
              WHERE p.key = ?1 AND s.dataset IS NULL
                AND CASE WHEN ?2 IS NULL THEN (SELECT count(*) FROM state WHERE product = p.id) = 1 ELSE s.key = ?2 END",
         )?;
-        Ok(ask.query_row(params![key, state], |row| row.get(0)).optional()?)
+        let found: Option<String> = ask.query_row(params![key, state], |row| row.get(0)).optional()?;
+        Ok(found.filter(|state| self.held(key, state).is_none()))
+    }
+
+    /// The data of a state that could be computed and not be kept.
+    pub(super) fn held(&self, key: &str, state: &str) -> Option<Arc<Dataset>> {
+        let held = self.held.borrow();
+        held.iter().find(|(one, _)| *one == [key, state]).map(|(_, dataset)| Arc::clone(dataset))
+    }
+
+    /// Stores the data of a built-in product's state as [`Self::put_state`] does. Where nothing can be stored – a read-only
+    /// place, a full disk – they are held as long as the catalogue is open.
+    pub fn keep_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
+        match self.put_state(product, dataset) {
+            Err(error) if error.of_place() => {
+                // The same numbers as where they are stored.
+                let (_, _, mut read, _) = stored(dataset, |_| Vec::new())?;
+                read.described = described_state(&product.system, &dataset.state);
+                let key = [product.key.clone(), dataset.state.clone()];
+                self.held.borrow_mut().push((key, Arc::new(read)));
+                Ok(())
+            }
+            other => other,
+        }
     }
 
     /// Stores the data of a built-in product's state that was waiting for them. Where another program was faster, or has
@@ -96,9 +121,7 @@ impl Catalogue {
             if progress.cancelled() {
                 break;
             }
-            let blob: Option<Vec<u8>> =
-                self.db.query_row("SELECT blob FROM dataset WHERE hash = ?", [hash], |row| row.get(0)).optional()?;
-            let Some(dataset) = blob.and_then(|blob| decode(&blob).ok()) else { continue };
+            let Some(dataset) = blob_of(&self.db, hash).ok().and_then(|blob| decode(&blob).ok()) else { continue };
             let Some(transmission) = transmission(&dataset) else { continue };
             let figures = light(transmission, described_state(system, state).as_ref());
             let tx = self.change()?;
@@ -137,8 +160,9 @@ fn fill(
         .query_row([&product.key, &product.provenance.source_hash, &state.key], |row| Ok([row.get(0)?, row.get(1)?]))
         .optional()?;
     let Some(place) = place else { return Ok(()) };
-    tx.prepare_cached("INSERT OR IGNORE INTO dataset (hash, blob) VALUES (?, ?)")?
-        .execute(params![state.dataset, blob])?;
+    if let Some(hash) = &state.dataset {
+        put_blob(tx, hash, blob)?;
+    }
     tx.prepare_cached(
         "UPDATE state SET dataset = ?, tau_normal = ?, tau_hemispherical = ?, tau_profile = ?
          WHERE product = ? AND position = ?",

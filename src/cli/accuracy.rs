@@ -2,13 +2,15 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::compute::incidence::schemes::SunScheme;
 use crate::drawing::chart;
+use crate::formats::FileKind;
 use crate::study::accuracy::words::{self, percent, quantity};
 use crate::study::accuracy::{Accuracy, Coverage, Origin, Reference, Rung, Series, Truth, ladder_against};
 use crate::study::accuracy_plot::{name, plots};
 use crate::study::leaving_out::LeavingOut;
-use crate::study::{files, load_scene, system::SystemLibrary};
+use crate::study::{load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -50,6 +52,9 @@ pub struct AccuracyArgs {
     /// Picture to write: time against error, stated against found error
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub plot: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Results for programs, on standard output
     #[arg(long)]
     pub json: bool,
@@ -62,18 +67,28 @@ const SIZE: [f64; 2] = [1280.0, 560.0];
 pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     // Before the work, so that a wrong name costs no minute.
     let picture = args.plot.as_deref().map(|path| Ok::<_, anyhow::Error>((path, is_png(path)?))).transpose()?;
+    let picture = picture.map(|(path, png)| (path, if png { FileKind::Png } else { FileKind::Svg }));
+    let from = [Some(&*args.scene), args.reference.as_deref()];
+    args.over.check(from.into_iter().flatten(), args.csv.as_deref(), FileKind::Csv)?;
+    if let Some((path, kind)) = picture {
+        args.over.check([], Some(path), kind)?;
+    }
     let scene = load_scene(&args.scene, library)?;
     let truth = args.reference.as_deref().map(|path| Truth::read(path, &scene)).transpose()?;
     let accuracy = ladder_against(&scene, truth.as_ref(), &TerminalProgress::new())
         .with_context(|| args.scene.display().to_string())?;
-    if let Some(path) = &args.csv {
-        files::write(path, csv(&accuracy)?.as_bytes())?;
+    let mut made = Vec::new();
+    if let Some(path) = args.csv.as_deref() {
+        made.push((path, FileKind::Csv, csv(&accuracy)?.into_bytes()));
     }
-    if let Some((path, png)) = picture {
+    if let Some((path, kind)) = picture {
         let drawing = chart::draw(&plots(&accuracy), SIZE);
-        let bytes = if png { drawing.to_png()? } else { drawing.to_svg().into_bytes() };
-        files::write(path, &bytes)?;
+        let bytes = if kind == FileKind::Png { drawing.to_png()? } else { drawing.to_svg().into_bytes() };
+        made.push((path, kind, bytes));
     }
+    let outputs: Vec<(&Path, FileKind, &[u8])> =
+        made.iter().map(|(path, kind, bytes)| (*path, *kind, &**bytes)).collect();
+    args.over.write_all(&outputs)?;
     if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
 }
 

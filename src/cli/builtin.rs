@@ -2,11 +2,13 @@
 
 use super::output;
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::catalogue::{Catalogue, Query, StateKey};
+use crate::formats::FileKind;
+use crate::study::Library;
 use crate::study::builtin::{complete, table};
-use crate::study::{Library, files};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Arguments of `cfs catalogue build`.
@@ -18,6 +20,9 @@ pub struct BuildArgs {
     /// Write the table of their figures, too, as it comes with the program.
     #[arg(long, value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// A JSON object instead of a sentence.
     #[arg(long)]
     pub json: bool,
@@ -30,7 +35,7 @@ fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> an
         return Ok(0);
     }
     let states = if waiting == 1 { "1 state".to_owned() } else { format!("{waiting} states") };
-    eprintln!("computing {states} of built-in products, once; what is finished stays when this is stopped");
+    tell!("computing {states} of built-in products, once; what is finished stays when this is stopped");
     Ok(complete(catalogue, wanted, &Library::default(), &TerminalProgress::new())?)
 }
 
@@ -41,17 +46,24 @@ pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Res
 
 /// Computes what is missing of all built-in products, and writes them where asked.
 pub(super) fn build(catalogue: &mut Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
+    args.over.check([], args.out.as_deref(), FileKind::Package)?;
+    args.over.check([], args.table.as_deref(), FileKind::Csv)?;
     let start = Instant::now();
     let computed = provided(catalogue, |_| true)?;
     catalogue.fill_figures(&TerminalProgress::new())?;
     let rows = catalogue.search(&Query { builtin: Some(true), ..Query::default() })?;
     let keys: Vec<String> = rows.iter().map(|row| row.key.clone()).collect();
-    if let Some(out) = &args.out {
-        files::write(out, &catalogue.export_package(&keys)?)?;
+    let package = args.out.as_deref().map(|out| Ok::<_, anyhow::Error>((out, catalogue.export_package(&keys)?)));
+    let figures = args.table.as_deref().map(|out| Ok::<_, anyhow::Error>((out, table(catalogue)?)));
+    let (package, figures) = (package.transpose()?, figures.transpose()?);
+    let mut outputs: Vec<(&Path, FileKind, &[u8])> = Vec::new();
+    if let Some((path, bytes)) = &package {
+        outputs.push((path, FileKind::Package, bytes));
     }
-    if let Some(out) = &args.table {
-        files::write(out, table(catalogue)?.as_bytes())?;
+    if let Some((path, text)) = &figures {
+        outputs.push((path, FileKind::Csv, text.as_bytes()));
     }
+    args.over.write_all(&outputs)?;
     let (products, states) = (keys.len(), catalogue.builtin_states()?);
     if args.json {
         let told = json!({

@@ -2,17 +2,20 @@
 
 use crate::catalogue::{Catalogue, Product};
 use crate::cli::builtin::{BuildArgs, build, provide};
+use crate::cli::check::{CheckArgs, check};
 use crate::cli::importing::import;
 pub use crate::cli::importing::{Compactness, Group, ImportArgs};
 use crate::cli::keeping::{self, DeleteArgs, HistoryArgs, RenameArgs, RestoreArgs};
 use crate::cli::like::{LikeArgs, like};
 pub use crate::cli::listing::ListArgs;
 use crate::cli::listing::{figure, list};
-use crate::cli::output::print;
+use crate::cli::output::{print, print_text};
 use crate::cli::packages::{self, DiffArgs, MergeArgs};
 use crate::cli::subscriptions::{self, SubscribeArgs, SubscriptionsArgs, UnsubscribeArgs};
 use crate::cli::validate::{ValidateArgs, finding_json, validate};
-use crate::study::files;
+use crate::cli::writing::Over;
+use crate::formats::FileKind;
+use crate::texts::one_line;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -57,6 +60,8 @@ pub enum Action {
     Build(BuildArgs),
     /// Check stored products or dataset files: energy, reciprocity, integrity.
     Validate(ValidateArgs),
+    /// Is the catalogue what was stored in it? Marks, pages, products, data; ends with status 1 when something is damaged.
+    Check(CheckArgs),
     /// How two packages differ; ends with status 1 when they do.
     Diff(DiffArgs),
     /// Two packages as one.
@@ -82,6 +87,9 @@ pub struct ExportArgs {
     /// The package to write.
     #[arg(long)]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// Does what the arguments say with the catalogue of a file, or with the user's own.
@@ -105,11 +113,13 @@ pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()>
         Action::Unsubscribe(args) => subscriptions::unsubscribe(&mut open()?, args),
         Action::Subscriptions(args) => subscriptions::list(&mut open()?, args),
         Action::Export(args) => {
+            args.over.check([], Some(&args.out), FileKind::Package)?;
             let mut catalogue = open()?;
             provide(&mut catalogue, &args.keys)?;
-            Ok(files::write(&args.out, &catalogue.export_package(&args.keys)?)?)
+            Ok(args.over.write(&args.out, FileKind::Package, &catalogue.export_package(&args.keys)?)?)
         }
         Action::Validate(args) => validate(&open()?, args),
+        Action::Check(args) => check(catalogue, args),
         Action::Diff(args) => packages::diff(args),
         Action::Merge(args) => packages::merge(args),
     }
@@ -146,7 +156,7 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
         return print(&(serde_json::to_string_pretty(&product_json(&product))? + "\n"));
     }
     let from = &product.provenance;
-    let mut text = format!("{} ({})\n", product.name, product.key);
+    let mut text = format!("{} ({})\n", one_line(&product.name), product.key);
     let tags = product.tags.join(", ");
     for (label, value) in [
         ("kind", product.kind.as_str()),
@@ -162,12 +172,12 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
         ("license", &product.license),
     ] {
         if !value.is_empty() {
-            writeln!(text, "  {label}: {value}")?;
+            writeln!(text, "  {label}: {}", one_line(value))?;
         }
     }
     writeln!(text, "  {:8}  τ normal  τ hemi  up    sun blocked  view   dataset", "state")?;
     for state in &product.states {
-        let key = if state.key.is_empty() { "-" } else { &state.key };
+        let key = if state.key.is_empty() { "-".into() } else { one_line(&state.key) };
         let (normal, hemispherical) = (figure(state.tau_normal), figure(state.tau_hemispherical));
         let short = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.2}"));
         let up = short(state.light.and_then(|light| light.to_ceiling));
@@ -188,7 +198,7 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
         }
     }
     for finding in &product.findings {
-        writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
+        writeln!(text, "  {} {}: {}", finding.severity.word(), one_line(&finding.state), one_line(&finding.message))?;
     }
-    print(&text)
+    print_text(&text)
 }

@@ -1,11 +1,12 @@
 //! `cfs compact`: what the compact form of a dataset saves and costs, and the dataset in that form.
 
+use crate::cli::writing::Over;
 use crate::cli::{dataset_file, output};
 use crate::compute::btdf::Dataset;
 use crate::compute::wavelet::Criterion;
+use crate::formats::FileKind;
 use crate::formats::dataset_blob;
 use crate::study::compact::{CompactedFunction, compact, criterion_words};
-use crate::study::files;
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -43,6 +44,9 @@ pub struct CompactArgs {
     /// Write the dataset in compact form (.cfsd); one state.
     #[arg(long, value_name = "FILE.cfsd")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// The criterion that a threshold's text means.
@@ -88,17 +92,16 @@ pub fn run(args: &CompactArgs) -> anyhow::Result<()> {
     if args.out.is_some() && datasets.len() != 1 {
         bail!("{name}: {} states for one .cfsd file; choose one with --state", datasets.len());
     }
+    args.over.check([], args.out.as_deref(), FileKind::Compact)?;
     let mut texts = Vec::new();
     let mut values = Vec::new();
     for dataset in &datasets {
         let made = compact(dataset, criterion).map_err(|error| anyhow!("{name}: {error}"))?;
         if made.functions.is_empty() {
-            eprintln!(
-                "note: {name}: nothing on cells or at single directions; closed forms and trees stay as they are"
-            );
+            tell!("note: {name}: nothing on cells or at single directions; closed forms and trees stay as they are");
         }
         if let Some(out) = &args.out {
-            files::write(out, &dataset_blob::encode(&made.dataset))?;
+            args.over.write(out, FileKind::Compact, &dataset_blob::encode(&made.dataset))?;
         }
         texts.push(to_text(dataset, criterion, &made.functions)?);
         values.push(to_json(dataset, args.by, criterion, &made.functions));

@@ -2,13 +2,15 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
+use super::writing::Over;
+use crate::formats::FileKind;
 use crate::study::comparison::{
     DataFacts, FIGURES, Facts, Row, Value, Verdict, candidate, compare, csv, facts, label, verdict_words,
 };
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
 use crate::study::system::{Need, SystemLibrary as _};
-use crate::study::{Library, Scene, Session, files, read_scene_file};
+use crate::study::{Library, Scene, Session, read_scene_file};
 use anyhow::{Context as _, anyhow, bail};
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
@@ -37,6 +39,9 @@ pub struct CompareArgs {
     /// File to write instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// For spreadsheets: a row a figure
     #[arg(long, conflicts_with = "json")]
     pub csv: bool,
@@ -55,6 +60,13 @@ enum One {
 
 /// Runs the command.
 pub fn run(args: &CompareArgs, library: &Library) -> anyhow::Result<()> {
+    let kind = match (args.json, args.csv) {
+        (true, _) => FileKind::Json,
+        (_, true) => FileKind::Csv,
+        _ => FileKind::Comparison,
+    };
+    let from = args.what.iter().map(Path::new).chain(args.scene.as_deref());
+    args.over.check(from, args.out.as_deref(), kind)?;
     let base = args.scene.as_deref().map(read).transpose()?;
     let mut list: Vec<(String, One)> = Vec::new();
     for what in &args.what {
@@ -109,7 +121,7 @@ pub fn run(args: &CompareArgs, library: &Library) -> anyhow::Result<()> {
         _ => table(&rows, &names),
     };
     match &args.out {
-        Some(path) => Ok(files::write(path, text.as_bytes())?),
+        Some(path) => Ok(args.over.write(path, kind, text.as_bytes())?),
         None => print(&text),
     }
 }

@@ -2,9 +2,11 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
+use super::writing::Over;
+use crate::formats::FileKind;
 use crate::study::control::year::{Moment, Moving, Situation, Summary, moving, summary, year};
 use crate::study::goniophotometer::LayerLibrary as _;
-use crate::study::{Library, files, read_scene_file};
+use crate::study::{Library, read_scene_file};
 use anyhow::anyhow;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -29,6 +31,9 @@ pub struct ControlArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Print the summary as JSON on standard output
     #[arg(long)]
     pub json: bool,
@@ -37,6 +42,7 @@ pub struct ControlArgs {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
+    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let file = read_scene_file(&args.scene)?;
     let base = args.scene.parent().unwrap_or(Path::new("."));
     let told = |error: crate::study::StudyError| anyhow!("{name}: {error}");
@@ -46,7 +52,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let moments = year(&situation, base, &list, args.step, &situation.sky, &progress).map_err(told)?;
     drop(progress);
     if let Some(path) = &args.out {
-        files::write(path, csv(&list, &moments).as_bytes())?;
+        args.over.write(path, FileKind::Csv, csv(&list, &moments).as_bytes())?;
     }
     let sums: Vec<Summary> =
         (0..list.len()).map(|k| summary(&moments, k, list[k].device.keys.len(), args.step)).collect();
@@ -60,7 +66,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             Some(hours) => format!("direct sun through it for {hours:.1} h"),
             None => "its slats are not known: whether direct sun passes is not told".to_owned(),
         };
-        eprintln!(
+        tell!(
             "aperture {}: {} ({}), {} movements, sun on it for {:.1} h, {direct}",
             one.aperture,
             one.device.name,
@@ -69,12 +75,12 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             sum.sun_hours
         );
         if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
-            eprintln!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
+            tell!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
         }
     }
     if situation.unseen_boxes > 0 {
         let boxes = if situation.unseen_boxes == 1 { "the box" } else { "the boxes" };
-        eprintln!("{boxes} outside: not seen by the controls, which go by where the sun is");
+        tell!("{boxes} outside: not seen by the controls, which go by where the sun is");
     }
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! `cfs convert`: between the dataset formats that the program reads and writes.
 
 use crate::cli::dataset_file;
+use crate::cli::writing::Over;
 use crate::compute::btdf::{Component, Dataset, TreeRank};
 use crate::formats::bsdf_xml::{self, TreeForm};
-use crate::formats::{Format, FormatError, Written, btdf_text, format_to_write, write_dataset};
-use crate::study::files;
+use crate::formats::{FileKind, Format, FormatError, Written, btdf_text, format_to_write, write_dataset};
 use anyhow::anyhow;
 use std::path::PathBuf;
 
@@ -15,6 +15,9 @@ pub struct ConvertArgs {
     pub input: PathBuf,
     /// File to write; the extension says in which format.
     pub output: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Key of the state to write, for files of several states.
     #[arg(long)]
     pub state: Option<String>,
@@ -75,6 +78,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let out_name = args.output.to_string_lossy();
     // Before the input is read: that may take seconds, a wrong extension is known at once.
     let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    args.over.check([&*args.input], Some(&args.output), FileKind::Dataset(format))?;
     let mut datasets = dataset_file::read(&args.input)?;
     if let Some(state) = &args.state {
         // Taken down before the others are gone: the message needs them.
@@ -107,10 +111,10 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
         }
     };
     let written = written.map_err(|error| anyhow!("{out_name}: {error}"))?;
-    files::write(&args.output, &written.bytes)?;
+    args.over.write(&args.output, FileKind::Dataset(format), &written.bytes)?;
     // After the file is there: findings are about data that could be written. To stderr, as results alone go to stdout.
     for finding in datasets.iter().flat_map(|one| &one.findings).chain(&written.findings) {
-        eprintln!("{}: {}", finding.severity.word(), finding.message);
+        tell!("{}: {}", finding.severity.word(), finding.message);
     }
     Ok(())
 }

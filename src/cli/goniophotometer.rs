@@ -1,12 +1,13 @@
 //! `cfs goniophotometer`: datasets computed from a description of geometry and material.
 
+use super::writing::Over;
 use super::{output, progress::TerminalProgress};
 use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, matrix_on};
-use crate::formats::{Format, btdf_text, format_to_write, write_dataset};
+use crate::compute::btdf::{Btdf, Component, Dataset, Scattered, matrix_on};
+use crate::formats::{FileKind, Format, Written, btdf_text, format_to_write, write_dataset};
+use crate::study::Library;
 use crate::study::goniophotometer::{Computed, Described, Request};
-use crate::study::{Library, files};
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -33,6 +34,9 @@ pub struct GoniophotometerArgs {
     /// in a format of one state become several files, named by their states. Without it only the summary is printed.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Incident cells
     #[arg(long, value_enum, default_value = "klems-145")]
     pub incidence: Incidence,
@@ -101,6 +105,11 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
             Target::States(path, format)
         }
     };
+    match &target {
+        Target::Package(path) => args.over.check([&*args.system], Some(path), FileKind::Package)?,
+        Target::States(path, format) => args.over.check([&*args.system], Some(path), FileKind::Dataset(*format))?,
+        Target::None => {}
+    }
     let described = Described::read(&args.system)?;
     let all = described.states(library).map_err(|error| anyhow!("{name}: {error}"))?;
     let states = match &args.state {
@@ -138,7 +147,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
             let of =
                 if one.dataset.state.is_empty() { String::new() } else { format!("state {}: ", one.dataset.state) };
             let Request { error, .. } = request;
-            eprintln!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
+            tell!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
         }
     }
     let told = if args.json {
@@ -152,7 +161,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
     } else {
         to_text(&described, &request, &computed)?
     };
-    write_results(&target, &described, &request, computed.into_iter().map(|one| one.dataset).collect())?;
+    write_results(args.over, &target, &described, &request, computed.into_iter().map(|one| one.dataset).collect())?;
     if let Some(folder) = &keep {
         // What is left of a folder of kept states costs nothing but room.
         drop(std::fs::remove_dir_all(folder));
@@ -161,6 +170,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
 }
 
 fn write_results(
+    over: Over,
     target: &Target<'_>,
     described: &Described,
     request: &Request,
@@ -174,23 +184,30 @@ fn write_results(
             let imported = catalogue.import(&datasets, described.product(request, &datasets));
             let key = imported.map_err(|error| anyhow!("{shown}: {error}"))?.key;
             let bytes = catalogue.export_package(&[key]).map_err(|error| anyhow!("{shown}: {error}"))?;
-            Ok(files::write(path, &bytes)?)
+            Ok(over.write(path, FileKind::Package, &bytes)?)
         }
         Target::States(path, format) => {
             let count = datasets.len();
             let mut told = BTreeSet::new();
+            let mut files = Vec::new();
             for mut dataset in datasets {
                 let path = if count == 1 { (*path).to_owned() } else { path_with(path, &dataset.state) };
                 if *format == Format::BtdfText {
                     on_cells(&mut dataset, request);
                 }
-                for finding in write_state(&path, *format, &dataset)? {
-                    if told.insert(finding.message.clone()) {
-                        eprintln!("note: {}: {}", path.display(), finding.message);
+                for (path, written) in written_state(&path, *format, &dataset)? {
+                    for finding in written.findings {
+                        if told.insert(finding.message.clone()) {
+                            tell!("note: {}: {}", path.display(), finding.message);
+                        }
                     }
+                    files.push((path, written.bytes));
                 }
             }
-            Ok(())
+            let kind = FileKind::Dataset(*format);
+            let outputs: Vec<(&Path, FileKind, &[u8])> =
+                files.iter().map(|(path, bytes)| (&**path, kind, &**bytes)).collect();
+            Ok(over.write_all(&outputs)?)
         }
     }
 }
@@ -214,27 +231,25 @@ fn path_with(path: &Path, word: &str) -> PathBuf {
     path.with_file_name(format!("{stem}_{word}{}", &name[stem.len()..]))
 }
 
-/// Writes one state; what is to be told of it.
-fn write_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<Vec<Finding>> {
+/// The files of one state, with what is to be told of them.
+fn written_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<Vec<(PathBuf, Written)>> {
     let told = |error| anyhow!("{}: {error}", path.display());
     match format {
         Format::BsdfXml => {
             let written = write_dataset(format, std::slice::from_ref(dataset)).map_err(told)?;
-            files::write(path, &written.bytes)?;
-            Ok(written.findings)
+            Ok(vec![(path.to_owned(), written)])
         }
         Format::BtdfText => {
-            let mut findings = Vec::new();
+            let mut files = Vec::new();
             for component in Component::ALL {
                 let path = match component {
                     Component::TransmissionFront => path.to_owned(),
                     other => path_with(path, &other.key().replace('_', "-")),
                 };
                 let written = btdf_text::write_component(dataset, component).map_err(told)?;
-                files::write(&path, &written.bytes)?;
-                findings.extend(written.findings);
+                files.push((path, written));
             }
-            Ok(findings)
+            Ok(files)
         }
     }
 }

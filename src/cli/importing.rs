@@ -1,6 +1,6 @@
 //! `cfs catalogue import`: files, folders, archives and packages into the catalogue.
 
-use super::output::print;
+use super::output::print_text;
 use crate::catalogue::{Catalogue, Gathered, Grouping, SourceFile, Stored, content_of, gather};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Silent;
@@ -85,7 +85,7 @@ fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     meta.tags.extend(args.tags.iter().cloned());
     if meta.name.is_empty() {
         meta.name.clone_from(&product.file_stem);
-        eprintln!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
+        tell!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
     }
     product
 }
@@ -111,15 +111,15 @@ fn tell(taken: &Taken) -> anyhow::Result<()> {
         );
     }
     for reason in &taken.left_out {
-        eprintln!("note: left out: {reason}");
+        tell!("note: left out: {reason}");
     }
     for failure in &taken.failures {
-        eprintln!("warning: not read: {failure}");
+        tell!("warning: not read: {failure}");
     }
     let mut seen: HashMap<&str, &str> = HashMap::new();
     for file in &taken.sources {
         if let Some(other) = seen.insert(&file.content, &file.name).filter(|_| !file.content.is_empty()) {
-            eprintln!("note: {}: the same data as {other}", file.name);
+            tell!("note: {}: the same data as {other}", file.name);
         }
     }
     Ok(())
@@ -147,7 +147,7 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
     for product in gather(taken.sources, if args.name.is_empty() { args.group.grouping() } else { Grouping::One }) {
         let mut product = described(args, product);
         if let Some(doubt) = &product.doubt {
-            eprintln!("question: {}: {} (--group each, or one, answers)", product.meta.name, doubt.question());
+            tell!("question: {}: {} (--group each, or one, answers)", product.meta.name, doubt.question());
         }
         product.meta.contents = product.datasets.iter().map(content_of).collect();
         product.meta.paths = product.sources.iter().filter_map(|name| paths.get(name).cloned()).collect();
@@ -162,13 +162,13 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
     for Stored { imported: product, .. } in catalogue.import_all(list)? {
         writeln!(text, "{}", product.key)?;
         if product.same_content_as == [product.key.as_str()] {
-            eprintln!("note: {} is there already, the same; left as it is", product.key);
+            tell!("note: {} is there already, the same; left as it is", product.key);
         } else if !product.same_content_as.is_empty() {
-            eprintln!("note: the same data are already in {}", product.same_content_as.join(", "));
+            tell!("note: the same data are already in {}", product.same_content_as.join(", "));
         }
         for finding in catalogue.product(&product.key)?.findings {
-            eprintln!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
+            tell!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
         }
     }
-    print(&text)
+    print_text(&text)
 }

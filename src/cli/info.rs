@@ -1,14 +1,15 @@
 //! `cfs info`: what a dataset (or a luminaire file) is, and what is to be said about it.
 
+use crate::cli::output::{print, print_text};
 use crate::cli::{dataset_file, luminaire_info};
 use crate::compute::btdf::{
     Btdf, Component, Dataset, Scattered, Severity, Thermal, ThermalKey, TreeRank, reciprocity_error,
 };
 use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine_all};
+use crate::texts::one_line;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// Arguments of `cfs info`.
@@ -28,7 +29,7 @@ pub struct InfoArgs {
 /// A file that cannot be read; the message is one line with the file's name and the place in it.
 pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
     if let Some(text) = luminaire_info::describe(&args.file, args.json)? {
-        return print(&text);
+        return if args.json { print(&text) } else { print_text(&text) };
     }
     let datasets = dataset_file::read(&args.file)?;
     let examined = datasets.iter().zip(examine_all(&datasets));
@@ -39,15 +40,7 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
     } else {
         examined.map(|(dataset, found)| to_text(dataset, &found)).collect::<Vec<_>>().join("\n")
     };
-    print(&text)
-}
-
-fn print(text: &str) -> anyhow::Result<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        // A reader that has seen enough (`| head`) is no error.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        other => Ok(other?),
-    }
+    if args.json { print(&text) } else { print_text(&text) }
 }
 
 /// Keys as the contract of the scene file's page lists them.
@@ -187,7 +180,7 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     let mut text = String::new();
     let mut line = |label: &str, value: &str| {
         if !value.is_empty() {
-            let _ = writeln!(text, "{label:<22}{value}");
+            let _ = writeln!(text, "{label:<22}{}", one_line(value));
         }
     };
     line("Name", &dataset.name);
@@ -229,7 +222,8 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     for Diagnosis { finding, meaning, repair, sure } in found {
         // A finding that asks for several repairs is said once.
         if last.replace(finding) != Some(finding) {
-            let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+            let _ =
+                writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, one_line(&finding.message));
             if finding.severity != Severity::Info && !meaning.is_empty() {
                 let _ = writeln!(text, "{:34}{meaning}", "");
             }

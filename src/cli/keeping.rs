@@ -1,7 +1,8 @@
 //! `cfs catalogue rename`, `delete` and `restore`: products after they are stored.
 
-use super::output::print;
-use crate::catalogue::{Catalogue, Words};
+use super::output::{print, print_text};
+use crate::catalogue::{Catalogue, CatalogueError, Words};
+use crate::texts::one_line;
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -66,9 +67,9 @@ pub(super) fn history(catalogue: &Catalogue, args: &HistoryArgs) -> anyhow::Resu
     }
     let mut text = String::new();
     for event in list {
-        writeln!(text, "{}  {}", event.at, event.what)?;
+        writeln!(text, "{}  {}", event.at, one_line(&event.what))?;
     }
-    print(&text)
+    print_text(&text)
 }
 
 /// Gives a product other words; those that are not named stay.
@@ -93,8 +94,11 @@ pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Re
 pub(super) fn delete(catalogue: &mut Catalogue, args: &DeleteArgs) -> anyhow::Result<()> {
     let mut done: Vec<&String> = Vec::new();
     for key in &args.keys {
-        // What would be refused is found before anything is gone.
-        catalogue.product(key)?;
+        // What would be refused is found before anything is gone; what is damaged may go.
+        match catalogue.product(key) {
+            Ok(_) | Err(CatalogueError::Damaged(_)) => {}
+            Err(error) => return Err(error.into()),
+        }
     }
     for key in &args.keys {
         let result = if args.for_good { catalogue.remove_product(key) } else { catalogue.delete_product(key) };
@@ -130,7 +134,7 @@ pub(super) fn restore(catalogue: &mut Catalogue, args: &RestoreArgs) -> anyhow::
     let width = list.iter().map(|one| one.key.chars().count()).max().unwrap_or(0).max(3);
     let mut text = format!("{:width$}  {:20}  name\n", "key", "deleted (UTC)");
     for one in list {
-        writeln!(text, "{:width$}  {:20}  {}", one.key, one.at, one.name)?;
+        writeln!(text, "{:width$}  {:20}  {}", one.key, one.at, one_line(&one.name))?;
     }
-    print(&text)
+    print_text(&text)
 }

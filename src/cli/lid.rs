@@ -2,13 +2,15 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::compute::lid::c_gamma::{Aim, Step};
+use crate::formats::FileKind;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire_index::{self, Row};
 use crate::study::luminaire_file::{LidFormat, describe};
 use crate::study::luminaire_series::{Member, Series};
-use crate::study::luminaire_set::{LuminaireSet, SetError, Tiles, Wish, make, tile_name};
-use crate::study::{Scene, Session, files, read_scene_file, system::SystemLibrary};
+use crate::study::luminaire_set::{LuminaireSet, SetError, TileFile, Tiles, Wish, make, tile_name};
+use crate::study::{Scene, Session, clock, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -24,6 +26,9 @@ pub struct LidArgs {
     /// File to write: .ldt (EULUMDAT), .ies (LM-63), .csv (table), .png or .svg (polar diagram)
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Edition of LM-63 for .ies
     #[arg(long, value_enum, default_value_t = EditionArg::Y2002)]
     pub edition: EditionArg,
@@ -97,9 +102,21 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         series.members(&keys, index).with_context(|| path.display().to_string())?
     };
     for time in &dark {
-        eprintln!("note: {time} is left out: the sun is below the horizon");
+        tell!("note: {time} is left out: the sun is below the horizon");
     }
-    let mut written = Written::default();
+    let kind = match wish.format {
+        LidFormat::Eulumdat => FileKind::Eulumdat,
+        LidFormat::Ies(_) => FileKind::Ies,
+        LidFormat::Csv => FileKind::Csv,
+        LidFormat::Png => FileKind::Png,
+        LidFormat::Svg => FileKind::Svg,
+    };
+    if needs_index(&wish, &members) {
+        args.over.check([&**path], Some(&args.out.with_extension("index.csv")), FileKind::Csv)?;
+    } else {
+        args.over.check([&**path], Some(&args.out), kind)?;
+    }
+    let mut written = Written { over: args.over, kind, new: Vec::new(), index: None };
     match all(args, &wish, &members, library, &mut written) {
         Ok(summaries) if args.json => {
             let index = written.index.map(|path| path.to_string_lossy().into_owned());
@@ -119,25 +136,33 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
 }
 
 /// What has appeared so far.
-#[derive(Default)]
 struct Written {
-    files: Vec<PathBuf>,
+    over: Over,
+    kind: FileKind,
+    new: Vec<PathBuf>,
     index: Option<PathBuf>,
 }
 
 impl Written {
-    fn put(&mut self, path: PathBuf, bytes: &[u8]) -> Result<()> {
-        files::write(&path, bytes)?;
-        self.files.push(path);
+    /// Writes files, all of them or none.
+    fn put(&mut self, list: &[(PathBuf, FileKind, &[u8])]) -> Result<()> {
+        let new: Vec<_> = list.iter().filter(|(path, ..)| !path.exists()).map(|(path, ..)| path.clone()).collect();
+        self.over.write_all(&list.iter().map(|(path, kind, bytes)| (&**path, *kind, *bytes)).collect::<Vec<_>>())?;
+        self.new.extend(new);
         Ok(())
     }
 
-    /// Takes everything away again. What cannot be taken away stays: the error that led here is the one to tell.
+    /// Takes what is new away again. What cannot be taken away stays: the error that led here is the one to tell.
     fn undo(self) {
-        for path in self.files {
+        for path in self.new {
             drop(std::fs::remove_file(path));
         }
     }
+}
+
+/// A file alone needs none.
+fn needs_index(wish: &Wish, members: &[Member]) -> bool {
+    wish.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty())
 }
 
 /// Makes and writes all members of a series, or the scene alone; a summary of each.
@@ -151,7 +176,7 @@ fn all(
     let (session, progress) = (Session::new(), TerminalProgress::new());
     let (path, index) = (&args.scene, args.aperture as usize - 1);
     let scene_name = path.file_name().unwrap_or_default().to_string_lossy();
-    let date = jiff::Zoned::now().date().to_string();
+    let date = clock::now().date().to_string();
     let base = path.parent().unwrap_or(Path::new("."));
     let (mut rows, mut summaries): (Vec<Row>, Vec<_>) = (Vec::new(), Vec::with_capacity(members.len()));
     for member in members {
@@ -164,7 +189,7 @@ fn all(
         };
         let scene = Scene::resolve(&member.scene, base, library).with_context(about)?;
         if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
-            eprintln!("note: {note}");
+            tell!("note: {note}");
         }
         let text = describe(&scene_name, &member.scene, index, &date);
         let name = |tile: Option<usize>| file_name(&args.out, &member.tag, tile);
@@ -172,21 +197,20 @@ fn all(
             SetError::Study(error) => anyhow::Error::from(error).context(about()),
             SetError::File(error) => anyhow::Error::from(error).context(args.out.display().to_string()),
         })?;
-        for file in &set.files {
-            written.put(args.out.with_file_name(&file.row.file), &file.bytes)?;
-            rows.push(Row { set: member.name.clone(), ..file.row.clone() });
-        }
+        let target = |file: &TileFile| args.out.with_file_name(&file.row.file);
+        let list: Vec<_> = set.files.iter().map(|file| (target(file), written.kind, &*file.bytes)).collect();
+        written.put(&list)?;
+        rows.extend(set.files.iter().map(|file| Row { set: member.name.clone(), ..file.row.clone() }));
         if !args.json {
             report(args, &set, member);
         }
         summaries.push(summary(args, &set, member));
     }
-    // A file alone needs none.
-    if wish.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty()) {
+    if needs_index(wish, members) {
         let path = args.out.with_extension("index.csv");
-        written.put(path.clone(), &luminaire_index::write(&rows))?;
+        written.put(&[(path.clone(), FileKind::Csv, &luminaire_index::write(&rows))])?;
         if !args.json {
-            eprintln!("{}: index of {} files", path.display(), rows.len());
+            tell!("{}: index of {} files", path.display(), rows.len());
         }
         written.index = Some(path);
     }
@@ -258,7 +282,7 @@ fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> serde_json::V
 /// For people.
 fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
     let shown = args.out.with_file_name(file_name(&args.out, &member.tag, None));
-    eprintln!(
+    tell!(
         "{}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
         shown.display(),
         set.flux.value,
@@ -267,16 +291,16 @@ fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
         100.0 * (set.scaled_by - 1.0)
     );
     if let Some(tiling) = set.tiling {
-        eprintln!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
+        tell!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
     }
     if let Some(apart) = set.apart {
-        eprintln!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", apart.flux, apart.normal);
+        tell!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", apart.flux, apart.normal);
     } else if args.without_beam {
-        eprintln!("--without-beam: there is no straight sunbeam to leave out");
+        tell!("--without-beam: there is no straight sunbeam to leave out");
     }
     if let Some(reached) = set.reached {
         let missed = if reached.holds() { "" } else { " More than 1 %: this light is too sharp for point luminaires." };
-        eprintln!("{}{missed}", reached.sentence());
+        tell!("{}{missed}", reached.sentence());
     }
 }
 

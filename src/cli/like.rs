@@ -1,7 +1,8 @@
 //! `cfs catalogue like`: products that do the same to light.
 
-use super::output::print;
+use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, Query};
+use crate::texts::one_line;
 use anyhow::bail;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -42,9 +43,9 @@ pub(super) fn like(catalogue: &Catalogue, args: &LikeArgs) -> anyhow::Result<()>
         return print(&(serde_json::to_string_pretty(&list.iter().map(one).collect::<Vec<_>>())? + "\n"));
     }
     let width = list.iter().map(|(row, _)| row.key.chars().count()).max().unwrap_or(0);
-    let mut text = format!("like {} ({})\n", likeness.key, likeness.name);
+    let mut text = format!("like {} ({})\n", likeness.key, one_line(&likeness.name));
     for (row, apart) in list {
         writeln!(text, "{:width$}  {}", row.key, apart.words())?;
     }
-    print(&text)
+    print_text(&text)
 }

@@ -1,7 +1,8 @@
 //! `cfs catalogue list`: products found by words and filters, in the order that is asked for.
 
-use super::output::print;
+use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, Figure, Origin, ProductRow, Query, Sort, Within};
+use crate::texts::one_line;
 use serde_json::json;
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -119,15 +120,15 @@ pub(super) fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()>
     let query = args.query();
     let found = catalogue.find(&query)?;
     for (typed, read_as) in &found.read_as {
-        eprintln!("note: no product has \"{typed}\"; read as \"{read_as}\"");
+        tell!("note: no product has \"{typed}\"; read as \"{read_as}\"");
     }
     let rows = found.entries;
     if rows.is_empty() && !args.json {
         for (filter, count) in &found.without {
-            eprintln!("{count} products without \"{}\"", query.words_of(*filter));
+            tell!("{count} products without \"{}\"", query.words_of(*filter));
         }
     }
-    print(&if args.json { as_json(&rows)? } else { as_table(&rows)? })
+    if args.json { print(&as_json(&rows)?) } else { print_text(&as_table(&rows)?) }
 }
 
 fn as_json(rows: &[Arc<ProductRow>]) -> anyhow::Result<String> {
@@ -157,9 +158,9 @@ fn as_table(rows: &[Arc<ProductRow>]) -> anyhow::Result<String> {
             text,
             "{:width$}  {:kind$}  {normal:>8}  {hemispherical:>6}  {own:>state$}  {:>6}  {}{star}",
             row.key,
-            row.kind,
+            one_line(&row.kind),
             row.states.len(),
-            row.name
+            one_line(&row.name)
         )?;
     }
     Ok(text)

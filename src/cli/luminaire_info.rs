@@ -4,6 +4,7 @@
 use crate::compute::direction::Surface;
 use crate::formats::luminaire::{Luminaire, Photometry};
 use crate::study::luminaires::{self, INDEX, LuminaireAperture};
+use crate::texts::one_line;
 use serde_json::json;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -88,7 +89,7 @@ fn aperture_text(text: &mut String, one: &LuminaireAperture, name: &str) {
     text.push('\n');
     let mut line = |label: &str, value: &str| {
         if !value.is_empty() {
-            let _ = writeln!(text, "{label:<22}{value}");
+            let _ = writeln!(text, "{label:<22}{}", one_line(value));
         }
     };
     line("Set", name);
@@ -189,7 +190,7 @@ fn to_text(luminaire: &Luminaire) -> String {
     let mut text = String::new();
     let mut line = |label: &str, value: &str| {
         if !value.is_empty() {
-            let _ = writeln!(text, "{label:<22}{value}");
+            let _ = writeln!(text, "{label:<22}{}", one_line(value));
         }
     };
     let range = |angles: &[f64]| match angles {
@@ -224,7 +225,7 @@ fn to_text(luminaire: &Luminaire) -> String {
         let _ = writeln!(text, "  none");
     }
     for finding in &luminaire.findings {
-        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, finding.message);
+        let _ = writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, one_line(&finding.message));
     }
     text
 }

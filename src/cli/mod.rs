@@ -1,9 +1,15 @@
 //! The command line: arguments in, files and tables out, no display needed.
 
+/// A message on standard error, as `eprintln!` would say it.
+macro_rules! tell {
+    ($($text:tt)*) => { $crate::cli::output::to_stderr(format_args!($($text)*)) };
+}
+
 pub mod accuracy;
 mod args;
 mod builtin;
 pub mod catalogue;
+pub mod check;
 pub mod compact;
 pub mod compare;
 pub mod control;
@@ -28,10 +34,13 @@ pub mod room;
 pub mod sky;
 pub mod subscriptions;
 pub mod validate;
+mod writing;
 
 pub use args::{Arguments, Command};
+pub use writing::Over;
 
-use crate::study::Library;
+use crate::catalogue::default_path;
+use crate::study::{Library, files};
 use std::path::Path;
 
 /// Runs a subcommand.
@@ -39,6 +48,10 @@ use std::path::Path;
 /// # Errors
 /// One line that names the file, the place in it, what is wrong and what would be right.
 pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
+    // What the results come from, wherever it is opened.
+    if let Some(path) = catalogue.map(Path::to_owned).or_else(|| default_path().ok()) {
+        files::keep(&path);
+    }
     let library = Library::with_catalogue(catalogue);
     match command {
         Command::Room(args) => room::run(args, &library),
@@ -56,4 +69,15 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Repair(args) => repair::run(args),
         Command::Catalogue(args) => catalogue::run(args, catalogue),
     }
+}
+
+/// Is it a verdict about what was read, rather than something that could not be done?
+pub fn is_judgement(error: &anyhow::Error) -> bool {
+    error.is::<validate::NotFit>() || error.is::<packages::Differ>() || error.is::<check::Damaged>()
+}
+
+/// Says on standard error why the program did not do what it was asked: one line whatever the causes say, so that scripts
+/// can show it.
+pub fn tell_error(error: &anyhow::Error) {
+    tell!("cfs: {}", output::sentence(error));
 }

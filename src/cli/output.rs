@@ -1,20 +1,50 @@
 //! Results to standard output, and how numbers read.
 
+use crate::texts::{message, short_numbers, visible};
 use anyhow::Context as _;
 use std::io::Write as _;
 
-/// To standard output; a closed pipe is the reader's choice, not an error.
+/// Data to standard output: CSV, JSON, templates. What commands a terminal is visible there; a closed pipe is the reader's
+/// choice, not an error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
+    match std::io::stdout().lock().write_all(visible(text).as_bytes()) {
         Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         other => other.context("standard output"),
     }
+}
+
+/// Text for reading to standard output: as [`print`], and no number longer than its reader's patience.
+pub(super) fn print_text(text: &str) -> anyhow::Result<()> {
+    print(&short_numbers(text))
+}
+
+/// A message on standard error: one line, whatever stood in the file that it quotes.
+pub(super) fn to_stderr(text: std::fmt::Arguments<'_>) {
+    // Nobody is left to be told that it cannot be told.
+    drop(writeln!(std::io::stderr().lock(), "{}", message(&text.to_string())));
+}
+
+/// An error as one sentence: with its causes, none of them twice.
+pub(super) fn sentence(error: &anyhow::Error) -> String {
+    let mut said = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if said.is_empty() {
+            said = cause;
+        } else if !said.contains(&cause) {
+            said = format!("{said}: {cause}");
+        }
+    }
+    message(&said)
 }
 
 /// A number with nine significant digits and no trailing zeros.
 pub(super) fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}").replace("-0", "0");
+    }
+    // Nobody counts the zeros of a number that is beyond all light.
+    if value.abs() >= 1e16 {
+        return format!("{value:.8e}").replace(".00000000e", "e");
     }
     let digits = (8 - value.abs().log10().floor() as i32).clamp(0, 17) as usize;
     let text = format!("{value:.digits$}");
@@ -26,10 +56,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_sentence_says_nothing_twice_and_commands_nothing() {
+        let error = anyhow::anyhow!("disk full").context("cannot write: disk full").context("\u{1b}[31mfile\nname");
+        assert_eq!(sentence(&error), "\\u001b[31mfile name: cannot write: disk full");
+    }
+
+    #[test]
     fn numbers_keep_nine_digits() {
         assert_eq!(number(0.5), "0.5");
         assert_eq!(number(1_234.567_891_23), "1234.56789");
         assert_eq!(number(0.0), "0");
         assert_eq!(number(1.0e-5), "0.00001");
+        assert_eq!((&*number(1e300), &*number(-1.25e20)), ("1e300", "-1.25000000e20"));
     }
 }

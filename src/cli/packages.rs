@@ -2,6 +2,8 @@
 
 use crate::catalogue::{PackageDiff, diff_packages, merge_packages};
 use crate::cli::output;
+use crate::cli::writing::Over;
+use crate::formats::FileKind;
 use crate::formats::package::{self, Package};
 use crate::study::files;
 use anyhow::anyhow;
@@ -30,6 +32,9 @@ pub struct MergeArgs {
     /// The package to write.
     #[arg(long)]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// Two packages that differ: told, and the program ends with status 1, unlike for packages that it cannot read.
@@ -118,13 +123,14 @@ fn as_text(diff: &PackageDiff) -> String {
 /// # Errors
 /// A package that cannot be read, or written.
 pub fn merge(args: &MergeArgs) -> anyhow::Result<()> {
+    args.over.check([&*args.first, &*args.second], Some(&args.out), FileKind::Package)?;
     let merged = merge_packages(&read(&args.first)?, &read(&args.second)?)?;
-    files::write(&args.out, &package::write(&merged.package)?)?;
+    args.over.write(&args.out, FileKind::Package, &package::write(&merged.package)?)?;
     for key in &merged.same {
-        eprintln!("note: {key}: the same in both, kept once");
+        tell!("note: {key}: the same in both, kept once");
     }
     for (key, new) in &merged.renamed {
-        eprintln!("note: {key}: other content in {}, kept as {new}", args.second.display());
+        tell!("note: {key}: other content in {}, kept as {new}", args.second.display());
     }
     output::print(&format!("{} products\n", merged.package.products.len()))
 }

@@ -2,10 +2,12 @@
 
 use super::language::ReportLanguage;
 use super::progress::TerminalProgress;
+use super::writing::Over;
+use crate::formats::FileKind;
 use crate::report::{Look, Size, TileKind, picture};
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::subject::{Asked, Subject, Wanted};
-use crate::study::{Library, Session, files, read_scene_file};
+use crate::study::{Library, Session, read_scene_file};
 use crate::texts::speak;
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
@@ -37,6 +39,9 @@ pub struct PictureArgs {
     /// File to write: .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// A scene file's subject.
@@ -56,6 +61,8 @@ pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
     if !["svg", "png"].contains(&&*ending) {
         bail!("--out {shown}: a picture is written as .svg or .png");
     }
+    let kind = if ending == "svg" { FileKind::Svg } else { FileKind::Png };
+    args.over.check([&*args.scene], Some(&args.out), kind)?;
     let subject = subject(&args.scene, args.tile.needs(), library)?;
     let _spoken = speak(args.language.0);
     let look = Look { size: args.size, print: args.print, caption: !args.plain };
@@ -65,6 +72,6 @@ pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
     } else {
         args.size.png(&drawing).with_context(|| format!("--out {shown}"))?
     };
-    files::write(&args.out, &bytes)?;
+    args.over.write(&args.out, kind, &bytes)?;
     Ok(())
 }

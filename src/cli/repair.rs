@@ -1,10 +1,10 @@
 //! `cfs repair`: datasets mended as findings offer, written anew.
 
 use crate::cli::dataset_file;
+use crate::cli::writing::Over;
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{Diagnosis, Repair, examine, record, recorded, repaired_all, sun_from_above};
-use crate::formats::{format_to_write, write_dataset};
-use crate::study::files;
+use crate::formats::{FileKind, format_to_write, write_dataset};
 use anyhow::{anyhow, bail};
 use std::path::PathBuf;
 
@@ -23,6 +23,9 @@ pub struct RepairArgs {
     /// File to write; the extension says in which format.
     #[arg(long)]
     pub out: PathBuf,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// Reads, mends, records, writes.
@@ -34,6 +37,7 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let name = args.file.display();
     let out_name = args.out.to_string_lossy();
     let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    args.over.check([&*args.file], Some(&args.out), FileKind::Dataset(format))?;
     let mut datasets = dataset_file::read(&args.file)?;
     for dataset in &mut datasets {
         let found = if args.undo { Vec::new() } else { examine(dataset) };
@@ -53,19 +57,19 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
         // What the description recorded before is kept, and undone repairs cancel out.
         mended.description = record(&dataset.description, &repairs);
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
-        eprintln!("repaired: {}", words.join(", "));
+        tell!("repaired: {}", words.join(", "));
         if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
-            eprintln!("asked, not done: {questions}");
+            tell!("asked, not done: {questions}");
         }
         if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
-            eprintln!("{sentence}");
+            tell!("{sentence}");
         }
         *dataset = mended;
     }
     let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
-    files::write(&args.out, &written.bytes)?;
+    args.over.write(&args.out, FileKind::Dataset(format), &written.bytes)?;
     for finding in &written.findings {
-        eprintln!("{}: {}", finding.severity.word(), finding.message);
+        tell!("{}: {}", finding.severity.word(), finding.message);
     }
     Ok(())
 }

@@ -3,7 +3,10 @@
 use super::language::ReportLanguage;
 use super::picture::subject;
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::drawing::colours::Inks;
+use crate::formats::FileKind;
+use crate::formats::encoding::utf8;
 use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
@@ -64,6 +67,9 @@ pub struct ReportArgs {
     /// File to write (.pdf)
     #[arg(long, value_name = "FILE.pdf", required_unless_present = "template")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
 }
 
 /// Runs the command.
@@ -79,10 +85,10 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
         bail!("--out {}: a report is written as .pdf", out.display());
     }
     let template = match &args.tender {
-        Some(path) => String::from_utf8(files::read(path)?)
-            .with_context(|| format!("{}: not text in UTF-8; a tender text is", path.display()))?,
+        Some(path) => utf8(&files::read(path)?).with_context(|| path.display().to_string())?.to_owned(),
         None => tender::TEMPLATE.to_owned(),
     };
+    args.over.check([Path::new(what)], Some(out), FileKind::Pdf)?;
     let _spoken = speak(args.language.0);
     let inks = if args.print { &Inks::PRINT } else { &Inks::LIGHT };
     let is_scene = what.ends_with(".toml") || Path::new(what).is_file();
@@ -102,7 +108,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
         study_pages(&Study { subject: &subject, title, question, comparison: comparison.as_ref(), inks })
     };
     let pages = pages.with_context(|| what.clone())?;
-    files::write(out, &pdf::write(&pages, &subject.name)?)?;
+    args.over.write(out, FileKind::Pdf, &pdf::write(&pages, &subject.name)?)?;
     Ok(())
 }
 

@@ -2,8 +2,10 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use super::writing::Over;
 use crate::compute::lid::BeamSource;
-use crate::study::{RoomResult, Scene, Session, files, load_scene, system::SystemLibrary};
+use crate::formats::FileKind;
+use crate::study::{RoomResult, Scene, Session, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::path::PathBuf;
@@ -26,6 +28,9 @@ pub struct RoomArgs {
     /// CSV file to write
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Results for programs, on standard output
     #[arg(long)]
     pub json: bool,
@@ -33,6 +38,7 @@ pub struct RoomArgs {
 
 /// Runs the command.
 pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let scene = load_scene(&args.scene, library)?;
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
@@ -50,7 +56,7 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
         csv.push('\n');
     }
     if let Some(path) = &args.out {
-        files::write(path, csv.as_bytes())?;
+        args.over.write(path, FileKind::Csv, csv.as_bytes())?;
     }
     if args.json {
         print(&format!("{:#}\n", to_json(&scene, &result)))?;
@@ -66,11 +72,11 @@ const UNPLACED: f64 = 0.1;
 /// What a person should know beside the numbers, on standard error.
 fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
-        eprintln!("note: {note}");
+        tell!("note: {note}");
     }
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
-            eprintln!(
+            tell!(
                 "note: {count} of {} sensors lie nearer than {distance:.3} m to aperture {}, where they would see the \
                  slats or cuts of {} one by one; the data hold its mean alone",
                 scene.sensors.len(),
@@ -82,7 +88,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
     for (number, (aperture, (source, reason))) in scene.apertures.iter().zip(&result.beams).enumerate() {
         let doubted = result.data_share();
         if *source == BeamSource::Cells && doubted > UNPLACED {
-            eprintln!(
+            tell!(
                 "note: sun patches cannot be placed with the data of aperture {} ({}): {reason}; {:.0} % of the light at \
                  the sensors is left open by the data",
                 number + 1,
@@ -94,9 +100,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(target) = scene.error_target {
         let (reached, target) = (100.0 * result.reached(), 100.0 * target);
         let word = if reached <= target { "reached" } else { "not reached" };
-        eprintln!(
-            "note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error"
-        );
+        tell!("note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error");
     }
 }
 

@@ -1,5 +1,7 @@
 //! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
 
+use crate::cli::output::print;
+use crate::cli::writing::Over;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
@@ -7,7 +9,7 @@ use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::compute::surroundings::skyline::Skyline;
-use crate::study::files;
+use crate::formats::FileKind;
 use crate::study::sky::{illuminances, outside_from_keys};
 use anyhow::anyhow;
 use rayon::prelude::*;
@@ -22,6 +24,9 @@ pub struct SkyArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
     /// Print patches and illuminances as JSON on standard output
     #[arg(long)]
     pub json: bool,
@@ -39,6 +44,7 @@ struct Row {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let name = args.scene.display();
+    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let scene = crate::study::read_scene_file(&args.scene)?;
     let base_dir = args.scene.parent().unwrap_or(Path::new("."));
     let (outside, sun) =
@@ -48,25 +54,25 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let facade = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(scene.site.azimuth));
     let vertical = irradiance(&outside, facade);
     if let Some(path) = &args.out {
-        files::write(path, csv(&rows).as_bytes())?;
+        args.over.write(path, FileKind::Csv, csv(&rows).as_bytes())?;
     }
     if args.json {
-        println!("{:#}", json(&rows, &outside, sun.as_ref(), vertical, facade));
+        print(&format!("{:#}\n", json(&rows, &outside, sun.as_ref(), vertical, facade)))?;
     } else if args.out.is_none() {
-        print!("{}", csv(&rows));
+        print(&csv(&rows))?;
     }
     let light = illuminances(&scene.sky, &scene.site).map_err(|error| anyhow!("{name}: {error}"))?;
     if let Some(note) = light.and_then(|light| light.note()) {
-        eprintln!("note: {note}");
+        tell!("note: {note}");
     }
     if !scene.outside.is_empty() {
-        eprintln!("note: the boxes outside are left out here: this is the sky that stands behind them");
+        tell!("note: the boxes outside are left out here: this is the sky that stands behind them");
     }
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
-    eprintln!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
+    tell!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
     let beam = facade_beam(&outside, sun.as_ref(), facade);
-    eprintln!("facade: diffuse {:.6} lx, direct {beam:.6} lx, global {:.6} lx", vertical.value, vertical.value + beam);
+    tell!("facade: diffuse {:.6} lx, direct {beam:.6} lx, global {:.6} lx", vertical.value, vertical.value + beam);
     Ok(())
 }
 

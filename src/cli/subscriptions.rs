@@ -1,6 +1,6 @@
 //! `cfs catalogue subscribe`, `unsubscribe` and `subscriptions`: folders of packages as further catalogues.
 
-use super::output::print;
+use super::output::{print, print_text};
 use crate::catalogue::Catalogue;
 use crate::compute::estimate::Silent;
 use crate::study::subscriptions::{folder_of, sync};
@@ -34,10 +34,10 @@ pub struct SubscriptionsArgs {
 fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
     let report = sync(catalogue, &Silent)?;
     for problem in &report.problems {
-        eprintln!("warning: {problem}");
+        tell!("warning: {problem}");
     }
     if report.taken + report.gone > 0 {
-        eprintln!("note: {} products came or changed, {} went", report.taken, report.gone);
+        tell!("note: {} products came or changed, {} went", report.taken, report.gone);
     }
     Ok(())
 }
@@ -54,7 +54,7 @@ pub(super) fn subscribe(catalogue: &mut Catalogue, args: &SubscribeArgs) -> anyh
 pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> anyhow::Result<()> {
     let folder = folder_of(&args.folder).unwrap_or_else(|_| args.folder.display().to_string());
     let gone = catalogue.unsubscribe(&folder)?;
-    eprintln!("note: {gone} products went");
+    tell!("note: {gone} products went");
     Ok(())
 }
 
@@ -70,5 +70,5 @@ pub(super) fn list(catalogue: &mut Catalogue, args: &SubscriptionsArgs) -> anyho
     for one in list {
         writeln!(text, "{:>8}  {}", one.products, one.folder)?;
     }
-    print(&text)
+    print_text(&text)
 }

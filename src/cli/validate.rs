@@ -1,7 +1,7 @@
 //! `cfs catalogue validate`: the data doctor for makers' pipelines.
 
 use super::dataset_file;
-use super::output::print;
+use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, ProductFinding, Query};
 use crate::compute::btdf::Severity;
 use crate::compute::doctor::{examine_all, meaning};
@@ -73,7 +73,7 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
                 }
             }
         }
-        print(&text)?;
+        print_text(&text)?;
     }
     // After the report, so that who is stopped by the status also sees why.
     if bad > 0 {

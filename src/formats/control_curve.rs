@@ -3,6 +3,8 @@
 //! Read: separated by commas, semicolons, tabs or blanks; a header, which may name further columns, or two bare columns
 //! in this order; comments from `#` on. Not read: decimal commas, units other than degrees.
 
+use super::encoding::{NotText, utf8};
+
 /// Most points that a curve may have.
 const MOST_POINTS: usize = 10_000;
 
@@ -10,8 +12,8 @@ const MOST_POINTS: usize = 10_000;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurveError {
     /// Not text.
-    #[error("not UTF-8 text at byte {0}")]
-    NotText(usize),
+    #[error(transparent)]
+    NotText(#[from] NotText),
     /// A header that names other things.
     #[error("line {line}: the header needs the columns profile_angle_deg and value_deg")]
     Header {
@@ -49,9 +51,7 @@ pub enum CurveError {
 
 /// Reads (profile angle \[°\], value) points.
 pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| CurveError::NotText(error.valid_up_to()))?;
-    // Spreadsheets put a mark of the byte order first, which would be part of the first field.
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let text = utf8(bytes)?;
     let mut columns = [0, 1];
     let mut points: Vec<[f64; 2]> = Vec::new();
     let mut first = true;
@@ -128,6 +128,6 @@ mod tests {
             let error = read_control_curve(text.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(words), "{text:?}: {error}");
         }
-        assert_eq!(read_control_curve(&[0x30, 0xff]), Err(CurveError::NotText(1)));
+        assert!(matches!(read_control_curve(&[0x30, 0xff]), Err(CurveError::NotText(NotText { byte: 1, .. }))));
     }
 }

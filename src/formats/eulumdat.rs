@@ -97,7 +97,7 @@ pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
 /// A header that ends early, counts or the symmetry indicator out of range, angles that do not increase, text where a
 /// number belongs, fewer intensities than the counts ask for. The first fault is told with its line.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
-    let text = decode(bytes);
+    let (text, mut findings) = decode(bytes);
     let lines = Lines { lines: text.lines().map(str::trim).collect() };
     let symmetry = lines.whole(3, "symmetry indicator Isym", 0.0, 4.0)?;
     let planes = lines.whole(4, "number of C planes Mc", 1.0, MAX_PLANES)?;
@@ -119,7 +119,6 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let gamma_deg = values.take(angles, "gamma angles")?;
     check_rising(&gamma_deg, gamma_line, "gamma angle")?;
 
-    let mut findings = Vec::new();
     let stored = stored_planes(symmetry, planes);
     let table = values.take(stored.len() * angles, "intensities")?;
     if planes > 1 && step_c > 0.0 && (c_all[1] - c_all[0] - step_c).abs() > 1e-3 {

@@ -113,7 +113,7 @@ fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
 /// No TILT line, tilt in another file, counts or types out of range, angles that do not increase, text among the
 /// numbers, fewer numbers than the counts ask for. The first fault is told with its line.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
-    let text = decode(bytes);
+    let (text, mut findings) = decode(bytes);
     let lines: Vec<&str> = text.lines().collect();
     let tilt_line = lines
         .iter()
@@ -121,7 +121,6 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
         .ok_or_else(|| at_line(lines.len(), "no TILT line", "a line TILT=NONE or TILT=INCLUDE"))?;
     let format = lines[0].trim();
     let old = !format.contains("2002") && !format.contains("2019");
-    let mut findings = Vec::new();
     let mut tokens = Tokens::new(&lines, tilt_line + 1);
     match lines[tilt_line].trim()[5..].trim().to_ascii_uppercase().as_str() {
         "NONE" => {}

@@ -1,5 +1,6 @@
 //! Where in a file something is wrong, and the error that every reader returns.
 
+use crate::texts::message;
 use std::fmt;
 
 /// A place in a file, as exactly as the reader knows it.
@@ -76,10 +77,9 @@ pub struct FormatError {
 }
 
 impl FormatError {
-    /// From its three parts; line breaks become blanks, so that the message stays on one line.
+    /// From its three parts; as they may be shown: on one line, with nothing that commands a terminal.
     pub fn new(at: Location, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        let one_line = |text: String| text.split(['\n', '\r']).map(str::trim).collect::<Vec<_>>().join(" ");
-        Self { at, found: one_line(found.into()), expected: one_line(expected.into()) }
+        Self { at, found: message(&found.into()), expected: message(&expected.into()) }
     }
 }
 

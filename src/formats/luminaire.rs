@@ -2,6 +2,7 @@
 //!
 //! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
 
+use super::encoding::{Encoding, any_text};
 use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::lid::Intensities;
@@ -207,12 +208,15 @@ fn table_remark(table: &CGammaTable) -> String {
     text
 }
 
-/// Text of a file: UTF-8 if it is, else Latin-1, without a byte-order mark.
-pub(super) fn decode(bytes: &[u8]) -> String {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.trim_start_matches('\u{feff}').to_owned(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
-    }
+/// Text of a file: UTF-8 or Latin-1, as such files are, or UTF-16, which is told; without a byte-order mark.
+pub(super) fn decode(bytes: &[u8]) -> (String, Vec<Finding>) {
+    let (text, encoding) = any_text(bytes);
+    let told = (encoding == Some(Encoding::Utf16)).then(|| {
+        let message =
+            "The text is UTF-16, which other programs do not expect in a luminaire file; it was read as such.";
+        Finding::warning("encoding", message)
+    });
+    (text, told.into_iter().collect())
 }
 
 /// Printable ASCII: what every reader takes. Letters with marks are spelt out, line breaks become blanks, the rest '?'.

@@ -10,11 +10,13 @@ pub mod btdf_text;
 pub mod compact_rows;
 pub mod control_curve;
 pub mod dataset_blob;
+pub mod encoding;
 pub mod eulumdat;
 mod family;
 pub mod figures_table;
 pub mod gazetteer;
 pub mod ies;
+mod kind;
 pub mod lid_tables;
 mod location;
 pub mod luminaire;
@@ -22,10 +24,12 @@ pub mod luminaire_index;
 pub mod package;
 pub mod scan;
 pub mod system_toml;
+pub mod toml_place;
 mod written;
 
 pub use btdf_text::CatalogueFields;
 pub use family::{is_one_function, merge_sides};
+pub use kind::{FileKind, HEAD};
 pub use location::{FormatError, Location};
 pub use written::Written;
 
@@ -118,7 +122,13 @@ pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatErro
         Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
         Some(Format::BtdfText) => Ok(vec![btdf_text::read(bytes)?]),
         None if bytes.is_empty() => Err(FormatError::new(Location::file(), "an empty file", Format::list())),
-        None => Err(FormatError::new(Location::file(), "an unknown format", Format::list())),
+        None => {
+            let found = match encoding::utf8(bytes) {
+                Err(encoding::NotText { encoding: encoding::Encoding::Utf16, .. }) => "UTF-16 text",
+                _ => "an unknown format",
+            };
+            Err(FormatError::new(Location::file(), found, Format::list()))
+        }
     }
 }
 

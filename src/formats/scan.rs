@@ -4,14 +4,15 @@
 //! 145 in all; or a table with a header that has a column `L_mean_cdm2`, `luminance` or, failing these,
 //! `L_centre_cdm2`, with 145 rows in order. Lines that begin with `#` are comments. Not read: other lattices, gaps.
 
+use super::encoding::{NotText, utf8};
 use crate::compute::sky::Scan;
 
 /// Why the text is no scan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScanError {
     /// Not text.
-    #[error("not UTF-8 text at byte {0}")]
-    NotText(usize),
+    #[error(transparent)]
+    NotText(#[from] NotText),
     /// A field that is no luminance.
     #[error("line {line}: \"{found}\" is no luminance (expected a number of 0 cd/m² or more)")]
     Number {
@@ -33,8 +34,7 @@ pub enum ScanError {
 
 /// Reads 145 luminances. \[cd/m²\]
 pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| ScanError::NotText(error.valid_up_to()))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let text = utf8(bytes)?;
     let mut values = Vec::with_capacity(145);
     let mut column = None;
     let mut first = true;

@@ -1,18 +1,30 @@
-//! Files on disk: read whole up to a size, written whole or not at all.
+//! Files on disk: read whole up to a size, written whole or not at all, and never over what they were made from.
+//!
+//! Every file that the program writes for somebody goes through [`write_all`]: it refuses to take the place of an input and
+//! of a file of another kind, writes beside, and renames when all bytes are there.
 
 use super::error::StudyError;
-use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::io::Write as _;
-use std::path::Path;
+use super::part::{Part, resolved};
+use crate::formats::{FileKind, HEAD};
+use std::collections::BTreeSet;
+use std::io::{ErrorKind, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Larger files are refused before they are read: datasets and packages, next to which all others are small. \[bytes\]
 pub const LARGEST_FILE: u64 = 1 << 30;
+
+/// So many of the files that are written together are held open at once; systems allow a thousand.
+const MOST_OPEN: usize = 200;
+
+/// The files that this run of the program has read.
+static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }
 }
 
-/// All bytes of a file.
+/// All bytes of a file, which is an input from now on.
 ///
 /// # Errors
 /// One sentence that names the file.
@@ -26,45 +38,251 @@ pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
         let [size, most] = [meta.len(), LARGEST_FILE].map(|bytes| bytes >> 20);
         return Err(wrong(path, format!("{size} MB; expected at most {most} MB")));
     }
+    keep(path);
     std::fs::read(path).map_err(cannot)
 }
 
-/// Writes a file in one step: into a neighbour first, then renamed, so that nothing half-written is left.
+/// Names a file that results depend on and that is read by other means.
+pub fn keep(path: &Path) {
+    // Where the program runs is not where it may be later.
+    if let Ok(path) = std::path::absolute(path) {
+        INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
+    }
+}
+
+/// What a written file may take the place of.
+#[derive(Debug, Clone, Copy)]
+pub enum Replace<'a> {
+    /// An empty file, or one of this kind – with `force` of any kind –, and none that this run of the program has read.
+    Kind {
+        /// What is written.
+        kind: FileKind,
+        /// Of any kind.
+        force: bool,
+    },
+    /// Whatever is there, since somebody was asked, except these.
+    But(&'a [PathBuf]),
+}
+
+/// A file to be written.
+#[derive(Debug, Clone)]
+pub struct Output<'a> {
+    /// Where.
+    pub path: &'a Path,
+    /// What it will hold.
+    pub bytes: &'a [u8],
+    /// What it may take the place of.
+    pub replace: Replace<'a>,
+}
+
+/// May a file be written there? Asked before long work; [`write_all`] asks again.
+///
+/// # Errors
+/// One sentence that names the file, what is there, and what would be right.
+pub fn check(path: &Path, replace: Replace<'_>) -> Result<(), StudyError> {
+    let there = match std::fs::metadata(path) {
+        Ok(there) => there,
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            return match folder.filter(|folder| !folder.is_dir()) {
+                Some(folder) => {
+                    Err(wrong(path, format!("cannot be written; its folder {} is not there", folder.display())))
+                }
+                None => Ok(()),
+            };
+        }
+        Err(error) => return Err(cannot_write(path, &error)),
+    };
+    if there.is_dir() {
+        return Err(wrong(path, "cannot be written; it is a folder; expected the name of a file".to_owned()));
+    }
+    if !there.is_file() {
+        // A pipe or a device takes everything and loses nothing.
+        return Ok(());
+    }
+    if is_input(path, replace) {
+        return Err(wrong(
+            path,
+            "is not written: it is what the result is made from; expected another file to write".to_owned(),
+        ));
+    }
+    if there.permissions().readonly() {
+        return Err(wrong(path, "cannot be written; it is write-protected; expected another file to write".to_owned()));
+    }
+    if let Replace::Kind { kind, force: false } = replace
+        && there.len() > 0
+        && !is_of(path, kind)?
+    {
+        return Err(wrong(
+            path,
+            format!(
+                "is not written: what is there is not {}; choose another name, or replace it with --force",
+                kind.words()
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// Is it one of the inputs, under whatever name?
+fn is_input(path: &Path, replace: Replace<'_>) -> bool {
+    let same = |other: &PathBuf| same_file::is_same_file(path, other).unwrap_or(false);
+    match replace {
+        Replace::But(inputs) => inputs.iter().any(same),
+        Replace::Kind { .. } => INPUTS.lock().unwrap_or_else(PoisonError::into_inner).iter().any(same),
+    }
+}
+
+fn is_of(path: &Path, kind: FileKind) -> Result<bool, StudyError> {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.map_err(|error| cannot_write(path, &error))?;
+    Ok(kind.may_be(&head))
+}
+
+/// Writes files, all of them or none: each into a neighbour first, renamed when all are there, so that nothing half-written
+/// is left. Pipes and devices are written to at once.
+///
+/// # Errors
+/// One sentence that names the file. What was there before is there still.
+pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
+    let mut parts: Vec<(&Path, Part)> = Vec::with_capacity(list.len());
+    for (place, one) in list.iter().enumerate() {
+        if list[..place].iter().any(|other| other.path == one.path) {
+            return Err(wrong(one.path, "is named twice; expected a file for each output".to_owned()));
+        }
+        check(one.path, one.replace)?;
+        let told = |error: std::io::Error| cannot_write(one.path, &error);
+        let target = resolved(one.path);
+        if target.exists() && !target.is_file() {
+            let mut device = std::fs::OpenOptions::new().write(true).open(&target).map_err(told)?;
+            device.write_all(one.bytes).map_err(told)?;
+            continue;
+        }
+        let mut part = Part::beside(&target).map_err(told)?;
+        part.write(one.bytes).map_err(told)?;
+        // On the disk before it takes the name: otherwise a power cut could leave the name with nothing in it.
+        part.file().sync_all().map_err(told)?;
+        if parts.len() >= MOST_OPEN {
+            part.rest();
+        }
+        parts.push((one.path, part));
+    }
+    for (path, part) in parts {
+        part.take_name().map_err(|error| cannot_write(path, &error))?;
+    }
+    Ok(())
+}
+
+/// Writes one file, as [`write_all`] does.
 ///
 /// # Errors
 /// One sentence that names the file.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    // On the disk before it takes the name: otherwise a power cut could leave the name with nothing in it.
-    replace(path, bytes, std::fs::File::sync_all).map(drop)
+pub fn write(path: &Path, bytes: &[u8], replace: Replace<'_>) -> Result<(), StudyError> {
+    write_all(&[Output { path, bytes, replace }])
 }
 
-/// The same without waiting for the disk, which under load takes seconds: a program that ends loses nothing, a power cut
-/// before the returned file is synchronised may.
+/// Writes a file of the program's own in one step, without waiting for the disk, which under load takes seconds: a program
+/// that ends loses nothing, a power cut before the returned file is synchronised may.
 ///
 /// # Errors
 /// One sentence that names the file.
 pub fn write_at_once(path: &Path, bytes: &[u8]) -> Result<std::fs::File, StudyError> {
-    replace(path, bytes, |_| Ok(()))
+    let written = Part::beside(&resolved(path)).and_then(|mut part| {
+        part.write(bytes)?;
+        part.take_name()?.ok_or_else(|| std::io::Error::other("a part that did not rest has its file"))
+    });
+    written.map_err(|error| cannot_write(path, &error))
 }
 
-fn replace(
-    path: &Path,
-    bytes: &[u8],
-    wait: impl Fn(&std::fs::File) -> std::io::Result<()>,
-) -> Result<std::fs::File, StudyError> {
-    let mut part = path.as_os_str().to_owned();
-    // A name that no other has: another program may write the same file.
-    part.push(format!(".{:016x}.part", RandomState::new().build_hasher().finish()));
-    let whole = |part: &Path| {
-        let mut file = std::fs::File::create(part)?;
-        file.write_all(bytes)?;
-        wait(&file)?;
-        std::fs::rename(part, path)?;
-        Ok(file)
+/// Why a file cannot be written, and what would be right.
+fn cannot_write(path: &Path, error: &std::io::Error) -> StudyError {
+    let expected = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "nothing was written; make room, or choose another place",
+        _ => "expected a writable place",
     };
-    whole(Path::new(&part)).map_err(|error: std::io::Error| {
-        // What matters is the first error; the part may not even exist.
-        drop(std::fs::remove_file(&part));
-        wrong(path, format!("cannot be written ({error}); expected a writable place"))
-    })
+    wrong(path, format!("cannot be written ({error}); {expected}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: &[u8] = b"x,E_lx\n1,2\n";
+    const FORCE: Replace<'static> = Replace::Kind { kind: FileKind::Csv, force: true };
+    const PLAIN: Replace<'static> = Replace::Kind { kind: FileKind::Csv, force: false };
+
+    fn said(result: Result<(), StudyError>) -> String {
+        result.map_or_else(|error| error.to_string(), |()| String::new())
+    }
+
+    #[test]
+    fn an_input_stays_under_whatever_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("a.csv"), TABLE).unwrap();
+        std::fs::hard_link(path("a.csv"), path("hard.csv")).unwrap();
+        assert_eq!(said(write(&path("a.csv"), b"x,y\n", PLAIN)), "");
+        std::fs::write(path("a.csv"), TABLE).unwrap();
+        std::fs::remove_file(path("hard.csv")).unwrap();
+        std::fs::hard_link(path("a.csv"), path("hard.csv")).unwrap();
+        read(&path("a.csv")).unwrap();
+        let around = folder.path().join("b").join("..").join("a.csv");
+        std::fs::create_dir(path("b")).unwrap();
+        for name in [path("a.csv"), path("hard.csv"), around] {
+            assert!(said(write(&name, b"x,y\n", FORCE)).contains("made from"), "{}", name.display());
+        }
+        let asked = [path("a.csv")];
+        assert!(said(write(&path("hard.csv"), b"x,y\n", Replace::But(&asked))).contains("made from"));
+        assert_eq!(std::fs::read(path("a.csv")).unwrap(), TABLE);
+        assert_eq!(said(write(&path("a.csv"), b"x,y\n", Replace::But(&[]))), "");
+    }
+
+    #[test]
+    fn another_kind_needs_force_and_nothing_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("notes");
+        std::fs::write(&path, "[site]\nlatitude = 48.0\n").unwrap();
+        let told = said(write(&path, TABLE, PLAIN));
+        assert!(told.contains("not a CSV table") && told.contains("--force"), "{told}");
+        assert_eq!(said(write(&path, TABLE, FORCE)), "");
+        assert_eq!(said(write(&path, b"x,y\n3,4\n", PLAIN)), "", "a table takes the place of a table");
+        std::fs::write(&path, "").unwrap();
+        assert_eq!(said(write(&path, TABLE, PLAIN)), "");
+    }
+
+    #[test]
+    fn all_files_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("there.csv"), TABLE).unwrap();
+        std::fs::create_dir(path("folder")).unwrap();
+        let (new, there, wrong) = (path("new.csv"), path("there.csv"), path("folder"));
+        let output = |path| Output { path, bytes: b"x,y\n", replace: PLAIN };
+        let told = said(write_all(&[output(&new), output(&there), output(&wrong)]));
+        assert!(told.contains("it is a folder"), "{told}");
+        assert_eq!(std::fs::read(&there).unwrap(), TABLE);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "neither a new file nor a part");
+        let told = said(write(&path("no/such.csv"), TABLE, PLAIN));
+        assert!(told.contains("its folder"), "{told}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_rights_stay_rights() {
+        use std::os::unix::fs::{PermissionsExt as _, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("a.csv"), TABLE).unwrap();
+        std::fs::set_permissions(path("a.csv"), std::fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(path("a.csv"), path("link.csv")).unwrap();
+        assert_eq!(said(write(&path("link.csv"), b"x,y\n", PLAIN)), "");
+        assert!(path("link.csv").is_symlink());
+        assert_eq!(std::fs::read(path("a.csv")).unwrap(), b"x,y\n");
+        assert_eq!(std::fs::metadata(path("a.csv")).unwrap().permissions().mode() & 0o777, 0o600);
+        std::fs::set_permissions(path("a.csv"), std::fs::Permissions::from_mode(0o400)).unwrap();
+        assert!(said(write(&path("a.csv"), TABLE, PLAIN)).contains("write-protected"));
+        assert_eq!(said(write(Path::new("/dev/null"), TABLE, PLAIN)), "");
+        assert!(!Path::new("/dev/null").is_file(), "a device stays one");
+    }
 }

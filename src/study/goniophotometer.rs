@@ -18,6 +18,7 @@ use crate::compute::system::panes::coated::Layer as Pane;
 use crate::compute::system::stack::{DataLayer, Stack};
 use crate::compute::system::stack::{Layer, LayerSource};
 use crate::formats::dataset_blob;
+use crate::formats::encoding::utf8;
 use crate::formats::system_toml::{self, EACH_STATE, MOST_NESTED, SystemFile, is_system_file};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -118,7 +119,8 @@ impl Described {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
         let base = Base::Folder(path.parent().unwrap_or(Path::new(".")).to_owned());
-        Self::from_text(&String::from_utf8_lossy(&bytes), base).map_err(|e| error(e.to_string()))
+        let text = utf8(&bytes).map_err(|e| error(e.to_string()))?;
+        Self::from_text(text, base).map_err(|e| error(e.to_string()))
     }
 
     /// A built-in one by the name of its file.
@@ -292,7 +294,7 @@ impl Described {
         dataset.described = self.described(state, library);
         if let Some(path) = &kept {
             // A state that cannot be kept is computed again next time: nothing is lost.
-            drop(std::fs::write(path, dataset_blob::encode(&dataset)));
+            drop(files::write_at_once(path, &dataset_blob::encode(&dataset)));
         }
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
     }

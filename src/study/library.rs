@@ -66,7 +66,7 @@ impl Library {
         let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(()) };
         let product = self.in_catalogue(|catalogue| catalogue.product(product))?;
         let dataset = builtin::compute(&product, &state, self, &Silent)?;
-        self.in_catalogue(|catalogue| catalogue.put_state(&product, &dataset))
+        self.in_catalogue(|catalogue| catalogue.keep_state(&product, &dataset))
     }
 }
 

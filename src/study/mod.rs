@@ -7,6 +7,7 @@ pub mod accuracy_plot;
 pub mod builtin;
 pub mod by_description;
 mod cache;
+pub mod clock;
 pub mod coefficients;
 pub mod compact;
 pub mod comparison;
@@ -17,8 +18,10 @@ pub mod example;
 pub mod facing;
 pub mod files;
 pub mod goniophotometer;
+pub mod health;
 pub mod incidence;
 pub mod incoming;
+pub mod inputs;
 pub mod intake;
 pub mod leaving_out;
 pub mod library;
@@ -31,6 +34,7 @@ pub mod luminaires;
 pub mod moment;
 pub mod near_field;
 pub mod outside;
+mod part;
 pub mod places;
 pub mod plan;
 pub mod product_control;
@@ -55,13 +59,15 @@ pub use scene_file::SceneFile;
 pub use session::{LidResult, OutsideSeen, PatchLight, RoomResult, SensorResult, Session, SurfaceLight};
 pub use system::{System, SystemLibrary};
 
+use crate::formats::encoding::utf8;
 use std::path::Path;
 
 /// Reads a scene file. The error names the file.
 pub fn read_scene_file(path: &Path) -> Result<SceneFile, StudyError> {
     let error = |message: String| StudyError::File { path: path.to_owned(), message };
-    let text = std::fs::read_to_string(path).map_err(|e| error(format!("cannot be read: {e}")))?;
-    SceneFile::parse(&text).map_err(|e| error(e.to_string()))
+    let bytes = files::read(path)?;
+    let text = utf8(&bytes).map_err(|e| error(e.to_string()))?;
+    SceneFile::parse(text).map_err(|e| error(e.to_string()))
 }
 
 /// Reads and resolves a scene file. The error names the file.

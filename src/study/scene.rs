@@ -6,6 +6,7 @@ use super::error::StudyError;
 use super::luminaires;
 use super::near_field::near_field;
 use super::outside::{behind_boxes, boxes};
+use super::scene_file::units::unit_of;
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
     SurfaceKey, SystemKeys,
@@ -26,6 +27,7 @@ use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
 use crate::formats::system_toml::is_system_file;
+use crate::formats::toml_place::{TomlPlace, place};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -113,12 +115,9 @@ impl SceneFile {
     /// Reads the TOML text of a scene.
     pub fn parse(text: &str) -> Result<Self, StudyError> {
         toml::from_str(text).map_err(|error| {
-            let before = &text[..error.span().map_or(0, |span| span.start.min(text.len()))];
-            StudyError::Syntax {
-                line: before.matches('\n').count() + 1,
-                column: before.chars().rev().take_while(|c| *c != '\n').count() + 1,
-                message: error.message().replace('\n', "; "),
-            }
+            let TomlPlace { line, column, key, message } = place(text, &error, 1, unit_of);
+            let message = if key.is_empty() { message } else { format!("{key}: {message}") };
+            StudyError::Syntax { line, column, message }
         })
     }
 }

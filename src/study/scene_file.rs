@@ -6,6 +6,7 @@
 mod dst;
 mod outside;
 mod sky;
+pub(super) mod units;
 
 pub use self::dst::DstKey;
 pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};

@@ -7,8 +7,10 @@
 //! What comes from data (names of products, paths) and units are no texts. Names of things are the field's own:
 //! CIE S 017 (ILV) and DIN 5034 for German.
 
+mod plain;
 mod spoken;
 
+pub use plain::{message, one_line, short_numbers, visible};
 pub use spoken::{Language, Speaking, Text, decimal, decimal_sign, fixed, language, speak};
 
 /// Texts of one file: constants, and functions of what they name in braces (anything that [`std::fmt::Display`]s; numbers

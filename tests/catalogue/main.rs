@@ -9,6 +9,7 @@ mod common;
 mod datasets;
 mod described;
 mod families;
+mod health;
 mod history;
 mod keeping;
 mod packages;

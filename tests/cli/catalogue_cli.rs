@@ -1,6 +1,7 @@
 //! `cfs catalogue` as a script would use it, through the library's own entry.
 
 use crate::common::data;
+use cfs::cli::Over;
 use cfs::cli::catalogue::{Action, CatalogueArgs, ExportArgs, Group, ImportArgs, ListArgs, ShowArgs, run};
 use cfs::cli::validate::ValidateArgs;
 use std::path::{Path, PathBuf};
@@ -35,7 +36,11 @@ fn products_go_out_and_in_again() {
     let (file, other) = (folder.path().join("a.sqlite"), folder.path().join("b.sqlite"));
     let package = folder.path().join("x.cfsp");
     let keys = vec!["laser-cut-panel".to_owned(), "venetian-80-72".to_owned()];
-    run(&CatalogueArgs { action: Action::Export(ExportArgs { keys, out: package.clone() }) }, Some(&file)).unwrap();
+    run(
+        &CatalogueArgs { action: Action::Export(ExportArgs { keys, out: package.clone(), over: Over::default() }) },
+        Some(&file),
+    )
+    .unwrap();
     run(&import(std::slice::from_ref(&package)), Some(&other)).unwrap();
     for json in [false, true] {
         // What is there already comes in once.

@@ -317,10 +317,11 @@ fn files_that_are_not_there_or_not_what_they_should_be() {
 #[test]
 fn an_old_result_survives_a_failed_run() {
     let folder = Folder::new();
-    folder.write("a.csv", "kept");
+    let table = "x,E_lx\n1,2\n";
+    folder.write("a.csv", table);
     folder.write("bad.toml", "nonsense = 1");
     refused("bad", &folder.cfs(&["room", "bad.toml", "--out", "a.csv"]), &["nonsense"]);
-    assert_eq!(std::fs::read_to_string(folder.path("a.csv")).unwrap(), "kept");
+    assert_eq!(std::fs::read_to_string(folder.path("a.csv")).unwrap(), table);
 }
 
 #[test]

@@ -15,3 +15,4 @@ mod program;
 mod report_cli;
 #[path = "../scenes/rooms.rs"]
 mod rooms;
+mod safe_cli;

@@ -155,6 +155,33 @@ fn nothing_is_left_unfinished_or_ignored() {
     none(&wrong);
 }
 
+/// What is written past the one place that keeps inputs, or said past the one that keeps terminals: calls with the files
+/// that may make them.
+const ONE_PLACE: [(&str, &[&str]); 5] = [
+    ("fs::write(", &[]),
+    ("File::create(", &[]),
+    ("fs::rename(", &["study/part.rs", "app/autosave.rs"]),
+    ("println!(", &[]),
+    ("eprint!(", &[]),
+];
+
+/// Such calls of one file, outside of its tests.
+fn past_the_one_place(name: &str, text: &str) -> Vec<String> {
+    let own = text.split("#[cfg(test)]").next().unwrap_or(text);
+    let lines = own.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
+    let found = |line: &str| {
+        ONE_PLACE.iter().find(|(call, files)| line.contains(call) && !files.contains(&name)).map(|(call, _)| *call)
+    };
+    lines.filter_map(|(at, line)| Some(format!("src/{name}:{}: {}", at + 1, found(line)?))).collect()
+}
+
+#[test]
+fn files_are_written_and_messages_said_in_one_place() {
+    assert_eq!(past_the_one_place("cli/a.rs", "std::fs::write(path, b)?;\neprintln!(\"x\");\n// fs::write(").len(), 2);
+    assert_eq!(past_the_one_place("study/part.rs", "fs::rename(a, b)\n#[cfg(test)]\nfs::write(a, b)").len(), 0);
+    none(&tree().iter().flat_map(|(name, text)| past_the_one_place(name, text)).collect::<Vec<_>>());
+}
+
 /// Paths that exist on somebody's machine only.
 fn machine_path(text: &str) -> Option<&'static str> {
     // Split, or this file would name them.

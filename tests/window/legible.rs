@@ -18,6 +18,7 @@ use cfs::app::state::{PathUse, Sheet};
 use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
 use cfs::app::tour::TourAct;
+use cfs::formats::encoding::utf8;
 use egui_kittest::Harness;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -236,8 +237,9 @@ fn errors_can_be_read() {
     let told = harness.state().results.room.error.clone().expect("a window wider than its wall");
     assert!(!told.is_empty());
     problems.bench(&mut harness, "a window wider than its wall");
-    let mut failed =
-        crate::driven::harness(services(|| Err(AppError::NotText(7, "a catalogue").about("catalogue.sqlite"))));
+    let mut failed = crate::driven::harness(services(|| {
+        Err(AppError::NotText(utf8(b"text \xfc").unwrap_err(), "a catalogue").about("catalogue.sqlite"))
+    }));
     settle(&mut failed);
     problems.bench(&mut failed, "no catalogue");
     problems.none_left();

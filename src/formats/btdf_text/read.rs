@@ -11,6 +11,7 @@ use super::{FAMILY, MOST_INCIDENCES, MOST_VALUES, SAME_DIRECTION, incidence};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered};
 use crate::compute::direction::{Dir, Facade, Incident};
+use crate::formats::encoding::utf8;
 use crate::formats::location::{FormatError, Location};
 use std::sync::Arc;
 
@@ -90,18 +91,9 @@ pub fn catalogue_fields(bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
 }
 
 fn text(bytes: &[u8]) -> Result<&str, FormatError> {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => Ok(text.strip_prefix('\u{feff}').unwrap_or(text)),
-        Err(error) => {
-            let line = bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count() + 1;
-            let found = if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-                "UTF-16 text"
-            } else {
-                "bytes that are no text"
-            };
-            Err(FormatError::new(Location::line(line), found, "UTF-8 text"))
-        }
-    }
+    utf8(bytes).map_err(|error| {
+        FormatError::new(Location::line(error.line), format!("{} text", error.encoding.name()), "UTF-8 text")
+    })
 }
 
 /// What the file itself holds.

@@ -128,7 +128,7 @@ mod tests {
         let wrong = told(&pane("index = 9.0"));
         assert!(wrong.starts_with("stack.layers[0].system.pane.index: 9; expected 1 to 4"), "{wrong}");
         let wrong = told(&pane("indes = 1.5"));
-        assert!(wrong.starts_with("stack.layers[0].system: unknown field `indes`"), "{wrong}");
+        assert!(wrong.starts_with("stack.layers[0].system.pane: unknown field `indes`"), "{wrong}");
         assert!(told("{ state = \"1\" }").contains("file, catalogue or system"));
         let both = pane("index = 1.5").replacen('{', "{ file = \"a.system.toml\", ", 1);
         assert!(told(&both).contains("not one of file, catalogue and system"));

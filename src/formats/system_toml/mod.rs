@@ -9,6 +9,8 @@ mod layers;
 mod sheets;
 mod transparent;
 
+use super::encoding::utf8;
+use super::toml_place::{TomlPlace, place};
 pub use contained::{described, self_contained, states};
 pub use layers::{EACH_STATE, MOST_NESTED};
 
@@ -54,15 +56,14 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     if bytes.len() > MOST_BYTES {
         return Err(FormatError::new(Location::file(), format!("{} bytes", bytes.len()), "at most 1 MB of TOML"));
     }
-    let text = std::str::from_utf8(bytes)
-        .map_err(|error| FormatError::new(Location::byte(error.valid_up_to()), "bytes that are no UTF-8", "text"))?;
+    let text = utf8(bytes)
+        .map_err(|error| FormatError::new(Location::line(error.line), error.encoding.name(), "text saved as UTF-8"))?;
     let keys: Keys = toml::from_str(text).map_err(|error| {
-        let before = &text[..error.span().map_or(0, |span| span.start.min(text.len()))];
-        let line = before.matches('\n').count() + 1;
-        let message = error.message();
+        let TomlPlace { line, key, message, .. } = place(text, &error, 0, |_| None);
+        let at = if key.is_empty() { Location::line(line) } else { Location::line(line).in_element(key) };
         match message.split_once(", expected ") {
-            Some((found, expected)) => FormatError::new(Location::line(line), found, expected),
-            None => FormatError::new(Location::line(line), message, "the keys of a system file, as TOML"),
+            Some((found, expected)) => FormatError::new(at, found, expected),
+            None => FormatError::new(at, message, "the keys of a system file, as TOML"),
         }
     })?;
     let kind = kind(&keys)?;

@@ -37,8 +37,8 @@ fn wrong_values_are_told_by_their_key() {
         ("reflectance = 0.8", "reflectance = 0.95", "expected at most 1 together"),
         ("-30.0", "30.0", "venetian.angles: 30 twice"),
         ("-30.0", "100.0", "venetian.angles: 100; expected -90 to 90"),
-        ("spacing", "spacings", "line 5: unknown field `spacings`"),
-        ("\"venetian\"", "\"blind\"", "line 2: unknown variant `blind`"),
+        ("spacing", "spacings", "line 5, venetian: unknown field `spacings`"),
+        ("\"venetian\"", "\"blind\"", "line 2, kind: unknown variant `blind`"),
         ("\"venetian\"", "\"pane\"", "venetian: a table of another kind than \"pane\""),
     ] {
         let told = error(&BLIND.replacen(from, to, 1));

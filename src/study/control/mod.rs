@@ -8,6 +8,7 @@ pub mod year;
 pub use device::Device;
 
 use super::error::StudyError;
+use super::files;
 use crate::compute::control::controller::{Controller, Inputs, Period, Rounding, Rule, Settings, SunAt};
 use crate::compute::direction::Dir;
 use crate::compute::lid::Facing;
@@ -206,6 +207,7 @@ pub fn curve(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Vec<[f6
         if length > LARGEST_CURVE {
             return Err(wrong(format!("{length} bytes; curves of up to {LARGEST_CURVE} bytes are read")));
         }
+        files::keep(&path);
         let bytes = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
         return read_control_curve(&bytes).map_err(|error| wrong(error.to_string()));
     }

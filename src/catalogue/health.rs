@@ -1,0 +1,337 @@
+//! A catalogue that doubts itself: is the file what was stored in it, and what of it can be made anew?
+
+use super::builtin::differs;
+use super::open::{APPLICATION, READING, layout_of};
+use super::salvage::{all_come_anew, salvage};
+use super::store::{put_blob, read_product};
+use super::told::said;
+use super::verified::{blob_of, sealed};
+use super::{Catalogue, CatalogueError};
+use crate::formats::dataset_blob::{content_hash, decode};
+use rusqlite::backup::Backup;
+use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Broken pages that are told one by one.
+const MOST_TOLD: usize = 20;
+/// Pages that are put back in one step.
+const PAGES: i32 = 1000;
+
+/// What is damaged.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// The marks by which the file is known for a catalogue of a certain layout.
+    Layout,
+    /// Pages of the file.
+    Pages,
+    /// What a product is, beside its data.
+    Product {
+        /// Its key.
+        key: String,
+        /// Comes with the program.
+        builtin: bool,
+    },
+    /// The data of a state.
+    Data {
+        /// Key of the product.
+        product: String,
+        /// Key of the state.
+        state: String,
+        /// Hash of the data as they were stored.
+        hash: String,
+        /// Comes with the program.
+        builtin: bool,
+    },
+}
+
+/// Something that is not as it was stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damage {
+    /// Where.
+    pub place: Place,
+    /// What, in a sentence.
+    pub message: String,
+}
+
+/// What a look at a catalogue's file found.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Health {
+    /// Products that were looked at.
+    pub products: usize,
+    /// States with data that were looked at.
+    pub datasets: usize,
+    /// What is wrong.
+    pub damages: Vec<Damage>,
+}
+
+impl Health {
+    fn tell(&mut self, place: Place, message: impl Into<String>) {
+        self.damages.push(Damage { place, message: message.into() });
+    }
+}
+
+/// Looks at a file without changing it: its marks, its pages, every product by its seal and every dataset by its hash.
+///
+/// # Errors
+/// No such file, no database, one of another program or of a newer version.
+pub fn check_file(path: &Path) -> Result<Health, CatalogueError> {
+    let located = |cause| CatalogueError::Open { path: path.to_owned(), cause };
+    let db = Connection::open_with_flags(path, READING).map_err(located)?;
+    let health = check(&db, path);
+    health.map_err(|error| match error {
+        CatalogueError::Sql(cause) => located(cause),
+        other => other,
+    })
+}
+
+fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
+    let mut health = Health::default();
+    let found: i64 = db.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    let application: i64 = db.pragma_query_value(None, "application_id", |row| row.get(0))?;
+    let shown = || path.display().to_string();
+    // Pages first: where they are broken, the layout may be unreadable.
+    let pages = broken_pages(db)?;
+    match layout_of(db) {
+        Ok(Some(layout)) if layout != found || application != APPLICATION => {
+            let message =
+                format!("the layout is named {found} and is {layout}, or the file is not marked as a catalogue");
+            health.tell(Place::Layout, message);
+        }
+        Ok(Some(_)) => {}
+        // Another version's, or nobody's.
+        Ok(None) if application == APPLICATION && found > 0 => {
+            let known = super::open::known_layout();
+            if found > known {
+                return Err(CatalogueError::Newer { path: shown(), found, known });
+            }
+            if pages.is_empty() {
+                health.tell(Place::Pages, "the tables are not those of a catalogue");
+            }
+        }
+        Ok(None) if pages.is_empty() => return Err(CatalogueError::NotACatalogue(shown())),
+        Ok(None) | Err(_) => {}
+    }
+    let broken = !pages.is_empty();
+    for page in pages {
+        health.tell(Place::Pages, page);
+    }
+    match products(db, &mut health) {
+        // Told already.
+        Err(CatalogueError::Sql(_)) if broken || !health.damages.is_empty() => {}
+        other => other?,
+    }
+    Ok(health)
+}
+
+fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
+    let mut told = Vec::new();
+    for pragma in [format!("PRAGMA integrity_check({MOST_TOLD})"), "PRAGMA foreign_key_check".to_owned()] {
+        let keys = pragma.contains("foreign");
+        let mut ask = match db.prepare(&pragma) {
+            Ok(ask) => ask,
+            // Not even the list of tables can be read.
+            Err(error) if error.sqlite_error_code() == Some(ErrorCode::DatabaseCorrupt) => {
+                told.push(said(&error));
+                break;
+            }
+            Err(error) => return Err(error.into()),
+        };
+        let mut rows = ask.query([])?;
+        loop {
+            match rows.next() {
+                Ok(None) => break,
+                Ok(Some(row)) => {
+                    let said: String = row.get(0)?;
+                    if keys {
+                        told.push(format!("table {said} names something that is not there"));
+                    } else if said != "ok" {
+                        told.push(said.replace('\n', "; "));
+                    }
+                }
+                // So broken that it cannot even be looked through.
+                Err(error) => {
+                    told.push(said(&error));
+                    break;
+                }
+            }
+        }
+    }
+    told.dedup();
+    told.truncate(MOST_TOLD);
+    Ok(told)
+}
+
+/// Looks at every product with its data.
+fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> {
+    let mut ask = db.prepare("SELECT key, builtin FROM product ORDER BY rank, key")?;
+    let keys: Vec<(String, bool)> =
+        ask.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?;
+    for (key, builtin) in keys {
+        health.products += 1;
+        let place = || Place::Product { key: key.clone(), builtin };
+        let product = match read_product(db, &key).and_then(|product| sealed(db, product)) {
+            Ok(product) => product,
+            Err(CatalogueError::Damaged(how)) => {
+                health.tell(place(), how);
+                continue;
+            }
+            Err(CatalogueError::Sql(error)) => {
+                health.tell(place(), format!("product \"{key}\" cannot be read: {}", said(&error)));
+                continue;
+            }
+            Err(other) => return Err(other),
+        };
+        if builtin && differs(&product) {
+            health.tell(place(), format!("product \"{key}\" is not what the program brings"));
+        }
+        for state in &product.states {
+            let Some(hash) = &state.dataset else { continue };
+            health.datasets += 1;
+            let wrong = match blob_of(db, hash) {
+                Ok(blob) => decode(&blob).err().map(|error| error.to_string()),
+                Err(CatalogueError::Damaged(how)) => Some(how),
+                Err(CatalogueError::Sql(error)) => Some(said(&error)),
+                Err(other) => return Err(other),
+            };
+            if let Some(how) = wrong {
+                let named = if state.key.is_empty() { String::new() } else { format!(", state \"{}\"", state.key) };
+                let (product, state, hash) = (key.clone(), state.key.clone(), hash.clone());
+                let message = format!("data of \"{key}\"{named}: {how}");
+                health.tell(Place::Data { product, state, hash, builtin }, message);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Copies a file, with the changes that wait beside it, to a name that is free; that name.
+///
+/// # Errors
+/// Of the system.
+pub fn copy_aside(path: &Path) -> std::io::Result<PathBuf> {
+    let with = |path: &Path, ending: &str| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(ending);
+        PathBuf::from(name)
+    };
+    let mut copy = with(path, ".damaged");
+    for number in 2.. {
+        if !copy.exists() {
+            break;
+        }
+        copy = with(path, &format!(".damaged-{number}"));
+    }
+    std::fs::copy(path, &copy)?;
+    if with(path, "-wal").exists() {
+        std::fs::copy(with(path, "-wal"), with(&copy, "-wal"))?;
+    }
+    Ok(copy)
+}
+
+/// Mends what the file itself and the program know: marks, indices, broken pages as far as their rows can be read, built-in
+/// products and their data, which are computed when they are asked for next. What was lost, in sentences.
+///
+/// # Errors
+/// As [`check_file`]; what cannot be written.
+pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, CatalogueError> {
+    let located = |cause| CatalogueError::Open { path: path.to_owned(), cause };
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let mut db = Connection::open_with_flags(path, flags).map_err(located)?;
+    db.busy_timeout(Duration::from_secs(10))?;
+    let mut lost = Vec::new();
+    let holds = |health: &Health, place: &Place| health.damages.iter().any(|damage| damage.place == *place);
+    if holds(health, &Place::Pages) {
+        // An index is made of its table.
+        let mended = db.execute_batch("REINDEX").is_ok()
+            && broken_pages(&db).is_ok_and(|pages| pages.is_empty())
+            && layout_of(&db)?.is_some();
+        if !mended {
+            let saved = salvage(&db)?;
+            lost = saved.lost;
+            Backup::new(&saved.db, &mut db)?.run_to_completion(PAGES, Duration::ZERO, None)?;
+        }
+    } else if holds(health, &Place::Layout)
+        && let Some(layout) = layout_of(&db)?
+    {
+        db.pragma_update(None, "user_version", layout)?;
+        db.pragma_update(None, "application_id", APPLICATION)?;
+    }
+    // Pages that are whole again may hold less than was told of them.
+    let rest = check(&db, path)?;
+    db.pragma_update(None, "foreign_keys", true)?;
+    let tx = db.transaction()?;
+    for damage in &rest.damages {
+        match &damage.place {
+            Place::Product { key, builtin: true } => come_anew(&tx, key)?,
+            // Without a description its data are not computed: they come with the product.
+            Place::Data { product, builtin: true, .. } if !is_described(&tx, product)? => come_anew(&tx, product)?,
+            Place::Data { hash, builtin: true, .. } => {
+                // Found in the data, and found in them again.
+                tx.execute(
+                    "DELETE FROM finding WHERE EXISTS (SELECT 1 FROM state s JOIN product p ON p.id = s.product
+                       WHERE s.dataset = ?1 AND p.builtin = 1
+                         AND s.product = finding.product AND s.position = finding.state)",
+                    [hash],
+                )?;
+                tx.execute(
+                    "UPDATE state SET dataset = NULL WHERE dataset = ?1
+                       AND product IN (SELECT id FROM product WHERE builtin = 1)",
+                    [hash],
+                )?;
+                // The user's own products may hold the same data.
+                tx.execute(
+                    "DELETE FROM dataset WHERE hash = ?1 AND NOT EXISTS (SELECT 1 FROM state WHERE dataset = ?1)",
+                    [hash],
+                )?;
+            }
+            _ => {}
+        }
+    }
+    tx.commit()?;
+    drop(db);
+    // Brings what is missing of the built-in products.
+    drop(Catalogue::open(path)?);
+    Ok(lost)
+}
+
+fn is_described(db: &Connection, key: &str) -> Result<bool, CatalogueError> {
+    Ok(db.query_row("SELECT system <> '' FROM product WHERE key = ?", [key], |row| row.get(0))?)
+}
+
+/// Takes a built-in product out, so that it comes again when the file is opened.
+fn come_anew(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
+    if !is_described(tx, key)? {
+        // Those without a description come with all others.
+        all_come_anew(tx)?;
+    }
+    tx.execute("DELETE FROM product WHERE key = ? AND builtin = 1", [key])?;
+    Ok(())
+}
+
+impl Catalogue {
+    /// Puts the bytes of a dataset back that a state names and that are damaged or gone. False: they are not the bytes that
+    /// were stored, or no state names them.
+    ///
+    /// # Errors
+    /// Of SQLite.
+    pub fn put_bytes(&mut self, hash: &str, blob: &[u8]) -> Result<bool, CatalogueError> {
+        if content_hash(blob) != hash {
+            return Ok(false);
+        }
+        let tx = self.change()?;
+        let named: bool =
+            tx.query_row("SELECT EXISTS (SELECT 1 FROM state WHERE dataset = ?)", [hash], |row| row.get(0))?;
+        if named {
+            put_blob(&tx, hash, blob)?;
+            tx.commit()?;
+        }
+        Ok(named)
+    }
+
+    /// The hash under which a dataset is stored, and its bytes.
+    pub fn bytes_of(dataset: &crate::compute::btdf::Dataset) -> (String, Vec<u8>) {
+        let blob = crate::formats::dataset_blob::encode(dataset);
+        (content_hash(&blob), blob)
+    }
+}

@@ -1,0 +1,98 @@
+//! `cfs catalogue check`: is the catalogue what was stored in it?
+
+use super::output::{print, print_text};
+use crate::catalogue::{Damage, Health, Place, check_file, default_path};
+use crate::study::health::{Mended, mend};
+use crate::texts::one_line;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Arguments of `cfs catalogue check`.
+#[derive(Debug, clap::Args)]
+pub struct CheckArgs {
+    /// Mend what can be made anew: marks, indices, broken pages as far as they can be read, built-in products, data whose
+    /// files are still there. The catalogue as it was is kept beside it.
+    #[arg(long)]
+    pub repair: bool,
+    /// A JSON object instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A catalogue with damages; the program ends with status 1, unlike for one that it cannot read.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {count} damages{}", if *.repair { "; `cfs catalogue check --repair` mends what can be made anew" } else { " that cannot be mended" })]
+pub struct Damaged {
+    path: String,
+    count: usize,
+    repair: bool,
+}
+
+/// Looks at the file, mends where asked, and tells.
+///
+/// # Errors
+/// A file that cannot be read; [`Damaged`] for one with damages that stay.
+pub(super) fn check(catalogue: Option<&Path>, args: &CheckArgs) -> anyhow::Result<()> {
+    let path = catalogue.map_or_else(default_path, |path| Ok(path.to_owned()))?;
+    let health = check_file(&path)?;
+    let mended = if args.repair && !health.damages.is_empty() { Some(mend(&path, &health)?) } else { None };
+    if args.json {
+        print(&(serde_json::to_string_pretty(&as_json(&health, mended.as_ref()))? + "\n"))?;
+    } else {
+        print_text(&as_text(&path, &health, mended.as_ref())?)?;
+    }
+    let left = mended.as_ref().map_or(health.damages.len(), |mended| mended.lost.len());
+    if left > 0 {
+        return Err(Damaged { path: path.display().to_string(), count: left, repair: mended.is_none() }.into());
+    }
+    Ok(())
+}
+
+/// What becomes of a damage.
+const fn outlook(damage: &Damage) -> &'static str {
+    match &damage.place {
+        Place::Layout => "can be mended",
+        Place::Pages => "rows that can be read can be saved",
+        Place::Product { builtin: true, .. } => "comes with the program anew",
+        Place::Product { builtin: false, .. } => "cannot be made anew: import it again",
+        Place::Data { builtin: true, .. } => "is computed anew when it is asked for",
+        Place::Data { builtin: false, .. } => "can be mended while the file that it was read from is there, unchanged",
+    }
+}
+
+fn as_text(path: &Path, health: &Health, mended: Option<&Mended>) -> Result<String, std::fmt::Error> {
+    let mut text = String::new();
+    let whole = if health.damages.is_empty() { ": whole" } else { "" };
+    writeln!(text, "{}: {} products, {} datasets{whole}", path.display(), health.products, health.datasets)?;
+    match mended {
+        None => {
+            for damage in &health.damages {
+                writeln!(text, "  {} ({})", one_line(&damage.message), outlook(damage))?;
+            }
+        }
+        Some(mended) => {
+            writeln!(text, "  as it was: {}", mended.copy.display())?;
+            mended.mended.iter().try_for_each(|message| writeln!(text, "  mended: {message}"))?;
+            mended.lost.iter().try_for_each(|message| writeln!(text, "  lost: {message}"))?;
+            writeln!(text, "  now: {} products, {} datasets", mended.after.products, mended.after.datasets)?;
+        }
+    }
+    Ok(text)
+}
+
+fn as_json(health: &Health, mended: Option<&Mended>) -> Value {
+    let damages = health.damages.iter().map(|damage| {
+        let (product, state) = match &damage.place {
+            Place::Data { product, state, .. } => (Some(product), Some(state)),
+            Place::Product { key, .. } => (Some(key), None),
+            Place::Layout | Place::Pages => (None, None),
+        };
+        json!({"product": product, "state": state, "message": damage.message, "outlook": outlook(damage)})
+    });
+    json!({
+        "products": health.products, "datasets": health.datasets, "damages": damages.collect::<Vec<_>>(),
+        "copy": mended.map(|mended| mended.copy.to_string_lossy()),
+        "mended": mended.map(|mended| &mended.mended), "lost": mended.map(|mended| &mended.lost),
+    })
+}

@@ -1,0 +1,141 @@
+//! What kind of file bytes are, of those that the program writes: so that a table never takes the place of a scene.
+
+use super::{Format, dataset_blob, eulumdat, package};
+
+/// A kind of file that the program writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// Values between commas, under a line that names them.
+    Csv,
+    /// Results for programs.
+    Json,
+    /// Figures side by side, for reading.
+    Comparison,
+    /// A drawing.
+    Svg,
+    /// A drawing in pixels.
+    Png,
+    /// A report.
+    Pdf,
+    /// EULUMDAT luminaire file.
+    Eulumdat,
+    /// IES luminaire file.
+    Ies,
+    /// Dataset in one of the exchange formats.
+    Dataset(Format),
+    /// Dataset in compact form (.cfsd).
+    Compact,
+    /// Package of products (.cfsp).
+    Package,
+}
+
+/// So much of a file shows its kind, where it need not be read whole. \[bytes\]
+pub const HEAD: u64 = 1 << 20;
+
+impl FileKind {
+    /// In words, with its article.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Csv => "a CSV table",
+            Self::Json => "JSON",
+            Self::Comparison => "a table of figures",
+            Self::Svg => "an SVG picture",
+            Self::Png => "a PNG picture",
+            Self::Pdf => "a PDF document",
+            Self::Eulumdat => "an EULUMDAT file",
+            Self::Ies => "an IES file",
+            Self::Dataset(Format::BsdfXml) => "BSDF XML",
+            Self::Dataset(Format::BtdfText) => "BTDF text",
+            Self::Compact => "a compact dataset (.cfsd)",
+            Self::Package => "a package (.cfsp)",
+        }
+    }
+
+    /// May bytes be a file of this kind, judged by the first [`HEAD`] of them?
+    pub fn may_be(self, head: &[u8]) -> bool {
+        let holds = |word: &str| head.windows(word.len()).any(|window| window == word.as_bytes());
+        match self {
+            Self::Png => head.starts_with(b"\x89PNG"),
+            Self::Pdf => head.starts_with(b"%PDF-"),
+            Self::Compact => head.starts_with(dataset_blob::MAGIC),
+            // Other archives have other entries.
+            Self::Package => head.starts_with(package::MAGIC) && (holds("manifest.json") || holds("datasets/")),
+            Self::Dataset(format) => Format::sniff("", head) == Some(format),
+            Self::Ies => head.trim_ascii_start().starts_with(b"IES"),
+            Self::Eulumdat => eulumdat::read(head).is_ok(),
+            Self::Svg => text(head).is_some_and(|text| text.contains("<svg")),
+            Self::Json => text(head).is_some_and(is_json),
+            Self::Csv => text(head).is_some_and(|text| !is_json(text) && is_csv(text)),
+            Self::Comparison => text(head).is_some_and(|text| text.lines().any(|line| line.starts_with("figure "))),
+        }
+    }
+}
+
+/// Text in UTF-8; a character that is cut at the end does not count.
+fn text(head: &[u8]) -> Option<&str> {
+    let head = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head);
+    let text = match std::str::from_utf8(head) {
+        Ok(text) => text,
+        Err(error) if error.error_len().is_none() => std::str::from_utf8(&head[..error.valid_up_to()]).ok()?,
+        Err(_) => return None,
+    };
+    (!text.contains('\0')).then_some(text)
+}
+
+fn is_json(text: &str) -> bool {
+    let Some(rest) = text.trim_start().strip_prefix(['{', '[']) else { return false };
+    // A table of TOML is a word in brackets.
+    rest.trim_start().starts_with(['"', '{', '}', ']'])
+}
+
+/// Lines of as many fields as the first one names, of which there are several.
+fn is_csv(text: &str) -> bool {
+    // The last line may be cut.
+    let whole = text.rfind('\n').map_or(text, |end| &text[..end]);
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(whole.as_bytes());
+    let mut records = reader.records();
+    let named = |record: &csv::StringRecord| {
+        record.len() > 1
+            && record.iter().all(|name| !name.contains('='))
+            && record.iter().any(|name| name.contains(char::is_alphabetic))
+    };
+    records.next().is_some_and(|first| first.is_ok_and(|first| named(&first)))
+        && records.take(100).all(|one| one.is_ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = "# office\n[site]\nlatitude = 48.0\n\n[[aperture]]\nsize = [1.0, 2.0]\n";
+    const TABLE: &str = "x,y,\"E, lx\"\n1,2,3\n4,5,6\n";
+
+    #[test]
+    fn what_takes_the_place_of_what() {
+        let files: [(FileKind, &[u8]); 8] = [
+            (FileKind::Csv, TABLE.as_bytes()),
+            (FileKind::Json, b"{\"a\": [1, 2]}\n"),
+            (FileKind::Svg, b"<?xml version=\"1.0\"?>\n<svg xmlns=\"\"></svg>"),
+            (FileKind::Png, b"\x89PNG\r\n\x1a\n"),
+            (FileKind::Pdf, b"%PDF-1.7\n"),
+            (FileKind::Ies, b"IESNA:LM-63-2002\n"),
+            (FileKind::Dataset(Format::BsdfXml), b"<?xml version=\"1.0\"?>\n<WindowElement></WindowElement>"),
+            (FileKind::Compact, b"CFSD...."),
+        ];
+        for (kind, _) in &files {
+            let taken: Vec<FileKind> =
+                files.iter().filter(|(_, bytes)| kind.may_be(bytes)).map(|(one, _)| *one).collect();
+            assert_eq!(taken, [*kind]);
+            assert!(!kind.may_be(SCENE.as_bytes()), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn a_cut_table_is_one_and_prose_is_none() {
+        assert!(FileKind::Csv.may_be(&TABLE.as_bytes()[..TABLE.len() - 3]));
+        assert!(!FileKind::Csv.may_be(b"Dear colleague,\nhere are, as asked, the numbers.\n"));
+        assert!(!FileKind::Csv.may_be(b"a = 1,2\n"));
+        assert!(!FileKind::Csv.may_be(b""));
+        assert!(!FileKind::Package.may_be(b"PK\x03\x04 another archive"));
+    }
+}

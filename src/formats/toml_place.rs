@@ -1,0 +1,176 @@
+//! What is wrong in a TOML file, by the name of the key.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A place in TOML text and what is wrong there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TomlPlace {
+    /// From 1.
+    pub line: usize,
+    /// In characters, from 1.
+    pub column: usize,
+    /// Full name of the key, e.g. `aperture[1].size`; empty where the text is no TOML.
+    pub key: String,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+/// Where an error lies. `first`: number of the first in a list, as messages about such files count; `unit`: of the number
+/// under a key.
+pub fn place(
+    text: &str,
+    error: &toml::de::Error,
+    first: usize,
+    unit: impl Fn(&str) -> Option<&'static str>,
+) -> TomlPlace {
+    let at = error.span().map_or(0, |span| span.start.min(text.len()));
+    let before = text.get(..at).unwrap_or_default();
+    let mut key = String::new();
+    if let (Some(span), Ok(root)) = (error.span(), DeTable::parse(text)) {
+        within(root.get_ref(), &span, first, &mut key);
+    }
+    // What is not known has no place of its own: it is named where it was expected.
+    if error.message().starts_with("unknown field") {
+        key.truncate(key.rfind('.').unwrap_or(0));
+    }
+    TomlPlace {
+        line: before.matches('\n').count() + 1,
+        column: before.chars().rev().take_while(|c| *c != '\n').count() + 1,
+        message: said(error.message(), unit(&plain(&key))),
+        key,
+    }
+}
+
+/// A key without the places in its lists.
+fn plain(key: &str) -> String {
+    let mut depth = 0_usize;
+    let mut name = String::new();
+    for c in key.chars() {
+        match c {
+            '[' => depth += 1,
+            ']' => depth = depth.saturating_sub(1),
+            c if depth == 0 => name.push(c),
+            _ => {}
+        }
+    }
+    name
+}
+
+/// Serde's words as the field says them.
+fn said(message: &str, unit: Option<&str>) -> String {
+    let number = unit.map_or_else(|| "a number".to_owned(), |unit| format!("a number in {unit}"));
+    let mut said = message.replace('\n', "; ");
+    for (word, meant) in [
+        ("expected f64", format!("expected {number}")),
+        ("expected usize", "expected a whole number".to_owned()),
+        ("expected u32", "expected a whole number".to_owned()),
+        ("expected u64", "expected a whole number".to_owned()),
+        ("expected i64", "expected a whole number".to_owned()),
+        ("expected a string", "expected text in quotes".to_owned()),
+        ("expected a boolean", "expected true or false".to_owned()),
+        ("expected a sequence", "expected a list in brackets".to_owned()),
+    ] {
+        said = said.replace(word, &meant);
+    }
+    if let Some(at) = said.find("data did not match any variant of untagged enum") {
+        said.replace_range(at.., "a value of none of the forms that this key takes");
+    }
+    match (said.starts_with("invalid length"), unit) {
+        (true, Some(unit)) => format!("{said}, in {unit}"),
+        _ => said,
+    }
+}
+
+/// Follows a span to the innermost value that holds it.
+fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, first: usize, key: &mut String) {
+    for (name, value) in table {
+        if value.span().start <= span.start && span.end <= value.span().end || name.span() == *span {
+            if !key.is_empty() {
+                key.push('.');
+            }
+            key.push_str(name.get_ref());
+            return inside(value, span, first, key);
+        }
+    }
+    // A table that is written in several places: its span is that of its name.
+    for (name, value) in table {
+        let mut deeper = key.clone();
+        if !deeper.is_empty() {
+            deeper.push('.');
+        }
+        deeper.push_str(name.get_ref());
+        let length = deeper.len();
+        inside(value, span, first, &mut deeper);
+        if deeper.len() > length {
+            *key = deeper;
+            return;
+        }
+    }
+}
+
+fn inside(value: &Spanned<DeValue<'_>>, span: &std::ops::Range<usize>, first: usize, key: &mut String) {
+    match value.get_ref() {
+        DeValue::Table(table) => within(table, span, first, key),
+        DeValue::Array(list) => {
+            for (place, one) in list.iter().enumerate() {
+                let mut deeper = format!("{key}[{}]", place + first);
+                let length = deeper.len();
+                let holds = one.span().start <= span.start && span.end <= one.span().end;
+                inside(one, span, first, &mut deeper);
+                if holds || deeper.len() > length {
+                    *key = deeper;
+                    return;
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code, reason = "read by serde")]
+    struct File {
+        room: Room,
+        #[serde(default)]
+        aperture: Vec<Aperture>,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code, reason = "read by serde")]
+    struct Room {
+        width: f64,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[allow(dead_code, reason = "read by serde")]
+    struct Aperture {
+        size: [f64; 2],
+    }
+
+    fn wrong(text: &str) -> (usize, String, String) {
+        let error = toml::from_str::<File>(text).unwrap_err();
+        let place = place(text, &error, 1, |key| (key == "room.width" || key == "aperture.size").then_some("m"));
+        (place.line, place.key, place.message)
+    }
+
+    #[test]
+    fn keys_and_units_are_named() {
+        let (line, key, message) = wrong("[room]\nwidth = \"4 m\"\n");
+        assert_eq!((line, &*key), (2, "room.width"));
+        assert!(message.contains("string \"4 m\"") && message.ends_with("expected a number in m"), "{message}");
+        let (line, key, message) =
+            wrong("[room]\nwidth = 4\n[[aperture]]\nsize = [1, 2]\n[[aperture]]\nsize = [1, true]\n");
+        assert_eq!((line, &*key), (6, "aperture[2].size[2]"));
+        assert!(message.contains("in m"), "{message}");
+        let (_, key, _) = wrong("[room]\nwidth = 4\nwidht = 3\n");
+        assert_eq!(key, "room");
+        assert_eq!(wrong("[room\n").1, "");
+    }
+}

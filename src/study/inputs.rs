@@ -1,0 +1,65 @@
+//! The files that a scene names, with those that they name: what its results are made from.
+
+use super::luminaires::{self, INDEX};
+use super::scene_file::SceneFile;
+use crate::formats::system_toml::{MOST_NESTED, is_system_file};
+use std::path::{Path, PathBuf};
+
+/// Files that a scene names, whatever the key, as far as they are there; `base`: what its relative paths start from.
+pub fn inputs_of(scene: &SceneFile, base: &Path) -> Vec<PathBuf> {
+    let mut list = Vec::new();
+    // What cannot be written as TOML came from nowhere.
+    if let Ok(value) = toml::Value::try_from(scene) {
+        named_in(&value, base, 0, &mut list);
+    }
+    list
+}
+
+fn named_in(value: &toml::Value, base: &Path, depth: usize, list: &mut Vec<PathBuf>) {
+    match value {
+        toml::Value::String(word) if !word.is_empty() => {
+            let path = base.join(word);
+            if !path.is_file() || list.contains(&path) {
+                return;
+            }
+            list.push(path.clone());
+            if word.to_lowercase().ends_with(INDEX) {
+                let files = luminaires::read_rows(&path).unwrap_or_default();
+                list.extend(files.iter().map(|row| path.with_file_name(&row.file)));
+            }
+            // Layers of a stack are files beside it.
+            if is_system_file(word)
+                && depth < MOST_NESTED
+                && let Ok(text) = std::fs::read_to_string(&path)
+                && let Ok(table) = text.parse::<toml::Table>()
+            {
+                let folder = path.parent().unwrap_or(base).to_owned();
+                named_in(&toml::Value::Table(table), &folder, depth + 1, list);
+            }
+        }
+        toml::Value::Array(values) => values.iter().for_each(|value| named_in(value, base, depth, list)),
+        toml::Value::Table(table) => table.values().for_each(|value| named_in(value, base, depth, list)),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_files_are_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::create_dir(path("data")).unwrap();
+        std::fs::write(path("data/a.system.toml"), "[[layer]]\nfile = \"pane.xml\"\n").unwrap();
+        std::fs::write(path("data/pane.xml"), "<x/>").unwrap();
+        std::fs::write(path("sky.csv"), "").unwrap();
+        let mut scene = crate::study::example::scene_of("opal-light", None);
+        scene.aperture[0].system =
+            super::super::scene_file::SystemKeys::File { path: "data/a.system.toml".into(), state: None };
+        let mut found = inputs_of(&scene, folder.path());
+        found.sort();
+        assert_eq!(found, [path("data/a.system.toml"), path("data/pane.xml")]);
+    }
+}

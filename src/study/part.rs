@@ -1,0 +1,177 @@
+//! A file that is being written, beside the one whose place it will take.
+//!
+//! It is locked as long as its program lives; the system takes the lock away however the program ends. What is left without
+//! one belongs to nobody, and goes when something is written into the same folder.
+
+use std::collections::BTreeSet;
+use std::fs::{File, TryLockError};
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// How the name of a part ends, behind a number of this many hexadecimal digits that no other has.
+const ENDING: &str = ".part";
+const DIGITS: usize = 16;
+/// Longer names have no room for the number: systems take 255 bytes.
+const LONGEST_NAME: usize = 200;
+/// Where files cannot be locked, parts that were not written to for so long belong to nobody.
+const OLD: Duration = Duration::from_secs(3600);
+/// New names are tried so often when somebody else took a part away between its making and its locking.
+const TRIES: usize = 8;
+
+/// Folders that have been swept by this program.
+static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// The file that a name stands for: of a link what it leads to.
+pub(super) fn resolved(path: &Path) -> PathBuf {
+    let link = std::fs::symlink_metadata(path).is_ok_and(|meta| meta.is_symlink());
+    let led = link.then(|| std::fs::canonicalize(path).ok()).flatten();
+    led.unwrap_or_else(|| path.to_owned())
+}
+
+/// A file that is being written. Dropped before it has taken its name, it goes.
+pub(super) struct Part {
+    /// None while it rests, and when it has taken its name.
+    file: Option<File>,
+    path: PathBuf,
+    target: PathBuf,
+    named: bool,
+}
+
+impl Part {
+    /// Begins a file that will be `target`, with the rights of what is there.
+    pub(super) fn beside(target: &Path) -> std::io::Result<Self> {
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        sweep(folder);
+        let name = target.file_name().unwrap_or_default();
+        for _ in 0..TRIES {
+            let number = RandomState::new().build_hasher().finish();
+            let mut own = if name.len() > LONGEST_NAME { "cfs".into() } else { name.to_owned() };
+            own.push(format!(".{number:0DIGITS$x}{ENDING}"));
+            let path = folder.join(own);
+            let file = File::options().write(true).create_new(true).open(&path)?;
+            let part = Self { file: Some(file), path, target: target.to_owned(), named: false };
+            match part.file().try_lock() {
+                // Between its making and its locking it belonged to nobody.
+                Ok(()) if !part.path.exists() => continue,
+                Err(TryLockError::WouldBlock) => continue,
+                // Where nothing can be locked, its age protects it.
+                Ok(()) | Err(TryLockError::Error(_)) => {}
+            }
+            if let Ok(there) = std::fs::metadata(target) {
+                std::fs::set_permissions(&part.path, there.permissions())?;
+            }
+            return Ok(part);
+        }
+        Err(std::io::Error::other("something takes away what is being written"))
+    }
+
+    /// The file.
+    ///
+    /// # Panics
+    /// Never: it is there until [`Self::rest`] or [`Self::take_name`].
+    pub(super) fn file(&self) -> &File {
+        self.file.as_ref().expect("a part is written before it rests or takes its name")
+    }
+
+    /// Adds to it.
+    pub(super) fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        self.file().write_all(bytes)
+    }
+
+    /// Lets the handle go until it takes its name, and with it the lock: for seconds, not hours.
+    pub(super) fn rest(&mut self) {
+        self.file = None;
+    }
+
+    /// Puts it in the place of what has its name; the file, unless it rested.
+    pub(super) fn take_name(mut self) -> std::io::Result<Option<File>> {
+        std::fs::rename(&self.path, &self.target)?;
+        self.named = true;
+        let file = self.file.take();
+        // Readers need not wait for it any more. Where nothing can be locked, nothing can be unlocked.
+        drop(file.as_ref().map(File::unlock));
+        Ok(file)
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if !self.named {
+            self.file = None;
+            drop(std::fs::remove_file(&self.path));
+        }
+    }
+}
+
+/// Is this the name of a part?
+fn is_part(name: &str) -> bool {
+    let number = name.strip_suffix(ENDING).and_then(|rest| rest.rsplit_once('.'));
+    number.is_some_and(|(stem, number)| {
+        !stem.is_empty() && number.len() == DIGITS && number.bytes().all(|c| matches!(c, b'0'..=b'9' | b'a'..=b'f'))
+    })
+}
+
+/// Takes away the parts of programs that ended in the middle, once for every folder.
+fn sweep(folder: &Path) {
+    let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(whole) {
+        return;
+    }
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        if !entry.file_type().is_ok_and(|kind| kind.is_file()) || !is_part(&entry.file_name().to_string_lossy()) {
+            continue;
+        }
+        let path = entry.path();
+        let Ok(file) = File::options().write(true).open(&path) else { continue };
+        let dead = match file.try_lock() {
+            Ok(()) => true,
+            Err(TryLockError::WouldBlock) => false,
+            Err(TryLockError::Error(_)) => {
+                let changed = entry.metadata().and_then(|meta| meta.modified()).ok();
+                changed.and_then(|at| at.elapsed().ok()).is_some_and(|age| age > OLD)
+            }
+        };
+        if dead {
+            drop(std::fs::remove_file(&path));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_the_dead_go_and_those_of_the_living_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let [dead, alive] = ["a.csv.0123456789abcdef.part", "b.csv.fedcba9876543210.part"];
+        let others = ["film.mp4.part", "a.csv.0123.part", "0123456789abcdef.part", "a.csv"];
+        for name in [dead, alive].into_iter().chain(others) {
+            std::fs::write(path(name), "half").unwrap();
+        }
+        // Held by this process under another handle, as another program would hold it.
+        let held = File::options().write(true).open(path(alive)).unwrap();
+        held.lock().unwrap();
+        let part = Part::beside(&path("c.csv")).unwrap();
+        assert!(!path(dead).exists() && path(alive).exists());
+        assert!(others.iter().all(|name| path(name).exists()));
+        drop(part);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1 + others.len(), "a part goes with its value");
+        drop(held);
+    }
+
+    #[test]
+    fn a_long_name_has_a_short_part() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join(format!("{}.csv", "n".repeat(240)));
+        let mut part = Part::beside(&target).unwrap();
+        part.write(b"x").unwrap();
+        part.take_name().unwrap();
+        assert_eq!(std::fs::read(&target).unwrap(), b"x");
+    }
+}

@@ -1,0 +1,110 @@
+//! Text from files as it may be shown: what commands a terminal or turns a line around is made visible, and a number of
+//! three hundred digits is written short.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+/// Digits in a row that nobody reads.
+const MOST_DIGITS: usize = 24;
+
+/// Does a character do something else than stand where it is? Line breaks and tabs are what they look like.
+fn acts(c: char) -> bool {
+    (c.is_control() && !matches!(c, '\n' | '\t'))
+        // Marks that turn the direction of writing, breaks of lines and paragraphs, a mark of the byte order.
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
+}
+
+/// The same text with characters that do something else than stand where they are written as `\u001b`: what JSON takes for
+/// the same characters. A carriage return before a line break stays.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(acts) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        if !acts(c) || (c == '\r' && rest.peek() == Some(&'\n')) {
+            shown.push(c);
+        } else {
+            // Writing to a String cannot fail.
+            let _ = write!(shown, "\\u{:04x}", u32::from(c));
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// A name or a message on one line: [`visible`], line breaks and tabs as blanks.
+pub fn one_line(text: &str) -> Cow<'_, str> {
+    if !text.contains(['\n', '\r', '\t']) {
+        return visible(text);
+    }
+    let words: Vec<&str> = text.split(['\n', '\r', '\t']).map(str::trim).filter(|part| !part.is_empty()).collect();
+    Cow::Owned(visible(&words.join(" ")).into_owned())
+}
+
+/// The same text with numbers of very many digits as powers of ten.
+pub fn short_numbers(text: &str) -> Cow<'_, str> {
+    let of_number = |c: char| c.is_ascii_digit() || c == '.';
+    let long = |word: &str| word.bytes().filter(u8::is_ascii_digit).count() > MOST_DIGITS;
+    if !text.split(|c| !of_number(c)).any(long) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find(of_number) {
+        let end = rest[start..].find(|c| !of_number(c)).map_or(rest.len(), |length| start + length);
+        let word = rest[start..end].trim_end_matches('.');
+        let stop = start + word.len();
+        // A hash has letters among its digits, and a number stands alone.
+        let alone = !rest[..start].ends_with(char::is_alphanumeric) && !rest[stop..].starts_with(char::is_alphanumeric);
+        shown.push_str(&rest[..start]);
+        match word.parse::<f64>() {
+            Ok(number) if alone && long(word) && number.is_finite() => {
+                // Writing to a String cannot fail.
+                let _ = write!(shown, "{number:e}");
+            }
+            _ => shown.push_str(word),
+        }
+        rest = if word.is_empty() {
+            shown.push_str(&rest[start..end]);
+            &rest[end..]
+        } else {
+            &rest[stop..]
+        };
+    }
+    shown.push_str(rest);
+    Cow::Owned(shown)
+}
+
+/// A message as it is shown: on one line, nothing hidden, no number longer than its reader's patience.
+pub fn message(text: &str) -> String {
+    short_numbers(&one_line(text)).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_commands_a_terminal_is_seen() {
+        assert_eq!(visible("Blind\u{1b}[31m\u{7}"), "Blind\\u001b[31m\\u0007");
+        assert_eq!(visible("a\u{202e}b\u{9b}2J\u{7f}"), "a\\u202eb\\u009b2J\\u007f");
+        for same in ["Raffstore 80 mm, τ = 0,3 – Büro", "a\tb\nc\r\n", "日よけ"] {
+            assert!(matches!(visible(same), Cow::Borrowed(_)) || visible(same) == same);
+        }
+        assert_eq!(visible("over\rwritten"), "over\\u000dwritten");
+        assert_eq!(one_line("a\n  fake line\r\nb"), "a fake line b");
+        let json = serde_json::json!("C1 \u{9b} and \u{7f}").to_string();
+        assert_eq!(serde_json::from_str::<String>(&visible(&json)).unwrap(), "C1 \u{9b} and \u{7f}");
+    }
+
+    #[test]
+    fn long_numbers_are_short_and_hashes_whole() {
+        assert_eq!(short_numbers(&format!("flux {} lm", 1e300)), "flux 1e300 lm");
+        assert_eq!(short_numbers(&format!("-{:.1}, {}.", 1e30, 1.5e-40)), "-1e30, 1.5e-40.");
+        let hash = format!("dataset {}a1, 0.30000000000000004...", "1".repeat(30));
+        assert_eq!(short_numbers(&hash), hash);
+        let text = format!("..{}..7", "9".repeat(25));
+        assert!(short_numbers(&text).ends_with("..7"), "{}", short_numbers(&text));
+    }
+}

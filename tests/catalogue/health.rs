@@ -1,0 +1,197 @@
+//! A catalogue that doubts itself: damages of every kind are told, what can be made anew is mended, the rest named.
+
+use cfs::catalogue::{Catalogue, CatalogueError, CurvePoint, NewProduct, Place, Query, check_file, repair_file};
+use cfs::compute::btdf::{Btdf, Dataset};
+use cfs::compute::estimate::Silent;
+use cfs::study::Library;
+use cfs::study::builtin::complete;
+use cfs::study::health::mend;
+use rusqlite::Connection;
+use std::path::{Path, PathBuf};
+
+fn opal(tau: f64) -> Dataset {
+    let mut dataset = Dataset { name: format!("Opal {tau}"), ..Dataset::default() };
+    dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(tau));
+    dataset
+}
+
+/// A catalogue with products of the user's and a computed one of its own; its path.
+fn filled(folder: &Path, own: usize) -> PathBuf {
+    let path = folder.join("c.sqlite");
+    let mut catalogue = Catalogue::open(&path).unwrap();
+    for number in 0..own {
+        let control_curve = vec![CurvePoint { profile_angle: 10.0, value: 20.0 }];
+        let meta = NewProduct {
+            name: format!("Mine {number}"),
+            description: "told ".repeat(200),
+            control_curve,
+            ..NewProduct::default()
+        };
+        catalogue.import(&[opal(0.1 + 0.5 * number as f64 / own as f64)], meta).unwrap();
+    }
+    complete(&mut catalogue, |one| one.product == "clear-single", &Library::default(), &Silent).unwrap();
+    path
+}
+
+#[test]
+fn built_in_data_that_are_damaged_are_computed_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    assert!(check_file(&path).unwrap().damages.is_empty());
+    let whole = Catalogue::open(&path).unwrap().dataset("clear-single", None).unwrap();
+    let db = Connection::open(&path).unwrap();
+    db.execute_batch(
+        "UPDATE dataset SET blob = zeroblob(length(blob)) WHERE hash =
+           (SELECT dataset FROM state s JOIN product p ON p.id = s.product WHERE p.key = 'clear-single')",
+    )
+    .unwrap();
+    drop(db);
+    let told = Catalogue::open(&path).unwrap().dataset("clear-single", None).unwrap_err();
+    assert!(matches!(told, CatalogueError::Damaged(_)), "{told}");
+    let health = check_file(&path).unwrap();
+    assert!(matches!(&*health.damages, [one] if matches!(&one.place, Place::Data { builtin: true, .. })), "{health:?}");
+    let mended = mend(&path, &health).unwrap();
+    assert!(mended.lost.is_empty() && mended.mended.len() == 1, "{mended:?}");
+    let mut catalogue = Catalogue::open(&path).unwrap();
+    assert_eq!(catalogue.to_compute("clear-single", None).unwrap().as_deref(), Some(""));
+    complete(&mut catalogue, |one| one.product == "clear-single", &Library::default(), &Silent).unwrap();
+    assert_eq!(*catalogue.dataset("clear-single", None).unwrap(), *whole);
+}
+
+#[test]
+fn an_ideal_system_comes_again_and_importing_again_mends() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    let spoil = |key: &str| {
+        let db = Connection::open(&path).unwrap();
+        let sql = "UPDATE dataset SET blob = zeroblob(9) WHERE hash =
+                     (SELECT dataset FROM state s JOIN product p ON p.id = s.product WHERE p.key = ?)";
+        assert_eq!(db.execute(sql, [key]).unwrap(), 1);
+    };
+    spoil("ideal-diffuser");
+    let mended = mend(&path, &check_file(&path).unwrap()).unwrap();
+    assert!(mended.lost.is_empty(), "{mended:?}");
+    let mut catalogue = Catalogue::open(&path).unwrap();
+    let tau = catalogue.dataset("ideal-diffuser", None).unwrap().transmission().unwrap().tau_hemispherical();
+    assert!((tau - 0.5).abs() < 1e-9 && catalogue.product("mine-0").is_ok());
+    spoil("mine-0");
+    assert!(catalogue.dataset("mine-0", None).is_err());
+    catalogue.import(&[opal(0.1)], NewProduct::default()).unwrap();
+    assert!(catalogue.dataset("mine-0", None).is_ok());
+    drop(catalogue);
+    assert!(check_file(&path).unwrap().damages.is_empty());
+}
+
+#[test]
+fn what_results_hang_on_beside_the_data_is_sealed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    for (damage, key, builtin) in [
+        (
+            "UPDATE control_point SET value = value + 0.5 WHERE product = (SELECT id FROM product WHERE key = 'mine-0')",
+            "mine-0",
+            false,
+        ),
+        ("UPDATE product SET system = replace(system, '0', '1') WHERE key = 'venetian-80-72'", "venetian-80-72", true),
+        (
+            "UPDATE state SET value = value + 1 WHERE product = (SELECT id FROM product WHERE key = 'venetian-80-72')",
+            "venetian-80-72",
+            true,
+        ),
+    ] {
+        let db = Connection::open(&path).unwrap();
+        assert!(db.execute(damage, []).unwrap() > 0, "{damage}");
+        drop(db);
+        let told = Catalogue::open(&path).unwrap().product(key).unwrap_err().to_string();
+        assert!(told.contains(key) && told.contains("check --repair"), "{told}");
+        let health = check_file(&path).unwrap();
+        assert!(
+            health.damages.iter().any(|one| one.place == Place::Product { key: key.into(), builtin }),
+            "{health:?}"
+        );
+        let lost = mend(&path, &health).unwrap().lost;
+        assert_eq!(lost.is_empty(), builtin, "{lost:?}");
+        let mut catalogue = Catalogue::open(&path).unwrap();
+        assert_eq!(catalogue.product(key).is_ok(), builtin);
+        if !builtin {
+            // What is lost may go, and come again.
+            catalogue.remove_product(key).unwrap();
+        }
+    }
+    // Words about a product are the user's to change.
+    let mut catalogue = Catalogue::open(&path).unwrap();
+    let key = catalogue.import(&[opal(0.7)], NewProduct::default()).unwrap().key;
+    let words = cfs::catalogue::Words { name: "Another".into(), ..cfs::catalogue::Words::default() };
+    catalogue.describe(&key, &words).unwrap();
+    assert_eq!(catalogue.product(&key).unwrap().name, "Another");
+    drop(catalogue);
+    assert!(check_file(&path).unwrap().damages.is_empty());
+}
+
+#[test]
+fn layout_numbers_that_are_none_are_refused_and_found_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    for number in [-1_i64, 0, i64::from(i32::MIN)] {
+        Connection::open(&path).unwrap().pragma_update(None, "user_version", number).unwrap();
+        let told = Catalogue::open(&path).unwrap_err();
+        assert!(matches!(told, CatalogueError::Layout { found, .. } if found == number), "{told}");
+        let health = check_file(&path).unwrap();
+        assert_eq!(health.damages.iter().map(|one| &one.place).collect::<Vec<_>>(), [&Place::Layout]);
+        assert_eq!(repair_file(&path, &health).unwrap(), [""; 0]);
+        assert!(Catalogue::open(&path).unwrap().product("mine-0").is_ok());
+    }
+}
+
+#[test]
+fn of_broken_pages_what_can_be_read_is_saved_and_the_rest_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 60);
+    Connection::open(&path).unwrap().execute_batch("PRAGMA wal_checkpoint(TRUNCATE)").unwrap();
+    let whole = std::fs::read(&path).unwrap();
+    let page = 4096;
+    let pages = whole.len() / page;
+    let mut told = 0;
+    // Every page but the first, one at a time, a few of them spread over the file.
+    for number in (1..pages).step_by((pages / 12).max(1)) {
+        let mut bytes = whole.clone();
+        bytes[number * page..(number + 1) * page].fill(0xa5);
+        let copy = folder.path().join(format!("{number}.sqlite"));
+        std::fs::write(&copy, &bytes).unwrap();
+        let health = check_file(&copy).unwrap();
+        if health.damages.is_empty() {
+            // A page that holds nothing.
+            continue;
+        }
+        told += 1;
+        let mended = mend(&copy, &health).unwrap();
+        assert_eq!(std::fs::read(&mended.copy).unwrap(), bytes, "the file as it was is kept");
+        let db = Connection::open(&copy).unwrap();
+        let ok: String = db.query_row("PRAGMA integrity_check", [], |row| row.get(0)).unwrap();
+        assert_eq!(ok, "ok", "page {number}");
+        drop(db);
+        // All that is there is as it was stored, all that is not is named.
+        let catalogue = Catalogue::open(&copy).unwrap();
+        let there: Vec<String> = catalogue.search(&Query::default()).unwrap().into_iter().map(|row| row.key).collect();
+        for key in (0..60).map(|number| format!("mine-{number}")) {
+            let held = there.contains(&key) && catalogue.dataset(&key, None).is_ok();
+            let lost =
+                mended.lost.iter().any(|one| one.contains(&format!("\"{key}\"")) || one.contains("rows of table"));
+            assert!(held || lost, "page {number}: {key} is gone without a word: {:?}", mended.lost);
+        }
+        assert!(there.iter().any(|key| key == "venetian-80-72"), "page {number}: built-in products are back");
+    }
+    assert!(told > 5, "{told} of {pages} pages");
+}
+
+#[test]
+fn other_files_are_not_mended_into_catalogues() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.sqlite");
+    Connection::open(&path).unwrap().execute_batch("CREATE TABLE notes (x); INSERT INTO notes VALUES (1)").unwrap();
+    assert!(matches!(check_file(&path), Err(CatalogueError::NotACatalogue(_))));
+    assert!(check_file(&folder.path().join("none.sqlite")).is_err());
+    std::fs::write(&path, "text ".repeat(1000)).unwrap();
+    let told = check_file(&path).unwrap_err().to_string();
+    assert!(told.contains("no catalogue"), "{told}");
+}
