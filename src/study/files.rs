@@ -1,12 +1,13 @@
 //! Files on disk: read whole up to a size, written whole or not at all.
 
 use super::error::StudyError;
+use crate::compute::limits;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::Write as _;
 use std::path::Path;
 
 /// Larger files are refused before they are read: datasets and packages, next to which all others are small. \[bytes\]
-pub const LARGEST_FILE: u64 = 1 << 30;
+pub const LARGEST_FILE: u64 = limits::FILE_BYTES;
 
 fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }

@@ -9,6 +9,7 @@ use super::weights::Response;
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
+use crate::compute::limits;
 use crate::compute::room::first_bounce::{BeamLanding, PatchWeights};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
@@ -54,6 +55,13 @@ impl Session {
     ) -> Result<Responses, StudyError> {
         let radiosity = self.radiosity(scene, count)?;
         check(progress)?;
+        // A value and what it may be off, by walls, for every patch and sensor.
+        let each = (1 + radiosity.nested.fine.walls.len()) * radiosity.nested.fine.patches.len() * size_of::<f64>();
+        let most = limits::RESPONSE_BYTES / each.max(1);
+        if scene.sensors.len() > most {
+            let message = format!("{} sensors; a room through a year can be kept for {most}", scene.sensors.len());
+            return Err(StudyError::key("sensors", message));
+        }
         let key = room_key(scene, count);
         let sensor_key: Key = sensor_key(scene).collect();
         let of_sensors = [key.clone(), sensor_key.clone()].concat();

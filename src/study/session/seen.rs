@@ -1,0 +1,135 @@
+//! What sensors see of apertures and surfaces: kept from one answer to the next for as many sensors as a study looks at
+//! again and again, made anew sensor by sensor for more, so that memory does not grow with what each of them sees.
+
+use super::{Session, check};
+use crate::compute::basis::RingBasis;
+use crate::compute::estimate::Progress;
+use crate::compute::limits;
+use crate::compute::room::aperture::Aperture;
+use crate::compute::room::band_weights::BandWeights;
+use crate::compute::room::direct::{Reception, Sensor};
+use crate::compute::room::gather::{Reconstruction, reconstruct};
+use crate::compute::room::mesh::Mesh;
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+use rayon::prelude::*;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// So many sensors are worked on before progress is told.
+const BLOCK: usize = 4096;
+
+/// Is a table of so many numbers a sensor small enough to be kept?
+pub(super) fn keeps(scene: &Scene, numbers: usize) -> bool {
+    scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
+}
+
+/// A number of every sensor, by all threads, in the order of the scene; `work` is given the sensor's place.
+///
+/// # Errors
+/// The first that `work` gives, or withdrawn.
+pub(super) fn in_blocks<T: Send>(
+    scene: &Scene,
+    stage: &'static str,
+    progress: &dyn Progress,
+    work: impl Fn(usize, &Sensor) -> Result<T, StudyError> + Sync,
+) -> Result<Vec<T>, StudyError> {
+    let count = scene.sensors.len();
+    let mut all = Vec::with_capacity(count);
+    for (block, sensors) in scene.sensors.chunks(BLOCK).enumerate() {
+        check(progress)?;
+        if count > BLOCK {
+            progress.advance(stage, block * BLOCK, count);
+        }
+        let one = |(s, sensor): (usize, &Sensor)| {
+            check(progress)?;
+            work(block * BLOCK + s, sensor)
+        };
+        all.extend(sensors.par_iter().enumerate().map(one).collect::<Result<Vec<T>, StudyError>>()?);
+    }
+    Ok(all)
+}
+
+/// What every sensor receives from one aperture per luminance.
+pub(super) enum Seen<'a> {
+    Kept(Arc<Vec<Reception>>),
+    Anew(&'a Aperture, Option<&'a RingBasis>),
+}
+
+impl Seen<'_> {
+    /// Of a sensor at its place in the scene.
+    pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, Reception> {
+        match self {
+            Self::Kept(all) => Cow::Borrowed(&all[s]),
+            Self::Anew(aperture, basis) => Cow::Owned(Reception::new(sensor, aperture, *basis)),
+        }
+    }
+}
+
+/// The same by bands of the profile angle.
+pub(super) enum SeenBands<'a> {
+    Kept(Arc<Vec<BandWeights>>),
+    /// With the bands' side, and how many they are.
+    Anew(&'a Aperture, bool, usize),
+}
+
+impl SeenBands<'_> {
+    /// Of a sensor at its place in the scene.
+    pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, BandWeights> {
+        match self {
+            Self::Kept(all) => Cow::Borrowed(&all[s]),
+            Self::Anew(aperture, upright, count) => Cow::Owned(bands_of(sensor, aperture, *upright, *count)),
+        }
+    }
+}
+
+/// Of one sensor.
+pub(super) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
+    let view = aperture.view(sensor.position, sensor.normal);
+    view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count))
+}
+
+/// What every sensor receives from the patches, fine and coarse.
+pub(super) enum Gathered<'a> {
+    Kept(Arc<Vec<[Reconstruction; 2]>>),
+    Anew([&'a Mesh; 2]),
+}
+
+impl Gathered<'_> {
+    /// Of a sensor at its place in the scene.
+    pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, [Reconstruction; 2]> {
+        match self {
+            Self::Kept(all) => Cow::Borrowed(&all[s]),
+            Self::Anew(meshes) => Cow::Owned(gathered(meshes, sensor)),
+        }
+    }
+}
+
+/// Of one sensor.
+pub(super) fn gathered(meshes: &[&Mesh; 2], sensor: &Sensor) -> [Reconstruction; 2] {
+    meshes.map(|mesh| reconstruct(mesh, sensor.position, sensor.normal))
+}
+
+impl Session {
+    /// What sensors see of an aperture on the cells of a basis.
+    pub(super) fn seen<'a>(
+        &self,
+        scene: &'a Scene,
+        index: usize,
+        basis: Option<&'a RingBasis>,
+        progress: &dyn Progress,
+    ) -> Result<Seen<'a>, StudyError> {
+        if keeps_receptions(scene, basis) {
+            return self.receptions(scene, index, basis, progress).map(Seen::Kept);
+        }
+        Ok(Seen::Anew(&scene.apertures[index].aperture, basis))
+    }
+}
+
+/// Are receptions of these cells kept?
+pub(super) fn keeps_receptions(scene: &Scene, basis: Option<&RingBasis>) -> bool {
+    keeps(scene, RECEPTION + basis.map_or(0, RingBasis::len))
+}
+
+/// A reception without its cells, in numbers.
+const RECEPTION: usize = size_of::<Reception>() / size_of::<f64>();
