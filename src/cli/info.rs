@@ -31,13 +31,27 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
     }
     let datasets = dataset_file::read(&args.file)?;
     let text = if args.json {
-        let mut list: Vec<Value> = datasets.iter().map(|dataset| to_json(dataset, &datasets)).collect();
+        let mut list: Vec<Value> = once_each(&datasets, |dataset| to_json(dataset, &datasets));
         let value = if list.len() == 1 { list.remove(0) } else { Value::Array(list) };
         serde_json::to_string_pretty(&value)? + "\n"
     } else {
-        datasets.iter().map(to_text).collect::<Vec<_>>().join("\n")
+        once_each(&datasets, to_text).join("\n")
     };
     print(&text)
+}
+
+/// What is said of each dataset, found once for those that are alike: one file may be named by many states.
+fn once_each<T: Clone>(datasets: &[Dataset], say: impl Fn(&Dataset) -> T) -> Vec<T> {
+    let mut said: Vec<(&Dataset, T)> = Vec::new();
+    let mut said_of = |dataset| match said.iter().find(|(other, _)| *other == dataset) {
+        Some((_, text)) => text.clone(),
+        None => {
+            let text = say(dataset);
+            said.push((dataset, text.clone()));
+            text
+        }
+    };
+    datasets.iter().map(&mut said_of).collect()
 }
 
 fn print(text: &str) -> anyhow::Result<()> {
