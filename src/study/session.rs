@@ -33,7 +33,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
-use seen::{Seen, SeenBands, bands_of, in_blocks, keeps, keeps_receptions};
+use seen::{Seen, SeenBands, bands_of, in_blocks, keeps, keeps_receptions, within_budget};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -307,6 +307,7 @@ impl Session {
         progress: &dyn Progress,
     ) -> Result<Arc<Vec<Reception>>, StudyError> {
         let aperture = &scene.apertures[index].aperture;
+        within_budget(scene, size_of::<Reception>() + basis.map_or(0, RingBasis::len) * size_of::<f64>())?;
         self.reception.get(reception_key(scene, index, basis), || {
             scene
                 .sensors

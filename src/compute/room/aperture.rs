@@ -51,17 +51,38 @@ impl Aperture {
         [self.corner, self.corner + u, self.corner + u + v, self.corner + v]
     }
 
+    /// Relative error that rounded coordinates leave in what a point sees of the opening.
+    pub fn rounding(&self, position: DVec3) -> f64 {
+        let largest = self.corner.abs().max(position.abs()).max_element() + self.size[0].max(self.size[1]);
+        4.0 * f64::EPSILON * largest / self.size[0].min(self.size[1])
+    }
+
+    /// Where a point in the opening itself counts to be: just inside. Any other stays where it is.
+    pub fn entered(&self, position: DVec3) -> DVec3 {
+        let outward = self.surface.room_from_facade(DVec3::Z);
+        let holds = self.holds(self.surface.facade_from_room(self.corner - position));
+        if holds { position - self.just_inside() * outward } else { position }
+    }
+
+    /// Does a point lie in the opening, given what leads from it to the corner?
+    fn holds(&self, to_corner: DVec3) -> bool {
+        let within = |from: f64, size: f64| from <= 0.0 && from + size >= 0.0;
+        to_corner.z == 0.0 && within(to_corner.x, self.size[0]) && within(to_corner.y, self.size[1])
+    }
+
+    /// \[m\]
+    fn just_inside(&self) -> f64 {
+        JUST_INSIDE * self.size[0].min(self.size[1])
+    }
+
     /// How a sensor sees it; `None` when the sensor lies behind the aperture's plane, or in it and beside the opening or
     /// facing straight into the room: no light from the aperture arrives there. A sensor in the opening itself sees what
     /// one just inside sees.
     pub fn view(&self, position: DVec3, normal: DVec3) -> Option<View> {
         let mut to_corner = self.surface.facade_from_room(self.corner - position);
         let normal = self.surface.facade_from_room(normal);
-        if to_corner.z == 0.0 && normal.z > -1.0 {
-            let within = |from: f64, size: f64| from <= 0.0 && from + size >= 0.0;
-            if within(to_corner.x, self.size[0]) && within(to_corner.y, self.size[1]) {
-                to_corner.z = JUST_INSIDE * self.size[0].min(self.size[1]);
-            }
+        if normal.z > -1.0 && self.holds(to_corner) {
+            to_corner.z = self.just_inside();
         }
         (to_corner.z > 0.0).then(|| View {
             x: [to_corner.x, to_corner.x + self.size[0]],

@@ -3,13 +3,13 @@
 //! comes in by cells, see [`super::thrown_back`].
 
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key, spans};
+use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
 use super::weights::Response;
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
-use crate::compute::limits;
 use crate::compute::room::first_bounce::{BeamLanding, PatchWeights};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
@@ -57,11 +57,7 @@ impl Session {
         check(progress)?;
         // A value and what it may be off, by walls, for every patch and sensor.
         let each = (1 + radiosity.nested.fine.walls.len()) * radiosity.nested.fine.patches.len() * size_of::<f64>();
-        let most = limits::RESPONSE_BYTES / each.max(1);
-        if scene.sensors.len() > most {
-            let message = format!("{} sensors; a room through a year can be kept for {most}", scene.sensors.len());
-            return Err(StudyError::key("sensors", message));
-        }
+        within_budget(scene, each)?;
         let key = room_key(scene, count);
         let sensor_key: Key = sensor_key(scene).collect();
         let of_sensors = [key.clone(), sensor_key.clone()].concat();

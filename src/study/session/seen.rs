@@ -24,6 +24,19 @@ pub(super) fn keeps(scene: &Scene, numbers: usize) -> bool {
     scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
 }
 
+/// Tables that a year needs whole: so many bytes a sensor.
+///
+/// # Errors
+/// More sensors than they are made for.
+pub(super) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
+    let (count, most) = (scene.sensors.len(), limits::RESPONSE_BYTES / each.max(1));
+    if count > most {
+        let message = format!("{count} sensors (through a year, in this room and with this system, at most {most})");
+        return Err(StudyError::key("sensors", message));
+    }
+    Ok(())
+}
+
 /// A number of every sensor, by all threads, in the order of the scene; `work` is given the sensor's place.
 ///
 /// # Errors
