@@ -90,7 +90,7 @@ limits! {
     /// Sensors of a scene.
     most SENSORS: usize = 1_000_000, "sensors of a scene", "";
     /// What of the sensors' geometry is kept from one answer to the next, each table of it; beyond, it is made again. \[bytes\]
-    most KEPT_BYTES: usize = 128 << 20, "a table of what sensors see, kept between answers", "bytes";
+    most KEPT_BYTES: usize = 384 << 20, "a table of what sensors see, kept between answers", "bytes";
     /// Responses of sensors to the patches of the room, as a year needs them. \[bytes\]
     most RESPONSE_BYTES: usize = 2 << 30, "responses of sensors for a year", "bytes";
     /// Patches of a room.
