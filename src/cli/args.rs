@@ -7,6 +7,7 @@ use super::{
 };
 use crate::compute::limits;
 use clap::CommandFactory as _;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// What can be typed, below all help.
@@ -36,7 +37,8 @@ On bad input every command ends with status 2 and one line that says what would 
 fn with_limits() -> String {
     let mut text = format!("{EXAMPLES}\n\nLimits, each told by name where something is over it:\n");
     for limit in limits::TABLE {
-        text.push_str(&format!("  {limit}\n"));
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {limit}");
     }
     text
 }

@@ -25,7 +25,7 @@ impl std::fmt::Display for Limit {
             "bytes" => (self.value / 1024.0, "kB"),
             unit => (self.value, unit),
         };
-        let number = if (1e-3..1e7).contains(&value) { format!("{value}") } else { format!("{value:e}") };
+        let number = if (1e-3..1e9).contains(&value) { format!("{value}") } else { format!("{value:e}") };
         write!(f, "{}: {word} {number}{}{unit}", self.of, if unit.is_empty() { "" } else { " " })
     }
 }

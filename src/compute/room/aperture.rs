@@ -57,11 +57,12 @@ impl Aperture {
         4.0 * f64::EPSILON * largest / self.size[0].min(self.size[1])
     }
 
-    /// Where a point in the opening itself counts to be: just inside. Any other stays where it is.
-    pub fn entered(&self, position: DVec3) -> DVec3 {
+    /// Where a sensor in the opening itself counts to be: just inside. Any other stays where it is, and so does one that
+    /// faces straight into the room.
+    pub fn entered(&self, position: DVec3, normal: DVec3) -> DVec3 {
         let outward = self.surface.room_from_facade(DVec3::Z);
         let holds = self.holds(self.surface.facade_from_room(self.corner - position));
-        if holds { position - self.just_inside() * outward } else { position }
+        if holds && normal.dot(outward) > -1.0 { position - self.just_inside() * outward } else { position }
     }
 
     /// Does a point lie in the opening, given what leads from it to the corner?

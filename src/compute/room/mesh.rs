@@ -152,7 +152,7 @@ impl Nested {
 
 /// Has an aperture no patches of its own? Exchange areas are differences of numbers of the order of the room's own size
 /// squared, so that an opening below a hundred-millionth of that would be lost in their rounding. Its light is thrown from
-/// its outline ([`super::first_bounce::from_even`]), and what it reflects is not told from the wall about it.
+/// its outline, and what it reflects is not told from the wall about it.
 pub fn too_small(room: &BoxRoom, aperture: &Aperture) -> bool {
     let length = room.size.max_element();
     aperture.area() < 1e-8 * length * length || aperture.size[0].min(aperture.size[1]) < 1e-7 * length

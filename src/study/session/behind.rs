@@ -287,7 +287,6 @@ impl Split {
 
     /// What one sensor gets straight.
     fn at(&self, sensor: &Sensor, aperture: &Aperture, facing: &Facing<'_>, tolerance: Tolerance) -> DirectLight {
-        let sensor = &Sensor { position: aperture.entered(sensor.position), ..*sensor };
         let mut sum = DirectLight::default();
         let Some(around) = facing.outside.surroundings() else { return sum };
         let Some(view) = aperture.view(sensor.position, sensor.normal) else { return sum };

@@ -1,7 +1,7 @@
 //! Light that reaches the sensors after at least one reflection.
 
 use super::lights::Lights;
-use super::seen::{Gathered, gathered, in_blocks, keeps};
+use super::seen::{Gathered, gathered, in_blocks, inside, keeps};
 use super::{ORDINARY_TARGET, STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
@@ -103,8 +103,10 @@ impl Session {
         let mut key = room_key(scene, count);
         key.extend(sensor_key(scene));
         self.gather.get(key, || {
-            let weights =
-                scene.sensors.par_iter().map(|s| gathered(&[&radiosity.nested.fine, &radiosity.nested.coarse], s));
+            let weights = scene
+                .sensors
+                .par_iter()
+                .map(|s| gathered(&[&radiosity.nested.fine, &radiosity.nested.coarse], &inside(scene, s)));
             Ok::<_, StudyError>(weights.collect())
         })
     }

@@ -11,7 +11,7 @@ use crate::compute::room::direct::{Reception, Sensor};
 use crate::compute::room::gather::{Reconstruction, reconstruct};
 use crate::compute::room::mesh::Mesh;
 use crate::study::error::StudyError;
-use crate::study::scene::Scene;
+use crate::study::scene::{Scene, SceneAperture};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -37,7 +37,14 @@ pub(super) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError
     Ok(())
 }
 
-/// A number of every sensor, by all threads, in the order of the scene; `work` is given the sensor's place.
+/// A sensor where light is to be found for it: one in an opening just inside of it.
+pub(super) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
+    let enter = |position, one: &SceneAperture| one.aperture.entered(position, sensor.normal);
+    Sensor { position: scene.apertures.iter().fold(sensor.position, enter), ..*sensor }
+}
+
+/// A number of every sensor, by all threads, in the order of the scene; `work` is given the sensor's place, and the
+/// sensor as it is [`inside`].
 ///
 /// # Errors
 /// The first that `work` gives, or withdrawn.
@@ -56,7 +63,7 @@ pub(super) fn in_blocks<T: Send>(
         }
         let one = |(s, sensor): (usize, &Sensor)| {
             check(progress)?;
-            work(block * BLOCK + s, sensor)
+            work(block * BLOCK + s, &inside(scene, sensor))
         };
         all.extend(sensors.par_iter().enumerate().map(one).collect::<Result<Vec<T>, StudyError>>()?);
     }
