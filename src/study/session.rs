@@ -21,7 +21,7 @@ use super::scene_file::Interpolation;
 use super::system::VerySystem;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
-use crate::compute::estimate::{Cancelled, Estimate, Progress, largest_relative_error};
+use crate::compute::estimate::{Estimate, Progress, largest_relative_error};
 use crate::compute::lid::peaks::Peaks;
 use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
@@ -33,7 +33,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 use rayon::prelude::*;
-use seen::{Seen, SeenBands, bands_of, in_blocks, keeps, keeps_receptions, within_budget};
+use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -320,6 +320,20 @@ impl Session {
         })
     }
 
+    /// What sensors see of an aperture on the cells of a basis.
+    fn seen<'a>(
+        &self,
+        scene: &'a Scene,
+        index: usize,
+        basis: Option<&'a RingBasis>,
+        progress: &dyn Progress,
+    ) -> Result<Seen<'a>, StudyError> {
+        if keeps_receptions(scene, basis) {
+            return self.receptions(scene, index, basis, progress).map(Seen::Kept);
+        }
+        Ok(Seen::Anew(&scene.apertures[index].aperture, basis))
+    }
+
     /// What every sensor receives from one aperture by bands of the profile angle.
     fn band_weights<'a>(
         &self,
@@ -419,10 +433,6 @@ fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
 fn bases(emission: &Emission) -> Vec<Option<&RingBasis>> {
     let own: Vec<_> = emission.cells.iter().map(|light| Some(&*light.basis)).collect();
     if own.is_empty() { vec![None] } else { own }
-}
-
-fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
-    if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
 }
 
 fn aperture_key(scene: &Scene, index: usize) -> Key {

@@ -1,9 +1,8 @@
 //! What sensors see of apertures and surfaces: kept from one answer to the next for as many sensors as a study looks at
 //! again and again, made anew sensor by sensor for more, so that memory does not grow with what each of them sees.
 
-use super::{Session, check};
 use crate::compute::basis::RingBasis;
-use crate::compute::estimate::Progress;
+use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::band_weights::BandWeights;
@@ -15,6 +14,11 @@ use crate::study::scene::{Scene, SceneAperture};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
+
+/// Stops what is no longer wanted.
+pub(super) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
+    if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
+}
 
 /// So many sensors are worked on before progress is told.
 const BLOCK: usize = 4096;
@@ -128,22 +132,6 @@ impl Gathered<'_> {
 /// Of one sensor.
 pub(super) fn gathered(meshes: &[&Mesh; 2], sensor: &Sensor) -> [Reconstruction; 2] {
     meshes.map(|mesh| reconstruct(mesh, sensor.position, sensor.normal))
-}
-
-impl Session {
-    /// What sensors see of an aperture on the cells of a basis.
-    pub(super) fn seen<'a>(
-        &self,
-        scene: &'a Scene,
-        index: usize,
-        basis: Option<&'a RingBasis>,
-        progress: &dyn Progress,
-    ) -> Result<Seen<'a>, StudyError> {
-        if keeps_receptions(scene, basis) {
-            return self.receptions(scene, index, basis, progress).map(Seen::Kept);
-        }
-        Ok(Seen::Anew(&scene.apertures[index].aperture, basis))
-    }
 }
 
 /// Are receptions of these cells kept?
