@@ -51,7 +51,7 @@ pub fn middle(sun: DVec3, edges: impl IntoIterator<Item = Edge>) -> Option<DVec3
     match free(sun, edges, &[]) {
         Free::None => None,
         Free::All => Some(sun),
-        Free::Part { middle, .. } => Some(middle.normalize()),
+        Free::Part { middle, .. } => middle.try_normalize(),
     }
 }
 
