@@ -9,9 +9,11 @@ use super::store::{USER_RANK, free_key, insert, put_blob, read_record};
 use super::waiting::adopt;
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
 use crate::compute::btdf::Dataset;
-use crate::formats::dataset_blob::decode;
+use crate::compute::limits;
+use crate::formats::dataset_blob::decode_within;
 use crate::formats::package::{self, Package, PackageCurvePoint, PackageProduct, PackageProvenance, PackageState};
 use rusqlite::{Connection, Transaction};
+use std::collections::HashMap;
 
 impl Catalogue {
     /// Adds a product whose states are the given datasets, in order. Fails without a trace.
@@ -88,12 +90,20 @@ pub struct Stored {
 pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, CatalogueError> {
     let package = package::read(bytes)?;
     let mut list = Vec::new();
+    let mut left = limits::DECODED_BYTES;
+    // What several products name is decoded once; their datasets share its values.
+    let mut decoded: HashMap<String, Dataset> = HashMap::new();
     for product in package.products {
         let mut datasets = Vec::new();
         for state in &product.states {
             let hash = state.dataset.clone();
             let blob = package.datasets.get(&hash).map(Vec::as_slice).unwrap_or_default();
-            let mut dataset = decode(blob).map_err(|cause| CatalogueError::Dataset { hash, cause })?;
+            let read = match decoded.remove(&hash) {
+                Some(read) => Ok(read),
+                None => decode_within(blob, &mut left),
+            };
+            let mut dataset = read.map_err(|cause| CatalogueError::Dataset { hash: hash.clone(), cause })?;
+            decoded.insert(hash, dataset.clone());
             if dataset.state != state.key {
                 return Err(CatalogueError::Import(format!(
                     "state \"{}\" of \"{}\" holds a dataset of state \"{}\"",

@@ -5,6 +5,7 @@ use super::described::{common_description, view};
 use super::product::slug;
 use super::{CatalogueError, NewProduct, Product, ProductFinding, State, StateName, check, profile_transmittances};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState, Finding, LightFigures};
+use crate::compute::limits;
 use crate::formats::dataset_blob::{content_hash, decode, encode};
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -57,31 +58,31 @@ fn prepared(
         return refuse(format!("{} names of states for {} datasets", meta.states.len(), datasets.len()));
     }
     let mut keys = HashSet::new();
+    if let Some(twice) = datasets
+        .iter()
+        .find(|given| !keys.insert(given.state.as_str()) || (datasets.len() > 1 && given.state.is_empty()))
+    {
+        return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", twice.state));
+    }
+    if datasets.len() > limits::STATES || meta.tags.len() > limits::TAGS {
+        let (states, tags) = (datasets.len(), meta.tags.len());
+        let most = format!("at most {} and {}", limits::STATES, limits::TAGS);
+        return refuse(format!("{states} states and {tags} tags ({most})"));
+    }
+    // Encoding and checking take the time; what they give does not depend on their order. What was read back is gone
+    // with its state: only its figures and its bytes are held for all.
+    let names = &meta.states;
+    let ready: Vec<_> = datasets
+        .par_iter()
+        .enumerate()
+        .map(|(index, given)| ready(given, names.get(index).cloned().unwrap_or_default(), ask))
+        .collect();
     let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
-    // Encoding and checking take the time; what they give does not depend on their order.
-    let stored: Vec<_> = datasets.par_iter().map(|dataset| stored(dataset, ask)).collect();
-    for (index, (given, stored)) in datasets.iter().zip(stored).enumerate() {
-        if !keys.insert(given.state.as_str()) || (datasets.len() > 1 && given.state.is_empty()) {
-            return refuse(format!("datasets of a family need distinct state keys; \"{}\" is not", given.state));
-        }
-        let (hash, blob, dataset, own) = stored?;
-        let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
-            return refuse(format!("dataset \"{}\" has no visible transmission", dataset.name));
-        };
-        let mut told = dataset.findings.clone();
-        told.extend(own.into_iter().filter(|finding| !dataset.findings.contains(finding)));
-        findings.extend(told.into_iter().map(|finding| ProductFinding {
-            state: dataset.state.clone(),
-            severity: finding.severity,
-            code: finding.code.to_owned(),
-            message: finding.message,
-        }));
-        let named = meta.states.get(index).cloned().unwrap_or_default();
-        states.push(State {
-            dataset: Some(hash.clone()),
-            ..figured(named_state(&dataset.state, named), transmission, given.described.as_ref())
-        });
-        blobs.push((hash, blob));
+    for one in ready {
+        let Ready { state, told, dataset } = one?;
+        states.push(state);
+        findings.extend(told);
+        blobs.push(dataset);
     }
     let mut meta = NewProduct {
         name,
@@ -97,6 +98,35 @@ fn prepared(
         _ => datasets.par_iter().map(content_of).collect(),
     };
     Ok(Record { product: product(meta, states, findings)?, datasets: blobs, contents, paths })
+}
+
+/// What is kept of one state.
+struct Ready {
+    state: State,
+    told: Vec<ProductFinding>,
+    /// Hash and bytes.
+    dataset: (String, Vec<u8>),
+}
+
+fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -> Result<Ready, CatalogueError> {
+    let (hash, blob, dataset, own) = stored(given, ask)?;
+    let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
+        return Err(CatalogueError::Import(format!("dataset \"{}\" has no visible transmission", dataset.name)));
+    };
+    let mut told = dataset.findings.clone();
+    told.extend(own.into_iter().filter(|finding| !dataset.findings.contains(finding)));
+    let told = told.into_iter().map(|finding| ProductFinding {
+        state: dataset.state.clone(),
+        severity: finding.severity,
+        code: finding.code.to_owned(),
+        message: finding.message,
+    });
+    let told = told.collect();
+    let state = State {
+        dataset: Some(hash.clone()),
+        ..figured(named_state(&dataset.state, named), transmission, given.described.as_ref())
+    };
+    Ok(Ready { state, told, dataset: (hash, blob) })
 }
 
 /// Where light goes, as far as a description tells it better than data on cells.

@@ -5,16 +5,13 @@ use super::{
     convert::ConvertArgs, goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, picture::PictureArgs,
     repair::RepairArgs, report::ReportArgs, room::RoomArgs, sky::SkyArgs,
 };
+use crate::compute::limits;
 use clap::CommandFactory as _;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// From a complex fenestration system's BTDF to the light in a room
-#[derive(Debug, clap::Parser)]
-#[command(
-    name = "cfs",
-    version,
-    about,
-    after_help = "Without a command the window opens.
+/// What can be typed, below all help.
+const EXAMPLES: &str = "Without a command the window opens.
 
 Examples:
   cfs                                   the window
@@ -34,7 +31,26 @@ Examples:
   cfs goniophotometer blind.system.toml --out blind.cfsp   datasets from geometry and material
   cfs catalogue list --search blind     products, built in and your own
 
-On bad input every command ends with status 2 and one line that says what would be right."
+On bad input every command ends with status 2 and one line that says what would be right.";
+
+/// The same with the table of limits, for `--help`.
+fn with_limits() -> String {
+    let mut text = format!("{EXAMPLES}\n\nLimits, each told by name where something is over it:\n");
+    for limit in limits::TABLE {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {limit}");
+    }
+    text
+}
+
+/// From a complex fenestration system's BTDF to the light in a room
+#[derive(Debug, clap::Parser)]
+#[command(
+    name = "cfs",
+    version,
+    about,
+    after_help = EXAMPLES,
+    after_long_help = with_limits()
 )]
 pub struct Arguments {
     /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
@@ -154,6 +170,14 @@ pub enum Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn help_tells_every_limit() {
+        let help = Arguments::command().render_long_help().to_string();
+        for limit in limits::TABLE {
+            assert!(help.contains(&limit.to_string()), "{limit}");
+        }
+    }
 
     #[test]
     fn words_that_are_nearly_commands_are_found() {

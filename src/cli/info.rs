@@ -32,15 +32,28 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
         return if args.json { print(&text) } else { print_text(&text) };
     }
     let datasets = dataset_file::read(&args.file)?;
-    let examined = datasets.iter().zip(examine_all(&datasets));
     let text = if args.json {
-        let mut list: Vec<Value> = examined.map(|(dataset, found)| to_json(dataset, &datasets, &found)).collect();
+        let mut list: Vec<Value> = once_each(&datasets, |dataset, found| to_json(dataset, &datasets, found));
         let value = if list.len() == 1 { list.remove(0) } else { Value::Array(list) };
         serde_json::to_string_pretty(&value)? + "\n"
     } else {
-        examined.map(|(dataset, found)| to_text(dataset, &found)).collect::<Vec<_>>().join("\n")
+        once_each(&datasets, to_text).join("\n")
     };
     if args.json { print(&text) } else { print_text(&text) }
+}
+
+/// What is said of each dataset, found once for those that are alike: one file may be named by many states.
+fn once_each<T: Clone>(datasets: &[Dataset], say: impl Fn(&Dataset, &[Diagnosis]) -> T) -> Vec<T> {
+    let mut said: Vec<(&Dataset, T)> = Vec::new();
+    let mut said_of = |(dataset, found): (_, Vec<Diagnosis>)| match said.iter().find(|(other, _)| *other == dataset) {
+        Some((_, text)) => text.clone(),
+        None => {
+            let text = say(dataset, &found);
+            said.push((dataset, text.clone()));
+            text
+        }
+    };
+    datasets.iter().zip(examine_all(datasets)).map(&mut said_of).collect()
 }
 
 /// Keys as the contract of the scene file's page lists them.

@@ -5,7 +5,7 @@ use super::progress::TerminalProgress;
 use super::writing::Over;
 use crate::compute::lid::BeamSource;
 use crate::formats::FileKind;
-use crate::study::{RoomResult, Scene, Session, load_scene, system::SystemLibrary};
+use crate::study::{RoomResult, Scene, SensorResult, Session, load_scene, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::path::PathBuf;
@@ -43,10 +43,11 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
     notes(&scene, &result);
+    let table = args.out.is_some() || !args.json;
     let mut csv = String::from(
         "x,y,z,nx,ny,nz,E_lx,E_direct_lx,E_interreflected_lx,E_error_lx,E_error_numerical_lx,E_error_data_lx,E_beam_lx\n",
     );
-    for row in &result.sensors {
+    for row in result.sensors.iter().filter(|_| table) {
         let total = row.total();
         let [p, n] = [row.sensor.position, row.sensor.normal];
         let light = [total.value, row.direct.value, row.interreflected.value];
@@ -59,7 +60,7 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
         args.over.write(path, FileKind::Csv, csv.as_bytes())?;
     }
     if args.json {
-        print(&format!("{:#}\n", to_json(&scene, &result)))?;
+        print_json(&scene, &result)?;
     } else if args.out.is_none() {
         print(&csv)?;
     }
@@ -128,16 +129,40 @@ fn to_json(scene: &Scene, result: &RoomResult) -> serde_json::Value {
         "plan": result.plan.stages.iter().map(|stage| json!({
             "stage": stage.name, "runs": stage.runs, "reason": stage.reason, "seconds": stage.time.as_secs_f64(),
         })).collect::<Vec<_>>(),
-        "sensors": result.sensors.iter().map(|row| json!({
-            "position_m": row.sensor.position.to_array(),
-            "normal": row.sensor.normal.to_array(),
-            "E_lx": row.total().value,
-            "E_direct_lx": row.direct.value,
-            "E_interreflected_lx": row.interreflected.value,
-            "E_error_lx": row.total().error,
-            "E_error_numerical_lx": row.numerical_error(),
-            "E_error_data_lx": row.data_error,
-            "E_beam_lx": row.beam,
-        })).collect::<Vec<_>>(),
     })
 }
+
+fn sensor_json(row: &SensorResult) -> serde_json::Value {
+    json!({
+        "position_m": row.sensor.position.to_array(),
+        "normal": row.sensor.normal.to_array(),
+        "E_lx": row.total().value,
+        "E_direct_lx": row.direct.value,
+        "E_interreflected_lx": row.interreflected.value,
+        "E_error_lx": row.total().error,
+        "E_error_numerical_lx": row.numerical_error(),
+        "E_error_data_lx": row.data_error,
+        "E_beam_lx": row.beam,
+    })
+}
+
+/// One object, its sensors last and one after the other: a million of them as one value would take gigabytes.
+fn print_json(scene: &Scene, result: &RoomResult) -> anyhow::Result<()> {
+    let head = format!("{:#}", to_json(scene, result));
+    let head = head.strip_suffix("\n}").unwrap_or(&head);
+    let mut text = format!("{head},\n  \"sensors\": [\n");
+    for (index, row) in result.sensors.iter().enumerate() {
+        let own = format!("{:#}", sensor_json(row)).replace('\n', "\n    ");
+        text.push_str(if index > 0 { ",\n    " } else { "    " });
+        text.push_str(&own);
+        if text.len() > PRINTED_AT_ONCE {
+            print(&text)?;
+            text.clear();
+        }
+    }
+    text.push_str("\n  ]\n}\n");
+    print(&text)
+}
+
+/// Bytes of text that are collected before they go out.
+const PRINTED_AT_ONCE: usize = 1 << 20;

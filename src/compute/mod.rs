@@ -4,6 +4,7 @@
 //!
 //! Each room uses only those before it, and inside a room no two files use each other; `tests/tidy` reads this list.
 //!
+//! - `limits`: the table of all limits
 //! - `angle`: angles and bearings as types
 //! - `direction`: directions, frames and what points where
 //! - `profile_angle`: directions in the section across slats
@@ -51,6 +52,7 @@ pub mod doctor;
 pub mod estimate;
 pub mod incidence;
 pub mod lid;
+pub mod limits;
 pub mod polygon;
 pub mod profile_angle;
 pub mod quadrature;

@@ -43,9 +43,26 @@ pub fn cut_by_all<F: Fn(DVec2) -> f64>(
     }
 }
 
+/// Of its distance, what a polygon spans that is too small for products of its corners: these are nearly parallel, and the
+/// rounding of their product, over the square of the span, would be seen.
+const TINY: f64 = 1e-5;
+
 /// Area of a plane polygon, > 0 when it turns counter-clockwise.
 pub fn area(polygon: &[DVec2]) -> f64 {
-    (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
+    let Some(&first) = polygon.first() else { return 0.0 };
+    let span = TINY * TINY * first.length_squared();
+    let origin = if polygon.iter().all(|p| p.distance_squared(first) < span) { first } else { DVec2::ZERO };
+    let corner = |k: usize| polygon[k % polygon.len()] - origin;
+    (0..polygon.len()).map(|k| 0.5 * corner(k).perp_dot(corner(k + 1))).sum()
+}
+
+/// Is a polygon of corners given as vectors from the point so small from there that only the differences of its corners
+/// hold its shape?
+pub fn is_tiny(polygon: &[DVec3]) -> bool {
+    polygon.first().is_some_and(|first| {
+        let span = TINY * TINY * first.length_squared();
+        polygon.iter().all(|p| p.distance_squared(*first) < span)
+    })
 }
 
 /// Keeps the part of a convex polygon with `normal · p ≥ 0`, see [`cut`].
@@ -56,16 +73,22 @@ pub fn clip(polygon: &[DVec3], normal: DVec3, kept: &mut Vec<DVec3>) {
 /// ∫ ω dω over the solid angle of a polygon whose corners are given as vectors from the point; positive when the
 /// corners run counter-clockwise seen against the light. Lambert's edge sum ½ Σ Γᵢ n̂ᵢ, Γ by `atan2` (stable for slivers).
 pub fn vector_solid_angle(polygon: &[DVec3]) -> DVec3 {
+    let tiny = is_tiny(polygon);
     let mut sum = DVec3::ZERO;
     for (i, &p) in polygon.iter().enumerate() {
-        sum += edge(p, polygon[(i + 1) % polygon.len()]);
+        let q = polygon[(i + 1) % polygon.len()];
+        sum += if tiny { arc(p.cross(q - p), p, q) } else { edge(p, q) };
     }
     0.5 * sum
 }
 
 /// Γ n̂ of the arc from p to q.
 pub fn edge(p: DVec3, q: DVec3) -> DVec3 {
-    let cross = p.cross(q);
+    arc(p.cross(q), p, q)
+}
+
+/// The same from p × q.
+fn arc(cross: DVec3, p: DVec3, q: DVec3) -> DVec3 {
     let length = cross.length();
     if length < 1e-300 {
         return DVec3::ZERO;
@@ -107,6 +130,27 @@ mod tests {
             assert!((e / lx - 1.0).abs() < 1e-5, "{e} {lx}");
             assert!((e / 1000.0 / facing(1.2, 1.0, d) - 1.0).abs() < 1e-13);
         }
+    }
+
+    #[test]
+    fn an_opening_of_a_micrometre_sends_what_its_area_does() {
+        for (x, y, z) in [(0.0, 0.0, 1.0), (3.0, -2.0, 6.0), (-40.0, 70.0, 100.0)] {
+            for size in [1e-6, 1e-5, 1e-4] {
+                let corner = |u: f64, v: f64| DVec3::new(x + u * size, y + v * size, z);
+                let rectangle = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+                // What the sides of the rectangle are once its corners are rounded.
+                let area = (rectangle[1].x - x) * (rectangle[3].y - y);
+                let centre = corner(0.5, 0.5);
+                for normal in [DVec3::Z, DVec3::new(0.3, 0.1, 0.9).normalize()] {
+                    let far = area * z * normal.dot(centre) / centre.length_squared().powi(2);
+                    let e = projected_solid_angle(&rectangle, normal);
+                    assert!((e / far - 1.0).abs() < 3e-8, "{size} at {centre}: {e} {far}");
+                }
+            }
+        }
+        let shifted =
+            [[3.0, 5.0], [3.0 + 1e-6, 5.0], [3.0 + 1e-6, 5.0 + 1e-6], [3.0, 5.0 + 1e-6]].map(DVec2::from_array);
+        assert!((area(&shifted) / 1e-12 - 1.0).abs() < 1e-8);
     }
 
     #[test]

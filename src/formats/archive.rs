@@ -1,12 +1,13 @@
 //! A zip archive of files, as folders of data are sent around: its files by name, within limits that no archive gets past.
 
+use crate::compute::limits;
 use std::io::{Cursor, Read};
 use zip::ZipArchive;
 
 /// Most entries of an archive.
-pub const MOST_ENTRIES: usize = 20_000;
+pub const MOST_ENTRIES: usize = limits::ARCHIVE_ENTRIES;
 /// Largest file in an archive. \[bytes\]
-pub const MOST_FILE: u64 = 256 << 20;
+pub const MOST_FILE: u64 = limits::ENTRY_BYTES;
 
 /// Why an archive, or a file in it, cannot be read.
 #[derive(Debug, thiserror::Error)]

@@ -8,7 +8,7 @@
 mod read;
 mod write;
 
-pub use read::decode;
+pub use read::{decode, decode_within};
 pub use write::encode;
 
 /// First bytes of every blob.

@@ -5,12 +5,15 @@
 //! header, whatever follows the last intensity. Not read: nothing is made of direct ratios and colour data.
 
 use super::FormatError;
-use super::luminaire::{Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number};
+use super::luminaire::{
+    Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
+};
 use crate::compute::btdf::Finding;
+use crate::compute::limits;
 
 const LAMP_SETS_LINE: usize = 26;
-const MAX_PLANES: f64 = 721.0;
-const MAX_ANGLES: f64 = 361.0;
+const MAX_PLANES: f64 = limits::LUMINAIRE_PLANES as f64;
+const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
 
 /// Writes a luminaire of photometry C. Its planes must cover the full turn (or be one).
 ///
@@ -152,7 +155,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     for each in heights {
         height = height.max(each?);
     }
-    Ok(Luminaire {
+    plausible(Luminaire {
         format: "EULUMDAT".to_owned(),
         text: Description {
             report: lines.text(8),

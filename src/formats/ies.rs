@@ -5,7 +5,9 @@
 //! TILT=NONE and INCLUDE (the factors are told, not applied). Not read: tilt in another file.
 
 use super::FormatError;
-use super::luminaire::{Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number};
+use super::luminaire::{
+    Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
+};
 use crate::compute::btdf::Finding;
 
 /// Editions that are written.
@@ -189,7 +191,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
         source.iter().flat_map(|&plane: &usize| &table[plane * angles..][..angles]).map(|v| v * factor).collect();
     let keyword = |name: &str| keyword_value(&lines[..tilt_line], name);
     let date = keyword("ISSUEDATE");
-    Ok(Luminaire {
+    plausible(Luminaire {
         format: if format.starts_with("IES") { format.to_owned() } else { "LM-63-1986".to_owned() },
         text: Description {
             report: keyword("TEST"),

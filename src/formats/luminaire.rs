@@ -7,6 +7,7 @@ use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::lid::Intensities;
 use crate::compute::lid::c_gamma::{Aim, CGammaTable, Widened};
+use crate::compute::limits;
 
 /// Which axis the planes of a photometric file turn about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -252,6 +253,60 @@ pub(super) fn ascii(text: &str) -> String {
 pub(super) fn at_line(line: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
     FormatError::new(Location::line(line), found, expected)
 }
+
+/// Judges the light of a luminaire that was read, all numbers of it: what no luminaire has is refused, and intensities a
+/// little below 0, as differences of measurements are, count as 0, which is told.
+pub(super) fn plausible(mut luminaire: Luminaire) -> Result<Luminaire, FormatError> {
+    let wrong = |what: &str, value: f64, unit: &str, (least, most): (f64, f64)| {
+        let at = Location::file().in_element(what);
+        Err(FormatError::new(at, format!("{value:e} {unit}"), format!("{least} to {most:e} {unit}")))
+    };
+    let peak = luminaire.peak();
+    for (index, cd) in luminaire.intensity.iter().enumerate() {
+        // Written so that what is no number fails too.
+        if !(*cd >= -BELOW_ZERO * peak && *cd <= limits::INTENSITY) {
+            let angles = luminaire.gamma_deg.len();
+            let [c, gamma] = [luminaire.c_deg[index / angles], luminaire.gamma_deg[index % angles]];
+            return wrong(&format!("intensity at C {c}°, gamma {gamma}°"), *cd, "cd", (0.0, limits::INTENSITY));
+        }
+    }
+    let flux = luminaire.lamp_flux.unwrap_or(0.0);
+    if !(0.0..=limits::LAMP_FLUX).contains(&flux) {
+        return wrong("flux of the lamps", flux, "lm", (0.0, limits::LAMP_FLUX));
+    }
+    // Below 0 where it is not known.
+    if luminaire.power.is_nan() || luminaire.power.abs() > MOST_POWER {
+        return wrong("power", luminaire.power, "W", (0.0, MOST_POWER));
+    }
+    let Opening { along_c0, along_c90, height } = luminaire.opening;
+    for size in [along_c0, along_c90, height] {
+        // Below 0 it is a diameter.
+        if size.is_nan() || size.abs() > MOST_SIZE {
+            return wrong("size of the luminous opening", size, "m", (-MOST_SIZE, MOST_SIZE));
+        }
+    }
+    for angle in luminaire.c_deg.iter().chain(&luminaire.gamma_deg) {
+        if angle.is_nan() || angle.abs() > 360.0 {
+            return wrong("angle", *angle, "°", (-360.0, 360.0));
+        }
+    }
+    let below = luminaire.intensity.iter().filter(|cd| **cd < 0.0).count();
+    if below > 0 {
+        luminaire.intensity.iter_mut().for_each(|cd| *cd = cd.max(0.0));
+        luminaire.findings.push(Finding::warning(
+            "negative-intensities",
+            format!("{below} intensities are a little below 0 cd, which no light is; they count as 0"),
+        ));
+    }
+    Ok(luminaire)
+}
+
+/// Of the largest intensity, how far below 0 differences of measurements may be.
+const BELOW_ZERO: f64 = 0.01;
+/// A luminaire's power. \[W\]
+const MOST_POWER: f64 = 1e7;
+/// A luminaire's extent. \[m\]
+const MOST_SIZE: f64 = 1000.0;
 
 /// Fails unless the angles rise strictly.
 pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), FormatError> {

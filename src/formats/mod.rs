@@ -34,6 +34,8 @@ pub use location::{FormatError, Location};
 pub use written::Written;
 
 use crate::compute::btdf::Dataset;
+use crate::compute::limits;
+use std::collections::HashMap;
 
 /// The dataset formats that are read and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -140,10 +142,18 @@ fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
         let what = format!("a package of {} products", package.products.len());
         return Err(error(what, "a package of one product here; the catalogue imports all"));
     };
-    let dataset = |state: &package::PackageState| {
-        let blob = package.datasets.get(&state.dataset).map(Vec::as_slice).unwrap_or_default();
-        let read = dataset_blob::decode(blob);
-        let mut dataset = read.map_err(|e| error(format!("state {}: {e}", state.key), "a whole package (.cfsp)"))?;
+    // What several states name is decoded once; their datasets share its values.
+    let mut decoded: HashMap<&str, Dataset> = HashMap::new();
+    let mut left = limits::DECODED_BYTES;
+    let dataset = |state| {
+        let package::PackageState { key, dataset: hash, .. }: &package::PackageState = state;
+        if !decoded.contains_key(hash.as_str()) {
+            let blob = package.datasets.get(hash).map(Vec::as_slice).unwrap_or_default();
+            let read = dataset_blob::decode_within(blob, &mut left);
+            let read = read.map_err(|e| error(format!("state {key}: {e}"), "a whole package (.cfsp)"))?;
+            decoded.insert(hash, read);
+        }
+        let mut dataset = decoded[hash.as_str()].clone();
         // Kept once, with the product.
         dataset.described = system_toml::described(&product.system, &state.key);
         Ok(dataset)

@@ -4,8 +4,9 @@
 //! BLAKE3 hash of its bytes, which is checked on reading.
 
 use super::dataset_blob::content_hash;
+use crate::compute::limits;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::io::{Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
@@ -16,13 +17,13 @@ const FORMAT: &str = "cfs-package";
 /// license, else 1.
 pub const VERSION: u32 = 2;
 /// Largest manifest. \[bytes\]
-const MOST_MANIFEST: u64 = 16 << 20;
+const MOST_MANIFEST: u64 = limits::MANIFEST_BYTES;
 /// Largest dataset. \[bytes\]
-const MOST_DATASET: u64 = 256 << 20;
+const MOST_DATASET: u64 = limits::ENTRY_BYTES;
 /// Most bytes of all datasets together.
-const MOST_TOTAL: u64 = 1 << 30;
+const MOST_TOTAL: u64 = limits::PACKAGE_BYTES;
 /// Most entries of the zip file.
-const MOST_ENTRIES: usize = 20_000;
+const MOST_ENTRIES: usize = limits::ARCHIVE_ENTRIES;
 
 /// What a package holds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -204,6 +205,7 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
         if product.states.is_empty() {
             return Err(PackageError::Content(format!("product \"{}\" has no states", product.key)));
         }
+        judge(product)?;
         for state in &product.states {
             if package.datasets.contains_key(&state.dataset) {
                 continue;
@@ -221,6 +223,24 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
         }
     }
     Ok(package)
+}
+
+/// Budgets of a product, before any of its data are touched.
+fn judge(product: &PackageProduct) -> Result<(), PackageError> {
+    let name: String = product.key.chars().take(80).collect();
+    let refuse = |what: String| Err(PackageError::Content(format!("product \"{name}\" has {what}")));
+    let (states, tags) = (product.states.len(), product.tags.len());
+    if states > limits::STATES {
+        return refuse(format!("{states} states (at most {})", limits::STATES));
+    }
+    if tags > limits::TAGS {
+        return refuse(format!("{tags} tags (at most {})", limits::TAGS));
+    }
+    let mut keys = HashSet::new();
+    match product.states.iter().find(|state| !keys.insert(state.key.as_str())) {
+        Some(twice) => refuse(format!("two states of the key \"{}\"", twice.key.chars().take(80).collect::<String>())),
+        None => Ok(()),
+    }
 }
 
 /// One entry, never more than `most` bytes of it whatever its header says.

@@ -5,6 +5,7 @@
 //! `L_centre_cdm2`, with 145 rows in order. Lines that begin with `#` are comments. Not read: other lattices, gaps.
 
 use super::encoding::{NotText, utf8};
+use crate::compute::limits;
 use crate::compute::sky::Scan;
 
 /// Why the text is no scan.
@@ -14,7 +15,7 @@ pub enum ScanError {
     #[error(transparent)]
     NotText(#[from] NotText),
     /// A field that is no luminance.
-    #[error("line {line}: \"{found}\" is no luminance (expected a number of 0 cd/m² or more)")]
+    #[error("line {line}: \"{found}\" is no luminance (expected a number from 0 to {most:e} cd/m²)", most = limits::LUMINANCE)]
     Number {
         /// Line number, from 1.
         line: usize,
@@ -54,7 +55,7 @@ pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
             None => &fields[..],
         };
         for field in chosen {
-            let value = field.parse::<f64>().ok().filter(|value| value.is_finite() && *value >= 0.0);
+            let value = field.parse::<f64>().ok().filter(|value| (0.0..=limits::LUMINANCE).contains(value));
             values.push(value.ok_or_else(|| ScanError::Number { line: number, found: (*field).to_owned() })?);
         }
         if values.len() > 100_000 {

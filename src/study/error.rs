@@ -43,6 +43,11 @@ pub enum StudyError {
     /// More apertures than interreflection can be computed with.
     #[error("aperture: {0}")]
     Patches(TooManyPatches),
+    /// Lengths or values that arithmetic cannot hold together.
+    #[error(
+        "the light at {0} comes out as no number: lengths or values of the scene lie too far apart to be computed with"
+    )]
+    NoNumber(String),
     /// Withdrawn.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -5,6 +5,7 @@
 
 use super::error::StudyError;
 use super::part::{Part, resolved};
+use crate::compute::limits;
 use crate::formats::{FileKind, HEAD};
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Read as _, Write as _};
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Larger files are refused before they are read: datasets and packages, next to which all others are small. \[bytes\]
-pub const LARGEST_FILE: u64 = 1 << 30;
+pub const LARGEST_FILE: u64 = limits::FILE_BYTES;
 
 /// So many of the files that are written together are held open at once; systems allow a thousand.
 const MOST_OPEN: usize = 200;

@@ -4,6 +4,7 @@ use super::files;
 use crate::catalogue::{NewProduct, SourceFile, unpack};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
+use crate::compute::limits;
 use crate::formats::luminaire::Luminaire;
 use crate::formats::system_toml::is_system_file;
 use crate::formats::{Format, FormatError, archive, eulumdat, ies};
@@ -13,11 +14,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// Most files that are read of a folder.
-const MOST_FILES: usize = 2000;
+const MOST_FILES: usize = limits::IMPORTED_FILES;
 /// Folders within folders that are looked into.
 const DEPTH: usize = 6;
 /// Most bytes that all archives together may unpack to.
-const MOST_UNPACKED: u64 = 1 << 30;
+const MOST_UNPACKED: u64 = limits::UNPACKED_BYTES;
 
 /// Reads the datasets of a file: name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;

@@ -4,6 +4,7 @@ use super::error::StudyError;
 use super::scene_file::{OutsideKeys, USUAL_REFLECTANCE};
 use crate::compute::direction::Orientation;
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::limits;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::sky::faces::{Finish, surroundings};
 use crate::compute::sky::{Outside, Sun};
@@ -12,7 +13,7 @@ use glam::DVec3;
 use std::sync::Arc;
 
 /// Most boxes that one scene may have: every ray asks all of them.
-pub const MOST_BOXES: usize = 200;
+pub const MOST_BOXES: usize = limits::BOXES;
 /// Longest way of a box from the room's origin. \[m\]
 const FARTHEST: f64 = 1e6;
 /// Shortest side of a box: what is thinner is typed by mistake, and rays could pass it unseen. \[m\]
@@ -49,8 +50,9 @@ fn one_box(index: usize, keys: &OutsideKeys, room: &BoxRoom) -> Result<(Solid, F
         (Some(_), Some(_)) => {
             return wrong("luminance", "given together with reflectance: give one of them".to_owned());
         }
-        (None, Some(luminance)) if !(luminance >= 0.0 && luminance.is_finite()) => {
-            return wrong("luminance", format!("{luminance} cd/m² is out of range (allowed: 0 and above)"));
+        (None, Some(luminance)) if !(0.0..=limits::LUMINANCE).contains(&luminance) => {
+            let most = limits::LUMINANCE;
+            return wrong("luminance", format!("{luminance:e} cd/m² is out of range (allowed: 0 to {most:e})"));
         }
         (None, Some(luminance)) => Finish::Luminance(luminance),
         (reflectance, None) => {

@@ -20,6 +20,7 @@ use crate::compute::direction::{Orientation, Surface};
 use crate::compute::estimate::{Progress, Silent};
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use crate::compute::lid::{Facing, Lamps};
+use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::reflecting_cells;
 use crate::compute::room::direct::Sensor;
@@ -33,7 +34,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Most sensors that one scene may have.
-const MOST_SENSORS: usize = 1_000_000;
+const MOST_SENSORS: usize = limits::SENSORS;
 
 /// One aperture with what fills it.
 #[derive(Debug, Clone)]
@@ -407,6 +408,11 @@ fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, Stu
             if !(size > 0.0 && size.is_finite()) {
                 return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
             }
+            if size < limits::OPENING {
+                let least = limits::OPENING;
+                let message = format!("{size:e} m (allowed: {least} m, a micrometre, and above)");
+                return Err(StudyError::key(name("size"), message));
+            }
             // Lengths typed as decimals do not add up exactly, and an aperture may fill its wall.
             let slack = 1e-9 * limit;
             if !(from >= -slack && from + size <= limit + slack) {
@@ -477,6 +483,9 @@ fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[us
         if keys.points.is_empty() {
             grid = Some([plane.nx, plane.ny]);
         }
+    }
+    if list.len().saturating_add(keys.points.len()) > MOST_SENSORS {
+        return Err(StudyError::key("sensors.points", format!("more than {MOST_SENSORS} sensors")));
     }
     if !keys.points.is_empty() {
         // Points have no plane to say where they face: a desk's upper side is meant.

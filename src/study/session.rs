@@ -9,6 +9,7 @@ mod lights;
 mod outside_seen;
 mod part;
 pub(super) mod responses;
+mod seen;
 mod split;
 mod surfaces;
 mod through_room;
@@ -23,7 +24,7 @@ use super::scene_file::Interpolation;
 use super::system::VerySystem;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
-use crate::compute::estimate::{Cancelled, Estimate, Progress, largest_relative_error};
+use crate::compute::estimate::{Estimate, Progress, largest_relative_error};
 use crate::compute::lid::peaks::Peaks;
 use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
@@ -36,6 +37,8 @@ use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::radiosity::Radiosity;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
+use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 pub use surfaces::{PatchLight, SurfaceLight};
@@ -54,6 +57,9 @@ const SEEN: f64 = 1e-4;
 
 /// What a scene that names no error gets. \[relative\]
 pub(super) const ORDINARY_TARGET: f64 = 0.01;
+
+/// What a room computes first, as progress names it.
+const DIRECT: &str = "direct light";
 
 /// Steps that a room reports: emission, direct light, two meshes.
 const STEPS: usize = 4;
@@ -128,6 +134,14 @@ pub struct LidResult {
     pub incident: (Estimate, f64),
 }
 
+impl LidResult {
+    /// The same if its light is numbers.
+    fn checked(self) -> Result<Self, StudyError> {
+        all_numbers(&[], self.flux)?;
+        Ok(self)
+    }
+}
+
 /// Caches. One for the life of a program; shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
@@ -177,15 +191,16 @@ impl Session {
         check(progress)?;
         let geometry = &scene.apertures[aperture].aperture;
         if scene.outside.surroundings().is_some() {
-            return Ok(self.split(scene, aperture).lid(scene, aperture));
+            return self.split(scene, aperture).lid(scene, aperture).checked();
         }
         let facing = scene.facing(aperture);
         let emission = self.emission(scene, aperture);
-        Ok(LidResult {
+        let result = LidResult {
             lid: emission.lid(&facing, geometry.size),
             flux: emission.exitance(&facing) * geometry.area(),
             incident: (emission.incident_diffuse, emission.incident_sun),
-        })
+        };
+        result.checked()
     }
 
     /// Illuminance at every sensor.
@@ -204,10 +219,11 @@ impl Session {
             plan.note("interpolation", true, note);
         }
         check(progress)?;
-        progress.advance("direct light", 1, STEPS);
+        progress.advance(DIRECT, 1, STEPS);
 
         let clock = Instant::now();
-        let reused = self.holds_receptions(scene, emissions);
+        let kept = emissions.iter().all(|one| bases(one).into_iter().all(|basis| keeps_receptions(scene, basis)));
+        let reused = kept && self.holds_receptions(scene, emissions);
         let direct = if splits.is_empty() {
             self.direct(scene, emissions, progress)?
         } else {
@@ -215,9 +231,15 @@ impl Session {
         };
         plan.spend("direct", clock.elapsed());
         if splits.is_empty() && scene.near_field == NearField::SolidAngle {
-            let reason = if reused { "reused: sensors, apertures and cells are the same" } else { "not there yet" };
+            let reason = match (kept, reused) {
+                (false, _) => "sensor by sensor: those of so many are not kept",
+                (true, true) => "reused: sensors, apertures and cells are the same",
+                (true, false) => "not there yet",
+            };
             plan.note("receptions", !reused, reason);
-            self.note_unseen(scene, emissions, &mut plan, progress)?;
+            if kept {
+                self.note_unseen(scene, emissions, &mut plan, progress)?;
+            }
         }
         progress.advance("interreflection", 2, STEPS);
 
@@ -235,7 +257,7 @@ impl Session {
         let doubted: f64 =
             emissions.iter().zip(&scene.apertures).map(|(e, one)| e.exitance_doubt() * one.aperture.area()).sum();
         let open = if flux.value > 0.0 { doubted / flux.value } else { 0.0 };
-        let sensors = scene
+        let sensors: Vec<SensorResult> = scene
             .sensors
             .iter()
             .zip(direct.into_iter().zip(interreflected))
@@ -245,6 +267,7 @@ impl Session {
                 SensorResult { sensor, direct: all, interreflected, beam, data_error }
             })
             .collect();
+        all_numbers(&sensors, flux)?;
         let beams =
             emissions.iter().map(|emission| (emission.beam_source, sun_word(emission, scene.interpolation))).collect();
         Ok(RoomResult { sensors, flux, flux_gap, beams, outside, plan })
@@ -291,6 +314,7 @@ impl Session {
         progress: &dyn Progress,
     ) -> Result<Arc<Vec<Reception>>, StudyError> {
         let aperture = &scene.apertures[index].aperture;
+        within_budget(scene, size_of::<Reception>() + basis.map_or(0, RingBasis::len) * size_of::<f64>())?;
         self.reception.get(reception_key(scene, index, basis), || {
             scene
                 .sensors
@@ -303,26 +327,43 @@ impl Session {
         })
     }
 
-    /// What every sensor receives from one aperture by bands of the profile angle.
-    fn band_weights(
+    /// What sensors see of an aperture on the cells of a basis.
+    fn seen<'a>(
         &self,
-        scene: &Scene,
+        scene: &'a Scene,
+        index: usize,
+        basis: Option<&'a RingBasis>,
+        progress: &dyn Progress,
+    ) -> Result<Seen<'a>, StudyError> {
+        if keeps_receptions(scene, basis) {
+            return self.receptions(scene, index, basis, progress).map(Seen::Kept);
+        }
+        Ok(Seen::Anew(&scene.apertures[index].aperture, basis))
+    }
+
+    /// What every sensor receives from one aperture by bands of the profile angle.
+    fn band_weights<'a>(
+        &self,
+        scene: &'a Scene,
         index: usize,
         bands: &BandLight,
         progress: &dyn Progress,
-    ) -> Result<Arc<Vec<BandWeights>>, StudyError> {
+    ) -> Result<SeenBands<'a>, StudyError> {
         let aperture = &scene.apertures[index].aperture;
         let (upright, count) = (bands.light.upright, bands.light.q.len());
+        if !keeps(scene, count) {
+            return Ok(SeenBands::Anew(aperture, upright, count));
+        }
         let mut key = reception_key(scene, index, None);
         key.extend([u64::from(upright), count as u64]);
-        self.bands.get(key, || {
+        let kept = self.bands.get(key, || {
             let of = |sensor: &Sensor| {
                 check(progress)?;
-                let view = aperture.view(sensor.position, sensor.normal);
-                Ok(view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count)))
+                Ok::<_, StudyError>(bands_of(sensor, aperture, upright, count))
             };
             scene.sensors.par_iter().map(of).collect()
-        })
+        });
+        kept.map(SeenBands::Kept)
     }
 
     fn direct(
@@ -340,20 +381,13 @@ impl Session {
             if scene.near_field != NearField::SolidAngle {
                 let method =
                     Integrator::new(scene.near_field, aperture, emission, &facing, Tolerance::relative(relative));
-                let part: Vec<DirectLight> = scene
-                    .sensors
-                    .par_iter()
-                    .map(|sensor| {
-                        check(progress)?;
-                        Ok(method.illuminance(sensor))
-                    })
-                    .collect::<Result<_, StudyError>>()?;
+                let part = in_blocks(scene, DIRECT, progress, |_, sensor| Ok(method.illuminance(sensor)))?;
                 sums.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
                 continue;
             }
-            let receptions: Vec<Arc<Vec<Reception>>> = bases(emission)
+            let receptions: Vec<Seen<'_>> = bases(emission)
                 .into_iter()
-                .map(|basis| self.receptions(scene, index, basis, progress))
+                .map(|basis| self.seen(scene, index, basis, progress))
                 .collect::<Result<_, StudyError>>()?;
             let bands = match emission.bands.first() {
                 Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
@@ -362,22 +396,29 @@ impl Session {
             // Dark corners are not chased beyond what anyone can see.
             let absolute = 1e-7 * (facing.outside.diffuse_horizontal());
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
-            let part: Vec<DirectLight> = scene
-                .sensors
-                .par_iter()
-                .enumerate()
-                .map(|(s, sensor)| {
-                    check(progress)?;
-                    let own: Vec<&Reception> = receptions.iter().map(|all| &all[s]).collect();
-                    let bands = bands.as_ref().map(|all| &all[s]);
-                    Ok(direct::illuminance(sensor, aperture, &own, bands, emission, &facing, tolerance))
-                })
-                .collect::<Result<_, StudyError>>()?;
+            let part = in_blocks(scene, DIRECT, progress, |s, sensor| {
+                let own: Vec<Cow<'_, Reception>> = receptions.iter().map(|all| all.of(s, sensor)).collect();
+                let own: Vec<&Reception> = own.iter().map(|one| &**one).collect();
+                let bands = bands.as_ref().map(|all| all.of(s, sensor));
+                Ok(direct::illuminance(sensor, aperture, &own, bands.as_deref(), emission, &facing, tolerance))
+            })?;
             for (sum, e) in sums.iter_mut().zip(part) {
                 *sum += e;
             }
         }
         Ok(sums)
+    }
+}
+
+/// Nothing leaves that is no number.
+fn all_numbers(sensors: &[SensorResult], flux: Estimate) -> Result<(), StudyError> {
+    let number = |one: Estimate| one.value.is_finite() && one.error.is_finite();
+    if !number(flux) {
+        return Err(StudyError::NoNumber("the apertures".to_owned()));
+    }
+    match sensors.iter().position(|one| !(number(one.total()) && one.beam.is_finite())) {
+        Some(at) => Err(StudyError::NoNumber(format!("sensor {}", at + 1))),
+        None => Ok(()),
     }
 }
 
@@ -399,10 +440,6 @@ fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
 fn bases(emission: &Emission) -> Vec<Option<&RingBasis>> {
     let own: Vec<_> = emission.cells.iter().map(|light| Some(&*light.basis)).collect();
     if own.is_empty() { vec![None] } else { own }
-}
-
-fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
-    if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
 }
 
 fn aperture_key(scene: &Scene, index: usize) -> Key {

@@ -1,6 +1,7 @@
 //! From `sky.skyline` to a skyline that rises and falls with the bearing.
 
 use super::scene_file::SkylineKeys;
+use crate::compute::limits;
 use crate::compute::sky::Outside;
 use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::skyline::Skyline;
@@ -14,8 +15,8 @@ pub type Wrong = (&'static str, String);
 /// Judges `sky.skyline`.
 pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
     let wrong = |key, message: String| Err((key, message));
-    if !(keys.luminance >= 0.0 && keys.luminance.is_finite()) {
-        let message = format!("{} cd/m² is out of range (allowed: 0 and above)", keys.luminance);
+    if !(0.0..=limits::LUMINANCE).contains(&keys.luminance) {
+        let message = format!("{:e} cd/m² is out of range (allowed: 0 to {:e})", keys.luminance, limits::LUMINANCE);
         return wrong("sky.skyline.luminance", message);
     }
     for [bearing, altitude] in &keys.altitudes {

@@ -339,8 +339,23 @@ fn arguments_that_clap_refuses_end_with_two_as_well() {
         let output = folder.cfs(arguments);
         assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
     }
-    assert!(folder.cfs(&["--help"]).status.success());
+    let help = folder.cfs(&["--help"]);
+    assert!(help.status.success() && text(&help.stdout).contains("sensors of a scene: at most 1000000"));
     assert!(folder.cfs(&["--version"]).status.success());
+}
+
+#[test]
+fn json_of_many_sensors_is_one_object_set_like_any_other() {
+    let folder = Folder::new();
+    let sensors = "plane = { z = 0.85, nx = 70, ny = 60 }".to_owned();
+    folder.write("many.toml", &Text { sensors, sky: UNIFORM.into(), ..Text::default() }.toml());
+    let output = folder.cfs(&["room", "many.toml", "--json"]);
+    let printed = text(&output.stdout);
+    let value: Value = serde_json::from_str(printed).unwrap();
+    assert_eq!(value["sensors"].as_array().map(Vec::len), Some(4200));
+    // Numbers may be read to another last digit; everything else stands where the usual print has it.
+    let plain = |text: &str| text.chars().filter(|c| !c.is_ascii_digit() && *c != '.').collect::<String>();
+    assert_eq!(plain(printed), plain(&format!("{value:#}\n")));
 }
 
 #[test]

@@ -230,6 +230,27 @@ fn faults_are_told_with_their_line() {
 }
 
 #[test]
+fn light_that_cannot_be_is_refused_and_a_little_below_nothing_is_told() {
+    let file = |cd: &str, lumens: &str| {
+        let text = format!("IESNA:LM-63-2002\nTILT=NONE\n1 {lumens} 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n100 {cd}\n");
+        ies::read(text.as_bytes())
+    };
+    for (cd, lumens) in [("-1e9", "-1"), ("1e308", "-1"), ("-3", "-1"), ("1e13", "-1"), ("5", "1e300")] {
+        let error = file(cd, lumens).expect_err(cd).to_string();
+        assert!(error.contains("expected 0 to 1e") && error.len() < 120, "{cd}: {error}");
+    }
+    let mended = file("-0.5", "-1").unwrap();
+    assert_eq!(mended.intensity, [100.0, 0.0]);
+    assert!(mended.findings.iter().any(|finding| finding.code == "negative-intensities"));
+    assert!(mended.flux().is_finite() && mended.flux() > 0.0);
+    // A wide C angle or a size beyond all measure would make the flux none.
+    let wide = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 1 2 0 0 0\n1 1 0\n0 90\n0 1e300\n9 1\n9 1\n";
+    assert!(ies::read(wide).is_err());
+    let long = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 1e300 0 0\n1 1 0\n0 90\n0\n9 1\n";
+    assert!(ies::read(long).unwrap_err().to_string().contains("size of the luminous opening"));
+}
+
+#[test]
 fn quadrant_symmetry_is_expanded() {
     let file = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 3 1 2 0 0 0\n1 1 0\n0 90\n0 45 90\n9 1\n9 2\n9 3\n";
     let luminaire = ies::read(file).unwrap();

@@ -2,6 +2,7 @@
 
 mod beams;
 mod btdf_text;
+mod budgets;
 #[path = "../common/mod.rs"]
 mod common;
 mod doctor;

@@ -17,5 +17,6 @@ mod rooms;
 mod sharp_sun;
 mod stability;
 mod stability_measured;
+mod strange;
 mod surfaces;
 mod validation;

@@ -28,7 +28,7 @@ impl CellMatrix {
         let weight = emergent.projected_solid_angles();
         let tau =
             values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
-        Some(Self { incident, emergent, rows: Rows::Plain(values), tau })
+        Some(Self { incident, emergent, rows: Rows::of(values), tau })
     }
 
     /// From indicatrices in compact form, one an incident cell; they stay compact, and τ is what they keep.

@@ -37,7 +37,7 @@ impl Indicatrices {
         let weight = emergent.projected_solid_angles();
         let tau =
             values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
-        Self::with_rows(incident, emergent, Rows::Plain(values), tau)
+        Self::with_rows(incident, emergent, Rows::of(values), tau)
     }
 
     /// From indicatrices in compact form, one an incident direction; they stay compact, and τ is what they keep.

@@ -28,6 +28,13 @@ impl BeamLight {
         Self { exitance: factor * self.exitance, normal: factor * self.normal, ..self }
     }
 
+    /// Where it goes as a whole: straight on by the middle of what is seen of the sun. `None` where that is not through
+    /// the aperture.
+    pub fn entering(&self, facing: &Facing<'_>) -> Option<Dir<Facade>> {
+        let to = if self.straight { facing.unhidden(self.to)? } else { self.to };
+        (to.vector().z > 0.0).then_some(to)
+    }
+
     /// What a regular transmittance makes of the sun; `None` without sun.
     pub fn regular(tau: Option<&AngularTransmittance>, facing: &Facing<'_>) -> Option<Self> {
         let incident = facing.sun_illuminance();

@@ -124,7 +124,7 @@ impl Emission {
     /// Computes what the room side of a system emits.
     pub fn new(btdf: &Btdf, facing: &Facing<'_>) -> Self {
         let incident_sun = facing.sun_illuminance();
-        let sun_direction = facing.sun_direction().filter(|_| incident_sun > 0.0);
+        let sun_direction = facing.sun_entering().filter(|_| incident_sun > 0.0);
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
         let mut emission = Self {
             uniform: Estimate::default(),

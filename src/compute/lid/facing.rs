@@ -29,6 +29,20 @@ impl Facing<'_> {
         self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
     }
 
+    /// Direction from which the light of the disc comes as a whole, in the aperture's frame: the middle of what neither
+    /// horizon nor the aperture's own plane hides; `None` when nothing of it is in front.
+    pub fn sun_entering(&self) -> Option<Dir<Facade>> {
+        self.unhidden(self.sun_direction()?)
+    }
+
+    /// The same of a disc about another direction.
+    pub fn unhidden(&self, disc: Dir<Facade>) -> Option<Dir<Facade>> {
+        match sun_disc::middle(disc.vector(), self.sun_edges())? {
+            middle if middle == disc.vector() => Some(disc),
+            middle => Dir::new(middle),
+        }
+    }
+
     /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
     /// the aperture's frame. Boxes are not among them: they hide it from some points. Where a skyline has a corner before
     /// the disc, a straight edge stands for it that leaves the same share of the disc.

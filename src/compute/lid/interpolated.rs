@@ -128,7 +128,7 @@ impl Emission {
         let (incident_diffuse, diffuse, note) = interpolator.diffuse(diffuse_scheme, facing);
         let mut notes = vec![format!("diffuse light: {note}")];
         let own = interpolator.model().grid();
-        let (grid, diffuse, sun) = match facing.sun_direction().filter(|_| incident_sun > 0.0) {
+        let (grid, diffuse, sun) = match facing.sun_entering().filter(|_| incident_sun > 0.0) {
             Some(direction) => {
                 let (light, note) = interpolator.sun(sun_scheme, direction, incident_sun);
                 notes.push(format!("sun: {note}"));

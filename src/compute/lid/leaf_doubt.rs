@@ -17,7 +17,7 @@ impl Emission {
     /// other, along both axes of the disk.
     pub fn doubt_leaves(&mut self, tree: &TensorTree, facing: &Facing<'_>) {
         let illuminance = self.incident_sun;
-        let (Some(sun), Some(light)) = (facing.sun_direction(), self.cells.first_mut()) else { return };
+        let (Some(sun), Some(light)) = (facing.sun_entering(), self.cells.first_mut()) else { return };
         if illuminance <= 0.0 {
             return;
         }

@@ -28,6 +28,9 @@ pub struct View {
     pub normal: DVec3,
 }
 
+/// A sensor in an opening's plane counts as this far inside, a share of the opening's shorter side.
+const JUST_INSIDE: f64 = 1e-9;
+
 impl Aperture {
     /// Area. \[m²\]
     pub fn area(&self) -> f64 {
@@ -48,15 +51,45 @@ impl Aperture {
         [self.corner, self.corner + u, self.corner + u + v, self.corner + v]
     }
 
-    /// How a sensor sees it; `None` when the sensor lies in or behind the aperture's plane, where no light from the
-    /// aperture arrives.
+    /// Relative error that rounded coordinates leave in what a point sees of the opening.
+    pub fn rounding(&self, position: DVec3) -> f64 {
+        let largest = self.corner.abs().max(position.abs()).max_element() + self.size[0].max(self.size[1]);
+        4.0 * f64::EPSILON * largest / self.size[0].min(self.size[1])
+    }
+
+    /// Where a sensor in the opening itself counts to be: just inside. Any other stays where it is, and so does one that
+    /// faces straight into the room.
+    pub fn entered(&self, position: DVec3, normal: DVec3) -> DVec3 {
+        let outward = self.surface.room_from_facade(DVec3::Z);
+        let holds = self.holds(self.surface.facade_from_room(self.corner - position));
+        if holds && normal.dot(outward) > -1.0 { position - self.just_inside() * outward } else { position }
+    }
+
+    /// Does a point lie in the opening, given what leads from it to the corner?
+    fn holds(&self, to_corner: DVec3) -> bool {
+        let within = |from: f64, size: f64| from <= 0.0 && from + size >= 0.0;
+        to_corner.z == 0.0 && within(to_corner.x, self.size[0]) && within(to_corner.y, self.size[1])
+    }
+
+    /// \[m\]
+    fn just_inside(&self) -> f64 {
+        JUST_INSIDE * self.size[0].min(self.size[1])
+    }
+
+    /// How a sensor sees it; `None` when the sensor lies behind the aperture's plane, or in it and beside the opening or
+    /// facing straight into the room: no light from the aperture arrives there. A sensor in the opening itself sees what
+    /// one just inside sees.
     pub fn view(&self, position: DVec3, normal: DVec3) -> Option<View> {
-        let to_corner = self.surface.facade_from_room(self.corner - position);
+        let mut to_corner = self.surface.facade_from_room(self.corner - position);
+        let normal = self.surface.facade_from_room(normal);
+        if normal.z > -1.0 && self.holds(to_corner) {
+            to_corner.z = self.just_inside();
+        }
         (to_corner.z > 0.0).then(|| View {
             x: [to_corner.x, to_corner.x + self.size[0]],
             y: [to_corner.y, to_corner.y + self.size[1]],
             distance: to_corner.z,
-            normal: self.surface.facade_from_room(normal),
+            normal,
         })
     }
 }
@@ -70,5 +103,35 @@ impl View {
             DVec3::new(self.x[1], self.y[1], self.distance),
             DVec3::new(self.x[0], self.y[1], self.distance),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::polygon::projected_solid_angle;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_sensor_in_the_opening_sees_what_one_just_inside_sees() {
+        let facade = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 1.0), size: [3.0, 1.6] };
+        let roof = Aperture { surface: Surface::Roof, corner: DVec3::new(0.5, 0.5, 3.0), size: [2.0, 2.0] };
+        let seen = |aperture: &Aperture, position: DVec3, normal: DVec3| {
+            aperture.view(position, normal).map_or(0.0, |view| projected_solid_angle(&view.corners(), view.normal))
+        };
+        for (aperture, at, out, across) in [
+            (facade, DVec3::new(2.0, 0.0, 1.8), DVec3::NEG_Y, DVec3::Z),
+            (roof, DVec3::new(1.5, 1.5, 3.0), DVec3::Z, DVec3::X),
+        ] {
+            assert!((seen(&aperture, at, out) - PI).abs() < 1e-8);
+            assert!((seen(&aperture, at, across) - 0.5 * PI).abs() < 1e-8);
+            assert_eq!(seen(&aperture, at, -out), 0.0);
+            assert!((seen(&aperture, at - 1e-12 * out, out) - PI).abs() < 1e-8);
+            // Beside the opening there is wall.
+            assert!(aperture.view(DVec3::ZERO.with_z(at.z).with_y(at.y * 1.9), out).is_none());
+        }
+        // On the border half of the opening's light arrives.
+        let border = seen(&facade, DVec3::new(0.5, 0.0, 1.8), DVec3::NEG_Y);
+        assert!((border - 0.5 * PI).abs() < 1e-8, "{border}");
     }
 }

@@ -9,7 +9,8 @@
 use super::aperture::View;
 use crate::compute::angle::wrap_two_pi;
 use crate::compute::basis::{Ring, RingBasis};
-use crate::compute::polygon::{clip, edge};
+use crate::compute::direction::Dir;
+use crate::compute::polygon::{clip, edge, is_tiny, projected_solid_angle};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -19,6 +20,14 @@ pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize
     let mut corners = Vec::with_capacity(6);
     clip(&view.corners(), view.normal, &mut corners);
     if corners.len() < 3 {
+        return;
+    }
+    if is_tiny(&corners) {
+        // Borders of cells across it are not told apart.
+        let centre = Dir::new(corners.iter().sum());
+        if let Some(cell) = centre.and_then(|centre| basis.index(centre)) {
+            visit(cell, projected_solid_angle(&corners, view.normal));
+        }
         return;
     }
     let Some(polygon) = Polygon::new(&corners, view.distance) else {
@@ -251,8 +260,7 @@ mod tests {
     use super::super::aperture::Aperture;
     use super::*;
     use crate::compute::basis::AzimuthMap;
-    use crate::compute::direction::{Dir, Surface};
-    use crate::compute::polygon::projected_solid_angle;
+    use crate::compute::direction::Surface;
 
     fn window() -> Aperture {
         Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 1.0), size: [3.0, 1.5] }

@@ -105,7 +105,8 @@ pub fn illuminance(
     let beams = beams_through(sensor, aperture, &emission.beams, facing);
     sum += beams.all;
     // Rounding of the closed forms and of the weights' sums.
-    let all = Estimate::new(sum.value.max(0.0), sum.error + 1e-9 * sum.value.abs());
+    let rounding = aperture.rounding(sensor.position).max(1e-9);
+    let all = Estimate::new(sum.value.max(0.0), sum.error + rounding * sum.value.abs());
     DirectLight { all, beam: beams.beam, data_error: data_error + beams.data_error }
 }
 

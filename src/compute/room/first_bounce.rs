@@ -248,6 +248,16 @@ impl BeamLanding {
     }
 }
 
+/// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection. \[lx\]
+pub fn from_even(radiosity: &Radiosity, index: usize, aperture: &Aperture) -> Vec<f64> {
+    let mesh = &radiosity.nested.fine;
+    if mesh.patches.iter().any(|patch| patch.aperture == Some(index)) {
+        return radiosity.illuminance_from_aperture(index);
+    }
+    // Too small for a patch: an outline has no neighbours to share lines with.
+    thrown_on_patches(mesh, &[Outline::of_aperture(mesh, aperture, 1.0)]).0
+}
+
 impl FirstLight {
     /// None.
     pub fn dark(patches: usize) -> Self {
@@ -267,7 +277,7 @@ impl FirstLight {
         let mesh = &radiosity.nested.fine;
         if emission.uniform.value > 0.0 {
             let exitance = PI * emission.uniform.value;
-            for (sum, e) in self.diffuse.iter_mut().zip(radiosity.illuminance_from_aperture(index)) {
+            for (sum, e) in self.diffuse.iter_mut().zip(from_even(radiosity, index, aperture)) {
                 *sum += exitance * e;
             }
         }
@@ -278,7 +288,7 @@ impl FirstLight {
         if let Some(lamps) = &emission.lamps {
             self.add_lamps(mesh, aperture, lamps);
         }
-        emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam));
+        emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam, facing));
     }
 
     /// Adds the light of luminaires in an aperture.
@@ -306,9 +316,9 @@ impl FirstLight {
     }
 
     /// Adds a beam of the sun through one aperture.
-    pub fn add_beam(&mut self, aperture: &Aperture, beam: &BeamLight) {
-        if beam.to.vector().z > 0.0 {
-            let from = aperture.surface.room_dir(beam.to).vector();
+    pub fn add_beam(&mut self, aperture: &Aperture, beam: &BeamLight, facing: &Facing<'_>) {
+        if let Some(to) = beam.entering(facing) {
+            let from = aperture.surface.room_dir(to).vector();
             let opening = aperture.corners().to_vec();
             self.beams.push(Beam { opening, from, flux: beam.exitance * aperture.area() });
         }
@@ -320,9 +330,15 @@ impl FirstLight {
     }
 
     /// Adds a beam through the convex pieces of an aperture that the sun reaches; room frame.
-    pub fn add_beam_through(&mut self, aperture: &Aperture, pieces: &[Vec<DVec3>], beam: &BeamLight) {
-        if beam.to.vector().z > 0.0 {
-            let from = aperture.surface.room_dir(beam.to).vector();
+    pub fn add_beam_through(
+        &mut self,
+        aperture: &Aperture,
+        pieces: &[Vec<DVec3>],
+        beam: &BeamLight,
+        facing: &Facing<'_>,
+    ) {
+        if let Some(to) = beam.entering(facing) {
+            let from = aperture.surface.room_dir(to).vector();
             for piece in pieces {
                 let flux = beam.exitance * area_of(piece);
                 self.beams.push(Beam { opening: piece.clone(), from, flux });

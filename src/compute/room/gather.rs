@@ -23,13 +23,16 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
         let [lines_a, lines_b] = &wall.lines;
         let n1 = lines_b.len() - 1;
         let plane = Plane::new(wall, position, normal);
-        let front = |a: f64, b: f64| plane.in_front(a, b);
-        let corner = |a: f64, b: f64| plane.corner(a, b);
+        // Of corners behind the point's plane no value is asked for.
+        let corner = |a: f64, b: f64| {
+            let seen = plane.in_front(a, b);
+            (if seen { plane.corner(a, b) } else { 0.0 }, seen)
+        };
         row.clear();
-        row.extend(lines_b.iter().map(|&b| (corner(lines_a[0], b), front(lines_a[0], b))));
+        row.extend(lines_b.iter().map(|&b| corner(lines_a[0], b)));
         for (i, &a) in lines_a.iter().enumerate().skip(1) {
             next.clear();
-            next.extend(lines_b.iter().map(|&b| (corner(a, b), front(a, b))));
+            next.extend(lines_b.iter().map(|&b| corner(a, b)));
             for j in 0..n1 {
                 let at = wall.first + (i - 1) * n1 + j;
                 let corners = [row[j], row[j + 1], next[j], next[j + 1]];
@@ -54,6 +57,7 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
 /// slopes that its neighbours give it, its mean kept.
 ///
 /// A patch close to the point covers much of what the point sees, and a constant there errs in first order of its size.
+#[derive(Debug, Clone)]
 pub struct Reconstruction {
     /// Weights w with E = Σ w_j B_j.
     pub weights: Vec<f64>,

@@ -5,6 +5,7 @@
 
 use super::aperture::Aperture;
 use crate::compute::direction::Surface;
+use crate::compute::limits;
 use glam::DVec3;
 
 /// A box room: 0 ≤ x ≤ width, 0 ≤ y ≤ depth, 0 ≤ z ≤ height, with diffuse reflectances.
@@ -63,7 +64,7 @@ pub struct Mesh {
 
 /// Most patches of a room. Exchange areas are kept between them and the patches of twice their size: 0.1 GB at this
 /// limit.
-pub const MOST_PATCHES: usize = 8000;
+pub const MOST_PATCHES: usize = limits::PATCHES;
 
 /// The borders of the apertures cut the walls into more patches than can be balanced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -149,6 +150,14 @@ impl Nested {
     }
 }
 
+/// Has an aperture no patches of its own? Exchange areas are differences of numbers of the order of the room's own size
+/// squared, so that an opening below a hundred-millionth of that would be lost in their rounding. Its light is thrown from
+/// its outline, and what it reflects is not told from the wall about it.
+pub fn too_small(room: &BoxRoom, aperture: &Aperture) -> bool {
+    let length = room.size.max_element();
+    aperture.area() < 1e-8 * length * length || aperture.size[0].min(aperture.size[1]) < 1e-7 * length
+}
+
 /// How much wider than wanted the steps may be for the sake of lines that run round the room.
 const COARSENED: f64 = 1.5;
 
@@ -204,6 +213,7 @@ impl Mesh {
                         let offset = aperture.surface.facade_from_room(centre - aperture.corner);
                         // The offset is along the surface alone; the surface itself must be asked for.
                         surface == Some(aperture.surface)
+                            && !too_small(room, aperture)
                             && (0.0..aperture.size[0]).contains(&offset.x)
                             && (0.0..aperture.size[1]).contains(&offset.y)
                     });
@@ -274,6 +284,7 @@ impl Segments {
         let axis = |side: usize, axis: usize| {
             let cuts = apertures
                 .iter()
+                .filter(|aperture| !too_small(room, aperture))
                 .filter(|aperture| match rule {
                     Cuts::Everywhere => true,
                     Cuts::OwnSurface => surface_of(side) == Some(aperture.surface),

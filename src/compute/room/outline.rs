@@ -4,6 +4,7 @@
 //! are long, that would move light by half a patch. The exchange of an outline and a patch is the mean of a closed form,
 //! that of the larger one of both seen from points of the smaller.
 
+use super::aperture::Aperture;
 use super::gather::polygon_factor;
 use super::mesh::{Mesh, Patch, Wall};
 use crate::compute::polygon::{area, edge};
@@ -24,6 +25,16 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// A whole aperture.
+    pub fn of_aperture(mesh: &Mesh, aperture: &Aperture, exitance: f64) -> Self {
+        let inward = -aperture.surface.room_from_facade(DVec3::Z);
+        // One of the six sides looks into the room from the aperture's plane.
+        let wall = mesh.walls.iter().position(|wall| wall.normal.dot(inward) > 0.5).unwrap_or_default();
+        let along = mesh.walls[wall].along;
+        let corners = aperture.corners().map(|corner| DVec2::new(corner[along[0]], corner[along[1]]));
+        Self { wall, corners: corners.to_vec(), exitance }
+    }
+
     /// What a point receives from it. \[lx\]
     pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
         self.exitance * polygon_factor(&mesh.walls[self.wall], &self.corners, position, normal)

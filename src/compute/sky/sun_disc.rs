@@ -4,7 +4,7 @@
 //! plane that touches the sphere at the sun's centre.
 
 use super::sun::SUN_HALF_ANGLE;
-use crate::compute::polygon::{cut, cut_by_all};
+use crate::compute::polygon::{cut, cut_by_all, is_tiny};
 use glam::{DVec2, DVec3};
 
 /// One edge: directions ω with `normal · ω ≥ offset` are free.
@@ -42,6 +42,9 @@ impl Edge {
     }
 }
 
+/// Of the disc's radius, what a part spans whose area is taken by its sides alone.
+const SPECK: f64 = 1e-5;
+
 /// Vertices of the polygon that stands for a partly hidden disc.
 const CORNERS: usize = 180;
 
@@ -55,6 +58,34 @@ pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>)
 /// The same where convex bodies hide parts of the disc, too: each by the normals of the planes through the receiver that
 /// hold it, so that it is seen in directions ω with n·ω > 0 for all of them.
 pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]) -> f64 {
+    match free(sun, edges, bodies) {
+        Free::None => 0.0,
+        Free::All => receiver.dot(sun).max(0.0),
+        Free::Part { share, middle } => share * receiver.dot(middle).max(0.0),
+    }
+}
+
+/// Towards the middle of what of the disc is free: the sun itself for a free disc, `None` for a hidden one.
+pub fn middle(sun: DVec3, edges: impl IntoIterator<Item = Edge>) -> Option<DVec3> {
+    match free(sun, edges, &[]) {
+        Free::None => None,
+        Free::All => Some(sun),
+        Free::Part { middle, .. } => middle.try_normalize(),
+    }
+}
+
+/// What of the disc is not hidden.
+enum Free {
+    None,
+    All,
+    /// A share of it; its middle, on the plane that touches the sphere at the sun.
+    Part {
+        share: f64,
+        middle: DVec3,
+    },
+}
+
+fn free(sun: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]) -> Free {
     let radius = SUN_HALF_ANGLE.tan();
     let (u, v) = sun.any_orthonormal_pair();
     let mut crossing: Vec<(DVec2, f64)> = Vec::new();
@@ -63,7 +94,7 @@ pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = E
         let slope = DVec2::new(edge.normal.dot(u), edge.normal.dot(v));
         let reach = slope.length() * radius;
         if height <= -reach {
-            return 0.0;
+            return Free::None;
         }
         if height < reach {
             crossing.push((slope, height));
@@ -87,12 +118,12 @@ pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = E
             continue;
         }
         if borders.is_empty() {
-            return 0.0;
+            return Free::None;
         }
         holes.push(borders);
     }
     if crossing.is_empty() && holes.is_empty() {
-        return receiver.dot(sun).max(0.0);
+        return Free::All;
     }
     // A regular polygon of the disc's area.
     let step = 2.0 * std::f64::consts::PI / CORNERS as f64;
@@ -106,19 +137,25 @@ pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = E
     }
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
     for polygon in &pieces {
+        // A speck of the disc is counted from its own corner, since its area is lost in products of places on the disc.
+        let origin = polygon.first().copied().unwrap_or_default();
+        let speck = polygon.iter().all(|p| p.distance(origin) < SPECK * radius);
+        let origin = if speck { origin } else { DVec2::ZERO };
+        let others = area;
         for (i, &p) in polygon.iter().enumerate() {
-            let q = polygon[(i + 1) % polygon.len()];
+            let (p, q) = (p - origin, polygon[(i + 1) % polygon.len()] - origin);
             let cross = p.perp_dot(q);
             area += 0.5 * cross;
             moment += (p + q) * (cross / 6.0);
         }
+        moment += (area - others) * origin;
     }
     if area <= 0.0 {
-        return 0.0;
+        return Free::None;
     }
     let centroid = moment / area;
-    let cosine = receiver.dot(sun + u * centroid.x + v * centroid.y).max(0.0);
-    (area / (std::f64::consts::PI * radius * radius)).min(1.0) * cosine
+    let share = (area / (std::f64::consts::PI * radius * radius)).min(1.0);
+    Free::Part { share, middle: sun + u * centroid.x + v * centroid.y }
 }
 
 /// What of convex pieces lies outside of a body: beyond its first border, or within that and beyond the second, …
@@ -145,9 +182,11 @@ fn outside_of(pieces: Vec<Vec<DVec2>>, borders: &[(DVec2, f64)]) -> Vec<Vec<DVec
 /// The edges of a convex opening given by its corners as vectors from the receiver.
 pub fn opening(corners: &[DVec3]) -> Vec<Edge> {
     let centre = corners.iter().sum::<DVec3>();
+    let tiny = is_tiny(corners);
     (0..corners.len())
         .map(|i| {
-            let plane = corners[i].cross(corners[(i + 1) % corners.len()]).normalize_or_zero();
+            let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
+            let plane = p.cross(if tiny { q - p } else { q }).normalize_or_zero();
             Edge::great_circle(if plane.dot(centre) >= 0.0 { plane } else { -plane })
         })
         .collect()
@@ -189,6 +228,37 @@ mod tests {
         assert!(share_past(sun, DVec3::Z, above(), &[half, rest]).abs() < 1e-12);
         assert_eq!(share_past(sun, DVec3::Z, above(), &[vec![DVec3::Y, DVec3::Z]]), 0.0);
         assert_eq!(share_past(sun, DVec3::Z, above(), &[vec![DVec3::NEG_Z]]), 0.8);
+    }
+
+    #[test]
+    fn through_a_pinhole_the_disc_shines_by_the_pinholes_area() {
+        // The middle of the disc, its luminance, and a pinhole that shows a speck of it.
+        let sun = DVec3::new(0.1, 0.2, 0.95).normalize();
+        let luminance = 1.0 / (std::f64::consts::PI * SUN_HALF_ANGLE.tan().powi(2));
+        for distance in [1.0, 10.0, 100.0] {
+            let centre = sun * (distance / sun.z);
+            let corner = |x: f64, y: f64| centre + 1e-6 * DVec3::new(x, y, 0.0);
+            let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+            let area = (corners[1].x - corners[0].x) * (corners[3].y - corners[0].y);
+            let e = share(sun, DVec3::Z, opening(&corners).into_iter().chain([Edge::great_circle(DVec3::Z)]));
+            let exact = luminance * area * sun.z * sun.z / centre.length_squared();
+            assert!((e / exact - 1.0).abs() < 1e-4, "{distance}: {e} {exact}");
+        }
+    }
+
+    #[test]
+    fn the_middle_of_a_rising_sun_is_above_the_horizon() {
+        let horizon = || [Edge::great_circle(DVec3::Z)];
+        let at = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            DVec3::new(0.0, cos, sin)
+        };
+        assert_eq!(middle(at(0.3), horizon()), Some(at(0.3)));
+        assert_eq!(middle(at(-0.3), horizon()), None);
+        // Of half a disc the middle lies at 4/3π of its radius.
+        let half = middle(DVec3::Y, horizon()).unwrap();
+        assert!((half.z / (4.0 / (3.0 * std::f64::consts::PI) * SUN_HALF_ANGLE.tan()) - 1.0).abs() < 1e-3);
+        assert!(middle(at(-0.2), horizon()).unwrap().z > 0.0);
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use crate::compute::basis::MAX_LEVEL;
 use crate::compute::btdf::{TreeNode, TreeRank};
+use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 
 /// More nodes than any measurement or simulation yields; bounds the memory of a tree to 128 MB.
-const MAX_TREE_NODES: usize = 8 << 20;
+const MAX_TREE_NODES: usize = limits::TREE_NODES;
 
 /// Numbers separated by blanks, line breaks and commas. `expected` is the count that the bases ask for.
 pub(super) fn parse_list(text: &str, expected: usize, at: &Location) -> Result<Vec<f64>, FormatError> {

@@ -33,6 +33,7 @@ mod rings;
 mod symmetry;
 mod write;
 
+use crate::compute::limits;
 pub use header::CatalogueFields;
 pub use read::{catalogue_fields, read};
 pub use write::{write, write_component};
@@ -43,11 +44,11 @@ pub const FORMAT: &str = "cfs-btdf 1";
 pub const FAMILY: &str = "cfs-btdf";
 
 /// Most values of a file, as the binary form allows.
-const MOST_VALUES: usize = 1 << 24;
+const MOST_VALUES: usize = limits::VALUES;
 /// Most incident directions.
-const MOST_INCIDENCES: usize = 1 << 13;
+const MOST_INCIDENCES: usize = limits::INCIDENCES;
 /// Most emergent cells.
-const MOST_CELLS: usize = 1 << 18;
+const MOST_CELLS: usize = limits::CELLS;
 /// Directions nearer than this are the same (as [`Indicatrices`](crate::compute::btdf::Indicatrices) takes them).
 /// \[rad\]
 const SAME_DIRECTION: f64 = 2e-3;

@@ -4,10 +4,11 @@ use super::frame::Naming;
 use super::{MOST_INCIDENCES, MOST_VALUES};
 use crate::compute::btdf::Finding;
 use crate::compute::direction::{Dir, Facade};
+use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 
 /// A larger luminance coefficient no cell can have that a goniophotometer resolves: all light in 0.001°. \[1/sr\]
-const LARGEST_Q: f64 = 1e9;
+const LARGEST_Q: f64 = limits::COEFFICIENT;
 
 /// One incident direction.
 #[derive(Debug, Clone, Copy)]

@@ -7,6 +7,7 @@ use crate::compute::btdf::{
     Thermal, ThermalKey, TreeAxes, TreeNode, TreeRank,
 };
 use crate::compute::direction::{Dir, Incident};
+use crate::compute::limits;
 use crate::compute::wavelet::CompactRows;
 use crate::formats::compact_rows::RowFile;
 use glam::DVec3;
@@ -15,18 +16,23 @@ use std::io::Read;
 use std::sync::{Arc, Mutex, OnceLock};
 
 /// Most values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences over 2°.
-const MOST_VALUES: usize = 1 << 24;
+const MOST_VALUES: usize = limits::VALUES;
 /// Most incident directions of one list: they are compared with one another.
-const MOST_DIRECTIONS: usize = 1 << 13;
+const MOST_DIRECTIONS: usize = limits::INCIDENCES;
 /// Most cells of one basis.
-const MOST_CELLS: usize = 1 << 18;
+const MOST_CELLS: usize = limits::CELLS;
 
 /// The dataset that bytes hold. Hostile bytes give an error, never a panic nor memory beyond the limits above.
 pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
+    decode_within(bytes, &mut { limits::DECODED_BYTES })
+}
+
+/// The same for one of several, which share what is `left` of a budget \[bytes\]: it is asked before memory is.
+pub fn decode_within(bytes: &[u8], left: &mut u64) -> Result<Dataset, BlobError> {
     if !bytes.starts_with(MAGIC) {
         return Err(BlobError::Magic);
     }
-    let mut input = Reader { bytes, at: MAGIC.len() };
+    let mut input = Reader { bytes, at: MAGIC.len(), left };
     let version = input.byte()?;
     if !(FIRST..=VERSION).contains(&version) {
         return Err(BlobError::Version(version));
@@ -66,12 +72,28 @@ pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     }
 }
 
-struct Reader<'a> {
+struct Reader<'a, 'b> {
     bytes: &'a [u8],
     at: usize,
+    /// Bytes that values may still take.
+    left: &'b mut u64,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Reader<'a, '_> {
+    /// Takes the memory of so many values from the budget.
+    fn spend(&mut self, values: usize) -> Result<(), BlobError> {
+        match self.left.checked_sub((values * size_of::<f64>()) as u64) {
+            Some(left) => {
+                *self.left = left;
+                Ok(())
+            }
+            None => {
+                let most = limits::DECODED_BYTES >> 20;
+                self.invalid(format!("the values of all datasets of a file come to more than {most} MB"))
+            }
+        }
+    }
+
     fn invalid<T>(&self, what: impl Into<String>) -> Result<T, BlobError> {
         Err(BlobError::Invalid { at: self.at, what: what.into() })
     }
@@ -181,13 +203,15 @@ impl<'a> Reader<'a> {
 
     fn angular(&mut self) -> Result<AngularTransmittance, BlobError> {
         if !self.flag()? {
-            return Ok(AngularTransmittance::Constant(self.number()?));
+            let constant = self.number()?;
+            return self.possible(vec![constant]).map(|_| AngularTransmittance::Constant(constant));
         }
         let count = self.count(8)?;
         if count < 2 {
             return self.invalid("a table over the angle of incidence with fewer than two values");
         }
-        Ok(AngularTransmittance::Table((0..count).map(|_| self.number()).collect::<Result<_, _>>()?))
+        let table = (0..count).map(|_| self.number()).collect::<Result<_, _>>()?;
+        self.possible(table).map(AngularTransmittance::Table)
     }
 
     fn basis(&mut self) -> Result<RingBasis, BlobError> {
@@ -265,13 +289,19 @@ impl<'a> Reader<'a> {
         if count > MOST_VALUES || count != rows.saturating_mul(columns) {
             return self.invalid(format!("{count} values for {rows} × {columns} cells (at most {MOST_VALUES})"));
         }
+        self.spend(count)?;
         let packed = self.count(1)?;
         let packed = self.take(packed)?;
         let values = join_planes(&self.unpack(packed, count * 4)?);
-        if values.iter().any(|value| !value.is_finite()) {
-            return self.invalid("a value that is not finite");
+        self.possible(values)
+    }
+
+    /// The values if no function's are beyond all measure, or no numbers.
+    fn possible(&self, values: Vec<f64>) -> Result<Vec<f64>, BlobError> {
+        match values.iter().find(|value| value.is_nan() || value.abs() > limits::COEFFICIENT) {
+            Some(value) => self.invalid(format!("a value of {value:e} (at most {:e})", limits::COEFFICIENT)),
+            None => Ok(values),
         }
-        Ok(values)
     }
 
     fn tree(&mut self) -> Result<TensorTree, BlobError> {
@@ -286,6 +316,7 @@ impl<'a> Reader<'a> {
             return self
                 .invalid(format!("a tree of {count} nodes, {branches} of them branches (at most {MOST_VALUES})"));
         }
+        self.spend(2 * count)?;
         let packed = self.count(1)?;
         let packed = self.take(packed)?;
         let plain = self.unpack(packed, 5 * count)?;
@@ -295,7 +326,7 @@ impl<'a> Reader<'a> {
             return self.invalid("a tree that has not as many branches as it says");
         }
         let mut firsts = firsts.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        let mut leaves = join_planes(leaves).into_iter();
+        let mut leaves = self.possible(join_planes(leaves))?.into_iter();
         let nodes = kinds.iter().map_while(|kind| {
             if *kind == 0 { leaves.next().map(TreeNode::Leaf) } else { firsts.next().map(TreeNode::Branch) }
         });

@@ -1,10 +1,11 @@
 //! Ranges that values of system files may have; every wrong value is told by its key and by what would be right.
 
 use super::keys::Pair;
+use crate::compute::limits;
 use crate::formats::location::{FormatError, Location};
 
 /// Most points of an outline.
-const MOST_POINTS: usize = 2000;
+const MOST_POINTS: usize = limits::OUTLINE_POINTS;
 
 pub(super) fn wrong<T>(key: &str, found: impl Into<String>, expected: impl Into<String>) -> Result<T, FormatError> {
     Err(FormatError::new(Location::file().in_element(key), found, expected))

@@ -15,6 +15,7 @@ pub use contained::{described, self_contained, states};
 pub use layers::{EACH_STATE, MOST_NESTED};
 
 use super::location::{FormatError, Location, excerpt};
+use crate::compute::limits;
 use crate::compute::system::slats::{SlatProfile, Surface, Venetian};
 use crate::compute::system::stack::{Layer, LayerSource};
 use crate::compute::system::{SystemDescription, SystemKind};
@@ -26,9 +27,9 @@ use sheets::{diffuser, perforated, woven};
 use transparent::{laser_cut, pane, prismatic, redirecting};
 
 /// Most bytes of a system file.
-const MOST_BYTES: usize = 1 << 20;
+const MOST_BYTES: usize = limits::SYSTEM_BYTES;
 /// Most states of a family.
-const MOST_STATES: usize = 361;
+const MOST_STATES: usize = limits::SYSTEM_STATES;
 
 /// A system file: the system, and what it tells the catalogue.
 #[derive(Debug, Clone, PartialEq)]

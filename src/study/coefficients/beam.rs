@@ -86,6 +86,6 @@ fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut O
         *sum += beams_through(sensor, aperture, &[beam], facing).beam;
     }
     if let Some(first) = first {
-        first.add_beam(aperture, &beam);
+        first.add_beam(aperture, &beam, facing);
     }
 }

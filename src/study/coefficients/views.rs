@@ -2,7 +2,7 @@
 
 use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::estimate::Progress;
-use crate::compute::room::first_bounce::{MOST_CELLS, merged_basis};
+use crate::compute::room::first_bounce::{MOST_CELLS, from_even, merged_basis};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
@@ -120,7 +120,7 @@ pub(super) fn even(
     let receptions = session.receptions(scene, index, None, progress)?;
     light.iter_mut().zip(receptions.iter()).for_each(|(to, reception)| *to = reception.uniform);
     if let Some(room) = room {
-        let mut first = room.radiosity.illuminance_from_aperture(index);
+        let mut first = from_even(&room.radiosity, index, &scene.apertures[index].aperture);
         first.iter_mut().for_each(|e| *e *= std::f64::consts::PI);
         for (s, reflected) in room.of(&first).into_iter().enumerate() {
             light[s] += reflected.value;

@@ -2,8 +2,9 @@
 
 use super::outside_seen::OutsideSeen;
 use super::part::{Part, WHOLE, area, overlap, part_of};
+use super::seen::in_blocks;
 use super::split::{Leaf, Smooth, any_of, mean_of};
-use super::{LidResult, Session, check, cubature};
+use super::{DIRECT, LidResult, Session, cubature};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::estimate::{Estimate, Progress};
@@ -22,7 +23,6 @@ use crate::compute::room::through;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -187,15 +187,13 @@ impl Session {
         // What lies between edges is judged by few points: more of them than an open sky needs.
         let relative = 0.3 * cubature(scene.error_target);
         let tolerance = Tolerance { absolute: 1e-7 * scene.outside.diffuse_horizontal(), relative, max_pieces: 4000 };
-        let one = |sensor: &Sensor| {
-            check(progress)?;
+        in_blocks(scene, DIRECT, progress, |_, sensor| {
             let mut sum = DirectLight::default();
             for (index, split) in splits.iter().enumerate() {
                 sum += split.at(sensor, &scene.apertures[index].aperture, &scene.facing(index), tolerance);
             }
             Ok(sum)
-        };
-        scene.sensors.par_iter().map(one).collect()
+        })
     }
 }
 
@@ -448,6 +446,6 @@ impl Split {
             };
             first.add_seen(mesh, aperture, *flux * aperture.area(), at);
         }
-        self.beams.iter().for_each(|beam| first.add_beam_through(aperture, &self.lit, beam));
+        self.beams.iter().for_each(|beam| first.add_beam_through(aperture, &self.lit, beam, facing));
     }
 }

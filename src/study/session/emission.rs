@@ -107,7 +107,7 @@ impl Session {
         matrix: &CellMatrix,
         facing: &Facing<'_>,
     ) -> Option<Arc<(Arc<Dataset>, Peaks)>> {
-        let sun = facing.sun_direction()?;
+        let sun = facing.sun_entering()?;
         let mut key = vec![Arc::as_ptr(dataset) as u64];
         if matrix.incident().len() > peaks::MOST_CELLS {
             key.extend(matrix.incident().index(sun).map(|cell| cell as u64));

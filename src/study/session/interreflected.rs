@@ -1,13 +1,14 @@
 //! Light that reaches the sensors after at least one reflection.
 
 use super::lights::Lights;
+use super::seen::{Gathered, gathered, in_blocks, inside, keeps};
 use super::{ORDINARY_TARGET, STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::{BackReflection, settled_light};
 use crate::compute::room::first_bounce::{FirstLight, PatchWeights};
-use crate::compute::room::gather::{Reconstruction, reconstruct};
+use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::mesh::{Mesh, Nested, Wall};
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::{Key, bits};
@@ -81,6 +82,17 @@ impl Session {
         })
     }
 
+    /// What every sensor receives from the patches: found once and kept, or, of more sensors than that is done for,
+    /// anew for each.
+    fn gathered<'a>(&self, scene: &Scene, count: usize, radiosity: &'a Radiosity) -> Result<Gathered<'a>, StudyError> {
+        let patches = radiosity.nested.fine.patches.len() + radiosity.nested.coarse.patches.len();
+        // Weights and slopes.
+        if keeps(scene, 2 * patches) {
+            return self.gathering(scene, count, radiosity).map(Gathered::Kept);
+        }
+        Ok(Gathered::Anew([&radiosity.nested.fine, &radiosity.nested.coarse]))
+    }
+
     /// What every sensor receives from the patches, fine and coarse.
     pub(super) fn gathering(
         &self,
@@ -91,10 +103,10 @@ impl Session {
         let mut key = room_key(scene, count);
         key.extend(sensor_key(scene));
         self.gather.get(key, || {
-            let weights = scene.sensors.par_iter().map(|s| {
-                let meshes = [&radiosity.nested.fine, &radiosity.nested.coarse];
-                meshes.map(|mesh| reconstruct(mesh, s.position, s.normal))
-            });
+            let weights = scene
+                .sensors
+                .par_iter()
+                .map(|s| gathered(&[&radiosity.nested.fine, &radiosity.nested.coarse], &inside(scene, s)));
             Ok::<_, StudyError>(weights.collect())
         })
     }
@@ -173,7 +185,7 @@ impl Session {
         let radiosity = self.radiosity(scene, count)?;
         check(progress)?;
         let mesh = &radiosity.nested.fine;
-        let gather = self.gathering(scene, count, &radiosity)?;
+        let gather = self.gathered(scene, count, &radiosity)?;
         let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
         let first = self.first_light(scene, lights, count, progress)?;
         check(progress)?;
@@ -194,43 +206,39 @@ impl Session {
             let lit = landing.as_ref().map_or_else(|| vec![0.0; all.len()], |landing| landing.direct.clone());
             let luminances = settled_light(&radiosity, &geometry, &mirrors, &all, &lit, &mut exitance);
             for ((index, mirror), luminance) in mirrors.iter().zip(luminances) {
-                let receptions = self.receptions(scene, *index, Some(&mirror.weights().basis), progress)?;
-                for (sum, reception) in thrown_back.iter_mut().zip(receptions.iter()) {
-                    *sum += dot(&reception.cells, &luminance);
-                }
+                let seen = self.seen(scene, *index, Some(&mirror.weights().basis), progress)?;
+                let part = in_blocks(scene, "interreflection", progress, |s, sensor| {
+                    Ok(dot(&seen.of(s, sensor).cells, &luminance))
+                })?;
+                thrown_back.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
             }
         }
         // What is not known of the emission is not known of its reflections.
         let emitted = lights.flux(scene);
         let emitted_error = if emitted.value > 0.0 { emitted.error / emitted.value } else { 0.0 };
-        let estimates = scene
-            .sensors
-            .par_iter()
-            .zip(gather.par_iter())
-            .zip(thrown_back.par_iter())
-            .map(|((sensor, [fine, coarse]), thrown_back)| {
-                let outlines =
-                    landing.as_ref().map_or(0.0, |landing| landing.light_at(mesh, sensor.position, sensor.normal));
-                let (mut value, mut difference, mut squares) = (0.0, 0.0, 0.0_f64);
-                for (a, b) in spans(mesh).into_iter().zip(spans(&radiosity.nested.coarse)) {
-                    let by_fine = dot(&fine.weights[a.clone()], &exitance.fine[a]);
-                    let by_coarse = dot(&coarse.weights[b.clone()], &exitance.coarse[b]);
-                    value += by_fine;
-                    difference += by_fine - by_coarse;
-                    squares += (by_fine - by_coarse).powi(2);
-                }
-                let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
-                // The outlines are seen in closed form.
-                let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced) * (value - outlines);
-                let near = NEAR * dot(&fine.slopes, &exitance.fine);
-                Estimate::new(
-                    value,
-                    (DIFFERENCE * squares.sqrt()).hypot(rest).hypot(near)
-                        + emitted_error * value
-                        + UNEVEN * thrown_back,
-                )
-            })
-            .collect();
+        let spans = [spans(mesh), spans(&radiosity.nested.coarse)];
+        let estimates = in_blocks(scene, "interreflection", progress, |s, sensor| {
+            let (own, thrown_back) = (gather.of(s, sensor), thrown_back[s]);
+            let [fine, coarse] = &*own;
+            let outlines =
+                landing.as_ref().map_or(0.0, |landing| landing.light_at(mesh, sensor.position, sensor.normal));
+            let (mut value, mut difference, mut squares) = (0.0, 0.0, 0.0_f64);
+            for (a, b) in spans[0].iter().cloned().zip(spans[1].iter().cloned()) {
+                let by_fine = dot(&fine.weights[a.clone()], &exitance.fine[a]);
+                let by_coarse = dot(&coarse.weights[b.clone()], &exitance.coarse[b]);
+                value += by_fine;
+                difference += by_fine - by_coarse;
+                squares += (by_fine - by_coarse).powi(2);
+            }
+            let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
+            // The outlines are seen in closed form.
+            let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced) * (value - outlines);
+            let near = NEAR * dot(&fine.slopes, &exitance.fine);
+            Ok(Estimate::new(
+                value,
+                (DIFFERENCE * squares.sqrt()).hypot(rest).hypot(near) + emitted_error * value + UNEVEN * thrown_back,
+            ))
+        })?;
         Ok((estimates, gap))
     }
 }

@@ -3,6 +3,7 @@
 //! comes in by cells, see [`super::thrown_back`].
 
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key, spans};
+use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
 use super::weights::Response;
@@ -54,6 +55,9 @@ impl Session {
     ) -> Result<Responses, StudyError> {
         let radiosity = self.radiosity(scene, count)?;
         check(progress)?;
+        // A value and what it may be off, by walls, for every patch and sensor.
+        let each = (1 + radiosity.nested.fine.walls.len()) * radiosity.nested.fine.patches.len() * size_of::<f64>();
+        within_budget(scene, each)?;
         let key = room_key(scene, count);
         let sensor_key: Key = sensor_key(scene).collect();
         let of_sensors = [key.clone(), sensor_key.clone()].concat();

@@ -2,6 +2,7 @@
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
+use crate::compute::limits;
 use crate::compute::sky::perez::eccentricity;
 use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
@@ -33,26 +34,28 @@ pub(super) fn wrong(key: &'static str, message: impl Into<String>) -> SkyKeyErro
 pub(super) fn check_ranges(sky: &SkyKeys, site: &SiteKeys) -> Result<(), SkyKeyError> {
     let within = |key, value: Option<f64>, min: f64, max: f64, unit: &str| match value {
         Some(value) if !(min..=max).contains(&value) => {
-            let allowed = if max == f64::MAX { format!("{min} and above") } else { format!("{min} to {max}") };
+            // Numbers beyond all measure are told without hundreds of digits.
+            let short = |x: f64| if x.abs() < 1e7 { format!("{x}") } else { format!("{x:e}") };
+            let (value, min, max) = (short(value), short(min), short(max));
+            let allowed = format!("{min} to {max}");
             let value = format!("{value} {unit}");
             Err(wrong(key, format!("{} is out of range (allowed: {allowed})", value.trim_end())))
         }
         _ => Ok(()),
     };
-    const NO_LIMIT: f64 = f64::MAX;
     within("site.ground_reflectance", Some(site.ground_reflectance), 0.0, 1.0, "")?;
     within("site.azimuth", Some(site.azimuth), -360.0, 360.0, "°")?;
     within("site.elevation", Some(site.elevation), LOWEST, HIGHEST, "m")?;
     within("sky.turbidity", Some(sky.turbidity), CLEANEST, HAZIEST, "")?;
     within("sky.sun.altitude", sky.sun.altitude, -90.0, 90.0, "°")?;
     within("sky.sun.azimuth", sky.sun.azimuth, -360.0, 360.0, "°")?;
-    within("sky.sun.direct_normal", sky.sun.direct_normal, 0.0, NO_LIMIT, "lx")?;
-    within("sky.diffuse_horizontal", sky.diffuse_horizontal, 0.0, NO_LIMIT, "lx")?;
+    within("sky.sun.direct_normal", sky.sun.direct_normal, 0.0, limits::ILLUMINANCE, "lx")?;
+    within("sky.diffuse_horizontal", sky.diffuse_horizontal, 0.0, limits::ILLUMINANCE, "lx")?;
     within("sky.direct_horizontal_irradiance", sky.direct_horizontal_irradiance, 0.0, 1500.0, "W/m²")?;
     within("sky.diffuse_horizontal_irradiance", sky.diffuse_horizontal_irradiance, 0.0, 1500.0, "W/m²")?;
     if let Some(obstruction) = sky.obstruction {
         within("sky.obstruction.altitude", Some(obstruction.altitude), 0.0, 89.999, "°")?;
-        within("sky.obstruction.luminance", Some(obstruction.luminance), 0.0, NO_LIMIT, "cd/m²")?;
+        within("sky.obstruction.luminance", Some(obstruction.luminance), 0.0, limits::LUMINANCE, "cd/m²")?;
     }
     Ok(())
 }

@@ -252,7 +252,7 @@ impl Peaks {
     /// What the sun makes behind it; `None` where it is in no incident cell.
     pub fn sun(&self, facing: &Facing<'_>) -> Option<SunOnCells> {
         let incident = facing.sun_illuminance();
-        let (light, sun) = (facing.sun?, facing.sun_direction().filter(|_| incident > 0.0)?);
+        let (light, sun) = (facing.sun?, facing.sun_entering().filter(|_| incident > 0.0)?);
         let cell = self.matrix.incident().index(sun)?;
         let weight = self.basis().projected_solid_angles();
         let mut beams = Vec::new();
@@ -283,6 +283,8 @@ impl Peaks {
             let straight = *path == Path::Straight;
             let exitance = strength * incident;
             let normal = if straight { strength * light.direct_normal } else { exitance / to.vector().z };
+            // What hides a part of the disc hides it from the sensor, too.
+            let to = if straight { facing.sun_direction()? } else { to };
             beams.push(BeamLight { to, exitance, normal, straight, error: 0.0, doubt: error / strength + lobe });
             if let Some(o) = self.basis().index(to) {
                 spread[o] += lobe * exitance / weight[o];

@@ -1,6 +1,7 @@
 //! An endless array of slats: its section's measures and finishes, checked.
 
 use super::profile::SlatProfile;
+use crate::compute::limits;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// Finish of one side of a slat.
@@ -111,6 +112,16 @@ impl SlatArray {
         let size = check_profile(&profile)?;
         check("spacing", spacing, spacing.is_finite() && spacing > 0.0, "more than 0 m")?;
         check("spacing", spacing, (0.02..=50.0).contains(&(spacing / size)), "0.02 to 50 times the slat's width")?;
+        // The ways between mirrors multiply with every slat that another faces.
+        let mirrors = upper.mirror > 0.0 || lower.mirror > 0.0;
+        if mirrors && size > limits::MIRROR_PITCHES * spacing {
+            let allowed = format!(
+                "slats with mirrors that span at most {} pitches; these span {:.1}",
+                limits::MIRROR_PITCHES,
+                size / spacing
+            );
+            return Err(SlatError { key: "spacing", value: format!("{spacing}"), allowed });
+        }
         let thick = (0.0..=0.25 * size.min(spacing)).contains(&thickness);
         check("thickness", thickness, thick, "0 m to a quarter of the slat's width and of the spacing")?;
         check("angle", tilt.to_degrees(), tilt.abs() <= FRAC_PI_2 + 1e-9, "-90 to 90 degrees")?;

@@ -1,0 +1,127 @@
+//! Every limit of what is taken in, computed and kept, in one table: what is over one is refused before the work is done, by
+//! a message that names it. `cfs --help` prints the table.
+//!
+//! Limits are there against slips of the keyboard and files that are made to fill memory, not against large studies:
+//! each lies well beyond what a study of daylight has had so far.
+
+/// One line of the table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// What it is a limit of, in words.
+    pub of: &'static str,
+    /// The number.
+    pub value: f64,
+    /// Its unit; empty for a count.
+    pub unit: &'static str,
+    /// The least that is taken instead of the most.
+    pub least: bool,
+}
+
+impl std::fmt::Display for Limit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let word = if self.least { "at least" } else { "at most" };
+        let (value, unit) = match self.unit {
+            "bytes" if self.value >= MEGABYTE => (self.value / MEGABYTE, "MB"),
+            "bytes" => (self.value / 1024.0, "kB"),
+            unit => (self.value, unit),
+        };
+        let number = if (1e-3..1e9).contains(&value) { format!("{value}") } else { format!("{value:e}") };
+        write!(f, "{}: {word} {number}{}{unit}", self.of, if unit.is_empty() { "" } else { " " })
+    }
+}
+
+const MEGABYTE: f64 = 1_048_576.0;
+
+macro_rules! limits {
+    (@least least) => { true };
+    (@least most) => { false };
+    ($($(#[$doc:meta])* $word:ident $name:ident: $kind:ty = $value:expr, $of:literal, $unit:literal;)*) => {
+        $($(#[$doc])* pub const $name: $kind = $value;)*
+
+        /// All limits, in the order in which they are told.
+        pub const TABLE: &[Limit] =
+            &[$(Limit { of: $of, value: $name as f64, unit: $unit, least: limits!(@least $word) }),*];
+    };
+}
+
+limits! {
+    /// Files larger than this are not read. \[bytes\]
+    most FILE_BYTES: u64 = 1 << 30, "a file", "bytes";
+    /// Files that one import takes in.
+    most IMPORTED_FILES: usize = 2000, "files of one import", "";
+    /// What one import unpacks, all files together. \[bytes\]
+    most UNPACKED_BYTES: u64 = 1 << 30, "unpacked files of one import", "bytes";
+    /// Entries of a zip archive or package.
+    most ARCHIVE_ENTRIES: usize = 20_000, "entries of an archive or package", "";
+    /// One file of an archive, or one dataset of a package, unpacked. \[bytes\]
+    most ENTRY_BYTES: u64 = 256 << 20, "an unpacked file of an archive, a dataset of a package", "bytes";
+    /// The manifest of a package. \[bytes\]
+    most MANIFEST_BYTES: u64 = 16 << 20, "the manifest of a package", "bytes";
+    /// The datasets of a package as they are packed. \[bytes\]
+    most PACKAGE_BYTES: u64 = 1 << 30, "all datasets of a package", "bytes";
+    /// What the datasets of one file hold once decoded, each counted once. \[bytes\]
+    most DECODED_BYTES: u64 = 2 << 30, "decoded values of all datasets of a file", "bytes";
+    /// States of a product.
+    most STATES: usize = 1000, "states of a product", "";
+    /// Tags of a product.
+    most TAGS: usize = 1000, "tags of a product", "";
+    /// Values of one function of a dataset.
+    most VALUES: usize = 1 << 24, "values of one function of a dataset", "";
+    /// Incident directions of a dataset.
+    most INCIDENCES: usize = 1 << 13, "incident directions of a dataset", "";
+    /// Any value of a dataset, of either sign. \[1/sr\]
+    most COEFFICIENT: f64 = 1e9, "a value of a dataset", "1/sr";
+    /// Cells of one basis.
+    most CELLS: usize = 1 << 18, "cells of one basis", "";
+    /// Nodes of a tensor tree.
+    most TREE_NODES: usize = 8 << 20, "nodes of a tensor tree", "";
+    /// Planes of a luminaire file.
+    most LUMINAIRE_PLANES: usize = 721, "C planes of a luminaire file", "";
+    /// Angles in a plane of a luminaire file.
+    most LUMINAIRE_ANGLES: usize = 361, "angles in a plane of a luminaire file", "";
+    /// A system file. \[bytes\]
+    most SYSTEM_BYTES: usize = 1 << 20, "a system file", "bytes";
+    /// States that a system file describes.
+    most SYSTEM_STATES: usize = 361, "states of a system file", "";
+    /// Points of an outline in a system file.
+    most OUTLINE_POINTS: usize = 2000, "points of an outline in a system file", "";
+    /// Pitches that slats with mirrors span, whichever way they are longer.
+    most MIRROR_PITCHES: f64 = 8.0, "pitches that a mirror slat spans", "";
+    /// Sensors of a scene.
+    most SENSORS: usize = 1_000_000, "sensors of a scene", "";
+    /// What of the sensors' geometry is kept from one answer to the next, each table of it; beyond, it is made again. \[bytes\]
+    most KEPT_BYTES: usize = 384 << 20, "a table of what sensors see, kept between answers", "bytes";
+    /// Responses of sensors to the patches of the room, as a year needs them. \[bytes\]
+    most RESPONSE_BYTES: usize = 2 << 30, "responses of sensors for a year", "bytes";
+    /// Patches of a room.
+    most PATCHES: usize = 8000, "patches of a room", "";
+    /// Boxes outside.
+    most BOXES: usize = 200, "boxes outside", "";
+    /// The shortest side of an aperture. \[m\]
+    least OPENING: f64 = 1e-6, "the side of an aperture", "m";
+    /// Any illuminance of a sky or a sun, seventy times the sun's outside the atmosphere. \[lx\]
+    most ILLUMINANCE: f64 = 1e7, "an illuminance of sky or sun", "lx";
+    /// Any luminance outside, six times the sun's disc. \[cd/m²\]
+    most LUMINANCE: f64 = 1e10, "a luminance outside", "cd/m²";
+    /// A luminaire's intensity in any direction: beyond the strongest searchlights. \[cd\]
+    most INTENSITY: f64 = 1e12, "an intensity of a luminaire", "cd";
+    /// A luminaire's lamps together. \[lm\]
+    most LAMP_FLUX: f64 = 1e9, "the flux of a luminaire's lamps", "lm";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_is_told_once_in_words_with_its_unit() {
+        let told: Vec<String> = TABLE.iter().map(Limit::to_string).collect();
+        for (index, line) in told.iter().enumerate() {
+            assert!(TABLE[index].value > 0.0 && line.len() < 100, "{line}");
+            assert!(!told[..index].contains(line), "{line}");
+        }
+        assert!(told.contains(&"sensors of a scene: at most 1000000".to_owned()));
+        assert!(told.contains(&"the side of an aperture: at least 1e-6 m".to_owned()));
+        assert!(told.contains(&"the manifest of a package: at most 16 MB".to_owned()));
+    }
+}

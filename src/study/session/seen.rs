@@ -1,0 +1,143 @@
+//! What sensors see of apertures and surfaces: kept from one answer to the next for as many sensors as a study looks at
+//! again and again, made anew sensor by sensor for more, so that memory does not grow with what each of them sees.
+
+use crate::compute::basis::RingBasis;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::limits;
+use crate::compute::room::aperture::Aperture;
+use crate::compute::room::band_weights::BandWeights;
+use crate::compute::room::direct::{Reception, Sensor};
+use crate::compute::room::gather::{Reconstruction, reconstruct};
+use crate::compute::room::mesh::Mesh;
+use crate::study::error::StudyError;
+use crate::study::scene::{Scene, SceneAperture};
+use rayon::prelude::*;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// Stops what is no longer wanted.
+pub(super) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
+    if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
+}
+
+/// So many sensors are worked on before progress is told.
+const BLOCK: usize = 4096;
+
+/// Is a table of so many numbers a sensor small enough to be kept?
+pub(super) fn keeps(scene: &Scene, numbers: usize) -> bool {
+    scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
+}
+
+/// Tables that a year needs whole: so many bytes a sensor.
+///
+/// # Errors
+/// More sensors than they are made for.
+pub(super) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
+    let (count, most) = (scene.sensors.len(), limits::RESPONSE_BYTES / each.max(1));
+    if count > most {
+        let message = format!("{count} sensors (through a year, in this room and with this system, at most {most})");
+        return Err(StudyError::key("sensors", message));
+    }
+    Ok(())
+}
+
+/// A sensor where light is to be found for it: one in an opening just inside of it.
+pub(super) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
+    let enter = |position, one: &SceneAperture| one.aperture.entered(position, sensor.normal);
+    Sensor { position: scene.apertures.iter().fold(sensor.position, enter), ..*sensor }
+}
+
+/// A number of every sensor, by all threads, in the order of the scene; `work` is given the sensor's place, and the
+/// sensor as it is [`inside`].
+///
+/// # Errors
+/// The first that `work` gives, or withdrawn.
+pub(super) fn in_blocks<T: Send>(
+    scene: &Scene,
+    stage: &'static str,
+    progress: &dyn Progress,
+    work: impl Fn(usize, &Sensor) -> Result<T, StudyError> + Sync,
+) -> Result<Vec<T>, StudyError> {
+    let count = scene.sensors.len();
+    let mut all = Vec::with_capacity(count);
+    for (block, sensors) in scene.sensors.chunks(BLOCK).enumerate() {
+        check(progress)?;
+        if count > BLOCK {
+            progress.advance(stage, block * BLOCK, count);
+        }
+        let one = |(s, sensor): (usize, &Sensor)| {
+            check(progress)?;
+            work(block * BLOCK + s, &inside(scene, sensor))
+        };
+        all.extend(sensors.par_iter().enumerate().map(one).collect::<Result<Vec<T>, StudyError>>()?);
+    }
+    Ok(all)
+}
+
+/// What every sensor receives from one aperture per luminance.
+pub(super) enum Seen<'a> {
+    Kept(Arc<Vec<Reception>>),
+    Anew(&'a Aperture, Option<&'a RingBasis>),
+}
+
+impl Seen<'_> {
+    /// Of a sensor at its place in the scene.
+    pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, Reception> {
+        match self {
+            Self::Kept(all) => Cow::Borrowed(&all[s]),
+            Self::Anew(aperture, basis) => Cow::Owned(Reception::new(sensor, aperture, *basis)),
+        }
+    }
+}
+
+/// The same by bands of the profile angle.
+pub(super) enum SeenBands<'a> {
+    Kept(Arc<Vec<BandWeights>>),
+    /// With the bands' side, and how many they are.
+    Anew(&'a Aperture, bool, usize),
+}
+
+impl SeenBands<'_> {
+    /// Of a sensor at its place in the scene.
+    pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, BandWeights> {
+        match self {
+            Self::Kept(all) => Cow::Borrowed(&all[s]),
+            Self::Anew(aperture, upright, count) => Cow::Owned(bands_of(sensor, aperture, *upright, *count)),
+        }
+    }
+}
+
+/// Of one sensor.
+pub(super) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
+    let view = aperture.view(sensor.position, sensor.normal);
+    view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count))
+}
+
+/// What every sensor receives from the patches, fine and coarse.
+pub(super) enum Gathered<'a> {
+    Kept(Arc<Vec<[Reconstruction; 2]>>),
+    Anew([&'a Mesh; 2]),
+}
+
+impl Gathered<'_> {
+    /// Of a sensor at its place in the scene.
+    pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, [Reconstruction; 2]> {
+        match self {
+            Self::Kept(all) => Cow::Borrowed(&all[s]),
+            Self::Anew(meshes) => Cow::Owned(gathered(meshes, sensor)),
+        }
+    }
+}
+
+/// Of one sensor.
+pub(super) fn gathered(meshes: &[&Mesh; 2], sensor: &Sensor) -> [Reconstruction; 2] {
+    meshes.map(|mesh| reconstruct(mesh, sensor.position, sensor.normal))
+}
+
+/// Are receptions of these cells kept?
+pub(super) fn keeps_receptions(scene: &Scene, basis: Option<&RingBasis>) -> bool {
+    keeps(scene, RECEPTION + basis.map_or(0, RingBasis::len))
+}
+
+/// A reception without its cells, in numbers.
+const RECEPTION: usize = size_of::<Reception>() / size_of::<f64>();
