@@ -69,12 +69,15 @@ enum Kind {
     Directed,
 }
 
+/// A block as it was read, turned, exchanged.
+type Rearranged = (usize, Option<Turn>, bool);
+
 /// The blocks of a band, ready to be asked.
 pub(super) struct Witnesses<'a> {
     pub(super) blocks: &'a Blocks,
     kinds: [Option<Kind>; 4],
     sums: RefCell<BTreeMap<(usize, Option<Factor>), Sums>>,
-    values: RefCell<BTreeMap<(usize, Option<Turn>, bool), Rc<Vec<f64>>>>,
+    values: RefCell<BTreeMap<Rearranged, Rc<Vec<f64>>>>,
     compared: RefCell<BTreeMap<(Part, Part, bool), f64>>,
 }
 
