@@ -40,6 +40,7 @@ pub mod plan;
 pub mod product_control;
 pub mod scene;
 pub mod scene_file;
+mod scene_places;
 pub mod scene_words;
 mod scheme_words;
 mod self_contained;

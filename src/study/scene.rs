@@ -8,19 +8,18 @@ use super::near_field::near_field;
 use super::outside::{behind_boxes, boxes};
 use super::scene_file::units::unit_of;
 use super::scene_file::{
-    ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
-    SurfaceKey, SystemKeys,
+    ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, SceneFile, SystemKeys,
 };
+use super::scene_places::{apertures, room, sensors, within};
 use super::sky::{Illuminances, illuminances, outside_from_keys};
 use super::sun_position::parse_local_time;
 use super::system::{Need, System, SystemLibrary};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::CellMatrix;
-use crate::compute::direction::{Orientation, Surface};
+use crate::compute::direction::Orientation;
 use crate::compute::estimate::{Progress, Silent};
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use crate::compute::lid::{Facing, Lamps};
-use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::reflecting_cells;
 use crate::compute::room::direct::Sensor;
@@ -32,9 +31,6 @@ use crate::formats::toml_place::{TomlPlace, place};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
-
-/// Most sensors that one scene may have.
-const MOST_SENSORS: usize = limits::SENSORS;
 
 /// One aperture with what fills it.
 #[derive(Debug, Clone)]
@@ -367,142 +363,4 @@ fn wanted_state(keys: &SystemKeys) -> Option<String> {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } => state.clone(),
         SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => None,
     }
-}
-
-fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, StudyError> {
-    if (min..=max).contains(&value) {
-        Ok(value)
-    } else {
-        Err(StudyError::key(key, format!("{value}{unit} is out of range (allowed: {min} to {max}{unit})")))
-    }
-}
-
-fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
-    let length = |key: &str, value| within(key, value, 1e-3, 1e5, " m");
-    let share = |key: &str, value| within(key, value, 0.0, 1.0, "");
-    Ok(BoxRoom {
-        size: DVec3::new(
-            length("room.width", keys.width)?,
-            length("room.depth", keys.depth)?,
-            length("room.height", keys.height)?,
-        ),
-        floor: share("room.reflectance.floor", keys.reflectance.floor)?,
-        walls: share("room.reflectance.walls", keys.reflectance.walls)?,
-        ceiling: share("room.reflectance.ceiling", keys.reflectance.ceiling)?,
-    })
-}
-
-fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, StudyError> {
-    if keys.is_empty() {
-        return Err(StudyError::key("aperture", "the scene needs at least one [[aperture]]"));
-    }
-    let mut list: Vec<Aperture> = Vec::with_capacity(keys.len());
-    for (index, keys) in keys.iter().enumerate() {
-        let name = |key: &str| format!("aperture[{}].{key}", index + 1);
-        let (surface, wall, limits) = match keys.surface {
-            SurfaceKey::Facade => (Surface::Facade, "façade", [room.size.x, room.size.z]),
-            SurfaceKey::Roof => (Surface::Roof, "roof", [room.size.x, room.size.y]),
-        };
-        for ((from, size), limit) in keys.origin.into_iter().zip(keys.size).zip(limits) {
-            // Written so that what is no number fails too.
-            if !(size > 0.0 && size.is_finite()) {
-                return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
-            }
-            if size < limits::OPENING {
-                let least = limits::OPENING;
-                let message = format!("{size:e} m (allowed: {least} m, a micrometre, and above)");
-                return Err(StudyError::key(name("size"), message));
-            }
-            // Lengths typed as decimals do not add up exactly, and an aperture may fill its wall.
-            let slack = 1e-9 * limit;
-            if !(from >= -slack && from + size <= limit + slack) {
-                return Err(StudyError::key(
-                    // The key that is to be changed: from a good origin it is the size that reaches too far.
-                    name(if from >= -slack && from <= limit { "size" } else { "origin" }),
-                    format!("{from} m to {} m lies beyond the {wall}, 0 to {} m", from + size, limit),
-                ));
-            }
-        }
-        let [u, v] = keys.origin;
-        let corner = match surface {
-            Surface::Facade => DVec3::new(u, 0.0, v),
-            Surface::Roof => DVec3::new(u, v, room.size.z),
-        };
-        let overlapping = list.iter().zip(1..).find(|(other, _)| {
-            let offset = surface.facade_from_room(corner - other.corner);
-            other.surface == surface
-                && (0..2).all(|axis| {
-                    // Apertures may touch, as panes in a frame do.
-                    let slack = 1e-9 * limits[axis];
-                    offset[axis] + keys.size[axis] > slack && offset[axis] < other.size[axis] - slack
-                })
-        });
-        if let Some((_, number)) = overlapping {
-            return Err(StudyError::key(
-                name("origin"),
-                format!("overlaps aperture {number}; apertures must lie apart"),
-            ));
-        }
-        list.push(Aperture { surface, corner, size: keys.size });
-    }
-    Ok(list)
-}
-
-fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[usize; 2]>), StudyError> {
-    let mut list = Vec::new();
-    let mut grid = None;
-    let unit = |key: &str, normal: [f64; 3]| {
-        DVec3::from_array(normal)
-            .try_normalize()
-            .ok_or_else(|| StudyError::key(key, format!("{normal:?} has no direction; e.g. [0.0, 0.0, 1.0] faces up")))
-    };
-    if let Some(plane) = &keys.plane {
-        within("sensors.plane.z", plane.z, 0.0, room.size.z, " m")?;
-        let normal = unit("sensors.plane.normal", plane.normal)?;
-        for (key, n) in [("sensors.plane.nx", plane.nx), ("sensors.plane.ny", plane.ny)] {
-            // Judged before the list is made: a slip of the keyboard must not fill the memory.
-            if n == 0 || n > MOST_SENSORS {
-                return Err(StudyError::key(key, format!("{n} cells (allowed: 1 to {MOST_SENSORS})")));
-            }
-        }
-        if plane.nx.saturating_mul(plane.ny) > MOST_SENSORS {
-            return Err(StudyError::key("sensors.plane", format!("more than {MOST_SENSORS} sensors")));
-        }
-        for j in 0..plane.ny {
-            for i in 0..plane.nx {
-                // At the centres of equal cells, so that the mean of the sensors is that of the plane.
-                let position = DVec3::new(
-                    (i as f64 + 0.5) * room.size.x / plane.nx as f64,
-                    (j as f64 + 0.5) * room.size.y / plane.ny as f64,
-                    plane.z,
-                );
-                list.push(Sensor { position, normal });
-            }
-        }
-        // With points besides, the results are no grid that could be drawn as a plan.
-        if keys.points.is_empty() {
-            grid = Some([plane.nx, plane.ny]);
-        }
-    }
-    if list.len().saturating_add(keys.points.len()) > MOST_SENSORS {
-        return Err(StudyError::key("sensors.points", format!("more than {MOST_SENSORS} sensors")));
-    }
-    if !keys.points.is_empty() {
-        // Points have no plane to say where they face: a desk's upper side is meant.
-        let normal = unit("sensors.normal", keys.normal.unwrap_or([0.0, 0.0, 1.0]))?;
-        for (number, point) in keys.points.iter().enumerate() {
-            let position = DVec3::from_array(*point);
-            if !(position.is_finite() && position.cmpge(DVec3::ZERO).all() && position.cmple(room.size).all()) {
-                return Err(StudyError::key(
-                    format!("sensors.points[{}]", number + 1),
-                    format!("{point:?} lies outside the room, 0 to {:?} m", room.size.to_array()),
-                ));
-            }
-            list.push(Sensor { position, normal });
-        }
-    }
-    if list.is_empty() {
-        return Err(StudyError::key("sensors", "needs a plane or points"));
-    }
-    Ok((list, grid))
 }

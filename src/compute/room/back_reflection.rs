@@ -6,8 +6,8 @@
 //! all over it.
 
 use super::aperture::Aperture;
-use super::first_bounce::PatchWeights;
 use super::mesh::Mesh;
+use super::patch_weights::PatchWeights;
 use super::radiosity::{Exitance, Radiosity, dot};
 use crate::compute::btdf::{CellMatrix, Scattered};
 use crate::compute::direction::Dir;

@@ -14,5 +14,6 @@ pub mod gather;
 pub mod mesh;
 pub mod near_field;
 pub mod outline;
+pub mod patch_weights;
 pub mod radiosity;
 pub mod through;

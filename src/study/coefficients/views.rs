@@ -2,7 +2,8 @@
 
 use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::estimate::Progress;
-use crate::compute::room::first_bounce::{MOST_CELLS, from_even, merged_basis};
+use crate::compute::room::first_bounce::from_even;
+use crate::compute::room::patch_weights::{MOST_CELLS, merged_basis};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;

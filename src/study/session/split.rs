@@ -411,7 +411,7 @@ impl Session {
         let target = SHARE * scene.error_target.unwrap_or(ORDINARY_TARGET);
         let solids = scene.outside.surroundings().map_or(&[][..], |around| &around.solids);
         let lines = creases(aperture, &outer_face(aperture, scene.orientation), solids);
-        let many = |light: &CellLight| light.basis.len() > crate::compute::room::first_bounce::MOST_CELLS;
+        let many = |light: &CellLight| light.basis.len() > crate::compute::room::patch_weights::MOST_CELLS;
         let most_of = |any: &Emission| if any.cells.iter().any(many) { MOST_DEAR_PARTS } else { MOST_PARTS };
         let parts = if lines.is_empty() {
             vec![WHOLE]

@@ -4,7 +4,7 @@ use super::weights::{ByCells, Response};
 use super::{Session, basis_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::room::aperture::Aperture;
-use crate::compute::room::first_bounce::PatchWeights;
+use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::Key;
 use rayon::prelude::*;

@@ -1,0 +1,208 @@
+//! What the room's surfaces receive from an aperture by the cells from which its light comes.
+
+use super::aperture::Aperture;
+use super::direct::{Reception, Sensor};
+use super::mesh::{Mesh, Patch, Wall};
+use super::radiosity::dot;
+use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
+use crate::compute::quadrature::gauss_legendre;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Weights W with E_patch = Σ W_cell · L_cell, mean over each patch: geometry only, shared by all skies. \[sr\]
+pub struct PatchWeights {
+    /// The cells.
+    pub basis: Arc<RingBasis>,
+    /// One row a patch; empty for patches that do not see the aperture's room side.
+    rows: Vec<Vec<f64>>,
+    /// Flux that the room receives from each cell of luminance 1, over the flux that leaves through it. The mean is
+    /// taken out of the weights; what remains here tells how well the patches' points sample the light.
+    closure: Vec<f64>,
+    /// Σ over the patches of area · weight, by cell. \[m²sr\]
+    received: Vec<f64>,
+}
+
+/// Gauss points along each side of a patch: one where the patch is small against its distance from the opening, up to
+/// three beside it.
+pub(super) fn points_a_side(patch: &Patch, wall: &Wall, aperture: &Aperture) -> usize {
+    let [low, _, high, _] = patch.corners(wall);
+    let centre = 0.5 * (low + high);
+    let corners = aperture.corners();
+    let nearest = centre.clamp(corners[0].min(corners[2]), corners[0].max(corners[2]));
+    // The slack keeps decisions the same for a room in another unit.
+    let ratio = (high - low).length() / centre.distance(nearest) - 1e-9;
+    match ratio {
+        r if r < 0.35 => 1,
+        r if r < 1.0 => 2,
+        _ => 3,
+    }
+}
+
+/// Points of a patch with their share of its area.
+pub(super) fn samples<'a>(
+    patch: &'a Patch,
+    wall: &'a Wall,
+    rules: &'a [Vec<(f64, f64)>],
+    order: usize,
+) -> impl Iterator<Item = (DVec3, f64)> + 'a {
+    let rule = &rules[order];
+    let [a, b] = patch.extent;
+    rule.iter().flat_map(move |&(s, ws)| {
+        rule.iter().map(move |&(t, wt)| (wall.point(a[0] + (a[1] - a[0]) * s, b[0] + (b[1] - b[0]) * t), ws * wt))
+    })
+}
+
+/// Gauss rules by their number of points.
+pub(super) fn rules(most: usize) -> Vec<Vec<(f64, f64)>> {
+    (0..=most).map(gauss_legendre).collect()
+}
+
+impl PatchWeights {
+    /// Of all patches that see the aperture's room side.
+    pub fn new(mesh: &Mesh, aperture: &Aperture, basis: Arc<RingBasis>) -> Self {
+        let rules = rules(3);
+        let rows: Vec<Vec<f64>> = mesh
+            .patches
+            .par_iter()
+            .map(|patch| {
+                let wall = &mesh.walls[patch.wall];
+                let mut row = Vec::new();
+                for (position, share) in samples(patch, wall, &rules, points_a_side(patch, wall, aperture)) {
+                    if aperture.view(position, wall.normal).is_none() {
+                        continue;
+                    }
+                    let reception = Reception::new(&Sensor { position, normal: wall.normal }, aperture, Some(&basis));
+                    if row.is_empty() {
+                        row = vec![0.0; basis.len()];
+                    }
+                    for (sum, weight) in row.iter_mut().zip(&reception.cells) {
+                        *sum += share * weight;
+                    }
+                }
+                row
+            })
+            .collect();
+        let mut received = vec![0.0; basis.len()];
+        for (row, patch) in rows.iter().zip(&mesh.patches) {
+            for (sum, weight) in received.iter_mut().zip(row) {
+                *sum += patch.area * weight;
+            }
+        }
+        let closure = basis
+            .cells()
+            .zip(&received)
+            .map(|(cell, r)| r / (aperture.area() * cell.projected_solid_angle()))
+            .collect();
+        Self { basis, rows, closure, received }
+    }
+
+    /// Mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the aperture;
+    /// and by how much that scaling was, relative.
+    pub fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
+        let received = dot(&self.received, luminance);
+        if received <= 0.0 {
+            return (vec![0.0; self.rows.len()], 0.0);
+        }
+        let left: f64 = self
+            .received
+            .iter()
+            .zip(&self.closure)
+            .zip(luminance)
+            .map(|((r, c), l)| if *c > 0.0 { r / c * l } else { 0.0 })
+            .sum();
+        let scale = left / received;
+        let first = self.rows.iter().map(|row| if row.is_empty() { 0.0 } else { scale * dot(row, luminance) });
+        (first.collect(), (scale - 1.0).abs())
+    }
+
+    /// For weights of the patches' illuminance the weights of the cells' luminance, every cell's flux closed by itself.
+    pub fn gathered(&self, weights: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.basis.len()];
+        for (row, w) in self.rows.iter().zip(weights).filter(|(_, w)| **w != 0.0) {
+            sums.iter_mut().zip(row).for_each(|(sum, weight)| *sum += w * weight);
+        }
+        sums.iter().zip(&self.closure).map(|(sum, c)| if *c > 0.0 { sum / c } else { 0.0 }).collect()
+    }
+
+    /// Mean relative gap of flux that the closing takes away, weighted by flux.
+    pub fn gap(&self) -> f64 {
+        let received: f64 = self.received.iter().sum();
+        let gaps = self.received.iter().zip(&self.closure).filter(|(_, c)| **c > 0.0);
+        if received > 0.0 { gaps.map(|(r, c)| r * (1.0 / c - 1.0).abs()).sum::<f64>() / received } else { 0.0 }
+    }
+
+    /// [`Self::falling_back`] as weights: for every cell those of the patches' exitance.
+    pub fn falling(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
+        let scale = 1.0 / (PI * aperture.area());
+        let share = |cell: usize, row: &Vec<f64>, patch: &Patch| {
+            let closure = self.closure[cell];
+            if row.is_empty() || closure <= 0.0 { 0.0 } else { patch.area * scale * row[cell] / closure }
+        };
+        (0..self.basis.len())
+            .into_par_iter()
+            .map(|cell| self.rows.iter().zip(&mesh.patches).map(|(row, patch)| share(cell, row, patch)).collect())
+            .collect()
+    }
+
+    /// Mean illuminance of the aperture's room side from the patches, by the cells through which their light comes.
+    /// \[lx\] A cell is named by where its light goes to.
+    pub fn falling_back(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
+        let mut incident = vec![0.0; self.basis.len()];
+        for ((row, patch), b) in self.rows.iter().zip(&mesh.patches).zip(exitance) {
+            let flux = patch.area * b;
+            if flux > 0.0 {
+                incident.iter_mut().zip(row).for_each(|(sum, weight)| *sum += flux * weight);
+            }
+        }
+        let scale = 1.0 / (PI * aperture.area());
+        incident.iter().zip(&self.closure).map(|(e, c)| if *c > 0.0 { e * scale / c } else { 0.0 }).collect()
+    }
+}
+
+/// More cells than this are merged before they meet the patches, which cannot tell them apart.
+pub const MOST_CELLS: usize = 600;
+
+/// About 400 cells of equal projected solid angle but for finer ones around the normal, where the far end of a deep room
+/// looks; their borders hold the façade's horizon.
+pub fn merged_basis() -> RingBasis {
+    let limits = [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
+    let sectors = [4, 8, 12, 12, 20, 28, 36, 44, 52, 60, 68, 76];
+    let rings = limits
+        .windows(2)
+        .zip(sectors)
+        .map(|(sine, sectors)| Ring {
+            theta_min: sine[0].asin(),
+            theta_max: sine[1].asin(),
+            sectors,
+            first_phi: PI / sectors as f64,
+        })
+        .collect();
+    RingBasis::new("merged", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
+}
+
+/// [`merged_basis`], made once.
+pub(super) fn merged_cells() -> &'static Arc<RingBasis> {
+    static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
+    CELLS.get_or_init(|| Arc::new(merged_basis()))
+}
+
+/// Bases whose way onto the merged cells is kept; the oldest goes first.
+const MERGINGS: usize = 4;
+
+/// From the cells of a basis to the merged ones. Every sun asks for the same few bases.
+pub(super) fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
+    static KEPT: Mutex<Vec<(Arc<RingBasis>, Arc<Resampling>)>> = Mutex::new(Vec::new());
+    // What is kept is whole even if another thread has failed while it held the lock.
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, found)) = kept.iter().find(|(known, _)| Arc::ptr_eq(known, basis)) {
+        return Arc::clone(found);
+    }
+    let made = Arc::new(Resampling::new(basis, merged_cells()));
+    if kept.len() == MERGINGS {
+        kept.remove(0);
+    }
+    kept.push((Arc::clone(basis), Arc::clone(&made)));
+    made
+}
