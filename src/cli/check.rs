@@ -22,7 +22,7 @@ pub struct CheckArgs {
 
 /// A catalogue with damages; the program ends with status 1, unlike for one that it cannot read.
 #[derive(Debug, thiserror::Error)]
-#[error("{path}: {count} damages{}", if *.repair { "; `cfs catalogue check --repair` mends what can be made anew" } else { " that cannot be mended" })]
+#[error("{path}: {count} {}{}", if *.count == 1 { "damage" } else { "damages" }, if *.repair { "; `cfs catalogue check --repair` mends what can be made anew" } else { " that cannot be mended" })]
 pub struct Damaged {
     path: String,
     count: usize,
