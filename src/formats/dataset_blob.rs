@@ -52,24 +52,23 @@ pub fn content_hash(blob: &[u8]) -> String {
 
 /// Bytes that indicatrices take without loss (f32, byte planes, zstd), each on its own as it would be read alone.
 pub fn lossless_bytes(rows: usize, row: impl Fn(usize) -> Vec<f64>) -> usize {
-    (0..rows).map(|index| zstd::bulk::compress(&split_planes(&row(index)), 19).map_or(0, |bytes| bytes.len())).sum()
+    let packed = |values: Vec<f64>| zstd::bulk::compress(&split_planes(values.len(), values.into_iter()), 19);
+    (0..rows).map(|index| packed(row(index)).map_or(0, |bytes| bytes.len())).sum()
 }
 
 /// Two bytes planes apart: byte k of every value in a row, which compresses far better than values one by one.
-pub(crate) fn split_planes(values: &[f64]) -> Vec<u8> {
-    let mut planes = vec![0; values.len() * 4];
-    for (index, value) in values.iter().enumerate() {
-        for (plane, byte) in (*value as f32).to_le_bytes().into_iter().enumerate() {
-            planes[plane * values.len() + index] = byte;
+pub(crate) fn split_planes(count: usize, values: impl Iterator<Item = f64>) -> Vec<u8> {
+    let mut planes = vec![0; count * 4];
+    for (index, value) in values.take(count).enumerate() {
+        for (plane, byte) in (value as f32).to_le_bytes().into_iter().enumerate() {
+            planes[plane * count + index] = byte;
         }
     }
     planes
 }
 
 /// The inverse of [`split_planes`]; four bytes a value.
-pub(crate) fn join_planes(planes: &[u8]) -> Vec<f64> {
+pub(crate) fn join_planes(planes: &[u8]) -> impl Iterator<Item = f32> + '_ {
     let n = planes.len() / 4;
-    (0..n)
-        .map(|i| f64::from(f32::from_le_bytes([planes[i], planes[n + i], planes[2 * n + i], planes[3 * n + i]])))
-        .collect()
+    (0..n).map(move |i| f32::from_le_bytes([planes[i], planes[n + i], planes[2 * n + i], planes[3 * n + i]]))
 }

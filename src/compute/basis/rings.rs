@@ -349,7 +349,11 @@ impl RingBasis {
 
     /// Projected solid angles of all cells, in order. \[sr\]
     pub fn projected_solid_angles(&self) -> Vec<f64> {
-        self.cells().map(|cell| cell.projected_solid_angle()).collect()
+        // The same for all cells of a ring.
+        let rings = self.rings.iter().zip(&self.first_cell);
+        rings
+            .flat_map(|(ring, first)| std::iter::repeat_n(self.cell(*first).projected_solid_angle(), ring.sectors))
+            .collect()
     }
 
     /// The cell that holds a direction (through-name, façade frame). Borders belong to the cell with the larger θ and

@@ -22,13 +22,19 @@ impl CellMatrix {
     /// From values in 1/sr, `values[i · emergent.len() + o]`, incident cell i, emergent cell o (by through-name).
     /// `None` when the count does not fit the bases.
     pub fn new(incident: RingBasis, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
-        if values.len() != incident.len() * emergent.len() {
-            return None;
-        }
-        let weight = emergent.projected_solid_angles();
-        let tau =
-            values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
-        Some(Self { incident, emergent, rows: Rows::of(values), tau })
+        let fit = values.len() == incident.len() * emergent.len();
+        fit.then(|| Rows::of(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
+    }
+
+    /// The same of values that were kept as f32.
+    pub fn of_single(incident: RingBasis, emergent: RingBasis, values: Vec<f32>) -> Option<Self> {
+        let fit = values.len() == incident.len() * emergent.len();
+        fit.then(|| Rows::of_single(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
+    }
+
+    fn with_sums(incident: RingBasis, emergent: RingBasis, rows: Rows) -> Option<Self> {
+        let tau = rows.sums(incident.len(), &emergent.projected_solid_angles());
+        Some(Self { incident, emergent, rows, tau })
     }
 
     /// From indicatrices in compact form, one an incident cell; they stay compact, and τ is what they keep.
@@ -68,6 +74,11 @@ impl CellMatrix {
     /// The indicatrix of one incident cell. \[1/sr\] Made when asked for where the data are held in compact form.
     pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
         self.rows.row(incident, self.emergent.len())
+    }
+
+    /// Adds a multiple of an indicatrix to a sum over the emergent cells.
+    pub fn add_row(&self, incident: usize, factor: f64, sum: &mut [f64]) {
+        self.rows.add_to(incident, self.emergent.len(), factor, sum);
     }
 
     /// One value: incident cell, emergent cell. \[1/sr\]

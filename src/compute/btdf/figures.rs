@@ -93,7 +93,14 @@ fn weights(basis: &RingBasis) -> Vec<[f64; 2]> {
         let whole = cell.projected_solid_angle();
         // A through-name points back to where the light seems to come from: light of a low name goes up.
         let upward = |j: &usize| (cell.phi + cell.width * ((*j as f64 + 0.5) / ACROSS as f64 - 0.5)).sin() < 0.0;
-        [whole * (0..ACROSS).filter(upward).count() as f64 / ACROSS as f64, whole]
+        let [first, last] = [upward(&0), upward(&(ACROSS - 1))];
+        // In less than half a turn the sine changes its sign once at most.
+        let count = match first == last && cell.width < PI {
+            true if first => ACROSS,
+            true => 0,
+            false => (0..ACROSS).filter(upward).count(),
+        };
+        [whole * count as f64 / ACROSS as f64, whole]
     };
     basis.cells().map(of).collect()
 }

@@ -31,13 +31,19 @@ impl Indicatrices {
     /// From values in 1/sr, `values[i · emergent.len() + o]`: incident direction i, emergent cell o (by through-name).
     /// `None` when the count does not fit, without directions, or when two directions coincide.
     pub fn new(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
-        if values.len() != incident.len() * emergent.len() {
-            return None;
-        }
-        let weight = emergent.projected_solid_angles();
-        let tau =
-            values.chunks_exact(emergent.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect();
-        Self::with_rows(incident, emergent, Rows::of(values), tau)
+        let fit = values.len() == incident.len() * emergent.len();
+        fit.then(|| Rows::of(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
+    }
+
+    /// The same of values that were kept as f32.
+    pub fn of_single(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f32>) -> Option<Self> {
+        let fit = values.len() == incident.len() * emergent.len();
+        fit.then(|| Rows::of_single(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
+    }
+
+    fn with_sums(incident: Vec<Incident>, emergent: RingBasis, rows: Rows) -> Option<Self> {
+        let tau = rows.sums(incident.len(), &emergent.projected_solid_angles());
+        Self::with_rows(incident, emergent, rows, tau)
     }
 
     /// From indicatrices in compact form, one an incident direction; they stay compact, and τ is what they keep.

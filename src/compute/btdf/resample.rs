@@ -24,9 +24,7 @@ pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &Rin
     for i in 0..incident.len() {
         mean.fill(0.0);
         for &(cell, share) in inward.shares(i) {
-            for (m, q) in mean.iter_mut().zip(matrix.row(cell).iter()) {
-                *m += share * q;
-            }
+            matrix.add_row(cell, share, &mut mean);
         }
         values.extend(outward.apply(&mean));
     }

@@ -27,6 +27,19 @@ impl Rows {
         Self::Plain(Arc::new(values))
     }
 
+    /// Of values that were kept as f32.
+    pub fn of_single(values: Vec<f32>) -> Self {
+        if values.len() > MANY {
+            return Self::Single(Arc::new(values));
+        }
+        Self::Plain(Arc::new(values.into_iter().map(f64::from).collect()))
+    }
+
+    /// What every row of `n` values sums to with a weight for each of them.
+    pub fn sums(&self, rows: usize, weight: &[f64]) -> Vec<f64> {
+        (0..rows).map(|k| self.row(k, weight.len()).iter().zip(weight).map(|(q, w)| q * w).sum()).collect()
+    }
+
     /// One row of `n` values.
     pub fn row(&self, row: usize, n: usize) -> Cow<'_, [f64]> {
         match self {
@@ -44,6 +57,17 @@ impl Rows {
             Self::Plain(values) => values[row * n + cell],
             Self::Single(values) => f64::from(values[row * n + cell]),
             Self::Compact(rows) => rows.value(row, cell),
+        }
+    }
+
+    /// Adds a multiple of one row of `n` values to a sum; nothing is widened in between.
+    pub fn add_to(&self, row: usize, n: usize, factor: f64, sum: &mut [f64]) {
+        match self {
+            Self::Single(values) => {
+                let row = &values[row * n..(row + 1) * n];
+                sum.iter_mut().zip(row).for_each(|(s, q)| *s += factor * f64::from(*q));
+            }
+            _ => sum.iter_mut().zip(self.row(row, n).iter()).for_each(|(s, q)| *s += factor * q),
         }
     }
 

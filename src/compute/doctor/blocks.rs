@@ -69,7 +69,7 @@ impl Blocks {
         for component in &components {
             let matrix = matrix_roughly_on(band.get(*component)?, &basis, &basis);
             given[*component as usize] =
-                Some(Block { tau: matrix.tau_by_cell().to_vec(), q: matrix.values().to_vec() });
+                Some(Block { tau: matrix.tau_by_cell().to_vec(), q: matrix.values().into_owned() });
         }
         // On cells counted by through-names a turn only exchanges numbers. A cell without an image stands for itself.
         let turned = |turn: fn(DVec3) -> DVec3| -> Vec<usize> {

@@ -35,7 +35,9 @@ pub(super) fn check(at: &At) -> Vec<Diagnosis> {
 
 fn values(btdf: &Btdf, mut each: impl FnMut(f64)) {
     match &btdf.scattered {
-        Some(Scattered::Cells(matrix)) => matrix.values().iter().for_each(|q| each(*q)),
+        Some(Scattered::Cells(matrix)) => {
+            (0..matrix.incident().len()).for_each(|k| matrix.row(k).iter().for_each(|q| each(*q)));
+        }
         Some(Scattered::Directions(data)) => {
             (0..data.incident().len()).for_each(|k| data.row(k).iter().for_each(|q| each(*q)));
         }

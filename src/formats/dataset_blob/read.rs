@@ -238,7 +238,8 @@ impl<'a> Reader<'a, '_> {
     fn cells(&mut self) -> Result<CellMatrix, BlobError> {
         let (incident, emergent) = (self.basis()?, self.basis()?);
         let values = self.values(incident.len(), emergent.len())?;
-        CellMatrix::new(incident, emergent, values).map_or_else(|| self.invalid("values do not fit the cells"), Ok)
+        CellMatrix::of_single(incident, emergent, values)
+            .map_or_else(|| self.invalid("values do not fit the cells"), Ok)
     }
 
     fn compact_cells(&mut self) -> Result<CellMatrix, BlobError> {
@@ -278,13 +279,13 @@ impl<'a> Reader<'a, '_> {
             Indicatrices::from_compact(incident, rows)
         } else {
             let values = self.values(incident.len(), emergent.len())?;
-            Indicatrices::new(incident, emergent, values)
+            Indicatrices::of_single(incident, emergent, values)
         };
         data.map_or_else(|| self.invalid("values do not fit the directions, or two directions coincide"), Ok)
     }
 
     /// `rows` × `columns` packed values.
-    fn values(&mut self, rows: usize, columns: usize) -> Result<Vec<f64>, BlobError> {
+    fn values(&mut self, rows: usize, columns: usize) -> Result<Vec<f32>, BlobError> {
         let count = self.count(0)?;
         if count > MOST_VALUES || count != rows.saturating_mul(columns) {
             return self.invalid(format!("{count} values for {rows} × {columns} cells (at most {MOST_VALUES})"));
@@ -292,13 +293,14 @@ impl<'a> Reader<'a, '_> {
         self.spend(count)?;
         let packed = self.count(1)?;
         let packed = self.take(packed)?;
-        let values = join_planes(&self.unpack(packed, count * 4)?);
+        let values: Vec<f32> = join_planes(&self.unpack(packed, count * 4)?).collect();
         self.possible(values)
     }
 
     /// The values if no function's are beyond all measure, or no numbers.
-    fn possible(&self, values: Vec<f64>) -> Result<Vec<f64>, BlobError> {
-        match values.iter().find(|value| value.is_nan() || value.abs() > limits::COEFFICIENT) {
+    fn possible<T: Copy + Into<f64>>(&self, values: Vec<T>) -> Result<Vec<T>, BlobError> {
+        let mut all = values.iter().map(|value| (*value).into());
+        match all.find(|value: &f64| value.is_nan() || value.abs() > limits::COEFFICIENT) {
             Some(value) => self.invalid(format!("a value of {value:e} (at most {:e})", limits::COEFFICIENT)),
             None => Ok(values),
         }
@@ -326,7 +328,7 @@ impl<'a> Reader<'a, '_> {
             return self.invalid("a tree that has not as many branches as it says");
         }
         let mut firsts = firsts.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        let mut leaves = self.possible(join_planes(leaves))?.into_iter();
+        let mut leaves = self.possible(join_planes(leaves).map(f64::from).collect())?.into_iter();
         let nodes = kinds.iter().map_while(|kind| {
             if *kind == 0 { leaves.next().map(TreeNode::Leaf) } else { firsts.next().map(TreeNode::Branch) }
         });

@@ -8,6 +8,7 @@ use crate::compute::btdf::{
 };
 use crate::compute::wavelet::CompactRows;
 use crate::formats::compact_rows;
+use std::borrow::Cow;
 
 /// Bytes of a dataset. The same dataset always gives the same bytes.
 pub fn encode(dataset: &Dataset) -> Vec<u8> {
@@ -116,7 +117,7 @@ impl Writer {
                 self.basis(matrix.emergent());
                 match compact {
                     Some(rows) => self.compact(rows),
-                    None => self.values(&matrix.values()),
+                    None => self.values(matrix.incident().len(), matrix.emergent().len(), |row| matrix.row(row)),
                 }
             }
             Some(Scattered::Directions(data)) => {
@@ -129,10 +130,7 @@ impl Writer {
                 self.basis(data.emergent());
                 match compact {
                     Some(rows) => self.compact(rows),
-                    None => {
-                        let rows = 0..data.incident().len();
-                        self.values(&rows.flat_map(|i| data.row(i).into_owned()).collect::<Vec<f64>>());
-                    }
+                    None => self.values(data.incident().len(), data.emergent().len(), |row| data.row(row)),
                 }
             }
             Some(Scattered::Tree(tree)) => {
@@ -175,9 +173,12 @@ impl Writer {
         self.0.extend(bytes);
     }
 
-    fn values(&mut self, values: &[f64]) {
-        let packed = zstd::bulk::compress(&split_planes(values), 1).expect("compression into memory does not fail");
-        self.count(values.len());
+    /// Rows of `columns` values each. Very large functions are never unfolded as a whole.
+    fn values<'a>(&mut self, rows: usize, columns: usize, row: impl Fn(usize) -> Cow<'a, [f64]>) {
+        let values = (0..rows).flat_map(|k| row(k).into_owned());
+        let planes = split_planes(rows * columns, values);
+        let packed = zstd::bulk::compress(&planes, 1).expect("compression into memory does not fail");
+        self.count(rows * columns);
         self.count(packed.len());
         self.0.extend(packed);
     }
@@ -199,7 +200,7 @@ impl Writer {
                 }
             }
         }
-        plain.extend(split_planes(&leaves));
+        plain.extend(split_planes(leaves.len(), leaves.iter().copied()));
         let packed = zstd::bulk::compress(&plain, 1).expect("compression into memory does not fail");
         self.count(tree.nodes().len());
         self.count(branches);
