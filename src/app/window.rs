@@ -11,12 +11,14 @@ use super::engine::{Engine, LidFigures};
 use super::error::AppError;
 use super::examining::Examined;
 use super::export::Exports;
+use super::faults::Faults;
 use super::gallery::Gallery;
 use super::import::KeptImport;
 use super::jobs::{JobState, Jobs, Lane};
 use super::messages::Messages;
 use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, Sheet, State};
+use super::steps::Steps;
 use super::tiles::Bench;
 use super::views::{accuracy, section, states};
 use super::work::{Outcome, ReadDataset};
@@ -85,6 +87,9 @@ pub struct App {
     pub(super) writing: bool,
     /// Keeps the session on disk, if it does.
     pub(super) autosave: Option<Autosave>,
+    /// What was done last.
+    pub(super) steps: Steps,
+    pub(super) faults: Faults,
     pub(super) bench: Bench,
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
@@ -176,6 +181,8 @@ impl App {
             waiting_files: Vec::new(),
             writing: false,
             autosave: None,
+            steps: Steps::default(),
+            faults: Faults::default(),
             bench: Bench::default(),
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
