@@ -28,6 +28,7 @@ impl App {
     /// Does what a command says. What it changes in the document is a step of its own, however soon it follows on the one
     /// before it; only what is dragged or stepped through is one step when it has come to rest.
     pub fn apply(&mut self, command: Command) {
+        self.steps.keep(&command);
         let step = command.is_step();
         // What is there already is not added twice: some commands do it themselves.
         if step {
@@ -236,6 +237,7 @@ impl App {
             Command::RestoreProduct(key) => self.restore_product(key),
             Command::Dismiss(id) => self.toasts.dismiss(id),
             Command::ForgetMessages => self.toasts.clear(),
+            Command::CopyReport(path) => self.copy_report(&path),
             Command::Compare(act) => self.act(act),
             Command::Like(key) => self.find_like(key),
         }

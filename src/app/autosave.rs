@@ -6,7 +6,7 @@
 
 use super::clock;
 use super::disk::{ends_in, read_bytes};
-use super::session::{Kept, Snapshot};
+use super::session::{Kept, KeptFault, Snapshot};
 use super::session_error::SessionError;
 use crate::study::files::write_at_once;
 use std::fs::{File, OpenOptions};
@@ -14,7 +14,7 @@ use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 /// The session of the window that was closed last.
 const LAST: &str = "last.json";
@@ -22,6 +22,13 @@ const LAST: &str = "last.json";
 const CLOSED: &str = "session-closed-";
 /// Between two writings at least; longer than a fast disk needs and far below a second.
 const PAUSE: Duration = Duration::from_millis(200);
+
+/// How long is waited for what must be written now. A disk that does not answer must not hold the window for ever.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// A fault so soon after the start may come from what was taken up.
+const SOON: Duration = Duration::from_secs(60);
+/// After so many such faults in a row a session is set aside: the program must start.
+const MOST_FAULTS: u32 = 2;
 
 /// Leftovers of killed programs are taken away after this time.
 const OLD: Duration = Duration::from_secs(3600);
@@ -39,6 +46,10 @@ pub struct Found {
 
 enum Order {
     Write(Box<Snapshot>),
+    /// Says when all that was ordered before is written.
+    Tell(Sender<()>),
+    /// What is open, as the program ends at a fault.
+    Fault(Box<Snapshot>, KeptFault),
     Close,
 }
 
@@ -53,6 +64,9 @@ pub struct Autosave {
     problems: Receiver<SessionError>,
     writer: Option<JoinHandle<()>>,
     last: Option<Snapshot>,
+    begun: Instant,
+    /// Times in a row that the program ended at a fault soon after it had taken this session up.
+    faults: u32,
 }
 
 fn lock(path: &Path) -> std::io::Result<Option<File>> {
@@ -109,6 +123,12 @@ impl Autosave {
                 // Whose window lives is left alone; another window may also have closed it since the look.
                 let Some(held) = lock(&lock_file)?.filter(|_| file.exists()) else { continue };
                 match read(&file) {
+                    Ok(Kept { fault: Some(fault), .. }) if fault.times >= MOST_FAULTS => {
+                        let aside = file.with_extension("aside");
+                        drop(std::fs::rename(&file, &aside));
+                        remove(&lock_file);
+                        found.problems.push(SessionError::SetAside(aside, fault.report));
+                    }
                     Ok(kept) => {
                         found.kept = Some(kept);
                         found.lost = !is_closed(&file);
@@ -145,6 +165,7 @@ impl Autosave {
         let writer = std::thread::Builder::new()
             .name("cfs session".to_owned())
             .spawn(move || write_all(&target, &received, &told))?;
+        let faults = found.kept.as_ref().and_then(|kept| kept.fault.as_ref()).map_or(0, |fault| fault.times);
         let keeper = Self {
             folder: folder.to_owned(),
             file,
@@ -154,6 +175,8 @@ impl Autosave {
             problems,
             writer: Some(writer),
             last: None,
+            begun: Instant::now(),
+            faults,
         };
         Ok((keeper, found))
     }
@@ -177,6 +200,24 @@ impl Autosave {
         self.last = Some(snapshot.clone());
         // The writer ends only after the keeper has.
         drop(self.orders.send(Order::Write(Box::new(snapshot))));
+    }
+
+    /// Returns when what was kept is written, or cannot be.
+    pub fn write_now(&self) {
+        let (told, written) = channel();
+        if self.orders.send(Order::Tell(told)).is_ok() {
+            // Past patience it is written later, or told as what cannot be.
+            let _ = written.recv_timeout(PATIENCE);
+        }
+    }
+
+    /// The program ends at a fault: what was kept last is what the next start takes up, with the report on the fault.
+    pub fn end_at_fault(self, report: Option<PathBuf>) {
+        let times = if self.begun.elapsed() < SOON { self.faults + 1 } else { 1 };
+        if let Some(last) = &self.last {
+            drop(self.orders.send(Order::Fault(Box::new(last.clone()), KeptFault { times, report })));
+            self.write_now();
+        }
     }
 
     /// What could not be written, once.
@@ -245,9 +286,12 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
     while !closing {
         let Ok(mut order) = orders.recv() else { return };
         let mut newest = None;
+        let mut waiting = Vec::new();
         loop {
             match order {
-                Order::Write(snapshot) => newest = Some(snapshot),
+                Order::Write(snapshot) => newest = Some((snapshot, None)),
+                Order::Fault(snapshot, fault) => newest = Some((snapshot, Some(fault))),
+                Order::Tell(teller) => waiting.push(teller),
                 Order::Close => closing = true,
             }
             match orders.try_recv() {
@@ -255,8 +299,8 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
                 Err(_) => break,
             }
         }
-        if let Some(snapshot) = newest {
-            let done = serde_json::to_vec_pretty(&snapshot.kept(clock::stamp()))
+        if let Some((snapshot, fault)) = newest {
+            let done = serde_json::to_vec_pretty(&Kept { fault, ..snapshot.kept(clock::stamp()) })
                 .map_err(|error| error.to_string())
                 .and_then(|bytes| write_at_once(file, &bytes).map_err(|error| error.to_string()));
             match done {
@@ -272,6 +316,10 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
                 Err(_) => {}
             }
         }
+        for teller in waiting {
+            // Who asked may have lost patience.
+            let _ = teller.send(());
+        }
         if !closing {
             std::thread::sleep(PAUSE);
         }
@@ -282,7 +330,6 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
 mod tests {
     use super::*;
     use crate::app::state::{Settings, State};
-    use std::time::Instant;
 
     fn state(azimuth: f64) -> State {
         let mut state = State::new(Settings::default());
@@ -371,6 +418,42 @@ mod tests {
         found.sort_by(f64::total_cmp);
         assert_eq!(found, [10.0, 20.0]);
         drop((one, two));
+    }
+
+    #[test]
+    fn what_is_to_be_written_now_is_on_disk_when_the_call_returns() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut keeper, _) = Autosave::begin(folder.path(), true).unwrap();
+        for wanted in [30.0, 40.0, 50.0] {
+            keeper.keep(&state(wanted));
+            keeper.write_now();
+            assert_eq!(azimuth(&read(&keeper.file).unwrap()), wanted);
+        }
+    }
+
+    #[test]
+    fn a_fault_is_taken_up_with_its_report_and_one_that_comes_at_once_again_is_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        let report = Some(PathBuf::from("a.txt"));
+        let (mut first, _) = Autosave::begin(folder.path(), true).unwrap();
+        first.keep(&state(10.0));
+        first.end_at_fault(report.clone());
+        let (mut second, found) = Autosave::begin(folder.path(), true).unwrap();
+        let kept = found.kept.unwrap();
+        assert!(found.lost && azimuth(&kept) == 10.0);
+        assert_eq!(kept.fault, Some(KeptFault { times: 1, report: report.clone() }));
+        second.keep(&state(10.0));
+        second.end_at_fault(report.clone());
+        let (mut third, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.kept.is_none(), "the program must start");
+        let [SessionError::SetAside(aside, told)] = &*found.problems else { panic!("{:?}", found.problems) };
+        assert!(azimuth(&read(aside).unwrap()) == 10.0 && *told == report);
+        // Long after the start it is another matter.
+        third.keep(&state(20.0));
+        (third.faults, third.begun) = (1, Instant::now() - 2 * SOON);
+        third.end_at_fault(None);
+        let (_fourth, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert_eq!(found.kept.unwrap().fault, Some(KeptFault { times: 1, report: None }));
     }
 
     #[test]

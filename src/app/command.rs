@@ -198,6 +198,8 @@ pub enum Command {
     Dismiss(Option<u64>),
     /// Forget all messages.
     ForgetMessages,
+    /// The report on a fault into the clipboard.
+    CopyReport(PathBuf),
     /// Something with the list of products.
     Shelve(Shelving),
     /// Something about what is compared.

@@ -8,6 +8,7 @@ use crate::formats::control_curve::CurveError;
 use crate::formats::encoding::NotText;
 use crate::report::ReportError;
 use crate::study::StudyError;
+use crate::study::fault::Fault;
 use crate::study::luminaire_file::LuminaireFileError;
 use crate::study::luminaire_set::SetError;
 use crate::texts::shell;
@@ -16,9 +17,9 @@ use std::fmt::Display;
 /// Why a job ended without a result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JobError {
-    /// It panicked; what it said.
+    /// It panicked; what is known of it.
     #[error("{}", shell::panicked(.0))]
-    Panic(String),
+    Panic(Box<Fault>),
     /// It was never started; what the system says.
     #[error("{}", shell::no_thread(.0))]
     NoThread(String),
@@ -30,6 +31,9 @@ pub enum AppError {
     /// The study cannot be made.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// A job came to nothing.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// The catalogue refuses.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),

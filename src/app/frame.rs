@@ -8,7 +8,7 @@ use super::restoring::sessions_folder;
 use super::window::{App, Services};
 use super::{language, panels, theme, title};
 use crate::catalogue::SourceFile;
-use crate::study::Library;
+use crate::study::{Library, fault};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -132,6 +132,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
             let mut app = App::new(services, settings);
             app.library = library;
             app.desktop_language = language::of_desktop();
+            app.report_faults(fault::folder().as_deref());
             app.begin_session(sessions.as_deref(), open.is_empty());
             app.logic(&cc.egui_ctx);
             app.apply(Command::OpenPaths(open));

@@ -10,8 +10,8 @@
 use super::error::JobError;
 pub use super::lane::{Lane, Priority};
 use crate::compute::estimate::Progress;
-use crate::texts::{self, shell};
-use std::any::Any;
+use crate::study::fault;
+use crate::texts;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -81,7 +81,7 @@ impl JobState {
 
     /// The present stage; empty before the first report.
     pub fn stage(&self) -> &'static str {
-        self.stage.lock().map_or("", |stage| *stage)
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn done(&self) -> usize {
@@ -95,9 +95,7 @@ impl JobState {
     fn report(&self, stage: &'static str, done: usize, total: usize) {
         self.done.store(done, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
-        if let Ok(mut place) = self.stage.lock() {
-            *place = stage;
-        }
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
     }
 
     fn rest(&self) {
@@ -138,6 +136,8 @@ pub struct Finished<M> {
     pub lane: Lane,
     /// What the job returned, or why it did not.
     pub outcome: Result<M, JobError>,
+    /// Where it was when it ended.
+    pub stage: &'static str,
     /// Dropped with this, when the outcome has been taken in and what it asks for is started.
     _awaited: Option<Awaited>,
 }
@@ -196,16 +196,19 @@ impl<M: Send + 'static> Jobs<M> {
         let job = move || {
             let _speaking = texts::speak(language);
             state.rest();
-            let outcome = catch_unwind(AssertUnwindSafe(|| work(&state))).map_err(|panic| fault(&*panic));
+            let outcome = catch_unwind(AssertUnwindSafe(|| work(&state)))
+                .map_err(|panic| JobError::Panic(Box::new(fault::caught(&*panic))));
+            let stage = state.stage();
             // The window may be gone by now; nobody is left to tell.
-            if sender.send((generation, Finished { lane, outcome, _awaited: awaited })).is_ok() {
+            if sender.send((generation, Finished { lane, outcome, stage, _awaited: awaited })).is_ok() {
                 wake();
             }
         };
         if let Err(error) = std::thread::Builder::new().name(format!("cfs {}", lane.word().english())).spawn(job) {
             let error = JobError::NoThread(error.to_string());
             // Sent to ourselves: the receiver lives as long as we do.
-            if self.sender.send((generation, Finished { lane, outcome: Err(error), _awaited: None })).is_err() {
+            let failed = Finished { lane, outcome: Err(error), stage: "", _awaited: None };
+            if self.sender.send((generation, failed)).is_err() {
                 self.running.remove(&lane);
             }
         }
@@ -247,12 +250,6 @@ impl<M> Drop for Jobs<M> {
             job.state.withdraw();
         }
     }
-}
-
-fn fault(panic: &(dyn Any + Send)) -> JobError {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
-    JobError::Panic(text.unwrap_or_else(|| shell::NO_PANIC_MESSAGE.into()))
 }
 
 #[cfg(test)]
@@ -298,7 +295,8 @@ mod tests {
         let mut jobs: Jobs<i32> = Jobs::default();
         jobs.start(Lane::Lid, || {}, |_| panic!("seven"));
         let list = wait(&mut jobs);
-        assert_eq!(list[0].outcome, Err(JobError::Panic("seven".to_owned())));
+        let Err(JobError::Panic(fault)) = &list[0].outcome else { panic!("{:?}", list[0].outcome) };
+        assert_eq!(fault.message, "seven");
         jobs.start(Lane::Lid, || {}, |_| 3);
         assert_eq!(wait(&mut jobs)[0].outcome, Ok(3));
     }

@@ -3,6 +3,7 @@
 use super::clock;
 use crate::texts::{Text, shell, short_numbers, visible};
 use std::collections::VecDeque;
+use std::path::PathBuf;
 
 /// Messages kept.
 const MOST: usize = 200;
@@ -52,6 +53,8 @@ pub struct Message {
     pub at: String,
     /// Seconds that it is still shown. \[s\]
     pub left: f64,
+    /// A report that goes with it.
+    pub report: Option<PathBuf>,
 }
 
 /// All messages of a session, the newest last.
@@ -70,14 +73,14 @@ pub fn seconds(text: &str) -> f64 {
 }
 
 impl Messages {
-    fn say(&mut self, weight: Weight, text: String) {
+    fn say(&mut self, weight: Weight, text: String, report: Option<PathBuf>) {
         self.next += 1;
         // What it quotes may come from any file.
         let text = short_numbers(&visible(&text)).into_owned();
         let left = seconds(&text);
         // The same again is not said twice at a time.
         self.list.iter_mut().filter(|other| other.text == text).for_each(|other| other.left = 0.0);
-        self.list.push_back(Message { id: self.next, weight, text, at: clock::now(), left });
+        self.list.push_back(Message { id: self.next, weight, text, at: clock::now(), left, report });
         while self.list.len() > MOST {
             self.list.pop_front();
         }
@@ -85,22 +88,27 @@ impl Messages {
 
     /// Says something worth knowing.
     pub fn info(&mut self, text: impl Into<String>) {
-        self.say(Weight::Info, text.into());
+        self.say(Weight::Info, text.into(), None);
     }
 
     /// Says that something was done.
     pub fn success(&mut self, text: impl Into<String>) {
-        self.say(Weight::Success, text.into());
+        self.say(Weight::Success, text.into(), None);
     }
 
     /// Says something worth a look.
     pub fn warning(&mut self, text: impl Into<String>) {
-        self.say(Weight::Warning, text.into());
+        self.say(Weight::Warning, text.into(), None);
     }
 
     /// Says that something was not done.
     pub fn error(&mut self, text: impl Into<String>) {
-        self.say(Weight::Error, text.into());
+        self.say(Weight::Error, text.into(), None);
+    }
+
+    /// Says a fault of the program, with the report on it.
+    pub fn fault(&mut self, text: impl Into<String>, report: PathBuf) {
+        self.say(Weight::Error, text.into(), Some(report));
     }
 
     /// All, the oldest first.

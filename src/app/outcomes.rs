@@ -117,27 +117,7 @@ impl App {
         for finished in self.jobs.poll() {
             match finished.outcome {
                 Ok(outcome) => self.take(outcome),
-                Err(panic) => {
-                    let text = format!("{}: {panic}", finished.lane.word());
-                    self.toasts.error(text.clone());
-                    match finished.lane {
-                        Lane::Lid => self.results.lid.error = Some(text),
-                        Lane::Room => self.results.room.error = Some(text),
-                        Lane::Surfaces => self.results.surfaces.error = Some(text),
-                        Lane::DataForm => self.results.form.error = Some(text),
-                        Lane::Schemes => self.results.schemes.error = Some(text),
-                        Lane::Accuracy => self.results.accuracy.error = Some(text),
-                        Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
-                        Lane::Year => self.results.year.error = Some(text),
-                        Lane::Catalogue => self.state.search_error = Some(text),
-                        Lane::Compare => self.compare.fail(text),
-                        Lane::Arrange => self.stop_arranging(),
-                        // What asks in every frame would fail in every frame.
-                        Lane::Findings => self.state.sheet = None,
-                        Lane::Gallery => self.state.settings.gallery = false,
-                        _ => {}
-                    }
-                }
+                Err(error) => self.take_failure(finished.lane, finished.stage, error),
             }
             if finished.lane == Lane::Store {
                 self.start_pending_change();

@@ -57,7 +57,11 @@ impl App {
             self.read_again(import.paths.clone(), import.grouping, Some(import));
         }
         if found.lost && put.is_ok() {
-            self.toasts.info(shell::restored(clock::words(&kept.at)));
+            let at = clock::words(&kept.at);
+            match kept.fault.and_then(|fault| fault.report) {
+                Some(report) => self.toasts.fault(shell::restored_after_fault(at, report.display()), report),
+                None => self.toasts.info(shell::restored(at)),
+            }
         }
     }
 

@@ -12,6 +12,16 @@ use std::path::PathBuf;
 /// Number of the layout of a kept session. A newer one is left alone.
 const VERSION: u32 = 1;
 
+/// The program ended at a fault of its own with this open.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct KeptFault {
+    /// So many times in a row, each soon after it was taken up.
+    pub times: u32,
+    /// The report on the last one.
+    pub report: Option<PathBuf>,
+}
+
 /// The system file that is being typed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptSystem {
@@ -98,6 +108,7 @@ impl Snapshot {
             system: self.system.clone(),
             sheet: self.sheet.map(str::to_owned),
             settings: self.settings.clone(),
+            fault: None,
         }
     }
 }
@@ -130,6 +141,8 @@ pub struct Kept {
     pub sheet: Option<String>,
     /// Theme, panels, folder.
     pub settings: Settings,
+    /// How its window ended, if at a fault.
+    pub fault: Option<KeptFault>,
 }
 
 impl Kept {

@@ -2,7 +2,12 @@
 
 use super::error::AppError;
 use crate::texts::shell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+fn set_aside(file: &Path, report: Option<&Path>) -> String {
+    let report = report.map_or_else(|| shell::NO_REPORT.to_string(), |report| report.display().to_string());
+    shell::set_aside(file.display(), report)
+}
 
 /// What is wrong with a session.
 #[derive(Debug, thiserror::Error)]
@@ -19,6 +24,9 @@ pub enum SessionError {
     /// It cannot be taken up.
     #[error("{}", shell::unreadable(.0.display(), .1))]
     Unreadable(PathBuf, Box<Self>),
+    /// The program ended more than once soon after it had taken it up: where it lies now, and what its report is.
+    #[error("{}", set_aside(.0, .1.as_deref()))]
+    SetAside(PathBuf, Option<PathBuf>),
     /// It cannot be written.
     #[error("{}", shell::not_kept(.0))]
     NotKept(String),

@@ -17,6 +17,7 @@ use super::jobs::{JobState, Jobs, Lane};
 use super::messages::Messages;
 use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, Sheet, State};
+use super::steps::{Faults, Steps};
 use super::tiles::Bench;
 use super::views::{accuracy, section, states};
 use super::work::{Outcome, ReadDataset};
@@ -85,6 +86,9 @@ pub struct App {
     pub(super) writing: bool,
     /// Keeps the session on disk, if it does.
     pub(super) autosave: Option<Autosave>,
+    /// What was done last.
+    pub(super) steps: Steps,
+    pub(super) faults: Faults,
     pub(super) bench: Bench,
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
@@ -176,6 +180,8 @@ impl App {
             waiting_files: Vec::new(),
             writing: false,
             autosave: None,
+            steps: Steps::default(),
+            faults: Faults::default(),
             bench: Bench::default(),
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),

@@ -31,7 +31,8 @@ Examples:
   cfs goniophotometer blind.system.toml --out blind.cfsp   datasets from geometry and material
   cfs catalogue list --search blind     products, built in and your own
 
-On bad input every command ends with status 2 and one line that says what would be right.";
+On bad input every command ends with status 2 and one line that says what would be right; at a fault of the program
+itself with status 101 and one line that says where the report on it is.";
 
 /// The same with the table of limits, for `--help`.
 fn with_limits() -> String {

@@ -15,6 +15,7 @@ pub mod compare;
 pub mod control;
 pub mod convert;
 mod dataset_file;
+mod fault;
 pub mod goniophotometer;
 pub mod importing;
 pub mod info;
@@ -37,6 +38,7 @@ pub mod validate;
 mod writing;
 
 pub use args::{Arguments, Command};
+pub use fault::{Stopped, guarded};
 pub use writing::Over;
 
 use crate::catalogue::default_path;
@@ -72,8 +74,20 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
 }
 
 /// Is it a verdict about what was read, rather than something that could not be done?
-pub fn is_judgement(error: &anyhow::Error) -> bool {
+fn is_judgement(error: &anyhow::Error) -> bool {
     error.is::<validate::NotFit>() || error.is::<packages::Differ>() || error.is::<check::Damaged>()
+}
+
+/// The status that the program ends with: 1 where something was read and judged, but is not fit for use, or different; 2
+/// where something could not be done; 101 at a fault of the program itself, as of any program in Rust.
+pub fn status(error: &anyhow::Error) -> u8 {
+    if error.is::<Stopped>() {
+        101
+    } else if is_judgement(error) {
+        1
+    } else {
+        2
+    }
 }
 
 /// Says on standard error why the program did not do what it was asked: one line whatever the causes say, so that scripts

@@ -51,6 +51,11 @@ pub fn keep(path: &Path) {
     }
 }
 
+/// The files that this run of the program has read, in the order of their paths.
+pub fn inputs() -> Vec<PathBuf> {
+    INPUTS.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
+}
+
 /// What a written file may take the place of.
 #[derive(Debug, Clone, Copy)]
 pub enum Replace<'a> {

@@ -16,6 +16,7 @@ pub mod data_form;
 mod error;
 pub mod example;
 pub mod facing;
+pub mod fault;
 pub mod files;
 pub mod goniophotometer;
 pub mod health;

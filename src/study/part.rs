@@ -166,6 +166,18 @@ mod tests {
     }
 
     #[test]
+    fn a_part_goes_with_a_panic() {
+        let folder = tempfile::tempdir().unwrap();
+        let panic = std::panic::catch_unwind(|| {
+            let mut part = Part::beside(&folder.path().join("a.csv")).unwrap();
+            part.write(b"half").unwrap();
+            panic!("in the middle of it");
+        });
+        assert!(panic.is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
     fn a_long_name_has_a_short_part() {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join(format!("{}.csv", "n".repeat(240)));

@@ -146,6 +146,9 @@ texts! {
     fn folder_not_kept(place, error) = "The session is not kept: {place}: {error}; expected a writable folder" | "Die Sitzung wird nicht behalten: {place}: {error}; erwartet wird ein beschreibbarer Ordner";
     fn last_scene(place, error) = "{place}: the scene of the last session: {error}" | "{place}: die Szene der letzten Sitzung: {error}";
     fn restored(at) = "Restored what was open at {at}" | "Wiederhergestellt, was offen war: {at}";
+    fn restored_after_fault(at, report) = "The program ended at a fault of its own; restored what was open at {at}; a report that can be sent is in {report}" | "Das Programm endete an einem eigenen Fehler; wiederhergestellt, was offen war: {at}; ein Bericht zum Weitersenden steht in {report}";
+    fn set_aside(file, report) = "The program ended more than once at a fault of its own as soon as it had taken up the last session; it is set aside in {file}; a report that can be sent: {report}" | "Das Programm endete mehrmals an einem eigenen Fehler, sobald es die letzte Sitzung fortsetzte; sie ist beiseitegelegt in {file}; ein Bericht zum Weitersenden: {report}";
+    const NO_REPORT = "none could be written" | "keiner war zu schreiben";
     fn not_kept(error) = "The session is not kept: {error}" | "Die Sitzung wird nicht behalten: {error}";
     fn not_safe(error) = "The session is not safe from a power cut: {error}" | "Die Sitzung ist bei Stromausfall nicht sicher: {error}";
     fn unreadable(file, error) = "{file}: not a session that can be taken up: {error}" | "{file}: keine Sitzung, die fortgesetzt werden kann: {error}";
@@ -165,7 +168,11 @@ texts! {
     const SCENE = "Scene" | "Szene";
 
     fn panicked(told) = "the computation stopped at a fault of the program ({told}); what is shown is the last good result" | "die Rechnung brach an einem Programmfehler ab ({told}); gezeigt wird das letzte gute Ergebnis";
-    const NO_PANIC_MESSAGE = "no message" | "ohne Meldung";
+    fn reported(what, report) = "{what}; a report that can be sent is in {report}" | "{what}; ein Bericht zum Weitersenden steht in {report}";
+    fn not_reported(what, error) = "{what}; no report on it could be written: {error}" | "{what}; ein Bericht darüber war nicht zu schreiben: {error}";
+    const COPY_REPORT = "Copy report" | "Bericht kopieren";
+    const COPY_REPORT_TIP = "The whole report into the clipboard: version, place of the fault, last steps, and the scene" | "Den ganzen Bericht in die Zwischenablage: Version, Ort des Fehlers, letzte Schritte und die Szene";
+    const REPORT_COPIED = "Report copied" | "Bericht kopiert";
     fn no_thread(told) = "no thread for this job could be started ({told}); close other programs and try again" | "für diese Aufgabe ließ sich kein Thread starten ({told}); andere Programme schließen und erneut versuchen";
     fn curve_error(error) = "as a control curve: {error}" | "als Regelkurve: {error}";
     fn scene_text(error) = "the scene cannot be written as text: {error}" | "die Szene lässt sich nicht als Text schreiben: {error}";

@@ -9,6 +9,7 @@ mod compare_cli;
 mod control_cli;
 mod doctor_cli;
 mod examples;
+mod fault_cli;
 mod goniophotometer_cli;
 mod keeping_cli;
 mod program;

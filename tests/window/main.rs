@@ -11,6 +11,7 @@ mod common;
 mod compare_view;
 mod control_view;
 mod driven;
+mod faults;
 mod files_view;
 mod gallery_view;
 mod goniophotometer_view;

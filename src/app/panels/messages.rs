@@ -35,15 +35,19 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
         for message in list.into_iter().rev() {
             let frame = egui::Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_width(WIDTH - 24.0);
-                ui.horizontal_top(|ui| {
+                let row = ui.horizontal_top(|ui| {
                     ui.colored_label(colour(palette, message.weight), message.weight.word());
                     ui.add(Label::new(&message.text).wrap().selectable(false));
                 });
+                copy_report(ui, message, commands);
+                row.response.rect
             });
-            let response = ui.interact(frame.response.rect, Id::unique(("message", message.id)), Sense::click());
+            // What takes the message away must not lie over its button.
+            let place = if message.report.is_some() { frame.inner } else { frame.response.rect };
+            let response = ui.interact(place, Id::unique(("message", message.id)), Sense::click());
             let label = shell::dismiss(&message.text);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
-            if response.hovered() {
+            if response.hovered() || (message.report.is_some() && frame.response.contains_pointer()) {
                 held = Some(message.id);
             }
             if response.on_hover_cursor(egui::CursorIcon::PointingHand).clicked() {
@@ -53,6 +57,15 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
     });
     messages.pass_to(ui.input(|input| input.time), held);
     ui.ctx().request_repaint_after(Duration::from_millis(250));
+}
+
+/// The button that copies the report of a message, if it has one.
+fn copy_report(ui: &mut Ui, message: &Message, commands: &mut Vec<Command>) {
+    if let Some(report) = &message.report
+        && ui.button(shell::COPY_REPORT).on_hover_text(shell::COPY_REPORT_TIP).clicked()
+    {
+        commands.push(Command::CopyReport(report.clone()));
+    }
 }
 
 /// The list of all, the newest first.
@@ -72,5 +85,6 @@ pub(super) fn list(ui: &mut Ui, messages: &Messages, commands: &mut Vec<Command>
             ui.label(RichText::new(message.weight.word().get()).color(colour(palette, message.weight)));
         });
         ui.add(Label::new(&message.text).wrap().selectable(true));
+        copy_report(ui, message, commands);
     }
 }

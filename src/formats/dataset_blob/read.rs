@@ -13,7 +13,7 @@ use crate::formats::compact_rows::RowFile;
 use glam::DVec3;
 use std::collections::HashSet;
 use std::io::Read;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Most values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences over 2°.
 const MOST_VALUES: usize = limits::VALUES;
@@ -372,7 +372,7 @@ fn code(text: &str) -> &'static str {
     if text.is_empty() || text.len() > 64 || !text.chars().all(kebab) {
         return OTHER;
     }
-    let Ok(mut codes) = CODES.get_or_init(Mutex::default).lock() else { return OTHER };
+    let mut codes = CODES.get_or_init(Mutex::default).lock().unwrap_or_else(PoisonError::into_inner);
     match codes.get(text) {
         Some(known) => known,
         None if codes.len() < 512 => {

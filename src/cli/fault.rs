@@ -1,0 +1,65 @@
+//! A panic of the program, as scripts see it: one sentence, a report, and a status of its own.
+
+use crate::study::fault::{self, Fault, Report, without_folders};
+use crate::study::files;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// Largest scene or description that a report repeats. \[bytes\]
+const LARGEST: u64 = 1 << 16;
+
+/// The program stopped at a fault of its own; the sentence that says so.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Stopped(String);
+
+/// Does the program's work. A panic in it, in whichever thread, becomes an error: what was being written goes, as with any
+/// error, and a report is left. `reports`: where, if there is a place.
+///
+/// # Errors
+/// Those of the work, or [`Stopped`].
+pub fn guarded(reports: Option<&Path>, work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<()> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let fault = fault::caught(&*panic);
+        Err(Stopped(sentence(&fault, left(&fault, reports))).into())
+    })
+}
+
+/// The report on a fault, as a clause: what was written already – by a window, which knows more –, else a new one.
+fn left(fault: &Fault, reports: Option<&Path>) -> String {
+    if let Some(report) = &fault.report {
+        return format!(
+            "what was open is kept for the next start, and a report that can be sent is in {}",
+            report.display()
+        );
+    }
+    let arguments: Vec<String> =
+        std::env::args_os().skip(1).map(|one| without_folders(&one.to_string_lossy())).collect();
+    let doing = if arguments.is_empty() { "the window".to_owned() } else { format!("cfs {}", arguments.join(" ")) };
+    let report = Report { doing: &doing, open: &inputs(), ..Report::default() };
+    match reports.map(|folder| fault::write(folder, fault, &report)) {
+        Some(Ok(path)) => format!("a report that can be sent is in {}", path.display()),
+        Some(Err(error)) => format!("no report on it could be written: {error}"),
+        None => "no report on it is written, since the system names no folder for a user's data".to_owned(),
+    }
+}
+
+/// The scenes and descriptions that were read.
+fn inputs() -> Vec<(String, String)> {
+    let small = |path: &Path| std::fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() <= LARGEST);
+    let texts = files::inputs()
+        .into_iter()
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml") && small(path));
+    texts
+        .filter_map(|path| {
+            let name = path.file_name()?.to_string_lossy().into_owned();
+            // Bytes that are no text have been the fault's own, perhaps.
+            Some((name, String::from_utf8_lossy(&std::fs::read(&path).ok()?).into_owned()))
+        })
+        .collect()
+}
+
+fn sentence(fault: &Fault, left: String) -> String {
+    let place = if fault.place.is_empty() { String::new() } else { format!(" at {}", fault.place) };
+    format!("a fault of the program stopped it{place} ({}); {left}", fault.message)
+}
