@@ -50,8 +50,8 @@
 //! - Integrated numbers carry an estimate of their error ([`Estimate`](compute::estimate::Estimate)).
 //! - What was derived, repaired or approximated is told as a [`Finding`](compute::btdf::Finding); nothing is mended
 //!   in silence.
-//! - Bad input is an error that says what, where and what would be right; a panic is a bug. Nothing half-written
-//!   stays behind.
+//! - Bad input is an error that says what, where and what would be right; a panic is a bug: what is open is
+//!   saved, and a report is left ([`study::fault`]). Nothing half-written stays behind.
 //! - Sums run in a fixed order: results do not depend on the number of threads.
 //! - Released migrations are never edited.
 //!
@@ -76,6 +76,7 @@
 //! | change the tour | [`app::tour`] |
 //! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
 //! | change what belongs to a product when files come in | [`catalogue::Grouping`] and its file |
+//! | say more in the report on a fault of the program | [`study::fault`]; the window's part in [`app::faults`] |
 //! | keep something more from one start to the next | [`app::session`], or [`app::state::Settings`] |
 //! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
 //! | add a tile to the bench | a picture, a file in [`app::tiles`] that feeds it, its entry in [`app::tiles::TILES`] |

@@ -330,7 +330,6 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
 mod tests {
     use super::*;
     use crate::app::state::{Settings, State};
-    use std::time::Instant;
 
     fn state(azimuth: f64) -> State {
         let mut state = State::new(Settings::default());
@@ -419,6 +418,42 @@ mod tests {
         found.sort_by(f64::total_cmp);
         assert_eq!(found, [10.0, 20.0]);
         drop((one, two));
+    }
+
+    #[test]
+    fn what_is_to_be_written_now_is_on_disk_when_the_call_returns() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut keeper, _) = Autosave::begin(folder.path(), true).unwrap();
+        for wanted in [30.0, 40.0, 50.0] {
+            keeper.keep(&state(wanted));
+            keeper.write_now();
+            assert_eq!(azimuth(&read(&keeper.file).unwrap()), wanted);
+        }
+    }
+
+    #[test]
+    fn a_fault_is_taken_up_with_its_report_and_one_that_comes_at_once_again_is_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        let report = Some(PathBuf::from("a.txt"));
+        let (mut first, _) = Autosave::begin(folder.path(), true).unwrap();
+        first.keep(&state(10.0));
+        first.end_at_fault(report.clone());
+        let (mut second, found) = Autosave::begin(folder.path(), true).unwrap();
+        let kept = found.kept.unwrap();
+        assert!(found.lost && azimuth(&kept) == 10.0);
+        assert_eq!(kept.fault, Some(KeptFault { times: 1, report: report.clone() }));
+        second.keep(&state(10.0));
+        second.end_at_fault(report.clone());
+        let (mut third, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert!(found.kept.is_none(), "the program must start");
+        let [SessionError::SetAside(aside, told)] = &*found.problems else { panic!("{:?}", found.problems) };
+        assert!(azimuth(&read(aside).unwrap()) == 10.0 && *told == report);
+        // Long after the start it is another matter.
+        third.keep(&state(20.0));
+        (third.faults, third.begun) = (1, Instant::now() - 2 * SOON);
+        third.end_at_fault(None);
+        let (_fourth, found) = Autosave::begin(folder.path(), true).unwrap();
+        assert_eq!(found.kept.unwrap().fault, Some(KeptFault { times: 1, report: None }));
     }
 
     #[test]

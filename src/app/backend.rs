@@ -370,3 +370,23 @@ impl Engine for StudyEngine {
         Ok(make(&self.session, &scene, 0, &text, wish, |tile| tile_name(path, tile), progress)?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    #[test]
+    fn a_panic_that_holds_the_catalogue_does_it_no_harm() {
+        let shelf = CatalogueShelf::new(Mutex::new(Catalogue::in_memory().unwrap()), None);
+        let before = shelf.search(&Query::default()).unwrap().total;
+        let panic = catch_unwind(AssertUnwindSafe(|| {
+            let _held = shelf.lock();
+            panic!("while it is held");
+        }));
+        assert!(panic.is_err() && shelf.catalogue.is_poisoned());
+        assert_eq!(shelf.search(&Query::default()).unwrap().total, before);
+        let key = shelf.search(&Query::default()).unwrap().entries[0].key.clone();
+        shelf.set_favourite(&key, true).unwrap();
+    }
+}

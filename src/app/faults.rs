@@ -16,15 +16,6 @@ use std::path::{Path, PathBuf};
 const SCENE: &str = "scene";
 const SYSTEM: &str = "system";
 
-/// What the window knows of faults.
-#[derive(Debug, Default)]
-pub struct Faults {
-    /// Where reports are written.
-    folder: Option<PathBuf>,
-    /// Those that were reported, with their reports: the same again needs no second one.
-    reported: Vec<(Fault, PathBuf)>,
-}
-
 impl App {
     /// Writes reports on faults into a folder from now on.
     pub fn report_faults(&mut self, folder: Option<&Path>) {

@@ -1,9 +1,12 @@
-//! What was done last in the window, for the report on a fault: commands by their names, without the paths in them.
+//! What the window remembers for the report on a fault: what was done last – commands by their names, without the paths in
+//! them –, and which faults were reported.
 
 use super::clock;
 use super::command::Command;
+use crate::study::fault::Fault;
 use std::collections::VecDeque;
 use std::fmt::{self, Write};
+use std::path::PathBuf;
 
 /// Steps kept.
 const MOST: usize = 40;
@@ -16,6 +19,15 @@ struct Step {
     at: String,
     what: String,
     times: usize,
+}
+
+/// What the window knows of faults.
+#[derive(Debug, Default)]
+pub struct Faults {
+    /// Where reports are written.
+    pub folder: Option<PathBuf>,
+    /// Those that were reported, with their reports: the same again needs no second one.
+    pub reported: Vec<(Fault, PathBuf)>,
 }
 
 /// The last steps, the newest last.

@@ -74,7 +74,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
 }
 
 /// Is it a verdict about what was read, rather than something that could not be done?
-pub fn is_judgement(error: &anyhow::Error) -> bool {
+fn is_judgement(error: &anyhow::Error) -> bool {
     error.is::<validate::NotFit>() || error.is::<packages::Differ>() || error.is::<check::Damaged>()
 }
 

@@ -2,7 +2,7 @@
 
 use super::files;
 use crate::catalogue::{
-    Catalogue, CatalogueError, Grouping, Health, Place, SourceFile, check_file, copy_aside, gather, repair_file,
+    Catalogue, CatalogueError, Damage, Grouping, Health, Place, SourceFile, check_file, copy_aside, gather, repair_file,
 };
 use crate::compute::btdf::Dataset;
 use crate::formats::package;
@@ -36,8 +36,12 @@ pub fn mend(path: &Path, health: &Health) -> Result<Mended, CatalogueError> {
     }
     drop(catalogue);
     let after = check_file(path)?;
-    let still = |message: &String| after.damages.iter().any(|damage| damage.message == *message);
-    let mended = health.damages.iter().map(|damage| damage.message.clone()).filter(|message| !still(message)).collect();
+    // What is wrong with data may read otherwise now: malformed before, gone after.
+    let same = |one: &Damage, other: &Damage| {
+        one.message == other.message || (matches!(one.place, Place::Data { .. }) && one.place == other.place)
+    };
+    let still = |damage: &&Damage| after.damages.iter().any(|other| same(damage, other));
+    let mended = health.damages.iter().filter(|damage| !still(damage)).map(|damage| damage.message.clone()).collect();
     lost.extend(after.damages.iter().map(|damage| damage.message.clone()));
     lost.sort();
     lost.dedup();

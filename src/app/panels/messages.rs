@@ -42,7 +42,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
                 copy_report(ui, message, commands);
                 row.response.rect
             });
-            // A button lies beneath, not under what takes the message away.
+            // What takes the message away must not lie over its button.
             let place = if message.report.is_some() { frame.inner } else { frame.response.rect };
             let response = ui.interact(place, Id::unique(("message", message.id)), Sense::click());
             let label = shell::dismiss(&message.text);
