@@ -27,6 +27,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
+use crate::formats::encoding::{TooLong, not_too_long};
 use crate::formats::system_toml::is_system_file;
 use crate::formats::toml_place::{TomlPlace, place};
 use glam::DVec3;
@@ -115,7 +116,8 @@ pub struct Scene {
 impl SceneFile {
     /// Reads the TOML text of a scene.
     pub fn parse(text: &str) -> Result<Self, StudyError> {
-        toml::from_str(text).map_err(|error| {
+        let wrong = |error: TooLong| StudyError::Syntax { line: 1, column: 1, message: error.to_string() };
+        toml::from_str(not_too_long(text).map_err(wrong)?).map_err(|error| {
             let TomlPlace { line, column, key, message } = place(text, &error, 1, unit_of);
             let message = if key.is_empty() { message } else { format!("{key}: {message}") };
             StudyError::Syntax { line, column, message }
@@ -395,6 +397,10 @@ fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
 fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, StudyError> {
     if keys.is_empty() {
         return Err(StudyError::key("aperture", "the scene needs at least one [[aperture]]"));
+    }
+    if keys.len() > limits::APERTURES {
+        let message = format!("{} apertures (allowed: up to {})", keys.len(), limits::APERTURES);
+        return Err(StudyError::key("aperture", message));
     }
     let mut list: Vec<Aperture> = Vec::with_capacity(keys.len());
     for (index, keys) in keys.iter().enumerate() {
