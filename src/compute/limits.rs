@@ -47,6 +47,8 @@ macro_rules! limits {
 limits! {
     /// Files larger than this are not read. \[bytes\]
     most FILE_BYTES: u64 = 1 << 30, "a file", "bytes";
+    /// Texts that hold no matrices. \[bytes\]
+    most TEXT_BYTES: usize = 32 << 20, "a scene, luminaire file, index of them, control curve or sky scan", "bytes";
     /// Files that one import takes in.
     most IMPORTED_FILES: usize = 2000, "files of one import", "";
     /// What one import unpacks, all files together. \[bytes\]
@@ -95,6 +97,8 @@ limits! {
     most RESPONSE_BYTES: usize = 2 << 30, "responses of sensors for a year", "bytes";
     /// Patches of a room.
     most PATCHES: usize = 8000, "patches of a room", "";
+    /// Apertures of a scene; each is held against all others.
+    most APERTURES: usize = 1000, "apertures of a scene", "";
     /// Boxes outside.
     most BOXES: usize = 200, "boxes outside", "";
     /// The shortest side of an aperture. \[m\]

@@ -3,7 +3,7 @@
 //! Read: separated by commas, semicolons, tabs or blanks; a header, which may name further columns, or two bare columns
 //! in this order; comments from `#` on. Not read: decimal commas, units other than degrees.
 
-use super::encoding::{NotText, utf8};
+use super::encoding::{NotText, TooLong, not_too_long, utf8};
 
 /// Most points that a curve may have.
 const MOST_POINTS: usize = 10_000;
@@ -14,6 +14,9 @@ pub enum CurveError {
     /// Not text.
     #[error(transparent)]
     NotText(#[from] NotText),
+    /// Longer than any.
+    #[error(transparent)]
+    TooLong(#[from] TooLong),
     /// A header that names other things.
     #[error("line {line}: the header needs the columns profile_angle_deg and value_deg")]
     Header {
@@ -51,7 +54,7 @@ pub enum CurveError {
 
 /// Reads (profile angle \[°\], value) points.
 pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
-    let text = utf8(bytes)?;
+    let text = utf8(not_too_long(bytes)?)?;
     let mut columns = [0, 1];
     let mut points: Vec<[f64; 2]> = Vec::new();
     let mut first = true;

@@ -1,5 +1,7 @@
 //! How a file's text is encoded: what is not UTF-8 is called by its name.
 
+use crate::compute::limits;
+
 /// How text is encoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
@@ -32,6 +34,22 @@ pub struct NotText {
     pub line: usize,
     /// What the bytes seem to be.
     pub encoding: Encoding,
+}
+
+/// A text of more bytes than its kind of file ever has: its lines and words alone would fill memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a text of {0} bytes; expected at most {most} MB", most = limits::TEXT_BYTES >> 20)]
+pub struct TooLong(pub usize);
+
+/// The text if it is not longer than such files are.
+///
+/// # Errors
+/// Its length.
+pub fn not_too_long<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<&T, TooLong> {
+    match text.as_ref().len() {
+        length if length > limits::TEXT_BYTES => Err(TooLong(length)),
+        _ => Ok(text),
+    }
 }
 
 /// So much of a file is looked at for its encoding. \[bytes\]

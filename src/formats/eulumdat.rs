@@ -12,6 +12,8 @@ use crate::compute::btdf::Finding;
 use crate::compute::limits;
 
 const LAMP_SETS_LINE: usize = 26;
+/// Lamps of less flux are written as lamps of 1000 lm. \[lm\]
+const LEAST_LAMPS: f64 = 0.1;
 const MAX_PLANES: f64 = limits::LUMINAIRE_PLANES as f64;
 const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
 
@@ -23,6 +25,8 @@ const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
 pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     let flux = luminaire.flux();
     let rated = luminaire.lamp_flux.unwrap_or(flux);
+    // Lamps of next to no light: the flux that the file can say would not be the one that intensities are divided by.
+    let rated = if rated < LEAST_LAMPS && luminaire.peak() > 0.0 { 1000.0 } else { rated };
     let planes = luminaire.c_deg.len();
     let text = &luminaire.text;
     let mut lines = Vec::with_capacity(64 + planes * (luminaire.gamma_deg.len() + 1));
@@ -100,7 +104,7 @@ pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
 /// A header that ends early, counts or the symmetry indicator out of range, angles that do not increase, text where a
 /// number belongs, fewer intensities than the counts ask for. The first fault is told with its line.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
-    let (text, mut findings) = decode(bytes);
+    let (text, mut findings) = decode(bytes)?;
     let lines = Lines { lines: text.lines().map(str::trim).collect() };
     let symmetry = lines.whole(3, "symmetry indicator Isym", 0.0, 4.0)?;
     let planes = lines.whole(4, "number of C planes Mc", 1.0, MAX_PLANES)?;

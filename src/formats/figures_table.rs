@@ -4,6 +4,7 @@
 //! Columns: `product` (key), `fingerprint` of what the figures were computed from, `state`, the figures, and the
 //! transmittances `t…` at rising profile angles in degrees. An empty field of `to_ceiling`: nothing is transmitted.
 
+use super::location::excerpt;
 use std::fmt::Write as _;
 
 /// Names of the columns before the transmittances.
@@ -88,7 +89,7 @@ pub fn read(text: &str, angles: &[f64]) -> Result<Vec<FigureRow>, TableError> {
             }
             let number = |at: usize| {
                 let share: Option<f64> = fields[at].parse().ok().filter(|share| (0.0..=1.01).contains(share));
-                share.ok_or_else(|| wrong(index, format!("{}: \"{}\"; expected 0 to 1", head[at], fields[at])))
+                share.ok_or_else(|| wrong(index, format!("{}: \"{}\"; expected 0 to 1", head[at], excerpt(fields[at]))))
             };
             Ok(FigureRow {
                 product: fields[0].to_owned(),

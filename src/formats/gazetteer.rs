@@ -4,6 +4,7 @@
 //! be empty), latitude and longitude \[°\], elevation \[m\] (may be empty), hours ahead of UTC, other names separated by
 //! commas. Not read: anything else; the table is drawn by `assets/places/draw.py`.
 
+use super::location::excerpt;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::sync::Arc;
@@ -69,7 +70,7 @@ pub fn read_cities(packed: &[u8]) -> Result<Vec<City>, GazetteerError> {
         }
         let (code, name) = line.split_once('\t').ok_or_else(|| GazetteerError::Line {
             line: number + 1,
-            found: line.to_owned(),
+            found: excerpt(line),
             expected: "code and name of a country",
         })?;
         countries.insert(code, Arc::<str>::from(name));
@@ -78,7 +79,7 @@ pub fn read_cities(packed: &[u8]) -> Result<Vec<City>, GazetteerError> {
 }
 
 fn city(text: &str, line: usize, countries: &BTreeMap<&str, Arc<str>>) -> Result<City, GazetteerError> {
-    let wrong = |found: &str, expected| GazetteerError::Line { line, found: found.to_owned(), expected };
+    let wrong = |found: &str, expected| GazetteerError::Line { line, found: excerpt(found), expected };
     let fields: Vec<&str> = text.split('\t').collect();
     let [name, code, region, latitude, longitude, elevation, utc_offset, others] = fields[..] else {
         return Err(wrong(text, "eight fields with tabs between"));

@@ -5,6 +5,7 @@
 //! TILT=NONE and INCLUDE (the factors are told, not applied). Not read: tilt in another file.
 
 use super::FormatError;
+use super::location::excerpt;
 use super::luminaire::{
     Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
 };
@@ -115,7 +116,7 @@ fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
 /// No TILT line, tilt in another file, counts or types out of range, angles that do not increase, text among the
 /// numbers, fewer numbers than the counts ask for. The first fault is told with its line.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
-    let (text, mut findings) = decode(bytes);
+    let (text, mut findings) = decode(bytes)?;
     let lines: Vec<&str> = text.lines().collect();
     let tilt_line = lines
         .iter()
@@ -140,7 +141,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
         other => {
             return Err(at_line(
                 tilt_line + 1,
-                format!("TILT={}: an external tilt file, which is not available", &other[..other.len().min(40)]),
+                format!("TILT={}: an external tilt file, which is not available", excerpt(other)),
                 "TILT=NONE or TILT=INCLUDE",
             ));
         }

@@ -1,5 +1,7 @@
 //! Where in a file something is wrong, and the error that every reader returns.
 
+use super::encoding::TooLong;
+use crate::compute::limits;
 use crate::texts::message;
 use std::fmt;
 
@@ -79,8 +81,28 @@ pub struct FormatError {
 impl FormatError {
     /// From its three parts; as they may be shown: on one line, with nothing that commands a terminal.
     pub fn new(at: Location, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { at, found: message(&found.into()), expected: message(&expected.into()) }
+        Self { at, found: short(message(&found.into())), expected: short(message(&expected.into())) }
     }
+}
+
+impl From<TooLong> for FormatError {
+    fn from(error: TooLong) -> Self {
+        Self::new(
+            Location::file(),
+            format!("a text of {} bytes", error.0),
+            format!("at most {} bytes", limits::TEXT_BYTES),
+        )
+    }
+}
+
+/// What of a sentence is told that quotes a file, which may have words of any length.
+pub(crate) fn short(mut text: String) -> String {
+    const MOST: usize = 900;
+    if let Some((at, _)) = text.char_indices().nth(MOST) {
+        text.truncate(at);
+        text.push('…');
+    }
+    text
 }
 
 /// At most 40 characters of a file's text, control characters left out, for quoting in messages.

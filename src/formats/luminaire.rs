@@ -2,7 +2,7 @@
 //!
 //! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
 
-use super::encoding::{Encoding, any_text};
+use super::encoding::{Encoding, any_text, not_too_long};
 use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::lid::Intensities;
@@ -210,14 +210,15 @@ fn table_remark(table: &CGammaTable) -> String {
 }
 
 /// Text of a file: UTF-8 or Latin-1, as such files are, or UTF-16, which is told; without a byte-order mark.
-pub(super) fn decode(bytes: &[u8]) -> (String, Vec<Finding>) {
+pub(super) fn decode(bytes: &[u8]) -> Result<(String, Vec<Finding>), FormatError> {
+    let bytes = not_too_long(bytes)?;
     let (text, encoding) = any_text(bytes);
     let told = (encoding == Some(Encoding::Utf16)).then(|| {
         let message =
             "The text is UTF-16, which other programs do not expect in a luminaire file; it was read as such.";
         Finding::warning("encoding", message)
     });
-    (text, told.into_iter().collect())
+    Ok((text, told.into_iter().collect()))
 }
 
 /// Printable ASCII: what every reader takes. Letters with marks are spelt out, line breaks become blanks, the rest '?'.
@@ -290,6 +291,16 @@ pub(super) fn plausible(mut luminaire: Luminaire) -> Result<Luminaire, FormatErr
             return wrong("angle", *angle, "°", (-360.0, 360.0));
         }
     }
+    if luminaire.photometry == Photometry::C {
+        // Beyond, zones and planes would count backwards; a plane at 360° is the first one again.
+        let turn = 360.0 - CLOSEST;
+        if let Some(c) = luminaire.c_deg.iter().find(|c| !(0.0..=turn).contains(*c)) {
+            return wrong("plane C", *c, "°", (0.0, 360.0));
+        }
+        if let Some(gamma) = luminaire.gamma_deg.iter().find(|gamma| !(0.0..=180.0).contains(*gamma)) {
+            return wrong("gamma angle", *gamma, "°", (0.0, 180.0));
+        }
+    }
     let below = luminaire.intensity.iter().filter(|cd| **cd < 0.0).count();
     if below > 0 {
         luminaire.intensity.iter_mut().for_each(|cd| *cd = cd.max(0.0));
@@ -303,14 +314,16 @@ pub(super) fn plausible(mut luminaire: Luminaire) -> Result<Luminaire, FormatErr
 
 /// Of the largest intensity, how far below 0 differences of measurements may be.
 const BELOW_ZERO: f64 = 0.01;
+/// Angles closer together are the same once they are written, with four decimals. \[°\]
+const CLOSEST: f64 = 2e-4;
 /// A luminaire's power. \[W\]
 const MOST_POWER: f64 = 1e7;
 /// A luminaire's extent. \[m\]
 const MOST_SIZE: f64 = 1000.0;
 
-/// Fails unless the angles rise strictly.
+/// Fails unless the angles rise by what files can tell apart.
 pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), FormatError> {
-    match angles.windows(2).find(|pair| pair[1] <= pair[0]) {
+    match angles.windows(2).find(|pair| pair[1] - pair[0] < CLOSEST) {
         Some(pair) => Err(at_line(
             line,
             format!("{name} {} after {}", pair[1], pair[0]),

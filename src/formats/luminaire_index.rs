@@ -12,9 +12,11 @@
 //! | `apart_lx` | what it gives across itself \[lx\] |
 //! | `set` | name of the series' member that the file belongs to |
 
+use super::encoding::not_too_long;
 use super::{FormatError, Location};
 use crate::compute::direction::Surface;
 use crate::compute::lid::c_gamma::Aim;
+use crate::compute::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -54,6 +56,11 @@ pub struct Row {
 
 const HEADER: &str =
     "file,x,y,z,width,height,flux_lm,surface,aim,beam_lm,apart_lm,apart_x,apart_y,apart_z,apart_lx,set";
+
+/// Any length or place. \[m\]
+const LONGEST: f64 = 1e6;
+/// A straight beam of less light is none. \[lm\]
+const LEAST_APART: f64 = 1e-4;
 
 /// Writes an index.
 pub fn write(rows: &[Row]) -> Vec<u8> {
@@ -98,7 +105,7 @@ fn quoted(text: &str) -> String {
 /// A needed column or number missing, a size that is none, an unknown word; told with the line.
 pub fn read(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
     // The reader counts a line that ends in CR LF only when it reads the next one.
-    let bytes: Vec<u8> = bytes.iter().copied().filter(|byte| *byte != b'\r').collect();
+    let bytes: Vec<u8> = not_too_long(bytes)?.iter().copied().filter(|byte| *byte != b'\r').collect();
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes.as_slice());
     let broken = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line) as usize;
@@ -133,9 +140,17 @@ fn row(columns: &HashMap<&str, usize>, record: &csv::StringRecord) -> Result<Row
         value.ok_or_else(|| wrong(format!("{name} \"{}\"", word(name)), "a number"))
     };
     let or_zero = |name: &str| if word(name).is_empty() { Ok(0.0) } else { number(name) };
+    let light = |name: &str, value: f64| match value {
+        value if (0.0..=limits::LAMP_FLUX).contains(&value) => Ok(value),
+        other => Err(wrong(format!("{name} {other:e}"), "light, 0 or more")),
+    };
     let length = |name: &str| match number(name)? {
-        length if length > 0.0 => Ok(length),
-        other => Err(wrong(format!("{name} {other}"), "a length above 0 m")),
+        length if (limits::OPENING..=LONGEST).contains(&length) => Ok(length),
+        other => Err(wrong(format!("{name} {other:e}"), "a length above 0 m")),
+    };
+    let place = |name: &str| match number(name)? {
+        place if place.abs() <= LONGEST => Ok(place),
+        other => Err(wrong(format!("{name} {other:e}"), "metres")),
     };
     let surface = match word("surface") {
         "" => None,
@@ -155,19 +170,20 @@ fn row(columns: &HashMap<&str, usize>, record: &csv::StringRecord) -> Result<Row
     }
     let (apart, direction) =
         (or_zero("apart_lm")?, DVec3::new(or_zero("apart_x")?, or_zero("apart_y")?, or_zero("apart_z")?));
-    let apart = if apart > 0.0 {
+    // Less is written as nothing.
+    let apart = if light("apart_lm", apart)? >= LEAST_APART {
         let direction = direction.try_normalize();
         let direction = direction.ok_or_else(|| wrong("apart_lm without a direction".to_owned(), "apart_x, _y, _z"))?;
-        Some(Apart { flux: apart, direction, normal: or_zero("apart_lx")? })
+        Some(Apart { flux: apart, direction, normal: light("apart_lx", or_zero("apart_lx")?)? })
     } else {
         None
     };
     Ok(Row {
         file,
-        centre: DVec3::new(number("x")?, number("y")?, number("z")?),
+        centre: DVec3::new(place("x")?, place("y")?, place("z")?),
         size: [length("width")?, length("height")?],
-        flux: number("flux_lm")?,
-        beam: or_zero("beam_lm")?,
+        flux: light("flux_lm", number("flux_lm")?)?,
+        beam: light("beam_lm", or_zero("beam_lm")?)?,
         surface,
         aim,
         apart,

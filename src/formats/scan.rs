@@ -4,7 +4,8 @@
 //! 145 in all; or a table with a header that has a column `L_mean_cdm2`, `luminance` or, failing these,
 //! `L_centre_cdm2`, with 145 rows in order. Lines that begin with `#` are comments. Not read: other lattices, gaps.
 
-use super::encoding::{NotText, utf8};
+use super::encoding::{NotText, TooLong, not_too_long, utf8};
+use super::location::excerpt;
 use crate::compute::limits;
 use crate::compute::sky::Scan;
 
@@ -14,6 +15,9 @@ pub enum ScanError {
     /// Not text.
     #[error(transparent)]
     NotText(#[from] NotText),
+    /// Longer than any.
+    #[error(transparent)]
+    TooLong(#[from] TooLong),
     /// A field that is no luminance.
     #[error("line {line}: \"{found}\" is no luminance (expected a number from 0 to {most:e} cd/m²)", most = limits::LUMINANCE)]
     Number {
@@ -35,7 +39,7 @@ pub enum ScanError {
 
 /// Reads 145 luminances. \[cd/m²\]
 pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
-    let text = utf8(bytes)?;
+    let text = utf8(not_too_long(bytes)?)?;
     let mut values = Vec::with_capacity(145);
     let mut column = None;
     let mut first = true;
@@ -56,7 +60,7 @@ pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
         };
         for field in chosen {
             let value = field.parse::<f64>().ok().filter(|value| (0.0..=limits::LUMINANCE).contains(value));
-            values.push(value.ok_or_else(|| ScanError::Number { line: number, found: (*field).to_owned() })?);
+            values.push(value.ok_or_else(|| ScanError::Number { line: number, found: excerpt(field) })?);
         }
         if values.len() > 100_000 {
             break;

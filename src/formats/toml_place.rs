@@ -1,5 +1,6 @@
 //! What is wrong in a TOML file, by the name of the key.
 
+use super::location::short;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -37,8 +38,8 @@ pub fn place(
     TomlPlace {
         line: before.matches('\n').count() + 1,
         column: before.chars().rev().take_while(|c| *c != '\n').count() + 1,
-        message: said(error.message(), unit(&plain(&key))),
-        key,
+        message: short(said(error.message(), unit(&plain(&key)))),
+        key: short(key),
     }
 }
 

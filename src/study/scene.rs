@@ -26,6 +26,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
 use crate::compute::sky::{Outside, Sun};
+use crate::formats::encoding::{TooLong, not_too_long};
 use crate::formats::system_toml::is_system_file;
 use crate::formats::toml_place::{TomlPlace, place};
 use glam::DVec3;
@@ -111,7 +112,8 @@ pub struct Scene {
 impl SceneFile {
     /// Reads the TOML text of a scene.
     pub fn parse(text: &str) -> Result<Self, StudyError> {
-        toml::from_str(text).map_err(|error| {
+        let wrong = |error: TooLong| StudyError::Syntax { line: 1, column: 1, message: error.to_string() };
+        toml::from_str(not_too_long(text).map_err(wrong)?).map_err(|error| {
             let TomlPlace { line, column, key, message } = place(text, &error, 1, unit_of);
             let message = if key.is_empty() { message } else { format!("{key}: {message}") };
             StudyError::Syntax { line, column, message }

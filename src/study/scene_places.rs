@@ -41,6 +41,10 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
     if keys.is_empty() {
         return Err(StudyError::key("aperture", "the scene needs at least one [[aperture]]"));
     }
+    if keys.len() > limits::APERTURES {
+        let message = format!("{} apertures (allowed: up to {})", keys.len(), limits::APERTURES);
+        return Err(StudyError::key("aperture", message));
+    }
     let mut list: Vec<Aperture> = Vec::with_capacity(keys.len());
     for (index, keys) in keys.iter().enumerate() {
         let name = |key: &str| format!("aperture[{}].{key}", index + 1);

@@ -88,7 +88,7 @@ pub struct PathPoint {
 
 /// Parses `YYYY-MM-DDTHH:MM[:SS]`; a blank instead of the T is accepted, a zone is not.
 pub fn parse_local_time(text: &str) -> Result<DateTime, SunPositionError> {
-    let wrong = || SunPositionError::Time(text.to_owned());
+    let wrong = || SunPositionError::Time(text.chars().take(80).collect());
     let trimmed = text.trim();
     // A civil parser would drop an offset in silence, and a bare date would be midnight.
     let clock = trimmed.split_once(['T', 't', ' ']).ok_or_else(wrong)?.1;

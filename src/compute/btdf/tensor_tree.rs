@@ -12,6 +12,7 @@ use super::pyramid::Pyramid;
 use crate::compute::basis::{AzimuthMap, MAX_LEVEL, RingBasis, SquareGrid, square_from_disk};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// How many coordinates a tree has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -93,6 +94,9 @@ pub enum TreeError {
     /// Finer than any instrument or simulation.
     #[error("the tree is more than {MAX_LEVEL} levels deep")]
     Depth,
+    /// Two branches name the same children: what looks small could have more leaves than can be counted.
+    #[error("node {0} names children that another node has already")]
+    Shared(usize),
     /// A value that is negative or not finite.
     #[error("node {0} holds a value that is negative or not finite")]
     Value(usize),
@@ -104,10 +108,10 @@ pub struct TensorTree {
     rank: TreeRank,
     axes: TreeAxes,
     grid: SquareGrid,
-    nodes: Vec<TreeNode>,
+    nodes: Arc<Vec<TreeNode>>,
     /// τ of every finest incident cell: rank 4 the square in the tree's own axes, row by row; rank 3 rings of equal
     /// steps of sinθ from the normal outwards.
-    tau: Vec<f64>,
+    tau: Arc<Vec<f64>>,
 }
 
 impl TensorTree {
@@ -116,6 +120,7 @@ impl TensorTree {
         if nodes.is_empty() {
             return Err(TreeError::Empty);
         }
+        // 0: nobody's child.
         let mut level = vec![0_u8; nodes.len()];
         let mut depth = 0;
         for (index, node) in nodes.iter().enumerate() {
@@ -131,14 +136,17 @@ impl TensorTree {
                     if u32::from(below) > MAX_LEVEL {
                         return Err(TreeError::Depth);
                     }
+                    if level[children.clone()].iter().any(|level| *level > 0) {
+                        return Err(TreeError::Shared(index));
+                    }
                     depth = depth.max(below);
                     level[children].fill(below);
                 }
             }
         }
         let grid = SquareGrid::new(u32::from(depth).max(1)).ok_or(TreeError::Depth)?;
-        let mut tree = Self { rank, axes, grid, nodes, tau: Vec::new() };
-        tree.tau = tree.tau_of_cells();
+        let mut tree = Self { rank, axes, grid, nodes: Arc::new(nodes), tau: Arc::default() };
+        tree.tau = Arc::new(tree.tau_of_cells());
         Ok(tree)
     }
 

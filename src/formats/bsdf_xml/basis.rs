@@ -3,6 +3,7 @@
 use super::document::{Source, child, child_text, children, text};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::compute::btdf::Finding;
+use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 use roxmltree::Node;
 
@@ -55,6 +56,7 @@ fn standard(name: &str) -> Option<RingBasis> {
 fn read_basis(source: &Source, node: Node<'_, '_>) -> Result<RingBasis, FormatError> {
     let name = child_text(node, "AngleBasisName");
     let mut rings: Vec<Ring> = Vec::new();
+    let mut cells = 0;
     for block in children(node, "AngleBasisBlock") {
         let bounds = child(block, "ThetaBounds").unwrap_or(block);
         let number = |parent: Node<'_, '_>, key: &str| -> Result<f64, FormatError> {
@@ -88,6 +90,14 @@ fn read_basis(source: &Source, node: Node<'_, '_>) -> Result<RingBasis, FormatEr
                 source.place(block),
                 format!("<nPhis> is {sectors}"),
                 "a whole number of azimuth sectors, 1 to 7200",
+            ));
+        }
+        cells += sectors as usize;
+        if cells > limits::CELLS {
+            return Err(FormatError::new(
+                source.place(block),
+                format!("an angle basis of more than {} directions", limits::CELLS),
+                "fewer rings or sectors",
             ));
         }
         rings.push(Ring { theta_min, theta_max: theta_max.to_radians(), sectors: sectors as usize, first_phi: 0.0 });

@@ -29,6 +29,7 @@ use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{
     Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeRank,
 };
+use crate::compute::limits;
 use crate::formats::Written;
 use crate::formats::location::{FormatError, Location, excerpt};
 use basis::Bases;
@@ -267,6 +268,14 @@ impl Reader<'_> {
         let columns = self.bases.get(&child_text(block, "ColumnAngleBasis"), self.source.place(block))?;
         let rows = self.bases.get(&child_text(block, "RowAngleBasis"), self.source.place(block))?;
         let (n_rows, n_columns) = (rows.len(), columns.len());
+        // A sample of a few numbers is filled up to them all.
+        if n_rows * n_columns > limits::VALUES {
+            return Err(FormatError::new(
+                at.clone(),
+                format!("a matrix of {n_rows} rows × {n_columns} columns"),
+                format!("at most {} values", limits::VALUES),
+            ));
+        }
         let mut values = numbers::parse_list(text, n_rows * n_columns, at)?;
         if values.len() != n_rows * n_columns {
             values = self.fit(&values, &rows, &columns, text, title, at)?;

@@ -23,7 +23,12 @@ fn tokens(text: &str) -> impl Iterator<Item = &str> {
 
 fn parse_number(token: &str, index: usize, at: &Location) -> Result<f64, FormatError> {
     match token.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) if value.abs() <= limits::COEFFICIENT => Ok(value),
+        Ok(value) if value.is_finite() => Err(FormatError::new(
+            at.clone(),
+            format!("value {} is {value:e}, which no cell can have", index + 1),
+            format!("values of at most {:e} in 1/sr", limits::COEFFICIENT),
+        )),
         Ok(_) => Err(FormatError::new(
             at.clone(),
             format!("value {} is '{}', not a finite number", index + 1, excerpt(token)),

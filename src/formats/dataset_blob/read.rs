@@ -173,6 +173,7 @@ impl<'a> Reader<'a, '_> {
             let btdf = if self.flag()? {
                 match &band.transmission_front {
                     Some(Btdf { regular, scattered: Some(Scattered::Cells(front)) }) => {
+                        self.spend(front.incident().len() * front.emergent().len())?;
                         let scattered = Some(Scattered::Cells(Box::new(front.reversed())));
                         Btdf { regular: regular.clone(), scattered }
                     }
@@ -256,7 +257,10 @@ impl<'a> Reader<'a, '_> {
         let length = self.count(1)?;
         let bytes = self.take(length)?;
         let rows = RowFile::open(emergent, count, bytes).and_then(RowFile::into_rows);
-        rows.map(Arc::new).or_else(|what| self.invalid(what))
+        let rows = rows.or_else(|what| self.invalid(what))?;
+        // Few bytes of an arithmetic coder may stand for many numbers.
+        self.spend(rows.bytes_in_use().div_ceil(size_of::<f64>()))?;
+        Ok(Arc::new(rows))
     }
 
     fn directions(&mut self, compact: bool) -> Result<Indicatrices, BlobError> {
