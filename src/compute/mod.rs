@@ -16,6 +16,7 @@
 //! - `wavelet`: compact rows of values on cells
 //! - `btdf`: the four functions of a system as data
 //! - `sky`: luminances outside, the sun and its disc
+//! - `weather`: the weather of a place, interval by interval, with sun and light
 //! - `system`: described systems, a room a family, and the goniophotometer that makes data of them
 //! - `incidence`: between incident directions
 //! - `doctor`: faults of data and their repair
@@ -58,3 +59,4 @@ pub mod sequence;
 pub mod sky;
 pub mod system;
 pub mod wavelet;
+pub mod weather;

@@ -19,6 +19,7 @@ pub mod luminaire;
 pub mod package;
 pub mod scan;
 pub mod system_toml;
+pub mod weather;
 mod written;
 
 pub use btdf_text::CatalogueFields;

@@ -12,3 +12,4 @@ mod formats_files;
 mod formats_material;
 mod formats_tensor_xml;
 mod luminaire;
+mod weather;
