@@ -3,8 +3,8 @@
 use super::moment;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, DEFAULT_TURBIDITY, IlluminanceKey, PlaneKeys,
-    ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
+    ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, DEFAULT_TURBIDITY, IlluminanceKey, LightKey,
+    OffsetKey, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
     TimeKey,
 };
 use crate::study::sky::illuminances;
@@ -46,6 +46,9 @@ pub fn first_scene() -> SceneFile {
         },
         sky: SkyKeys {
             model: SkyModelKey::Cie,
+            weather: None,
+            light: LightKey::default(),
+            sun_offset_minutes: OffsetKey::default(),
             cie_type: Some(12),
             illuminance: IlluminanceKey::ClearSky,
             turbidity: DEFAULT_TURBIDITY,

@@ -1,6 +1,6 @@
-//! `cfs info`: what a dataset (or a luminaire file) is, and what is to be said about it.
+//! `cfs info`: what a dataset (or a luminaire file, or a weather file) is, and what is to be said about it.
 
-use crate::cli::{dataset_file, luminaire_info};
+use crate::cli::{dataset_file, luminaire_info, weather_info};
 use crate::compute::btdf::{
     Btdf, Component, Dataset, Scattered, Severity, Thermal, ThermalKey, TreeRank, reciprocity_error,
 };
@@ -14,7 +14,8 @@ use std::path::PathBuf;
 /// Arguments of `cfs info`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct InfoArgs {
-    /// Dataset file of any format that the program reads, or luminaire file (.ldt, .ies).
+    /// Dataset file of any format that the program reads, luminaire file (.ldt, .ies), weather
+    /// file (.epw, .wea), or a year that comes with the program (builtin:new-york).
     pub file: PathBuf,
     /// One JSON object (an array for several states) instead of text.
     #[arg(long)]
@@ -27,6 +28,9 @@ pub struct InfoArgs {
 /// A file that cannot be read; the message is one line with the file's name and the place in it.
 pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
     if let Some(text) = luminaire_info::describe(&args.file, args.json)? {
+        return print(&text);
+    }
+    if let Some(text) = weather_info::describe(&args.file, args.json)? {
         return print(&text);
     }
     let datasets = dataset_file::read(&args.file)?;

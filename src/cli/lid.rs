@@ -2,6 +2,7 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
+use super::weather_info::weather_notes;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::ies::IesEdition;
@@ -65,6 +66,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         if index >= count {
             bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
         }
+        weather_notes(scene.weather.as_ref());
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
             eprintln!("note: {note}");

@@ -19,6 +19,7 @@ pub mod repair;
 pub mod room;
 pub mod sky;
 pub mod validate;
+mod weather_info;
 
 pub use args::{Arguments, Command};
 

@@ -1,5 +1,6 @@
 //! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
 
+use super::weather_info::{hour_json, weather_notes};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
@@ -7,7 +8,7 @@ use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::study::files;
-use crate::study::sky::{illuminances, outside_from_keys};
+use crate::study::sky::{hour_of_weather, illuminances, outside_from_keys};
 use anyhow::anyhow;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -43,6 +44,7 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let (outside, sun) =
         outside_from_keys(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
 
+    let hour = hour_of_weather(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
     let rows = table(&outside);
     let facade = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(scene.site.azimuth));
     let vertical = irradiance(&outside, facade);
@@ -50,7 +52,9 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
         files::write(path, csv(&rows).as_bytes())?;
     }
     if args.json {
-        println!("{:#}", json(&rows, &outside, sun.as_ref(), vertical, facade));
+        let mut value = json(&rows, &outside, sun.as_ref(), vertical, facade);
+        value["weather"] = hour.as_ref().map(hour_json).into();
+        println!("{value:#}");
     } else if args.out.is_none() {
         print!("{}", csv(&rows));
     }
@@ -58,6 +62,7 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     if let Some(note) = light.and_then(|light| light.note()) {
         eprintln!("note: {note}");
     }
+    weather_notes(hour.as_ref());
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
     eprintln!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);

@@ -142,6 +142,9 @@ fn sky_remark(scene: &SceneFile) -> String {
         model => model.words()[2].to_owned(),
     };
     let mut parts = vec![format!("Sky {model}")];
+    if let Some(weather) = &sky.weather {
+        parts.push(format!("weather {}", weather.file_name().unwrap_or_default().to_string_lossy()));
+    }
     let mut add = |name: &str, value: Option<f64>, unit: &str| {
         if let Some(value) = value {
             parts.push(format!("{name} {value} {unit}"));

@@ -27,6 +27,8 @@ pub mod session;
 pub mod sky;
 pub mod sun_position;
 pub mod system;
+pub mod weather;
+pub mod weather_keys;
 
 pub use coefficients::Coefficients;
 pub use error::StudyError;

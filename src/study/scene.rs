@@ -8,7 +8,7 @@ use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, RoomKeys, SceneFile, SensorKeys,
     SurfaceKey, SystemKeys,
 };
-use super::sky::{Illuminances, illuminances, outside_from_keys};
+use super::sky::{HourOfWeather, Illuminances, hour_of_weather, illuminances, outside_from_keys};
 use super::sun_position::parse_local_time;
 use super::system::{Need, System, SystemLibrary};
 use crate::compute::angle::Bearing;
@@ -100,6 +100,8 @@ pub struct Scene {
     pub diffuse_interpolation: DiffuseScheme,
     /// How an aperture's light is integrated at a sensor.
     pub near_field: NearField,
+    /// The hour of weather that sky and sun are; `None` for skies of a model.
+    pub weather: Option<HourOfWeather>,
 }
 
 impl SceneFile {
@@ -123,6 +125,8 @@ impl Scene {
         let (outside, sun) =
             outside_from_keys(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
         let illuminances = illuminances(&file.sky, &file.site).map_err(|e| StudyError::key(e.key, e.message))?;
+        let weather =
+            hour_of_weather(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
         let facade = Bearing::from_degrees(file.site.azimuth);
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
@@ -197,6 +201,7 @@ impl Scene {
             sun_interpolation: file.compute.sun_interpolation,
             diffuse_interpolation: file.compute.diffuse_interpolation,
             near_field: near_field(file.compute.near_field, file.compute.near_field_samples)?,
+            weather,
         })
     }
 

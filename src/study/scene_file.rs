@@ -8,6 +8,7 @@ mod sky;
 pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
 pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;
+pub use super::weather_keys::{LightKey, OffsetKey};
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

@@ -199,7 +199,7 @@ fn row(bytes: &[u8], line: usize, interval: u16, changed: &mut Changed) -> Resul
         }
         60 * (hour - 1) + end - interval
     };
-    let dew_point = dew.number()?;
+    let dew_point = dew.number()? + 0.0;
     Ok(Record {
         day,
         start,

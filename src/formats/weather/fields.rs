@@ -5,7 +5,6 @@ use crate::compute::weather::{Day, Record, Station};
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-
 /// The lines of a file that is ASCII in all that counts. Others become `?` for messages; no number has any.
 pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     bytes.split(|byte| *byte == b'\n').enumerate().map(|(k, line)| (k + 1, line.strip_suffix(b"\r").unwrap_or(line)))
@@ -109,7 +108,8 @@ fn limited(value: f64, field: &Field<'_>, most: f64, changed: &mut Changed) -> R
         return Err(field.wrong(format!("0 to {most:.0} W/m²")));
     }
     changed.negative += usize::from(value < 0.0);
-    Ok(value.max(0.0))
+    // Not the zero of the minus sign, which some files write.
+    Ok(value.max(0.0) + 0.0)
 }
 
 /// Direct irradiance: at most a tenth more than the sun of that day sends.

@@ -1,5 +1,6 @@
 //! `[sky]` as typed: model, sun, and the illuminances that both are scaled to.
 
+use crate::study::weather_keys::{LightKey, OffsetKey};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -15,6 +16,9 @@ pub enum SkyModelKey {
     Perez,
     /// 145 measured luminances.
     Scan,
+    /// None: the hour of a weather file, which `sky.weather` names.
+    #[serde(skip)]
+    Weather,
 }
 
 impl SkyModelKey {
@@ -28,12 +32,23 @@ impl SkyModelKey {
             Self::Uniform => ["Uniform", "uniform sky", "uniform"],
             Self::Perez => ["Perez all-weather", "Perez sky", "Perez all-weather"],
             Self::Scan => ["Measured (file)", "measured sky", "measured scan"],
+            Self::Weather => ["Hour of a weather file", "weather file", "Perez all-weather, hour of a weather file"],
         }
     }
 
     /// Is it scaled to illuminances that are stated? Perez's sky and a measured one bring their own.
     pub const fn takes_illuminances(self) -> bool {
-        !matches!(self, Self::Perez | Self::Scan)
+        !matches!(self, Self::Perez | Self::Scan | Self::Weather)
+    }
+
+    /// What stands for the model in a sky without one.
+    const fn of_weather() -> Self {
+        Self::Weather
+    }
+
+    /// Nothing to write: `sky.weather` says it.
+    const fn is_weather(&self) -> bool {
+        matches!(self, Self::Weather)
     }
 }
 
@@ -70,8 +85,19 @@ impl IlluminanceKey {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkyKeys {
-    /// Which model.
+    /// Which model; not written with `weather`.
+    #[serde(default = "SkyModelKey::of_weather", skip_serializing_if = "SkyModelKey::is_weather")]
     pub model: SkyModelKey,
+    /// A weather file (.epw, .wea) or a year that comes with the program, whose hour at `time` stands instead of a model
+    /// and its values: month, day and time of day count, the row's own year is used.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weather: Option<PathBuf>,
+    /// Where the weather's illuminances come from.
+    #[serde(default, skip_serializing_if = "LightKey::is_default")]
+    pub light: LightKey,
+    /// Minutes by which the weather's intervals lie later than the file says, or "auto".
+    #[serde(default, skip_serializing_if = "OffsetKey::is_default")]
+    pub sun_offset_minutes: OffsetKey,
     /// CIE type 1 … 16.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub cie_type: Option<u8>,
@@ -87,7 +113,8 @@ pub struct SkyKeys {
     /// The sun by angles, and its beam.
     #[serde(default)]
     pub sun: SunKeys,
-    /// Local standard time of `site.utc_offset`, `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
+    /// Local standard time of `site.utc_offset`, `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles; beside
+    /// them its date alone counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeKey>,
     /// Perez: direct irradiance on the horizontal plane. \[W/m²\]

@@ -2,6 +2,7 @@
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
+use crate::compute::weather::Day;
 use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 
@@ -72,7 +73,15 @@ pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     only("sky.diffuse_horizontal_irradiance", diffuse.is_some(), SkyModelKey::Perez, "perez")
 }
 
-/// From angles or from time; `None` with neither.
+/// Day of the year, counted as in a common one, where the scene has a date.
+pub(super) fn day_of_year(sky: &SkyKeys) -> Result<Option<f64>, SkyKeyError> {
+    let Some(time) = &sky.time else { return Ok(None) };
+    let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
+    let day = Day::new(time.year(), time.month() as u8, time.day() as u8);
+    Ok(day.map(|day| f64::from(day.of_common_year())))
+}
+
+/// From angles or from time; `None` with neither. With both the angles say where the sun is, and the time its date.
 pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir<World>>, SkyKeyError> {
     let Some(time) = &sky.time else {
         return match (sky.sun.altitude, sky.sun.azimuth) {
@@ -86,8 +95,16 @@ pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir
             (None, Some(_)) => Err(wrong("sky.sun.altitude", "missing: sun.azimuth needs an altitude beside it")),
         };
     };
-    if sky.sun.altitude.is_some() || sky.sun.azimuth.is_some() {
-        return Err(wrong("sky.time", "given together with sun angles: give either the time or altitude and azimuth"));
+    match (sky.sun.altitude, sky.sun.azimuth) {
+        (None, None) => {}
+        (Some(altitude), Some(azimuth)) => {
+            day_of_year(sky)?;
+            return Ok(Some(Dir::from_altitude_bearing(altitude.to_radians(), Bearing::from_degrees(azimuth))));
+        }
+        _ => {
+            let message = "given together with one sun angle: give both altitude and azimuth, or neither";
+            return Err(wrong("sky.time", message));
+        }
     }
     let need = |key, value: Option<f64>| value.ok_or_else(|| wrong(key, "missing: sky.time needs it"));
     let latitude = need("site.latitude", site.latitude)?;
