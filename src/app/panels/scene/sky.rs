@@ -5,7 +5,7 @@ use crate::app::panels::fields::{figure, lines, number, optional};
 use crate::app::scene::follow;
 use crate::app::theme;
 use crate::compute::sky::availability::Cover;
-use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey};
+use crate::study::scene_file::{IlluminanceKey, LightKey, OffsetKey, SceneFile, SkyKeys, SkyModelKey};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};
 use egui::{ComboBox, TextEdit, Ui};
 
@@ -169,6 +169,10 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
             }
         }
         SkyModelKey::Uniform => {}
+        SkyModelKey::Weather => {
+            let file = sky.weather.as_ref().map_or_else(String::new, |file| file.display().to_string());
+            ui.label(format!("{file}, at the date and time above"));
+        }
     }
 }
 
@@ -180,6 +184,9 @@ fn choose_model(sky: &mut SkyKeys, model: SkyModelKey) {
     sky.direct_horizontal_irradiance = perez.then_some(300.0);
     sky.diffuse_horizontal_irradiance = perez.then_some(120.0);
     sky.file = None;
+    sky.weather = None;
+    sky.light = LightKey::default();
+    sky.sun_offset_minutes = OffsetKey::default();
     match model {
         SkyModelKey::Perez => {
             sky.diffuse_horizontal = None;
