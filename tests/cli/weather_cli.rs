@@ -79,7 +79,7 @@ fn damaged_weather_is_refused_in_one_line_or_told() {
     std::fs::copy(path("epw_missing_codes.epw"), folder.path().join("x.epw")).unwrap();
     scene(folder.path(), "weather = \"x.epw\"\ntime = \"2026-03-21T09:15\"", "");
     let error = refused(folder.path(), &["room", "scene.toml"]);
-    assert!(error.contains("scene.toml: sky.weather: x.epw: line 10: field 15") && error.contains("1990-03-21 09:00–10:00"), "{error}");
+    assert!(error.contains("scene.toml: sky.weather: x.epw: line 10: field 16") && error.contains("1990-03-21 09:00–10:00"), "{error}");
     scene(folder.path(), "weather = \"x.epw\"\ntime = \"2026-03-21T08:15\"", "");
     assert!(cfs(folder.path(), &["room", "scene.toml"]).status.success());
 }
