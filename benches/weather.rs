@@ -31,7 +31,9 @@ fn epw() -> Vec<u8> {
     for line in ["DESIGN CONDITIONS,0", "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0"] {
         let _ = writeln!(text, "{line}");
     }
-    text.push_str("HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\nCOMMENTS 1,\nCOMMENTS 2,\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n");
+    text.push_str(
+        "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\nCOMMENTS 1,\nCOMMENTS 2,\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n",
+    );
     for record in &weather.records {
         let (day, hour) = (record.day, record.start / 60 + 1);
         let (direct, diffuse) = (record.direct.unwrap_or(0.0), record.diffuse.unwrap_or(0.0));
@@ -51,7 +53,8 @@ fn epw() -> Vec<u8> {
 
 fn worst_path() -> f64 {
     let place = Place::new(47.48, -122.22, -8.0).expect("a place on earth");
-    let mut path = SunPath::new(&Station { latitude: 47.48, longitude: -122.22, utc_offset: -8.0, ..Station::default() });
+    let mut path =
+        SunPath::new(&Station { latitude: 47.48, longitude: -122.22, utc_offset: -8.0, ..Station::default() });
     let mut worst: f64 = 0.0;
     for record in renton().records.iter().step_by(37) {
         path.turn_to(record.day.number()).expect("a year of our time");
@@ -74,7 +77,11 @@ fn read_and_place_suns(bencher: Bencher) {
     let bytes = epw();
     bencher.bench(|| {
         let weather = read("x.epw", &bytes).expect("what was made here");
-        weather.hours(Reading::default()).expect("a whole year").map(|hour| hour.map_or(0, |h| usize::from(h.is_lit()))).sum::<usize>()
+        weather
+            .hours(Reading::default())
+            .expect("a whole year")
+            .map(|hour| hour.map_or(0, |h| usize::from(h.is_lit())))
+            .sum::<usize>()
     });
 }
 

@@ -4,8 +4,8 @@ use super::moment;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{
     ApertureKeys, ApertureReflectance, ComputeKeys, ControlKeys, DEFAULT_TURBIDITY, IlluminanceKey, LightKey,
-    OffsetKey, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
-    TimeKey,
+    OffsetKey, PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys,
+    SurfaceKey, SystemKeys, TimeKey,
 };
 use crate::study::sky::illuminances;
 

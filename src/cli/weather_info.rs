@@ -91,7 +91,10 @@ fn to_text(weather: &Weather, summary: &Summary) -> String {
         }
     };
     let parts = [&station.name, &station.region, &station.country];
-    line("Place", &parts.into_iter().filter(|part| !part.is_empty()).map(String::as_str).collect::<Vec<_>>().join(", "));
+    line(
+        "Place",
+        &parts.into_iter().filter(|part| !part.is_empty()).map(String::as_str).collect::<Vec<_>>().join(", "),
+    );
     line("Source", &station.source);
     line("Format", weather.format);
     line("Latitude", &sided(station.latitude, "N", "S"));
@@ -101,7 +104,10 @@ fn to_text(weather: &Weather, summary: &Summary) -> String {
     line("Light", weather.quantity.words());
     let [first, last] = period(weather);
     line("Period", &format!("{first} to {last}"));
-    line("Rows", &format!("{} of {} min, {} missing between them", weather.records.len(), weather.interval, summary.missing));
+    line(
+        "Rows",
+        &format!("{} of {} min, {} missing between them", weather.records.len(), weather.interval, summary.missing),
+    );
     line("Years", &years(&weather.years()));
     line("Closure", &closure(weather, summary));
     let irradiation = |value: f64| format!("{value:.1} kWh/m²");
@@ -140,7 +146,10 @@ fn years(years: &[i16]) -> String {
 fn closure(weather: &Weather, summary: &Summary) -> String {
     let Some(one) = summary.closure else { return "not testable".to_owned() };
     if weather.tested.is_some() {
-        return format!("{:.1} W/m² with the table's clock of {:+} min, {:.1} W/m² without", one.best_rms, weather.clock, one.rms);
+        return format!(
+            "{:.1} W/m² with the table's clock of {:+} min, {:.1} W/m² without",
+            one.best_rms, weather.clock, one.rms
+        );
     }
     if one.best_offset == 0.0 {
         return format!("{:.1} W/m²: the clock is right", one.rms);

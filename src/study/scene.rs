@@ -125,8 +125,7 @@ impl Scene {
         let (outside, sun) =
             outside_from_keys(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
         let illuminances = illuminances(&file.sky, &file.site).map_err(|e| StudyError::key(e.key, e.message))?;
-        let weather =
-            hour_of_weather(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
+        let weather = hour_of_weather(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
         let facade = Bearing::from_degrees(file.site.azimuth);
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;

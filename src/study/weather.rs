@@ -64,5 +64,6 @@ pub fn load(name: &Path, base: &Path) -> Result<Weather, StudyError> {
         return Err(wrong(format!("{size} MB; expected a weather file of at most {most} MB")));
     }
     let bytes = files::read(&path)?;
-    weather::read(&path.to_string_lossy(), &bytes).map_err(|error| StudyError::File { path, message: error.to_string() })
+    weather::read(&path.to_string_lossy(), &bytes)
+        .map_err(|error| StudyError::File { path, message: error.to_string() })
 }

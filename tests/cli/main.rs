@@ -10,6 +10,6 @@ mod doctor_cli;
 mod examples;
 mod goniophotometer_cli;
 mod program;
-mod weather_cli;
 #[path = "../scenes/rooms.rs"]
 mod rooms;
+mod weather_cli;

@@ -38,7 +38,10 @@ fn rows_of_epw_mean_the_interval_that_ends_at_their_hour() {
     assert_eq!((noon.start, noon.line, weather.interval), (11 * 60, 9, 60));
     assert_eq!(noon.middle(60), "2005-06-21T11:30:00");
     assert_eq!((noon.global, noon.direct, noon.diffuse), (Some(800.0), Some(700.0), Some(100.0)));
-    assert_eq!((noon.dew_point, noon.direct_illuminance, noon.diffuse_illuminance), (Some(-4.4), Some(65_900.0), Some(12_400.0)));
+    assert_eq!(
+        (noon.dew_point, noon.direct_illuminance, noon.diffuse_illuminance),
+        (Some(-4.4), Some(65_900.0), Some(12_400.0))
+    );
     let last = &weather.records[1];
     assert_eq!(last.start, 23 * 60);
     // The minus of a zero is gone.
@@ -86,7 +89,11 @@ fn headers_in_latin_1_and_years_that_cannot_be_are_read() {
 #[test]
 fn a_wrong_row_is_told_with_line_and_column() {
     for (rows, place, right) in [
-        (row("2005,6,21", 12, "800,1700,100"), "line 9, column 55, field 15 (direct normal irradiance): \"1700\"", "0 to 1455 W/m²"),
+        (
+            row("2005,6,21", 12, "800,1700,100"),
+            "line 9, column 55, field 15 (direct normal irradiance): \"1700\"",
+            "0 to 1455 W/m²",
+        ),
         (row("2005,6,21", 12, "800,700,1001"), "field 16 (diffuse horizontal irradiance): \"1001\"", "0 to 1000 W/m²"),
         (row("2005,6,21", 12, "-5,700,100"), "field 14 (global horizontal irradiance): \"-5\"", "0 to 2000 W/m²"),
         (row("2005,6,21", 12, "800,nan,100"), "field 15 (direct normal irradiance): \"nan\"", "a number"),
@@ -133,7 +140,10 @@ fn radiances_files_count_west_and_their_hours_are_middles() {
     assert_eq!((weather.interval, weather.records[1].start), (60, 720));
     assert_eq!(weather.records[0].middle(60), "2001-03-21T11:30:00");
     for (unit, quantity) in [("2", Quantity::HorizontalIrradiance), ("3", Quantity::NormalIlluminance)] {
-        assert_eq!(read("x.wea", text.replace("units 1", &format!("units {unit}")).as_bytes()).unwrap().quantity, quantity);
+        assert_eq!(
+            read("x.wea", text.replace("units 1", &format!("units {unit}")).as_bytes()).unwrap().quantity,
+            quantity
+        );
     }
     let quarter = text.replace("11.500", "12.125").replace("12.500", "12.375");
     let weather = read("x.wea", quarter.as_bytes()).unwrap();
@@ -184,18 +194,17 @@ fn makers_files_are_read_and_damaged_ones_judged() {
 
 #[test]
 fn tables_keep_what_light_needs() {
-    let mut weather = good(&epw(
-        &(1..=24).map(|hour| row("2005,6,21", hour, if hour == 13 { "800,700.5,100" } else { "0,0,0" })).collect::<String>(),
-    ));
+    let mut weather = good(&epw(&(1..=24)
+        .map(|hour| row("2005,6,21", hour, if hour == 13 { "800,700.5,100" } else { "0,0,0" }))
+        .collect::<String>()));
     weather.clock = -30.0;
     weather.tested = Some(Closure { rms: 26.7, best_offset: -30.0, best_rms: 1.8 });
     let text = table::write(&weather).unwrap();
     assert!(text.starts_with("cfs-weather 1\n") && text.ends_with("\n\n2005-06-21\n13,700.5,100,-4.4\n"), "{text}");
     let again = read("x.weather.txt", text.as_bytes()).unwrap();
     assert_eq!((again.clock, again.tested, again.records.len()), (weather.clock, weather.tested, 24));
-    let light = |weather: &Weather| -> Vec<Hour> {
-        weather.hours(Reading::default()).unwrap().map(Result::unwrap).collect()
-    };
+    let light =
+        |weather: &Weather| -> Vec<Hour> { weather.hours(Reading::default()).unwrap().map(Result::unwrap).collect() };
     assert_eq!(light(&again), light(&weather));
     // Its own clock is where "auto" leaves it.
     let auto = again.hours(Reading { offset: SunOffset::Auto, ..Reading::default() }).unwrap();
@@ -230,13 +239,18 @@ fn years_that_come_with_the_program_are_their_sources() {
         let name = format!("{BUILTIN}{key}");
         let builtin = load(Path::new(&name), Path::new("/nowhere")).unwrap();
         assert_eq!((builtin.records.len(), builtin.clock), (8760, offset));
-        assert!(codes(&builtin).iter().all(|code| ["clock-stated", "clock-untested", "sun-down-light", "dark-sky", "illuminance-missing"].contains(code)));
+        assert!(codes(&builtin).iter().all(|code| {
+            ["clock-stated", "clock-untested", "sun-down-light", "dark-sky", "illuminance-missing"].contains(code)
+        }));
         let Some(path) = data(&format!("data/weather/{source}")) else { return };
         let epw = load(&path, Path::new("")).unwrap();
         if let Some(tested) = builtin.tested {
             let closure = epw.closure().unwrap().unwrap();
             assert_eq!(closure.best_offset, offset);
-            assert!((closure.rms - tested.rms).abs() < 0.06 && (closure.best_rms - tested.best_rms).abs() < 0.06, "{closure:?}");
+            assert!(
+                (closure.rms - tested.rms).abs() < 0.06 && (closure.best_rms - tested.best_rms).abs() < 0.06,
+                "{closure:?}"
+            );
         }
         let moved = Reading { offset: SunOffset::Minutes(offset), ..Reading::default() };
         for (ours, theirs) in builtin.hours(Reading::default()).unwrap().zip(epw.hours(moved).unwrap()) {

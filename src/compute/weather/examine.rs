@@ -81,8 +81,16 @@ impl Weather {
         let mut findings = self.findings.clone();
         let missing = self.sequence(&mut findings);
         self.say_clock(closure, &mut findings);
-        let mut summary =
-            Summary { sums: Sums::default(), lit_hours: 0.0, sunshine_hours: 0.0, told: 0, without_sky: 0, missing, closure, findings };
+        let mut summary = Summary {
+            sums: Sums::default(),
+            lit_hours: 0.0,
+            sunshine_hours: 0.0,
+            told: 0,
+            without_sky: 0,
+            missing,
+            closure,
+            findings,
+        };
         self.sum_up(&mut summary)?;
         Ok(summary)
     }
@@ -113,13 +121,17 @@ impl Weather {
             findings.push(Finding::warning("gaps", format!("{what}, the first of {first_gap}; what is there is used")));
         }
         if back.number > 0 {
-            let message = format!("{} that begin before the row above has ended: a repeated or misplaced row", back.words());
+            let message =
+                format!("{} that begin before the row above has ended: a repeated or misplaced row", back.words());
             findings.push(Finding::warning("order", message));
         }
         if rows == 366 * per_day {
             findings.push(Finding::info("leap-year", format!("{rows} rows: a year of 366 days")));
         } else if rows % (365 * per_day) != 0 {
-            let message = format!("{rows} of {} rows of a year: what is there is used, figures of a year need all", 365 * per_day);
+            let message = format!(
+                "{rows} of {} rows of a year: what is there is used, figures of a year need all",
+                365 * per_day
+            );
             findings.push(Finding::warning("partial-year", message));
         }
         missing
@@ -148,11 +160,12 @@ impl Weather {
             }
             Some(_) => {}
             None => {
-                let why = if self.quantity == Quantity::NormalIrradiance && self.records.iter().any(|r| r.global.is_some()) {
-                    "too few hours with sun"
-                } else {
-                    "no global horizontal irradiance beside direct normal and diffuse"
-                };
+                let why =
+                    if self.quantity == Quantity::NormalIrradiance && self.records.iter().any(|r| r.global.is_some()) {
+                        "too few hours with sun"
+                    } else {
+                        "no global horizontal irradiance beside direct normal and diffuse"
+                    };
                 findings.push(Finding::info("clock-untested", format!("the clock cannot be tested: {why}")));
             }
         }
@@ -227,7 +240,9 @@ impl Weather {
         }
         if self.quantity != Quantity::NormalIlluminance && summary.told < lit {
             let rows = lit - summary.told;
-            let message = format!("{rows} of {lit} lit rows without plausible illuminances: light = \"file\" takes luminous efficacy there");
+            let message = format!(
+                "{rows} of {lit} lit rows without plausible illuminances: light = \"file\" takes luminous efficacy there"
+            );
             findings.push(Finding::info("illuminance-missing", message));
         }
         Ok(())

@@ -46,7 +46,9 @@ pub struct Reading {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HourError {
     /// A missing code while the sun is up.
-    #[error("line {line}: {field} is missing while the sun is up ({time}); expected a number: repair the row, or leave the hour out")]
+    #[error(
+        "line {line}: {field} is missing while the sun is up ({time}); expected a number: repair the row, or leave the hour out"
+    )]
     Missing {
         /// Line of the file.
         line: u32,
@@ -56,7 +58,9 @@ pub enum HourError {
         time: String,
     },
     /// The clock cannot be found in the file.
-    #[error("\"auto\" needs global horizontal irradiances beside direct and diffuse ones, and hours with sun: give minutes")]
+    #[error(
+        "\"auto\" needs global horizontal irradiances beside direct and diffuse ones, and hours with sun: give minutes"
+    )]
     NoClosure,
     /// Not a shift of a clock.
     #[error("{0} min is out of range (allowed: −180 to 180)")]
@@ -182,7 +186,8 @@ impl Hours<'_> {
             return Ok(hour);
         }
         let altitude = sun.altitude().max(0.0);
-        let air = Air { eccentricity: record.day.eccentricity(), water: record.dew_point.map_or(Air::UNKNOWN.water, water) };
+        let air =
+            Air { eccentricity: record.day.eccentricity(), water: record.dew_point.map_or(Air::UNKNOWN.water, water) };
         let by_efficacy = |direct: f64, diffuse: f64| {
             let state = PerezState::in_air(altitude, direct, diffuse, air);
             let light = state.map_or([0.0; 2], |s| [direct * s.direct_efficacy(), diffuse * s.diffuse_efficacy()]);

@@ -116,14 +116,20 @@ fn location(text: &str) -> Result<Station, FormatError> {
     let fields = header_fields(text, 1, "LOCATION");
     if fields.len() < 10 {
         let found = format!("LOCATION with {} fields", fields.len());
-        let expected = "10: LOCATION, city, state, country, source, WMO number, latitude, longitude, time zone, elevation";
+        let expected =
+            "10: LOCATION, city, state, country, source, WMO number, latitude, longitude, time zone, elevation";
         return Err(FormatError::new(Location::line(1), found, expected));
     }
     let told = |k: usize| Some(fields[k].text.trim()).filter(|text| *text != "-").unwrap_or_default().to_owned();
     let number = told(5);
     let source = if number.is_empty() { told(4) } else { format!("{} {number}", told(4)) };
-    let mut station =
-        Station { name: told(1), region: told(2), country: told(3), source: source.trim().to_owned(), ..Station::default() };
+    let mut station = Station {
+        name: told(1),
+        region: told(2),
+        country: told(3),
+        source: source.trim().to_owned(),
+        ..Station::default()
+    };
     let named = |k: usize, name: &'static str| Field { name, ..fields[k] };
     place(
         &mut station,

@@ -47,7 +47,11 @@ impl Field<'_> {
     /// A finite number between limits.
     pub fn within(&self, min: f64, max: f64, unit: &str) -> Result<f64, FormatError> {
         let value = self.number()?;
-        if (min..=max).contains(&value) { Ok(value) } else { Err(self.wrong(format!("{min} to {max} {unit}").trim_end())) }
+        if (min..=max).contains(&value) {
+            Ok(value)
+        } else {
+            Err(self.wrong(format!("{min} to {max} {unit}").trim_end()))
+        }
     }
 
     /// A whole number between limits.

@@ -42,7 +42,8 @@ pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         FormatError::new(Location::byte(error.valid_up_to()), "a byte that is not UTF-8", "UTF-8 text")
     })?;
-    let mut rows = lines(text.as_bytes()).map(|(number, line)| (number, std::str::from_utf8(line).unwrap_or("?").trim()));
+    let mut rows =
+        lines(text.as_bytes()).map(|(number, line)| (number, std::str::from_utf8(line).unwrap_or("?").trim()));
     // The magic word.
     rows.next();
     let mut values: [Option<(usize, &str)>; KEYS.len()] = [None; KEYS.len()];
@@ -123,7 +124,8 @@ fn date(field: Field<'_>) -> Result<Day, FormatError> {
     let mut parts = field.text.split('-');
     let mut part = |name| Field { text: parts.next().unwrap_or(""), name, ..field };
     let (year, month, number) = (part("year"), part("month"), part("day"));
-    let year = year.integer(1900, 2100).map_err(|_| field.wrong("a day, YYYY-MM-DD, or hour,direct,diffuse,dew point"))?;
+    let year =
+        year.integer(1900, 2100).map_err(|_| field.wrong("a day, YYYY-MM-DD, or hour,direct,diffuse,dew point"))?;
     day(year, &month, &number)
 }
 

@@ -18,7 +18,10 @@ const UNITS: [(Quantity, [&str; 2]); 3] = [
         Quantity::HorizontalIrradiance,
         ["column 4 (direct horizontal irradiance)", "column 5 (diffuse horizontal irradiance)"],
     ),
-    (Quantity::NormalIlluminance, ["column 4 (direct normal illuminance)", "column 5 (diffuse horizontal illuminance)"]),
+    (
+        Quantity::NormalIlluminance,
+        ["column 4 (direct normal illuminance)", "column 5 (diffuse horizontal illuminance)"],
+    ),
 ];
 /// More than any sun or sky sends. \[lx\]
 const MOST_LIGHT: f64 = 200_000.0;

@@ -57,11 +57,7 @@ impl HourOfWeather {
 ///
 /// # Errors
 /// Keys that do not go with `sky.weather`; a file that cannot be read; an hour that it does not hold.
-pub fn hour_of_weather(
-    sky: &SkyKeys,
-    site: &SiteKeys,
-    base: &Path,
-) -> Result<Option<HourOfWeather>, SkyKeyError> {
+pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Option<HourOfWeather>, SkyKeyError> {
     check_keys(sky)?;
     let Some(name) = &sky.weather else { return Ok(None) };
     let Some(time) = &sky.time else {
@@ -75,7 +71,8 @@ pub fn hour_of_weather(
         wrong("sky.time", format!("{found}; expected one of its {} rows", weather.records.len()))
     })?;
     let reading = reading(sky.light, sky.sun_offset_minutes);
-    let failed = |error: crate::compute::weather::HourError| wrong("sky.weather", format!("{}: {error}", name.display()));
+    let failed =
+        |error: crate::compute::weather::HourError| wrong("sky.weather", format!("{}: {error}", name.display()));
     let mut hours = weather.hours(reading).map_err(failed)?;
     let hour = hours.at(index).map_err(failed)?;
     let record = &weather.records[index];
@@ -118,7 +115,11 @@ fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
         return if sky.sun_offset_minutes.is_default() { Ok(()) } else { Err(wrong("sky.sun_offset_minutes", ALONE)) };
     }
     let not_beside = |key: &'static str, given: bool| {
-        if given { Err(wrong(key, "given together with sky.weather, which says it: leave one of them out")) } else { Ok(()) }
+        if given {
+            Err(wrong(key, "given together with sky.weather, which says it: leave one of them out"))
+        } else {
+            Ok(())
+        }
     };
     not_beside("sky.model", !by_weather)?;
     not_beside("sky.illuminance", sky.illuminance != IlluminanceKey::Stated)?;
