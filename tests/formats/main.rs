@@ -13,3 +13,4 @@ mod formats_files;
 mod formats_material;
 mod formats_tensor_xml;
 mod luminaire;
+mod weather;
