@@ -62,6 +62,7 @@
 //! | add a dataset format | a file in [`formats`], an arm of [`formats::Format`] and of its dispatch |
 //! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], its extension in [`study::luminaire_file`] and [`study::luminaires`] |
 //! | add a sky model | a file in [`compute::sky`], its key and words in [`study::scene_file`], its arm in [`study::sky`] |
+//! | add a weather format | a file in [`formats::weather`] that fills a [`compute::weather::Weather`], its arm in [`formats::weather::read`] |
 //! | add a family of systems | a room in [`compute::system`] that answers [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
 //! | add a built-in product | a description under `assets/systems`, whose README says how the table of figures follows: all are [`catalogue::SYSTEMS`] |
 //! | add a check or a repair of data | [`compute::doctor`] |

@@ -4,7 +4,7 @@ use super::error::AppError;
 use super::shelf::Shelf;
 use crate::catalogue::Product;
 use crate::compute::estimate::Progress;
-use crate::study::control::ControlQuestion;
+use crate::study::control::{ControlQuestion, Device};
 use crate::study::scene_file::SystemKeys;
 use crate::study::system::Need;
 use crate::study::{Library, StudyError, System, SystemLibrary};
@@ -38,6 +38,13 @@ impl SystemLibrary for WindowLibrary<'_> {
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         self.shelf.controlled_state(product, asked)
+    }
+
+    fn device(&self, keys: &SystemKeys, base: &Path) -> Result<Device, StudyError> {
+        match keys {
+            SystemKeys::Catalogue { key, .. } => Device::of(&self.product(key)?),
+            other => self.files.device(other, base),
+        }
     }
 
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {

@@ -5,8 +5,7 @@ use super::progress::TerminalProgress;
 use super::writing::Over;
 use crate::formats::FileKind;
 use crate::study::control::year::{Moment, Moving, Situation, Summary, moving, summary, year};
-use crate::study::goniophotometer::LayerLibrary as _;
-use crate::study::{Library, read_scene_file};
+use crate::study::{Library, SystemLibrary as _, read_scene_file};
 use anyhow::anyhow;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -46,7 +45,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let file = read_scene_file(&args.scene)?;
     let base = args.scene.parent().unwrap_or(Path::new("."));
     let told = |error: crate::study::StudyError| anyhow!("{name}: {error}");
-    let list = moving(&file, base, &|key| library.product(key)).map_err(told)?;
+    let list = moving(&file, base, &|keys| library.device(keys, base)).map_err(told)?;
     let situation = Situation::of(&file).map_err(told)?;
     let progress = TerminalProgress::new();
     let moments = year(&situation, base, &list, args.step, &situation.sky, &progress).map_err(told)?;

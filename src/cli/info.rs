@@ -1,7 +1,7 @@
-//! `cfs info`: what a dataset (or a luminaire file) is, and what is to be said about it.
+//! `cfs info`: what a dataset (or a luminaire file, or a weather file) is, and what is to be said about it.
 
 use crate::cli::output::{print, print_text};
-use crate::cli::{dataset_file, luminaire_info};
+use crate::cli::{dataset_file, luminaire_info, weather_info};
 use crate::compute::btdf::{
     Btdf, Component, Dataset, Scattered, Severity, Thermal, ThermalKey, TreeRank, reciprocity_error,
 };
@@ -15,8 +15,9 @@ use std::path::PathBuf;
 /// Arguments of `cfs info`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct InfoArgs {
-    /// Dataset file of any format that the program reads, luminaire file (.ldt, .ies), or index of
-    /// luminaire files (.index.csv).
+    /// Dataset file of any format that the program reads, luminaire file (.ldt, .ies), index of
+    /// luminaire files (.index.csv), weather file (.epw, .wea), or a year that comes with the
+    /// program (builtin:new-york).
     pub file: PathBuf,
     /// One JSON object (an array for several states) instead of text.
     #[arg(long)]
@@ -30,6 +31,9 @@ pub struct InfoArgs {
 pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
     if let Some(text) = luminaire_info::describe(&args.file, args.json)? {
         return if args.json { print(&text) } else { print_text(&text) };
+    }
+    if let Some(text) = weather_info::describe(&args.file, args.json)? {
+        return print(&text);
     }
     let datasets = dataset_file::read(&args.file)?;
     let text = if args.json {

@@ -2,6 +2,7 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
+use super::weather_info::weather_notes;
 use super::writing::Over;
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::FileKind;
@@ -191,6 +192,7 @@ fn all(
         if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
             tell!("note: {note}");
         }
+        weather_notes(scene.weather.as_ref());
         let text = describe(&scene_name, &member.scene, index, &date);
         let name = |tile: Option<usize>| file_name(&args.out, &member.tag, tile);
         let set = make(&session, &scene, index, &text, wish, name, &progress).map_err(|error| match error {

@@ -35,7 +35,10 @@ pub mod room;
 pub mod sky;
 pub mod subscriptions;
 pub mod validate;
+mod weather_info;
 mod writing;
+pub mod year;
+mod year_json;
 
 pub use args::{Arguments, Command};
 pub use fault::{Stopped, guarded};
@@ -65,6 +68,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Sky(args) => sky::run(args),
         Command::Goniophotometer(args) => goniophotometer::run(args, &library),
         Command::Control(args) => control::run(args, &library),
+        Command::Year(args) => year::run(args, &library),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Compact(args) => compact::run(args),

@@ -2,6 +2,7 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use super::weather_info::{hour_json, weather_notes};
 use super::writing::Over;
 use crate::compute::lid::BeamSource;
 use crate::formats::FileKind;
@@ -20,7 +21,8 @@ use std::path::PathBuf;
 Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error) =
 E_error_numerical_lx (of the computation, were the data exact) + E_error_data_lx (how far the data leave the answer open), E_beam_lx (the part of
 E_direct_lx that is the sun's light come through as beams).
-Notes on standard error: the sky's illuminances where they follow the sun; sensors that lie too near to a blind or panel to see its mean alone, and what error was reached
+Notes on standard error: the hour of weather that the sky is, or its illuminances where they follow the sun; sensors that lie too near to a
+blind or panel to see its mean alone, and what error was reached
 where the scene asks for one.")]
 pub struct RoomArgs {
     /// Scene file (TOML)
@@ -75,6 +77,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
         tell!("note: {note}");
     }
+    weather_notes(scene.weather.as_ref());
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
             tell!(
@@ -113,6 +116,7 @@ fn to_json(scene: &Scene, result: &RoomResult) -> serde_json::Value {
             "diffuse_horizontal_lx": light.diffuse_horizontal,
             "direct_normal_lx": light.direct_normal,
         })),
+        "weather": scene.weather.as_ref().map(hour_json),
         "error_target": scene.error_target,
         "reached": result.reached(),
         "apertures": scene.apertures.iter().zip(scene.too_near()).zip(&result.beams).map(|((one, too_near), (beam, reason))| json!({

@@ -1,6 +1,7 @@
 //! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
 
 use crate::cli::output::print;
+use crate::cli::weather_info::{hour_json, weather_notes};
 use crate::cli::writing::Over;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
@@ -10,7 +11,7 @@ use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::compute::surroundings::skyline::Skyline;
 use crate::formats::FileKind;
-use crate::study::sky::{illuminances, outside_from_keys};
+use crate::study::sky::{hour_of_weather, illuminances, outside_from_keys};
 use anyhow::anyhow;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -50,6 +51,7 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let (outside, sun) =
         outside_from_keys(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
 
+    let hour = hour_of_weather(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
     let rows = table(&outside);
     let facade = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(scene.site.azimuth));
     let vertical = irradiance(&outside, facade);
@@ -57,7 +59,9 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
         args.over.write(path, FileKind::Csv, csv(&rows).as_bytes())?;
     }
     if args.json {
-        print(&format!("{:#}\n", json(&rows, &outside, sun.as_ref(), vertical, facade)))?;
+        let mut value = json(&rows, &outside, sun.as_ref(), vertical, facade);
+        value["weather"] = hour.as_ref().map(hour_json).into();
+        print(&format!("{value:#}\n"))?;
     } else if args.out.is_none() {
         print(&csv(&rows))?;
     }
@@ -68,6 +72,7 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     if !scene.outside.is_empty() {
         tell!("note: the boxes outside are left out here: this is the sky that stands behind them");
     }
+    weather_notes(hour.as_ref());
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
     tell!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);

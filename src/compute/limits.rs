@@ -81,6 +81,10 @@ limits! {
     most LUMINAIRE_PLANES: usize = 721, "C planes of a luminaire file", "";
     /// Angles in a plane of a luminaire file.
     most LUMINAIRE_ANGLES: usize = 361, "angles in a plane of a luminaire file", "";
+    /// A weather file, three times a year minute by minute. \[bytes\]
+    most WEATHER_BYTES: u64 = 256 << 20, "a weather file", "bytes";
+    /// Rows of a weather file: a leap year minute by minute.
+    most WEATHER_RECORDS: usize = 366 * 24 * 60, "rows of a weather file", "";
     /// A system file. \[bytes\]
     most SYSTEM_BYTES: usize = 1 << 20, "a system file", "bytes";
     /// States that a system file describes.

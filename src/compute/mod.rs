@@ -19,12 +19,14 @@
 //! - `btdf`: the four functions of a system as data
 //! - `surroundings`: boxes and a skyline before the façade, their edges and shadows
 //! - `sky`: luminances outside, the sun and its disc
+//! - `weather`: the weather of a place, interval by interval, with sun and light
 //! - `system`: described systems, a room a family, and the goniophotometer that makes data of them
 //! - `incidence`: between incident directions
 //! - `doctor`: faults of data and their repair
 //! - `lid`: the aperture as a luminaire
 //! - `room`: apertures, direct light and interreflection
 //! - `control`: which state a moving system takes
+//! - `year`: what the illuminances of a year come to
 //!
 //! # Symbols
 //!
@@ -64,3 +66,5 @@ pub mod surroundings;
 pub mod sweep;
 pub mod system;
 pub mod wavelet;
+pub mod weather;
+pub mod year;

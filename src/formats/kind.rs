@@ -21,6 +21,8 @@ pub enum FileKind {
     Eulumdat,
     /// IES luminaire file.
     Ies,
+    /// Scene (.toml).
+    Scene,
     /// Dataset in one of the exchange formats.
     Dataset(Format),
     /// Dataset in compact form (.cfsd).
@@ -44,6 +46,7 @@ impl FileKind {
             Self::Pdf => "a PDF document",
             Self::Eulumdat => "an EULUMDAT file",
             Self::Ies => "an IES file",
+            Self::Scene => "a scene",
             Self::Dataset(Format::BsdfXml) => "BSDF XML",
             Self::Dataset(Format::BtdfText) => "BTDF text",
             Self::Compact => "a compact dataset (.cfsd)",
@@ -66,6 +69,7 @@ impl FileKind {
             Self::Svg => text(head).is_some_and(|text| text.contains("<svg")),
             Self::Json => text(head).is_some_and(is_json),
             Self::Csv => text(head).is_some_and(|text| !is_json(text) && is_csv(text)),
+            Self::Scene => text(head).is_some_and(|text| text.lines().any(|line| line.trim() == "[[aperture]]")),
             Self::Comparison => text(head).is_some_and(|text| text.lines().any(|line| line.starts_with("figure "))),
         }
     }

@@ -25,6 +25,7 @@ pub mod package;
 pub mod scan;
 pub mod system_toml;
 pub mod toml_place;
+pub mod weather;
 mod written;
 
 pub use btdf_text::CatalogueFields;

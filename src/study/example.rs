@@ -1,9 +1,9 @@
 //! The scene that everything starts with: of a first start of the window, and for a product alone.
 
 use super::scene_file::{
-    ApertureKeys, ApertureReflectance, ComputeKeys, DEFAULT_TURBIDITY, DstKey, IlluminanceKey, PlaneKeys,
-    ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey, SystemKeys,
-    TimeKey,
+    ApertureKeys, ApertureReflectance, ComputeKeys, DEFAULT_TURBIDITY, DstKey, IlluminanceKey, LightKey, OffsetKey,
+    PlaneKeys, ReflectanceKeys, RoomKeys, SceneFile, SensorKeys, SiteKeys, SkyKeys, SkyModelKey, SunKeys, SurfaceKey,
+    SystemKeys, TimeKey,
 };
 
 /// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
@@ -38,6 +38,9 @@ pub fn first_scene() -> SceneFile {
         },
         sky: SkyKeys {
             model: SkyModelKey::Cie,
+            weather: None,
+            light: LightKey::default(),
+            sun_offset_minutes: OffsetKey::default(),
             cie_type: Some(12),
             illuminance: IlluminanceKey::ClearSky,
             turbidity: DEFAULT_TURBIDITY,
@@ -57,6 +60,7 @@ pub fn first_scene() -> SceneFile {
         },
         control: None,
         compute: ComputeKeys::default(),
+        year: None,
         compare: Vec::new(),
     }
 }

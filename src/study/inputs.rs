@@ -15,6 +15,27 @@ pub fn inputs_of(scene: &SceneFile, base: &Path) -> Vec<PathBuf> {
     list
 }
 
+/// The scene with the files that it names by their full paths, for another folder.
+pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
+    fn absolute(value: &mut toml::Value, base: &Path) {
+        match value {
+            toml::Value::String(word) if !word.is_empty() => {
+                let path = base.join(&*word);
+                if path.is_file() {
+                    *word = std::path::absolute(&path).unwrap_or(path).to_string_lossy().into_owned();
+                }
+            }
+            toml::Value::Array(values) => values.iter_mut().for_each(|value| absolute(value, base)),
+            toml::Value::Table(table) => table.iter_mut().for_each(|(_, value)| absolute(value, base)),
+            _ => {}
+        }
+    }
+    // What cannot be written as TOML came from nowhere.
+    let Ok(mut value) = toml::Value::try_from(scene) else { return scene.clone() };
+    absolute(&mut value, base);
+    value.try_into().unwrap_or_else(|_| scene.clone())
+}
+
 fn named_in(value: &toml::Value, base: &Path, depth: usize, list: &mut Vec<PathBuf>) {
     match value {
         toml::Value::String(word) if !word.is_empty() => {

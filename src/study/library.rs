@@ -6,7 +6,7 @@ use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
-use super::scene_file::SystemKeys;
+use super::scene_file::{FamilyState, SystemKeys};
 use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState};
@@ -166,6 +166,12 @@ impl SystemLibrary for Library {
                 let very = self.very_of(&found.dataset);
                 Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
             }
+            SystemKeys::Family { states, state } => {
+                let path = &family_state(states, state.as_deref())?.file;
+                let system = self.load(&SystemKeys::File { path: path.clone(), state: None }, base, need)?;
+                let state = state.clone().unwrap_or_else(|| states[0].state.clone());
+                Ok(Arc::new(System { state, ..System::clone(&system) }))
+            }
             SystemKeys::Catalogue { key, state } => {
                 self.provide(key, state.as_deref())?;
                 let (dataset, label) = self.in_catalogue(|catalogue| {
@@ -181,11 +187,40 @@ impl SystemLibrary for Library {
         pick_state(&Device::of(&self.product(product)?)?, asked)
     }
 
+    fn device(&self, keys: &SystemKeys, base: &Path) -> Result<Device, StudyError> {
+        match keys {
+            SystemKeys::Catalogue { key, .. } => Device::of(&self.product(key)?),
+            SystemKeys::Family { states, .. } => Ok(Device::of_family(states)),
+            SystemKeys::File { path, .. } if is_system_file(&path.to_string_lossy()) => {
+                let described = Described::read(&base.join(path))?;
+                let states = described.states(self)?;
+                Ok(Device::described(&described.file, &described.text, states))
+            }
+            SystemKeys::File { .. } | SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => Err(StudyError::key(
+                "system.state",
+                "\"controlled\" needs a product, a description or a family of files",
+            )),
+        }
+    }
+
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         let described = Described::read(path)?;
         let states = described.states(self)?;
         pick_state(&Device::described(&described.file, &described.text, states), asked)
     }
+}
+
+/// The state of a family that is named, or its first.
+fn family_state<'a>(states: &'a [FamilyState], state: Option<&str>) -> Result<&'a FamilyState, StudyError> {
+    let found = match state {
+        None => states.first(),
+        Some(key) => states.iter().find(|one| one.state == key),
+    };
+    found.ok_or_else(|| {
+        let keys: Vec<&str> = states.iter().map(|one| one.state.as_str()).collect();
+        let message = format!("no state '{}'; the family has: {}", state.unwrap_or_default(), keys.join(", "));
+        StudyError::key("system.state", message)
+    })
 }
 
 fn pick(systems: &[Arc<System>], state: Option<&str>, name: &str) -> Result<Arc<System>, StudyError> {

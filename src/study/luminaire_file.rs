@@ -116,6 +116,10 @@ pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str
             with_state(format!("file {name}"), state.as_deref())
         }
         SystemKeys::Catalogue { key, state } => with_state(key.clone(), state.as_deref()),
+        SystemKeys::Family { states, state } => {
+            let files = states.iter().map(|one| one.file.file_name().unwrap_or_default().to_string_lossy());
+            with_state(format!("files {}", files.collect::<Vec<_>>().join(", ")), state.as_deref())
+        }
         SystemKeys::Luminaires { index, set } => {
             let name = index.file_name().unwrap_or_default().to_string_lossy();
             set.as_ref().map_or_else(|| format!("files of {name}"), |set| format!("files of {name}, {set}"))
@@ -172,6 +176,9 @@ fn sky_remark(scene: &SceneFile) -> String {
         model => model.words()[2].to_owned(),
     };
     let mut parts = vec![format!("Sky {model}")];
+    if let Some(weather) = &sky.weather {
+        parts.push(format!("weather {}", weather.file_name().unwrap_or_default().to_string_lossy()));
+    }
     let mut add = |name: &str, value: Option<f64>, unit: &str| {
         if let Some(value) = value {
             parts.push(format!("{name} {value} {unit}"));

@@ -53,7 +53,9 @@ impl Series {
             for state in &self.states {
                 let mut own = at.clone();
                 match &mut own.aperture[aperture].system {
-                    SystemKeys::File { state: key, .. } | SystemKeys::Catalogue { state: key, .. } => {
+                    SystemKeys::File { state: key, .. }
+                    | SystemKeys::Catalogue { state: key, .. }
+                    | SystemKeys::Family { state: key, .. } => {
                         *key = Some(state.clone());
                     }
                     SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {

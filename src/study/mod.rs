@@ -52,6 +52,10 @@ pub mod subject;
 pub mod subscriptions;
 pub mod sun_position;
 pub mod system;
+pub mod weather;
+pub mod weather_keys;
+pub mod year;
+pub mod year_keys;
 
 pub use coefficients::Coefficients;
 pub use error::StudyError;

@@ -5,6 +5,7 @@ use super::scene_file::{OutsideKeys, USUAL_REFLECTANCE};
 use crate::compute::direction::Orientation;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::limits;
+use crate::compute::room::aperture::Aperture;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::sky::faces::{Finish, surroundings};
 use crate::compute::sky::{Outside, Sun};
@@ -105,4 +106,39 @@ pub fn behind_boxes(
     let room = own_box(room).turned(orientation.turn());
     let around = surroundings(&open, sun, &turned, room, skyline, &viewpoints, progress)?;
     Ok(open.behind(Arc::new(around)))
+}
+/// The boxes of a scene, for many skies.
+pub struct Before {
+    boxes: Vec<(Solid, Finish)>,
+    corners: Vec<DVec3>,
+}
+
+impl Before {
+    /// Before some apertures.
+    ///
+    /// # Errors
+    /// Boxes that cannot be.
+    pub fn of(keys: &[OutsideKeys], room: &BoxRoom, apertures: &[Aperture]) -> Result<Self, StudyError> {
+        Ok(Self { boxes: boxes(keys, room)?, corners: apertures.iter().flat_map(Aperture::corners).collect() })
+    }
+
+    /// Are there none?
+    pub fn is_empty(&self) -> bool {
+        self.boxes.is_empty()
+    }
+
+    /// A sky behind them.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub fn stand(
+        &self,
+        outside: Outside,
+        sun: Option<&Sun>,
+        room: &BoxRoom,
+        orientation: Orientation,
+        progress: &dyn Progress,
+    ) -> Result<Outside, Cancelled> {
+        behind_boxes(outside, sun, &self.boxes, room, orientation, &self.corners, progress)
+    }
 }

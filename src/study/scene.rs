@@ -1,7 +1,7 @@
 //! The scene as it is meant: keys judged together, systems loaded, everything in the units and frames of `compute`.
 
-use super::control::ControlQuestion;
 use super::control::year::CONTROLLED;
+use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::luminaires;
 use super::near_field::near_field;
@@ -11,7 +11,7 @@ use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, SceneFile, SystemKeys,
 };
 use super::scene_places::{apertures, room, sensors, within};
-use super::sky::{Illuminances, illuminances, outside_from_keys};
+use super::sky::{HourOfWeather, Illuminances, hour_of_weather, illuminances, outside_from_keys};
 use super::sun_position::parse_local_time;
 use super::system::{Need, System, SystemLibrary};
 use crate::compute::angle::Bearing;
@@ -107,6 +107,8 @@ pub struct Scene {
     pub diffuse_interpolation: DiffuseScheme,
     /// How an aperture's light is integrated at a sensor.
     pub near_field: NearField,
+    /// The hour of weather that sky and sun are; `None` for skies of a model.
+    pub weather: Option<HourOfWeather>,
 }
 
 impl SceneFile {
@@ -145,6 +147,7 @@ impl Scene {
         let (outside, sun) =
             outside_from_keys(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
         let illuminances = illuminances(&file.sky, &file.site).map_err(|e| StudyError::key(e.key, e.message))?;
+        let weather = hour_of_weather(&file.sky, &file.site, base).map_err(|e| StudyError::key(e.key, e.message))?;
         let facade = Bearing::from_degrees(file.site.azimuth);
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
@@ -244,6 +247,7 @@ impl Scene {
             sun_interpolation: file.compute.sun_interpolation,
             diffuse_interpolation: file.compute.diffuse_interpolation,
             near_field: near_field(file.compute.near_field, file.compute.near_field_samples)?,
+            weather,
         })
     }
 
@@ -342,6 +346,11 @@ fn controlled_state(
             let state = library.controlled_description(&asked.base.join(path), asked)?;
             Ok(SystemKeys::File { path: path.clone(), state: Some(state) })
         }
+        SystemKeys::Family { states, state: Some(word) } if word == CONTROLLED => {
+            let asked = asked.ok_or_else(without)?;
+            let state = pick_state(&Device::of_family(states), asked)?;
+            Ok(SystemKeys::Family { states: states.clone(), state: Some(state) })
+        }
         other => Ok(other.clone()),
     }
 }
@@ -362,7 +371,9 @@ fn hour(file: &SceneFile) -> Result<Option<f64>, StudyError> {
 /// The state that keys name.
 fn wanted_state(keys: &SystemKeys) -> Option<String> {
     match keys {
-        SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } => state.clone(),
+        SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
+            state.clone()
+        }
         SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => None,
     }
 }

@@ -6,16 +6,19 @@
 mod dst;
 mod outside;
 mod sky;
+mod system;
 pub(super) mod units;
 
 pub use self::dst::DstKey;
 pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
+pub use self::system::{FamilyState, IdealKind, SystemKeys};
 pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;
+pub use super::weather_keys::{LightKey, OffsetKey};
+pub use super::year_keys::YearKeys;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 pub use outside::{BoxKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
 
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,6 +44,9 @@ pub struct SceneFile {
     /// How to compute.
     #[serde(default)]
     pub compute: ComputeKeys,
+    /// A year of weather, and what is asked of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub year: Option<YearKeys>,
     /// What is set beside each other: the tray of the window, the columns of `cfs compare`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<CompareKeys>,
@@ -187,130 +193,6 @@ impl<'de> Deserialize<'de> for ApertureReflectance {
         }
         deserializer.deserialize_any(Visitor)
     }
-}
-
-/// `aperture.system`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "SystemAsTyped", into = "SystemAsTyped")]
-pub enum SystemKeys {
-    /// `{ ideal = "transparent", transmittance = 1.0 }`
-    Ideal {
-        /// Transparent or diffuse.
-        kind: IdealKind,
-        /// 0 … 1
-        transmittance: f64,
-    },
-    /// `{ file = "system.xml" }`
-    File {
-        /// Relative to the scene file.
-        path: PathBuf,
-        /// Key of the state in a file of several.
-        state: Option<String>,
-    },
-    /// `{ catalogue = "product-key", state = "45" }`
-    Catalogue {
-        /// Product key.
-        key: String,
-        /// Key of the state, or "controlled".
-        state: Option<String>,
-    },
-    /// `{ luminaires = "x.index.csv" }`: luminaire files as a host takes them.
-    Luminaires {
-        /// Their index, relative to the scene file.
-        index: PathBuf,
-        /// Member of a series.
-        set: Option<String>,
-    },
-}
-
-/// All keys that `aperture.system` may have; which belong together is judged afterwards, so that the message can say.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
-#[serde(deny_unknown_fields)]
-struct SystemAsTyped {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    ideal: Option<IdealKind>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    transmittance: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<PathBuf>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    catalogue: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    state: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    luminaires: Option<PathBuf>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    set: Option<String>,
-}
-
-impl TryFrom<SystemAsTyped> for SystemKeys {
-    type Error = String;
-
-    fn try_from(typed: SystemAsTyped) -> Result<Self, String> {
-        if let SystemAsTyped { luminaires: Some(index), set, .. } = &typed {
-            let keys = Self::Luminaires { index: index.clone(), set: set.clone() };
-            if SystemAsTyped::from(keys.clone()) == typed {
-                return Ok(keys);
-            }
-        }
-        match typed {
-            SystemAsTyped {
-                ideal: Some(kind),
-                transmittance: Some(transmittance),
-                file: None,
-                catalogue: None,
-                state: None,
-                luminaires: None,
-                set: None,
-            } => Ok(Self::Ideal { kind, transmittance }),
-            SystemAsTyped {
-                ideal: None,
-                transmittance: None,
-                file: Some(path),
-                catalogue: None,
-                state,
-                luminaires: None,
-                set: None,
-            } => Ok(Self::File { path, state }),
-            SystemAsTyped {
-                ideal: None,
-                transmittance: None,
-                file: None,
-                catalogue: Some(key),
-                state,
-                luminaires: None,
-                set: None,
-            } => Ok(Self::Catalogue { key, state }),
-            _ => Err(
-                "system needs exactly one of: ideal and transmittance; file; catalogue; luminaires (state goes with \
-                      file and catalogue, set with luminaires)"
-                    .into(),
-            ),
-        }
-    }
-}
-
-impl From<SystemKeys> for SystemAsTyped {
-    fn from(keys: SystemKeys) -> Self {
-        match keys {
-            SystemKeys::Ideal { kind, transmittance } => {
-                Self { ideal: Some(kind), transmittance: Some(transmittance), ..Self::default() }
-            }
-            SystemKeys::File { path, state } => Self { file: Some(path), state, ..Self::default() },
-            SystemKeys::Catalogue { key, state } => Self { catalogue: Some(key), state, ..Self::default() },
-            SystemKeys::Luminaires { index, set } => Self { luminaires: Some(index), set, ..Self::default() },
-        }
-    }
-}
-
-/// `system.ideal`
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum IdealKind {
-    /// Light goes straight on.
-    Transparent,
-    /// Lambertian emission, τ independent of incidence.
-    Diffuse,
 }
 
 /// `[site]`

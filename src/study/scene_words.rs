@@ -60,6 +60,10 @@ pub fn system(keys: &SystemKeys) -> String {
     match keys {
         SystemKeys::Catalogue { key, state } => with_state(key.clone(), state),
         SystemKeys::File { path, state } => with_state(path.display().to_string(), state),
+        SystemKeys::Family { states, state } => {
+            let first = states.first().map_or_else(String::new, |one| one.file.display().to_string());
+            with_state(format!("{first} …"), state)
+        }
         SystemKeys::Luminaires { index, set } => with_state(index.display().to_string(), set),
         SystemKeys::Ideal { kind: IdealKind::Transparent, .. } => texts::IDEAL_TRANSPARENT.into(),
         SystemKeys::Ideal { kind: IdealKind::Diffuse, .. } => texts::IDEAL_DIFFUSE.into(),

@@ -1,8 +1,10 @@
 //! From the scene's `[sky]` and `[site]` to sky and sun: which keys belong together, and what they may be.
 
+mod hour;
 mod illuminance;
 mod keys;
 
+pub use self::hour::{HourOfWeather, clock_warning, hour_of_weather, places_apart};
 pub use self::illuminance::{Illuminances, Source, TWILIGHT, illuminances};
 pub use self::keys::{CLEANEST, HAZIEST, HIGHEST, LOWEST, SkyKeyError};
 
@@ -12,8 +14,9 @@ use super::files;
 use super::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use super::skyline::{behind_skyline, skyline};
 use crate::compute::direction::{Dir, World};
-use crate::compute::sky::perez::PerezState;
+use crate::compute::sky::perez::{Air, PerezState};
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Scan, Sun, cie};
+use crate::compute::weather::Hour;
 use crate::formats::scan::read_scan;
 use std::path::Path;
 
@@ -25,6 +28,10 @@ pub fn outside_from_keys(
     base_dir: &Path,
 ) -> Result<(Outside, Option<Sun>), SkyKeyError> {
     check_ranges(sky, site)?;
+    if let Some(one) = hour_of_weather(sky, site, base_dir)? {
+        let hour = &one.hour;
+        return finished(hour::sky_of(hour, Outside::new)?, Some(hour.sun), hour.direct_normal, sky, site);
+    }
     check_model_keys(sky)?;
     let sun = sun_direction(sky, site)?;
     let (outside, direct_normal) = match sky.model {
@@ -38,6 +45,8 @@ pub fn outside_from_keys(
             let light = of_sun(sky, site, sun)?;
             (scaled(distribution, light.diffuse_horizontal)?, light.direct_normal)
         }
+        // Judged above: a model of this name belongs to weather, which was not given.
+        SkyModelKey::Weather => return Err(wrong("sky.weather", "missing: the name of a weather file")),
         SkyModelKey::Scan => (measured(sky, base_dir)?, sky.sun.direct_normal.unwrap_or(0.0)),
         SkyModelKey::Perez => {
             let sun = sun.ok_or_else(|| wrong("sky.sun", "model \"perez\" needs altitude and azimuth, or sky.time"))?;
@@ -47,6 +56,39 @@ pub fn outside_from_keys(
     if direct_normal > 0.0 && sun.is_none() {
         return Err(wrong("sky.sun", "direct_normal needs altitude and azimuth, or sky.time"));
     }
+    finished(outside, sun, direct_normal, sky, site)
+}
+
+/// Sky and sun of an hour of many: with the ground of `site` and the skyline of `sky`, whose model and values are not read;
+/// scaled to 1e-5.
+///
+/// # Errors
+/// Ground or skyline out of range.
+pub fn outside_of_hour(hour: &Hour, sky: &SkyKeys, site: &SiteKeys) -> Result<(Outside, Option<Sun>), SkyKeyError> {
+    finished(hour::sky_of(hour, Outside::quickly)?, Some(hour.sun), hour.direct_normal, sky, site)
+}
+
+/// The same under a sky that is equally bright all over: for what asks where the sun is, and whether there is light.
+///
+/// # Errors
+/// As [`outside_of_hour`].
+pub fn even_outside_of_hour(
+    hour: &Hour,
+    sky: &SkyKeys,
+    site: &SiteKeys,
+) -> Result<(Outside, Option<Sun>), SkyKeyError> {
+    let even = scaled(Distribution::uniform(), hour.diffuse_horizontal)?;
+    finished(even, Some(hour.sun), hour.direct_normal, sky, site)
+}
+
+/// Sun, ground and skyline added to a sky.
+fn finished(
+    outside: Outside,
+    sun: Option<Dir<World>>,
+    direct_normal: f64,
+    sky: &SkyKeys,
+    site: &SiteKeys,
+) -> Result<(Outside, Option<Sun>), SkyKeyError> {
     let beam = sun
         .filter(|sun| direct_normal > 0.0 && sun.altitude() > -SUN_HALF_ANGLE)
         .map(|direction| Sun { direction, direct_normal });
@@ -113,15 +155,13 @@ fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, 
         }
         return Ok((scaled(Distribution::uniform(), 0.0)?, sky.sun.direct_normal.unwrap_or(0.0)));
     }
-    if altitude <= 0.0 {
-        let message = format!(
-            "the sun is at {:.2}°: model \"perez\" with irradiances above 0 needs it above the horizon",
-            altitude.to_degrees()
-        );
-        return Err(wrong("sky.sun.altitude", message));
-    }
+    // With its centre on or below the horizon the sun is dark, and what light there is is twilight: the sky of a sun on
+    // the horizon.
+    let up = altitude > 0.0;
+    let (direct, sun, altitude) =
+        if up { (direct, sun, altitude) } else { (0.0, Dir::from_altitude_bearing(0.0, sun.bearing()), 0.0) };
     // Near the horizon a beam on the horizontal plane is more than the sun sends: the solar constant bounds it.
-    let direct_normal = direct / altitude.sin();
+    let direct_normal = if up { direct / altitude.sin() } else { 0.0 };
     if direct_normal > 1500.0 {
         let message = format!(
             "{direct} W/m² at a solar altitude of {:.2}° is {direct_normal:.0} W/m² towards the sun (allowed: up to 1500)",
@@ -135,14 +175,13 @@ fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, 
             let message = "0 W/m², but diffuse_horizontal is above 0 lx: give the irradiance that belongs to it";
             return Err(wrong("sky.diffuse_horizontal_irradiance", message));
         }
-        let beam = sky.sun.direct_normal.ok_or_else(|| {
-            wrong("sky.sun.direct_normal", "missing: without diffuse light there is no luminous efficacy for the beam")
-        })?;
-        return Ok((scaled(Distribution::uniform(), 0.0)?, beam));
     }
-    let state = PerezState::new(altitude, direct_normal, diffuse, eccentricity)
-        .ok_or_else(|| wrong("sky.diffuse_horizontal_irradiance", "these irradiances give no state of the sky"))?;
+    let state = PerezState::in_air(altitude, direct_normal, diffuse, Air { eccentricity, ..Air::UNKNOWN });
+    let beam = match (up, &state) {
+        (false, _) | (_, None) => 0.0,
+        (true, Some(state)) => sky.sun.direct_normal.unwrap_or(direct_normal * state.direct_efficacy()),
+    };
+    let Some(state) = state.filter(|_| !dark) else { return Ok((scaled(Distribution::uniform(), 0.0)?, beam)) };
     let illuminance = sky.diffuse_horizontal.unwrap_or(diffuse * state.diffuse_efficacy());
-    let beam = sky.sun.direct_normal.unwrap_or(direct_normal * state.direct_efficacy());
     Ok((scaled(Distribution::perez(&state, sun), illuminance)?, beam))
 }

@@ -1,6 +1,6 @@
 //! Where the systems of a scene come from: closed forms, files, the catalogue.
 
-use super::control::ControlQuestion;
+use super::control::{ControlQuestion, Device};
 use super::error::StudyError;
 use super::scene_file::{IdealKind, SystemKeys};
 use crate::compute::btdf::{Btdf, Dataset};
@@ -66,6 +66,18 @@ pub trait SystemLibrary: Sync {
 
     /// The state that a control picks for a product.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
+
+    /// What a control needs to know of a moving system.
+    ///
+    /// # Errors
+    /// No such system, or one that nothing moves.
+    fn device(&self, keys: &SystemKeys, base: &Path) -> Result<Device, StudyError> {
+        let _ = base;
+        match keys {
+            SystemKeys::Family { states, .. } => Ok(Device::of_family(states)),
+            _ => Err(StudyError::key("system", "no devices are known here")),
+        }
+    }
 
     /// The state that a control picks for a description in a file.
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {

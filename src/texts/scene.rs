@@ -192,6 +192,8 @@ texts! {
     const MODEL_UNIFORM = "Uniform" | "Gleichförmig";
     const MODEL_PEREZ = "Perez all-weather" | "Perez, alle Wetter";
     const MODEL_SCAN = "Measured (file)" | "Gemessen (Datei)";
+    const MODEL_WEATHER = "Hour of a weather file" | "Stunde einer Wetterdatei";
+    fn weather_at(file) = "{file}, at the date and time above" | "{file}, zu Datum und Uhrzeit oben";
     const FOLLOW_TURBIDITY = "Follow the sun, turbidity" | "Nach der Sonne, Trübung";
     const FOLLOW_TURBIDITY_TIP = "Clear skies by turbidity and elevation (Ineichen and Perez 2002), others typical ones (IES RP-21, 1984)" | "Klare Himmel nach Trübung und Höhe (Ineichen und Perez 2002), andere typische (IES RP-21, 1984)";
     const FOLLOW_RP21 = "Follow the sun, RP-21" | "Nach der Sonne, RP-21";

@@ -44,10 +44,12 @@ texts! {
     const UNIFORM_SKY = "uniform sky" | "gleichförmiger Himmel";
     const PEREZ_SKY = "Perez sky" | "Perez-Himmel";
     const MEASURED_SKY = "measured sky" | "gemessener Himmel";
+    const WEATHER_SKY = "weather file" | "Wetterdatei";
     const LIST_CIE = "CIE general sky" | "CIE-Himmel";
     const LIST_UNIFORM = "Uniform" | "Gleichförmig";
     const LIST_PEREZ = "Perez all-weather" | "Perez (alle Wetter)";
     const LIST_SCAN = "Measured (file)" | "Gemessen (Datei)";
+    const LIST_WEATHER = "Hour of a weather file" | "Stunde einer Wetterdatei";
 
     // How exact.
     const NO_ERROR_STATED = "no error stated" | "keine Unsicherheit angegeben";

@@ -17,3 +17,5 @@ mod report_cli;
 #[path = "../scenes/rooms.rs"]
 mod rooms;
 mod safe_cli;
+mod weather_cli;
+mod year_cli;

@@ -11,3 +11,4 @@ mod goniophotometer_glass;
 mod goniophotometer_slats;
 mod incidence_schemes;
 mod sky;
+mod weather;

@@ -340,6 +340,40 @@ fn perez_keys_give_a_day_and_a_night() {
 }
 
 #[test]
+fn perez_suns_below_the_horizon_are_dark_and_leave_twilight() {
+    let twilight = "model = 'perez'\nsun = { altitude = -3.0, azimuth = 95.0 }\n\
+                    direct_horizontal_irradiance = 5\ndiffuse_horizontal_irradiance = 12";
+    let (outside, disc) = keys(twilight, "").unwrap();
+    assert!(disc.is_none());
+    assert!((900.0..2000.0).contains(&outside.diffuse_horizontal()), "{}", outside.diffuse_horizontal());
+    let brightest = outside.sun_direction().unwrap();
+    assert!(brightest.altitude().abs() < 1e-12 && (brightest.bearing().degrees() - 95.0).abs() < 1e-9);
+    // A sun without any sky keeps its light.
+    let alone = "model = 'perez'\nsun = { altitude = 40.0, azimuth = 200.0 }\n\
+                 direct_horizontal_irradiance = 350\ndiffuse_horizontal_irradiance = 0";
+    let (outside, disc) = keys(alone, "").unwrap();
+    assert_eq!(outside.diffuse_horizontal(), 0.0);
+    assert!((80.0..160.0).contains(&(disc.unwrap().horizontal() / 350.0)));
+}
+
+#[test]
+fn a_date_brings_the_suns_distance_into_perez_skies() {
+    let facade = |time: &str| {
+        let sky = format!(
+            "model = 'perez'\n{time}\nsun = {{ altitude = 30.0, azimuth = 200.0 }}\ndiffuse_horizontal = 1e4\n\
+             direct_horizontal_irradiance = 200\ndiffuse_horizontal_irradiance = 150"
+        );
+        irradiance(&keys(&sky, "").unwrap().0, toward(0.0, 180.0)).value
+    };
+    // Angles say where the sun is, the time when: no place is needed.
+    let [january, none, july] = ["time = '2026-01-03T12:00'", "", "time = '2026-07-04T12:00'"].map(facade);
+    assert!((january / none - 1.0) * (july / none - 1.0) < 0.0, "{january} {none} {july}");
+    assert!((january / july - 1.0).abs() > 1e-3, "{january} {july}");
+    let one = "model = 'uniform'\ndiffuse_horizontal = 1.0\ntime = '2026-03-21T12:00'\nsun = { altitude = 3.0 }";
+    assert!(keys(one, "").unwrap_err().starts_with("sky.sun.azimuth: missing"));
+}
+
+#[test]
 fn perez_states_agree_with_the_reference() {
     use cfs::compute::sky::perez::PerezState;
     let Some(path) = data("reference/cases/sky/perez_parameters.csv") else { return };

@@ -17,3 +17,4 @@ mod luminaire;
 mod readers;
 mod readers_mended;
 mod readers_replay;
+mod weather;

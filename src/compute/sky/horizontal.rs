@@ -8,16 +8,26 @@ use crate::compute::quadrature::{Tolerance, integrate};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Relative accuracy of the inner and the outer integral: together well below 1e-8.
-const INNER: Tolerance = Tolerance::relative(1e-11);
-const OUTER: Tolerance = Tolerance::relative(1e-10);
+const EXACT: [Tolerance; 2] = [Tolerance::relative(1e-11), Tolerance::relative(1e-10)];
+/// The same for skies of which there are thousands: well below 1e-5 together.
+const QUICK: [Tolerance; 2] = [Tolerance::relative(1e-7), Tolerance::relative(1e-6)];
 
 /// ∫ L cosZ dω over the upper hemisphere, L relative.
 pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
+    within(distribution, EXACT)
+}
+
+/// The same with an error of 1e-5 at most, several times as fast where there is a circumsolar part.
+pub(super) fn horizontal_illuminance_quickly(distribution: &Distribution) -> Estimate {
+    within(distribution, QUICK)
+}
+
+fn within(distribution: &Distribution, tolerances: [Tolerance; 2]) -> Estimate {
     match &distribution.model {
         Model::Uniform => Estimate::exact(PI),
         // π/3 + (2/3)·(2π/3)
         Model::Overcast => Estimate::exact(7.0 * PI / 9.0),
-        Model::Gradated(sky, sun) => gradated(sky, sun.z.atan2(sun.truncate().length())),
+        Model::Gradated(sky, sun) => gradated(sky, sun.z.atan2(sun.truncate().length()), tolerances),
         Model::Scan(scan) => {
             let flux = tregenza_patches()
                 .iter()
@@ -37,13 +47,13 @@ pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
 /// Without a circumsolar part: 2π ∫ φ(z) z dz. With one, in polar coordinates about the sun, where its tip is no
 /// longer one: ∫ f(χ) sinχ [∫ φ(z) z dψ] dχ with z = cosχ sin h + sinχ cos h cosψ. Knots are where a circle about the
 /// sun touches the horizon or the circle on which the gradation becomes 0, and where the indicatrix becomes 0.
-fn gradated(sky: &Gradated, altitude: f64) -> Estimate {
+fn gradated(sky: &Gradated, altitude: f64, [inner_tolerance, outer_tolerance]: [Tolerance; 2]) -> Estimate {
     let zero = gradation_zero(sky);
     if sky.symmetric() {
         let mut knots = vec![0.0, 1.0];
         knots.extend(zero);
         knots.sort_by(f64::total_cmp);
-        return integrate(|z| sky.gradation(z) * z, &knots, OUTER) * (2.0 * PI * sky.base.max(0.0));
+        return integrate(|z| sky.gradation(z) * z, &knots, outer_tolerance) * (2.0 * PI * sky.base.max(0.0));
     }
     let (sin_h, cos_h) = altitude.sin_cos();
     let zenith_angle = FRAC_PI_2 - altitude;
@@ -71,14 +81,14 @@ fn gradated(sky: &Gradated, altitude: f64) -> Estimate {
                     sky.gradation(z) * z.max(0.0)
                 },
                 &inner_knots,
-                INNER,
+                inner_tolerance,
             ) * 2.0;
             let weight = sky.indicatrix(chi) * sin_chi;
             inner_error = inner_error.max(inner.error * weight);
             inner.value * weight
         },
         &knots,
-        OUTER,
+        outer_tolerance,
     );
     Estimate::new(outer.value, outer.error + PI * inner_error)
 }

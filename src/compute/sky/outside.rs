@@ -5,6 +5,7 @@ use super::horizontal;
 use super::open_cells::OpenCells;
 use super::scan::Scan;
 use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::Estimate;
 use crate::compute::surroundings::Surroundings;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -66,13 +67,26 @@ impl Outside {
     /// A sky scaled so that the exact integral over the open hemisphere is `diffuse_horizontal` \[lx\], over black ground.
     /// 0 lx is a black sky of any model.
     pub fn new(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
+        Self::scaled_by(distribution, diffuse_horizontal, horizontal::horizontal_illuminance)
+    }
+
+    /// The same scaled to 1e-5, for skies of which there are thousands.
+    pub fn quickly(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
+        Self::scaled_by(distribution, diffuse_horizontal, horizontal::horizontal_illuminance_quickly)
+    }
+
+    fn scaled_by(
+        distribution: Distribution,
+        diffuse_horizontal: f64,
+        illuminance: fn(&Distribution) -> Estimate,
+    ) -> Result<Self, SkyError> {
         if !(diffuse_horizontal >= 0.0 && diffuse_horizontal.is_finite()) {
             return Err(SkyError::Illuminance(diffuse_horizontal));
         }
         let scale = if diffuse_horizontal == 0.0 {
             0.0
         } else {
-            let relative = horizontal::horizontal_illuminance(&distribution).value;
+            let relative = illuminance(&distribution).value;
             let scale = diffuse_horizontal / relative;
             if !(relative > 0.0 && scale.is_finite() && scale > 0.0) {
                 return Err(SkyError::Unscalable(relative));

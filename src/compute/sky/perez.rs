@@ -7,12 +7,24 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Solar constant. \[W/m²\]
-const SOLAR_CONSTANT: f64 = 1367.0;
+/// Solar constant at the sun's mean distance. \[W/m²\]
+pub const SOLAR_CONSTANT: f64 = 1367.0;
 /// Lower borders of the clearness bins 2 … 8.
 const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
-/// Precipitable water where nothing is known of it. \[cm\]
-const WATER: f64 = 2.0;
+
+/// What is known of the air and of the distance to the sun.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Square of the sun's mean distance over that of the day, see [`eccentricity`].
+    pub eccentricity: f64,
+    /// Precipitable water. \[cm\]
+    pub water: f64,
+}
+
+impl Air {
+    /// No date, and nothing known of the water: 2 cm.
+    pub const UNKNOWN: Self = Self { eccentricity: 1.0, water: 2.0 };
+}
 
 /// a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin.
 const LUMINANCE: [[[f64; 4]; 5]; 8] = [
@@ -118,6 +130,8 @@ pub struct PerezState {
     /// Zenith angle of the sun. \[rad\]
     zenith: f64,
     bin: usize,
+    /// Precipitable water. \[cm\]
+    water: f64,
 }
 
 impl PerezState {
@@ -125,12 +139,21 @@ impl PerezState {
     /// the day's [`eccentricity`], 1 where there is no date.
     /// `None` where the model has no meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
     pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, eccentricity: f64) -> Option<Self> {
-        let valid = altitude > 0.0
-            && altitude <= FRAC_PI_2 + 1e-12
+        (altitude > 0.0 && diffuse_horizontal > 0.0)
+            .then(|| Self::in_air(altitude, direct_normal, diffuse_horizontal, Air { eccentricity, ..Air::UNKNOWN }))
+            .flatten()
+    }
+
+    /// The same for an hour of a year: with the distance of the sun and the water in the air; with the sun on the
+    /// horizon (for twilight, when it is below); and without diffuse light, when the clearness is at its upper border.
+    /// `None` for no light at all, and for negative or infinite input.
+    pub fn in_air(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, air: Air) -> Option<Self> {
+        let valid = (0.0..=FRAC_PI_2 + 1e-12).contains(&altitude)
             && direct_normal >= 0.0
             && direct_normal.is_finite()
-            && diffuse_horizontal > 0.0
-            && diffuse_horizontal.is_finite();
+            && diffuse_horizontal >= 0.0
+            && diffuse_horizontal.is_finite()
+            && direct_normal + diffuse_horizontal > 0.0;
         if !valid {
             return None;
         }
@@ -139,22 +162,22 @@ impl PerezState {
         let clearness = ((diffuse_horizontal + direct_normal) / diffuse_horizontal + cubed) / (1.0 + cubed);
         let clearness = clearness.clamp(1.0, 12.009);
         let air_mass = 1.0 / (zenith.cos() + 0.15 * (93.885 - zenith.to_degrees()).powf(-1.253));
-        let brightness = (diffuse_horizontal * air_mass / (SOLAR_CONSTANT * eccentricity)).clamp(0.01, 0.6);
+        let brightness = (diffuse_horizontal * air_mass / (SOLAR_CONSTANT * air.eccentricity)).clamp(0.01, 0.6);
         let bin = BIN_BORDERS.iter().filter(|&&border| clearness >= border).count();
         let coefficients = luminance_coefficients(bin, clearness, brightness, zenith);
-        Some(Self { clearness, brightness, coefficients, zenith, bin })
+        Some(Self { clearness, brightness, coefficients, zenith, bin, water: air.water })
     }
 
     /// Luminous efficacy of the diffuse light. [lm/W]
     pub fn diffuse_efficacy(&self) -> f64 {
         let [a, b, c, d] = DIFFUSE_EFFICACY[self.bin];
-        (a + b * WATER + c * self.zenith.cos() + d * self.brightness.ln()).max(0.0)
+        (a + b * self.water + c * self.zenith.cos() + d * self.brightness.ln()).max(0.0)
     }
 
     /// Luminous efficacy of the beam. [lm/W]
     pub fn direct_efficacy(&self) -> f64 {
         let [a, b, c, d] = DIRECT_EFFICACY[self.bin];
-        (a + b * WATER + c * (5.73 * self.zenith - 5.0).exp() + d * self.brightness).max(0.0)
+        (a + b * self.water + c * (5.73 * self.zenith - 5.0).exp() + d * self.brightness).max(0.0)
     }
 }
 

@@ -36,7 +36,7 @@ pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
 
 /// Do two scenes ask for the same light? What is compared does not count.
 pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
-    let SceneFile { room, aperture, outside, site, sky, sensors, control, compute, compare: _ } = a;
+    let SceneFile { room, aperture, outside, site, sky, sensors, control, compute, year: _, compare: _ } = a;
     (room, site, compute) == (&b.room, &b.site, &b.compute)
         && (aperture, outside, sky) == (&b.aperture, &b.outside, &b.sky)
         && (sensors, control) == (&b.sensors, &b.control)

@@ -6,6 +6,7 @@ use crate::catalogue::{Product, blind_of, control_curve};
 use crate::compute::control::cut_off::SlatRow;
 use crate::compute::system::slats::SlatProfile;
 use crate::formats::system_toml::SystemFile;
+use crate::study::scene_file::FamilyState;
 
 /// A device that a controller can set.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +51,17 @@ impl Device {
             keys,
             curve: curve.iter().map(|point| [point.profile_angle, point.value]).collect(),
             section: blind.as_ref().and_then(SlatRow::of),
+        }
+    }
+
+    /// Of a family of files.
+    pub fn of_family(states: &[FamilyState]) -> Self {
+        Self {
+            name: states.first().map_or_else(String::new, |one| one.file.display().to_string()),
+            keys: states.iter().map(|one| one.state.clone()).collect(),
+            values: Some(states.iter().map(|one| one.value).collect()),
+            curve: Vec::new(),
+            section: None,
         }
     }
 

@@ -9,7 +9,6 @@
 use super::device::section_from_keys;
 use super::keys::ControlKeys;
 use super::{Device, inputs, settings};
-use crate::catalogue::Product;
 use crate::compute::angle::Bearing;
 use crate::compute::control::controller::{Controller, Reason};
 use crate::compute::control::cut_off::SlatRow;
@@ -122,18 +121,23 @@ pub struct Moment {
     pub settings: Vec<Setting>,
 }
 
-/// The apertures whose state a control picks, with what is known of them. Products come from `product`.
+/// The apertures whose state a control picks, with what is known of them; `device` finds what moves.
 ///
 /// # Errors
 /// No such product, or a control that cannot be.
 pub fn moving(
     file: &SceneFile,
     base: &Path,
-    product: &dyn Fn(&str) -> Result<Product, StudyError>,
+    device: &dyn Fn(&SystemKeys) -> Result<Device, StudyError>,
 ) -> Result<Vec<Moving>, StudyError> {
     let mut list = Vec::new();
     for (index, aperture) in file.aperture.iter().enumerate() {
-        let SystemKeys::Catalogue { key, state: Some(word) } = &aperture.system else { continue };
+        let (SystemKeys::Catalogue { state: Some(word), .. }
+        | SystemKeys::File { state: Some(word), .. }
+        | SystemKeys::Family { state: Some(word), .. }) = &aperture.system
+        else {
+            continue;
+        };
         if word != CONTROLLED {
             continue;
         }
@@ -143,7 +147,7 @@ pub fn moving(
                 "\"controlled\" needs a [control] section with a mode",
             )
         })?;
-        let device = Device::of(&product(key)?)?;
+        let device = device(&aperture.system)?;
         // Judged here, so that a wrong key is told before the year starts.
         settings(keys, &device, base)?;
         let described = keys.slats.as_ref().map(section_from_keys).transpose()?;

@@ -1,6 +1,7 @@
 //! `[sky]` as typed: model, sun, and the illuminances that both are scaled to.
 
 use super::outside::SkylineKeys;
+use crate::study::weather_keys::{LightKey, OffsetKey};
 use crate::texts::words as texts;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -17,6 +18,9 @@ pub enum SkyModelKey {
     Perez,
     /// 145 measured luminances.
     Scan,
+    /// None: the hour of a weather file, which `sky.weather` names.
+    #[serde(skip)]
+    Weather,
 }
 
 impl SkyModelKey {
@@ -30,13 +34,24 @@ impl SkyModelKey {
             Self::Uniform => (texts::LIST_UNIFORM, texts::UNIFORM_SKY, "uniform"),
             Self::Perez => (texts::LIST_PEREZ, texts::PEREZ_SKY, "Perez all-weather"),
             Self::Scan => (texts::LIST_SCAN, texts::MEASURED_SKY, "measured scan"),
+            Self::Weather => (texts::LIST_WEATHER, texts::WEATHER_SKY, "Perez all-weather, hour of a weather file"),
         };
         [list.get(), title.get(), header]
     }
 
     /// Is it scaled to illuminances that are stated? Perez's sky and a measured one bring their own.
     pub const fn takes_illuminances(self) -> bool {
-        !matches!(self, Self::Perez | Self::Scan)
+        !matches!(self, Self::Perez | Self::Scan | Self::Weather)
+    }
+
+    /// What stands for the model in a sky without one.
+    const fn of_weather() -> Self {
+        Self::Weather
+    }
+
+    /// Nothing to write: `sky.weather` says it.
+    const fn is_weather(&self) -> bool {
+        matches!(self, Self::Weather)
     }
 }
 
@@ -73,8 +88,19 @@ impl IlluminanceKey {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkyKeys {
-    /// Which model.
+    /// Which model; not written with `weather`.
+    #[serde(default = "SkyModelKey::of_weather", skip_serializing_if = "SkyModelKey::is_weather")]
     pub model: SkyModelKey,
+    /// A weather file (.epw, .wea) or a year that comes with the program, whose hour at `time` stands instead of a model
+    /// and its values: month, day and time of day count, the row's own year is used.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weather: Option<PathBuf>,
+    /// Where the weather's illuminances come from.
+    #[serde(default, skip_serializing_if = "LightKey::is_default")]
+    pub light: LightKey,
+    /// Minutes by which the weather's intervals lie later than the file says, or "auto".
+    #[serde(default, skip_serializing_if = "OffsetKey::is_default")]
+    pub sun_offset_minutes: OffsetKey,
     /// CIE type 1 … 16.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub cie_type: Option<u8>,
@@ -90,7 +116,8 @@ pub struct SkyKeys {
     /// The sun by angles, and its beam.
     #[serde(default)]
     pub sun: SunKeys,
-    /// Local time by the clock (`site.utc_offset`, `site.dst`), `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles.
+    /// Local time by the clock (`site.utc_offset`, `site.dst`), `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles; beside
+    /// them its date alone counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeKey>,
     /// Perez: direct irradiance on the horizontal plane. \[W/m²\]

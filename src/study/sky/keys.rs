@@ -4,6 +4,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::limits;
 use crate::compute::sky::perez::eccentricity;
+use crate::compute::weather::Day;
 use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 
@@ -80,7 +81,8 @@ pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
 pub(super) fn eccentricity_of(sky: &SkyKeys) -> Result<f64, SkyKeyError> {
     let Some(time) = &sky.time else { return Ok(1.0) };
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
-    Ok(eccentricity(time.day_of_year().unsigned_abs()))
+    let day = Day::new(time.year(), time.month().unsigned_abs(), time.day().unsigned_abs());
+    Ok(day.map_or(1.0, |day| eccentricity(day.of_common_year())))
 }
 
 /// From angles, else from time; `None` with neither.

@@ -5,7 +5,7 @@ use crate::app::panels::fields::{figure, lines, number, optional};
 use crate::app::scene::follow;
 use crate::app::theme;
 use crate::compute::sky::availability::Cover;
-use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey};
+use crate::study::scene_file::{IlluminanceKey, LightKey, OffsetKey, SceneFile, SkyKeys, SkyModelKey};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{ComboBox, TextEdit, Ui};
@@ -46,6 +46,7 @@ const fn model_word(model: SkyModelKey) -> Text {
         SkyModelKey::Uniform => texts::MODEL_UNIFORM,
         SkyModelKey::Perez => texts::MODEL_PEREZ,
         SkyModelKey::Scan => texts::MODEL_SCAN,
+        SkyModelKey::Weather => texts::MODEL_WEATHER,
     }
 }
 
@@ -183,6 +184,10 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
             }
         }
         SkyModelKey::Uniform => {}
+        SkyModelKey::Weather => {
+            let file = sky.weather.as_ref().map_or_else(String::new, |file| file.display().to_string());
+            ui.label(texts::weather_at(file));
+        }
     }
 }
 
@@ -194,6 +199,9 @@ fn choose_model(sky: &mut SkyKeys, model: SkyModelKey) {
     sky.direct_horizontal_irradiance = perez.then_some(300.0);
     sky.diffuse_horizontal_irradiance = perez.then_some(120.0);
     sky.file = None;
+    sky.weather = None;
+    sky.light = LightKey::default();
+    sky.sun_offset_minutes = OffsetKey::default();
     match model {
         SkyModelKey::Perez => {
             sky.diffuse_horizontal = None;

@@ -1,0 +1,27 @@
+//! Draws a year as a compact table from a weather file: `cargo run --example draw_weather IN.epw OUT.weather.txt NAME REGION COUNTRY SOURCE`.
+//!
+//! Where the file's clock is off by its own irradiances, the table states the shift at which they close, and how well.
+
+use cfs::compute::weather::Station;
+use cfs::formats::weather::table;
+use cfs::study::files::{self, Replace};
+use cfs::study::weather::load;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [input, output, name, region, country, source] = words.as_slice() else {
+        return Err("expected IN.epw OUT.weather.txt NAME REGION COUNTRY SOURCE (an empty word for none)".into());
+    };
+    let mut weather = load(Path::new(input), Path::new(""))?;
+    let [name, region, country, source] = [name, region, country, source].map(String::clone);
+    weather.station = Station { name, region, country, source, ..weather.station };
+    if let Some(closure) = weather.closure()?.filter(|closure| closure.is_off()) {
+        weather.clock = closure.best_offset;
+        weather.tested = Some(closure);
+    }
+    let text = table::write(&weather)?;
+    files::write(Path::new(output), text.as_bytes(), Replace::But(&[]))?;
+    println!("{output}: {} records, {} kB, clock {:+} min", weather.records.len(), text.len() / 1000, weather.clock);
+    Ok(())
+}

@@ -1,0 +1,198 @@
+//! `cfs year SCENE`: a year of weather in a room, hour by hour, and what it comes to.
+
+use super::output::{number, print};
+use super::progress::TerminalProgress;
+use super::writing::Over;
+use super::year_json::to_json;
+use crate::formats::FileKind;
+use crate::study::inputs::with_absolute_names;
+use crate::study::year::{Step, Way, Year, figures, scene_at, year};
+use crate::study::{Library, SceneFile, Session, StudyError, read_scene_file};
+use anyhow::{Context as _, anyhow, bail};
+use jiff::civil::{Date, DateTime};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// A year of weather in a room: illuminances hour by hour, daylight, glare and lighting
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  cfs year office.toml                                     table of hours on standard output
+  cfs year office.toml --out hours.csv --json              the table into a file, figures as JSON
+  cfs year office.toml --day 06-21                         one day of it
+  cfs year office.toml --scene-at 2005-06-21T12:30 --out hour.toml    that hour as a scene for cfs room
+
+The scene says which weather in [year]; [sky] is not read but for skyline and obstruction.
+Columns: time (middle of the interval, local standard time, the row's own year), sun_altitude_deg, sun_azimuth_deg (where the
+sun was taken), direct_normal_lx, diffuse_horizontal_lx, state_N (of aperture N where a control picks it; empty in the
+dark), E_i and Ev_i (sensors and eyes from 1, lx), E_error_i and Ev_error_i (estimated absolute errors), S_i and Sv_i (of these
+the sun straight through, where something lets it through unscattered), lighting_W_m2 (with [year.lighting]).")]
+pub struct YearArgs {
+    /// Scene file (TOML) with [year]
+    pub scene: PathBuf,
+    /// CSV file to write; with --scene-at the scene
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// What may be written over.
+    #[command(flatten)]
+    pub over: Over,
+    /// Figures, with what the hours' errors leave open of them, on standard output
+    #[arg(long)]
+    pub json: bool,
+    /// One day: YYYY-MM-DD, or MM-DD
+    #[arg(long, value_name = "DATE", conflicts_with_all = ["month", "from", "to"])]
+    pub day: Option<String>,
+    /// One month, 1 to 12
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12), conflicts_with_all = ["from", "to"])]
+    pub month: Option<u8>,
+    /// From this day on, MM-DD
+    #[arg(long, value_name = "DATE")]
+    pub from: Option<String>,
+    /// Up to and with this day, MM-DD
+    #[arg(long, value_name = "DATE")]
+    pub to: Option<String>,
+    /// Write the hour that holds a time as a scene of its own, states fixed
+    #[arg(long, value_name = "TIME", requires = "out", conflicts_with_all = ["json", "day", "month", "from", "to"])]
+    pub scene_at: Option<String>,
+}
+
+/// Runs the command; errors name the file and the key.
+pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
+    let name = args.scene.display();
+    let kind = if args.scene_at.is_some() { FileKind::Scene } else { FileKind::Csv };
+    args.over.check([&*args.scene], args.out.as_deref(), kind)?;
+    let file = read_scene_file(&args.scene)?;
+    let base = args.scene.parent().unwrap_or(Path::new("."));
+    let told = |error: StudyError| anyhow!("{name}: {error}");
+    let progress = TerminalProgress::new();
+    if let (Some(time), Some(out)) = (&args.scene_at, &args.out) {
+        let scene = scene_at(&file, base, library, moment(time)?, &progress).map_err(told)?;
+        return write_scene(args, &scene, base, out);
+    }
+    let wanted = wanted(args)?;
+    let year = year(&file, base, library, &Session::new(), &*wanted, &progress).map_err(told)?;
+    drop(progress);
+    if let Some(path) = &args.out {
+        args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
+    }
+    if args.json {
+        print(&format!("{:#}\n", to_json(&year, &figures(&year), &file)))?;
+    } else if args.out.is_none() {
+        print(&csv(&year))?;
+    }
+    for note in &year.notes {
+        tell!("note: {note}");
+    }
+    let by = match year.light.way {
+        Way::Coefficients => "with coefficients",
+        Way::Rooms => "each as a room",
+    };
+    let lit = year.chosen.len() - year.light.dark;
+    tell!("{} steps, {lit} with light, computed {by} for {} sets of states", year.chosen.len(), year.light.sets);
+    Ok(())
+}
+
+/// A scene that finds its files from where it is written.
+fn write_scene(args: &YearArgs, scene: &SceneFile, base: &Path, out: &Path) -> anyhow::Result<()> {
+    let folder = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let beside = out.parent().map(folder) == Some(folder(base));
+    let scene = if beside { scene.clone() } else { with_absolute_names(scene, base) };
+    let text = toml::to_string(&scene).context("the scene")?;
+    args.over.write(out, FileKind::Scene, text.as_bytes())?;
+    Ok(())
+}
+
+/// A time as `--scene-at` takes it.
+fn moment(text: &str) -> anyhow::Result<DateTime> {
+    text.parse().map_err(|_| anyhow!("--scene-at {text}: no time; expected YYYY-MM-DDTHH:MM"))
+}
+
+/// Month and day, and the year where it is given.
+fn day(option: &str, text: &str) -> anyhow::Result<(Option<i16>, (i8, i8))> {
+    if let Ok(date) = text.parse::<Date>() {
+        return Ok((Some(date.year()), (date.month(), date.day())));
+    }
+    // A leap year has every day that any year has.
+    let date = format!("2024-{text}").parse::<Date>();
+    let date = date.map_err(|_| anyhow!("{option} {text}: no day; expected YYYY-MM-DD or MM-DD"))?;
+    Ok((None, (date.month(), date.day())))
+}
+
+/// Which steps are asked for.
+type Wanted = Box<dyn Fn(&Step) -> bool>;
+
+fn wanted(args: &YearArgs) -> anyhow::Result<Wanted> {
+    let of = |step: &Step| (step.time.month(), step.time.day());
+    if let Some(text) = &args.day {
+        // Rows of a typical year have years of their own, which nobody knows by heart: month and day count.
+        let (_, wanted) = day("--day", text)?;
+        return Ok(Box::new(move |step| of(step) == wanted));
+    }
+    if let Some(month) = args.month {
+        return Ok(Box::new(move |step| step.month == month));
+    }
+    let from = args.from.as_ref().map_or(Ok((1, 1)), |text| day("--from", text).map(|(_, day)| day))?;
+    let to = args.to.as_ref().map_or(Ok((12, 31)), |text| day("--to", text).map(|(_, day)| day))?;
+    if from > to {
+        bail!("--from {}-{} is after --to {}-{}; expected days of one calendar year", from.0, from.1, to.0, to.1);
+    }
+    Ok(Box::new(move |step| (from..=to).contains(&of(step))))
+}
+
+/// The table of steps.
+fn csv(year: &Year) -> String {
+    let (sensors, places) = (year.settings.sensors, year.light.places);
+    let mut text = String::from("time,sun_altitude_deg,sun_azimuth_deg,direct_normal_lx,diffuse_horizontal_lx");
+    // Writing to a String cannot fail.
+    for one in &year.moving {
+        let _ = write!(text, ",state_{}", one.aperture);
+    }
+    let sun = year.light.sun.as_deref();
+    for (desk, eye) in
+        [Some(("E", "Ev")), Some(("E_error", "Ev_error")), sun.map(|_| ("S", "Sv"))].into_iter().flatten()
+    {
+        for i in 0..places {
+            let _ = if i < sensors {
+                write!(text, ",{desk}_{}", i + 1)
+            } else {
+                write!(text, ",{eye}_{}", i + 1 - sensors)
+            };
+        }
+    }
+    let lamps = year.settings.lamps.as_ref();
+    text.push_str(if lamps.is_some() { ",lighting_W_m2\n" } else { "\n" });
+    for (row, &k) in year.chosen.iter().enumerate() {
+        let (step, hour) = (&year.steps.list[k], &year.steps.list[k].hour);
+        let _ = write!(
+            text,
+            "{},{:.4},{:.4},{},{}",
+            step.time.strftime("%Y-%m-%dT%H:%M:%S"),
+            hour.sun.altitude().to_degrees(),
+            hour.sun.bearing().degrees(),
+            number(hour.direct_normal),
+            number(hour.diffuse_horizontal)
+        );
+        for (one, &state) in year.moving.iter().zip(&year.states[k]) {
+            let _ = write!(text, ",{}", if hour.is_lit() { field(&one.device.keys[state]) } else { String::new() });
+        }
+        let own = row * places..(row + 1) * places;
+        for value in [Some(&*year.light.values), Some(&*year.light.errors), sun]
+            .into_iter()
+            .flatten()
+            .flat_map(|all| &all[own.clone()])
+        {
+            text.push(',');
+            text.push_str(&number(*value));
+        }
+        if let Some(lamps) = lamps {
+            let watts = lamps.watts(step.occupied, &year.light.values[own.start..own.start + sensors]);
+            let _ = write!(text, ",{}", number(watts));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A text as a field of the table.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}

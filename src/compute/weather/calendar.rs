@@ -1,0 +1,94 @@
+//! Days of the Gregorian calendar, without a clock.
+
+use std::fmt;
+
+/// A day as a weather file writes it. The 29th of February counts in any year: rows are believed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Day {
+    /// Year.
+    pub year: i16,
+    /// Month, 1 … 12.
+    pub month: u8,
+    /// Day of the month, from 1.
+    pub day: u8,
+}
+
+/// Days before each month of a common year.
+const BEFORE: [u16; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
+/// Days of each month, February with its leap day.
+const LENGTHS: [u8; 12] = [31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+
+impl Day {
+    /// `None` where no year has such a day.
+    pub fn new(year: i16, month: u8, day: u8) -> Option<Self> {
+        let most = *LENGTHS.get(usize::from(month).checked_sub(1)?)?;
+        (1..=most).contains(&day).then_some(Self { year, month, day })
+    }
+
+    /// Days since 1 January 1970. A 29th of February in a common year is the day behind the 28th, as its 1st of March.
+    pub fn number(self) -> i64 {
+        // Years from March on, so that the leap day is the last.
+        let shifted = i64::from(self.month < 3);
+        let year = i64::from(self.year) - shifted;
+        let era = year.div_euclid(400);
+        let year_of_era = year.rem_euclid(400);
+        let months = i64::from(self.month) + 12 * shifted - 3;
+        let day_of_year = (153 * months + 2) / 5 + i64::from(self.day) - 1;
+        era * 146_097 + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - 719_468
+    }
+
+    /// Day of a common year, 1 … 365; the 29th of February as the 28th.
+    pub fn of_common_year(self) -> u16 {
+        let day = if self.month == 2 { self.day.min(28) } else { self.day };
+        BEFORE[usize::from(self.month.clamp(1, 12)) - 1] + u16::from(day)
+    }
+
+    /// Saturday or Sunday?
+    pub fn is_weekend(self) -> bool {
+        // 1 January 1970 was a Thursday.
+        (self.number() + 3).rem_euclid(7) >= 5
+    }
+
+    /// Square of the mean distance of the sun over that of the day, by which the solar constant is multiplied: Spencer
+    /// 1971 on the day of a common year.
+    pub fn eccentricity(self) -> f64 {
+        crate::compute::sky::perez::eccentricity(self.of_common_year())
+    }
+}
+
+impl fmt::Display for Day {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:04}-{:02}-{:02}", self.year, self.month, self.day)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn day(year: i16, month: u8, day: u8) -> Day {
+        Day::new(year, month, day).unwrap()
+    }
+
+    #[test]
+    fn days_are_counted_as_calendars_do() {
+        assert_eq!(day(1970, 1, 1).number(), 0);
+        assert_eq!(day(2000, 3, 1).number(), 11_017);
+        assert_eq!(day(2000, 3, 1).number() - day(2000, 2, 28).number(), 2);
+        assert_eq!(day(1900, 3, 1).number() - day(1900, 2, 28).number(), 1);
+        assert_eq!(day(1900, 2, 29).number(), day(1900, 3, 1).number());
+        assert_eq!(day(2026, 1, 1).number() - day(2025, 1, 1).number(), 365);
+        assert!(day(2026, 11, 22).is_weekend() && !day(2026, 11, 23).is_weekend());
+        assert_eq!((day(2001, 12, 31).of_common_year(), day(2004, 2, 29).of_common_year()), (365, 59));
+        for (month, number) in [(0, 1), (13, 1), (4, 31), (2, 30), (1, 0)] {
+            assert_eq!(Day::new(2001, month, number), None);
+        }
+        assert_eq!(day(958, 2, 3).to_string(), "0958-02-03");
+    }
+
+    #[test]
+    fn the_sun_is_nearest_in_january() {
+        assert!((day(2001, 1, 3).eccentricity() - 1.0350).abs() < 3e-4);
+        assert!((day(2001, 7, 4).eccentricity() - 0.9666).abs() < 3e-4);
+    }
+}

@@ -1,0 +1,55 @@
+//! Is the file's clock right? Global = diffuse + direct · sin h closes where the sun stands in the right place.
+
+use super::record::{Closure, Quantity, Weather};
+use super::sun_path::{SunPath, SunPathError};
+
+/// How far to both sides the clock is searched. \[min\]
+pub const SEARCHED: i32 = 120;
+/// Distance of the places tried. \[min\]
+const STEP: i32 = 10;
+/// Fewer hours with sun tell nothing about a clock.
+const LEAST_HOURS: usize = 20;
+/// Least beam that counts: what is less is lost in the rounding of the others. \[W/m²\]
+const LEAST_BEAM: f64 = 1.0;
+
+impl Weather {
+    /// Tests the clock; `None` for files without global irradiance or with too few hours of sun.
+    ///
+    /// # Errors
+    /// Of the sun's place.
+    pub fn closure(&self) -> Result<Option<Closure>, SunPathError> {
+        if self.quantity != Quantity::NormalIrradiance {
+            return Ok(None);
+        }
+        let places = (2 * SEARCHED / STEP + 1) as usize;
+        let mut squares = vec![0.0; places];
+        let mut hours = 0;
+        let mut path = SunPath::new(&self.station);
+        for record in &self.records {
+            let (Some(global), Some(diffuse), Some(direct)) = (record.global, record.diffuse, record.direct) else {
+                continue;
+            };
+            if direct < LEAST_BEAM {
+                continue;
+            }
+            path.turn_to(record.day.number())?;
+            hours += 1;
+            for (place, sum) in squares.iter_mut().enumerate() {
+                let offset = f64::from(STEP * place as i32 - SEARCHED);
+                let sine = path.at(record.middle_minutes(self.interval, offset)).z.max(0.0);
+                *sum += (global - diffuse - direct * sine).powi(2);
+            }
+        }
+        if hours < LEAST_HOURS {
+            return Ok(None);
+        }
+        let rms = |place: usize| (squares[place] / hours as f64).sqrt();
+        let middle = places / 2;
+        // Of equals the one nearest to the file's own clock.
+        let best = (0..places)
+            .min_by(|&a, &b| rms(a).total_cmp(&rms(b)).then(a.abs_diff(middle).cmp(&b.abs_diff(middle))))
+            .unwrap_or(middle);
+        let best_offset = f64::from(STEP * best as i32 - SEARCHED);
+        Ok(Some(Closure { rms: rms(middle), best_offset, best_rms: rms(best) }))
+    }
+}

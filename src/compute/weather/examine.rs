@@ -1,0 +1,270 @@
+//! What is to be said about a weather file: period, gaps, clock, light with the sun down, sums.
+
+use super::hour::{HourError, LightSource, Reading, SunOffset};
+use super::record::{Closure, Quantity, Record, Weather};
+use super::sun_path::SunPath;
+use crate::compute::btdf::Finding;
+
+/// Over all records. Irradiations in kWh/m², light in klx·h.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sums {
+    /// Global horizontal as the file tells it, 0 where it does not.
+    pub global: f64,
+    /// On a plane that follows the sun.
+    pub direct_normal: f64,
+    /// Of the sky, on the horizontal plane.
+    pub diffuse: f64,
+    /// Diffuse horizontal illuminance.
+    pub diffuse_light: f64,
+    /// Illuminance on a plane that follows the sun.
+    pub direct_light: f64,
+    /// Global horizontal illuminance.
+    pub global_light: f64,
+}
+
+/// A weather file at a glance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Sums.
+    pub sums: Sums,
+    /// Hours with any light.
+    pub lit_hours: f64,
+    /// Hours of sunshine: 120 W/m² or more on a plane that faces the sun (WMO).
+    pub sunshine_hours: f64,
+    /// Records whose illuminances the file tells plausibly.
+    pub told: usize,
+    /// Records with light but without sky: no diffuse part.
+    pub without_sky: usize,
+    /// Intervals that are not there.
+    pub missing: usize,
+    /// The clock's test; `None` where it cannot be tested.
+    pub closure: Option<Closure>,
+    /// What was found, the reader's findings first.
+    pub findings: Vec<Finding>,
+}
+
+/// Beam above which the sun shines. \[W/m²\]
+const SUNSHINE: f64 = 120.0;
+/// A beam that no sun below the horizon sends. \[W/m²\]
+const BEAM_AT_NIGHT: f64 = 50.0;
+
+/// What happens again and again is told once, with the first place.
+#[derive(Default)]
+struct Count {
+    number: usize,
+    first: Option<u32>,
+}
+
+impl Count {
+    fn add(&mut self, record: &Record) {
+        self.number += 1;
+        self.first.get_or_insert(record.line);
+    }
+
+    /// `12 rows, first in line 40`
+    fn words(&self) -> String {
+        let rows = if self.number == 1 { "row" } else { "rows" };
+        format!("{} {rows}, first in line {}", self.number, self.first.unwrap_or(0))
+    }
+}
+
+impl Weather {
+    /// Reads every record once.
+    ///
+    /// # Errors
+    /// Of the sun's place.
+    pub fn examine(&self) -> Result<Summary, HourError> {
+        let closure = match self.tested {
+            Some(tested) => Some(tested),
+            None => self.closure()?,
+        };
+        let mut findings = self.findings.clone();
+        let missing = self.sequence(&mut findings);
+        self.say_clock(closure, &mut findings);
+        let mut summary = Summary {
+            sums: Sums::default(),
+            lit_hours: 0.0,
+            sunshine_hours: 0.0,
+            told: 0,
+            without_sky: 0,
+            missing,
+            closure,
+            findings,
+        };
+        self.sum_up(&mut summary)?;
+        Ok(summary)
+    }
+
+    /// Gaps and repetitions; the number of intervals that are not there.
+    fn sequence(&self, findings: &mut Vec<Finding>) -> usize {
+        let step = i64::from(self.interval);
+        let (mut missing, mut gaps, mut back) = (0, Count::default(), Count::default());
+        let mut first_gap = String::new();
+        for pair in self.records.windows(2) {
+            let (before, after) = (&pair[0], &pair[1]);
+            let minutes = minutes_between(before, after);
+            if minutes > step {
+                if gaps.number == 0 {
+                    let hours = (minutes - step) as f64 / 60.0;
+                    first_gap = format!("{hours} h between lines {} and {}", before.line, after.line);
+                }
+                gaps.add(after);
+                missing += usize::try_from((minutes - step) / step).unwrap_or(0);
+            } else if minutes < step {
+                back.add(after);
+            }
+        }
+        let per_day = 1440 / usize::from(self.interval);
+        let rows = self.records.len();
+        if gaps.number > 0 {
+            let what = if gaps.number == 1 { "a gap".to_owned() } else { format!("{} gaps", gaps.number) };
+            findings.push(Finding::warning("gaps", format!("{what}, the first of {first_gap}; what is there is used")));
+        }
+        if back.number > 0 {
+            let message =
+                format!("{} that begin before the row above has ended: a repeated or misplaced row", back.words());
+            findings.push(Finding::warning("order", message));
+        }
+        if rows == 366 * per_day {
+            findings.push(Finding::info("leap-year", format!("{rows} rows: a year of 366 days")));
+        } else if rows % (365 * per_day) != 0 {
+            let message = format!(
+                "{rows} of {} rows of a year: what is there is used, figures of a year need all",
+                365 * per_day
+            );
+            findings.push(Finding::warning("partial-year", message));
+        }
+        missing
+    }
+
+    fn say_clock(&self, closure: Option<Closure>, findings: &mut Vec<Finding>) {
+        match closure {
+            Some(one) if self.tested.is_some() => {
+                let message = format!(
+                    "the table moves its intervals by {:+} min: there its source's irradiances close to {:.1} W/m², to {:.1} W/m² without",
+                    self.clock, one.best_rms, one.rms
+                );
+                findings.push(Finding::info("clock-stated", message));
+            }
+            Some(one) if one.is_off() => {
+                let message = format!(
+                    "global − diffuse − direct · sin h closes to {:.1} W/m² with the intervals where the file says, to {:.1} W/m² \
+                     with all of them {} min {}: sun_offset_minutes = {} moves them",
+                    one.rms,
+                    one.best_rms,
+                    one.best_offset.abs(),
+                    if one.best_offset < 0.0 { "earlier" } else { "later" },
+                    one.best_offset
+                );
+                findings.push(Finding::warning("clock-off", message));
+            }
+            Some(_) => {}
+            None => {
+                let why =
+                    if self.quantity == Quantity::NormalIrradiance && self.records.iter().any(|r| r.global.is_some()) {
+                        "too few hours with sun"
+                    } else {
+                        "no global horizontal irradiance beside direct normal and diffuse"
+                    };
+                findings.push(Finding::info("clock-untested", format!("the clock cannot be tested: {why}")));
+            }
+        }
+    }
+
+    fn sum_up(&self, summary: &mut Summary) -> Result<(), HourError> {
+        let mut hours = self.hours(Reading { light: LightSource::File, offset: SunOffset::default() })?;
+        let mut path = SunPath::new(&self.station);
+        let length = f64::from(self.interval) / 60.0;
+        let (mut absent, mut night) = (Count::default(), Count::default());
+        let (mut dew, mut lit) = (0, 0);
+        let sums = &mut summary.sums;
+        for (index, record) in self.records.iter().enumerate() {
+            sums.global += record.global.unwrap_or(0.0) * length / 1000.0;
+            if record.direct.is_some_and(|direct| direct > BEAM_AT_NIGHT) {
+                path.turn_to(record.day.number())?;
+                // At its highest in the interval the sun may be another quarter of an hour's way up.
+                let sine = path.at(record.middle_minutes(self.interval, self.clock)).z;
+                if sine < (-1.0_f64).to_radians().sin() {
+                    night.add(record);
+                }
+            }
+            let hour = match hours.at(index) {
+                Ok(hour) => hour,
+                Err(HourError::Missing { .. }) => {
+                    absent.add(record);
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
+            if !hour.is_lit() {
+                continue;
+            }
+            lit += 1;
+            dew += usize::from(record.dew_point.is_some());
+            summary.told += usize::from(hour.light == LightSource::File);
+            summary.without_sky += usize::from(hour.diffuse_horizontal_irradiance == 0.0);
+            summary.lit_hours += length;
+            if hour.direct_normal_irradiance >= SUNSHINE {
+                summary.sunshine_hours += length;
+            }
+            sums.direct_normal += hour.direct_normal_irradiance * length / 1000.0;
+            sums.diffuse += hour.diffuse_horizontal_irradiance * length / 1000.0;
+            let beam = hour.direct_normal * hour.sun.vector().z.max(0.0);
+            sums.diffuse_light += hour.diffuse_horizontal * length / 1000.0;
+            sums.direct_light += hour.direct_normal * length / 1000.0;
+            sums.global_light += (hour.diffuse_horizontal + beam) * length / 1000.0;
+        }
+        let findings = &mut summary.findings;
+        if absent.number > 0 {
+            let message = format!(
+                "direct or diffuse light is missing by day: {}; these hours cannot be computed, and no figures of a year",
+                absent.words()
+            );
+            findings.push(Finding::warning("light-missing", message));
+        }
+        if night.number > 0 {
+            let message = format!(
+                "more than {BEAM_AT_NIGHT} W/m² from a sun that is more than 1° below the horizon: {}; the clock is off, or longitude or \
+                 time zone has the wrong sign",
+                night.words()
+            );
+            findings.push(Finding::warning("sun-down-light", message));
+        }
+        if summary.without_sky > 0 {
+            let message = format!("{} rows with sun and a diffuse part of 0: their sky is dark", summary.without_sky);
+            findings.push(Finding::info("dark-sky", message));
+        }
+        if dew == 0 && lit > 0 {
+            let message = "no dew points: luminous efficacies are those of 2 cm of water in the air";
+            findings.push(Finding::info("dew-point-missing", message));
+        }
+        if self.quantity != Quantity::NormalIlluminance && summary.told < lit {
+            let rows = lit - summary.told;
+            let message = format!(
+                "{rows} of {lit} lit rows without plausible illuminances: light = \"file\" takes luminous efficacy there"
+            );
+            findings.push(Finding::info("illuminance-missing", message));
+        }
+        Ok(())
+    }
+}
+
+/// From the begin of one record to that of the next. Typical years change the year from month to month: years count
+/// only where both are the same.
+fn minutes_between(before: &Record, after: &Record) -> i64 {
+    let minutes = |record: &Record, year: i16| {
+        let mut day = record.day;
+        day.year = year;
+        1440 * day.number() + i64::from(record.start)
+    };
+    if before.day.year == after.day.year {
+        return minutes(after, after.day.year) - minutes(before, before.day.year);
+    }
+    let whole = minutes(after, after.day.year) - minutes(before, before.day.year);
+    // A common year for both; the new one after the old one's end.
+    let mut spliced = minutes(after, 2001) - minutes(before, 2001);
+    if (before.day.month, before.day.day) > (after.day.month, after.day.day) {
+        spliced += 1440 * 365;
+    }
+    if whole >= 0 && whole < spliced { whole } else { spliced }
+}

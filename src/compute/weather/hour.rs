@@ -1,0 +1,306 @@
+//! A record with its sun: where it stands in the lit part of the interval, and how much light there is.
+
+use super::record::{Field, Quantity, Record, Weather};
+use super::sun_path::{SunPath, SunPathError};
+use crate::compute::direction::{Dir, World};
+use crate::compute::sky::perez::{Air, PerezState, SOLAR_CONSTANT};
+
+/// Where the illuminances of an hour come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LightSource {
+    /// Irradiances times the luminous efficacies of Perez 1990.
+    #[default]
+    Efficacy,
+    /// The file's own illuminances where they are there and plausible, else as [`Self::Efficacy`].
+    File,
+}
+
+/// Where the intervals lie against what the file says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SunOffset {
+    /// Minutes later.
+    Minutes(f64),
+    /// Where global = diffuse + direct · sin h closes best.
+    Auto,
+}
+
+impl Default for SunOffset {
+    fn default() -> Self {
+        Self::Minutes(0.0)
+    }
+}
+
+/// Furthest that intervals can be moved. \[min\]
+pub const WIDEST_OFFSET: f64 = 180.0;
+
+/// How a weather file is read into light.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reading {
+    /// Illuminances.
+    pub light: LightSource,
+    /// Clock.
+    pub offset: SunOffset,
+}
+
+/// Why there is no hour.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum HourError {
+    /// A missing code while the sun is up.
+    #[error(
+        "line {line}: {field} is missing while the sun is up ({time}); expected a number: repair the row, or leave the hour out"
+    )]
+    Missing {
+        /// Line of the file.
+        line: u32,
+        /// Name and number of the field.
+        field: &'static str,
+        /// Of the interval.
+        time: String,
+    },
+    /// The clock cannot be found in the file.
+    #[error(
+        "\"auto\" needs global horizontal irradiances beside direct and diffuse ones, and hours with sun: give minutes"
+    )]
+    NoClosure,
+    /// Not a shift of a clock.
+    #[error("{0} min is out of range (allowed: −180 to 180)")]
+    Offset(f64),
+    /// No such record.
+    #[error("there is no record {0}")]
+    Index(usize),
+    /// Of the sun's place.
+    #[error(transparent)]
+    Sun(#[from] SunPathError),
+}
+
+/// An interval with its light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hour {
+    /// Of the record.
+    pub index: usize,
+    /// Towards the sun's centre: in the middle of the lit part, of the whole interval when none is lit.
+    pub sun: Dir<World>,
+    /// Share of the interval with the sun's centre above the horizon.
+    pub lit: f64,
+    /// Mean over the interval; 0 with the sun down. \[W/m²\]
+    pub direct_normal_irradiance: f64,
+    /// Mean over the interval. \[W/m²\]
+    pub diffuse_horizontal_irradiance: f64,
+    /// On a plane facing the sun. \[lx\]
+    pub direct_normal: f64,
+    /// On the open horizontal plane, of the sky alone. \[lx\]
+    pub diffuse_horizontal: f64,
+    /// Where the illuminances come from.
+    pub light: LightSource,
+    /// Of the sky; `None` when it is dark and the sun too.
+    pub state: Option<PerezState>,
+}
+
+impl Hour {
+    /// Is there any light?
+    pub fn is_lit(&self) -> bool {
+        self.direct_normal > 0.0 || self.diffuse_horizontal > 0.0
+    }
+
+    /// Where the sky's circumsolar part peaks: the sun, on the horizon while it is below.
+    pub fn sky_sun(&self) -> Dir<World> {
+        if self.sun.vector().z >= 0.0 { self.sun } else { Dir::from_altitude_bearing(0.0, self.sun.bearing()) }
+    }
+}
+
+/// Reads hours one by one; neighbours are cheap.
+#[derive(Debug, Clone)]
+pub struct Hours<'a> {
+    weather: &'a Weather,
+    path: SunPath,
+    offset: f64,
+    light: LightSource,
+    next: usize,
+}
+
+impl Weather {
+    /// Reads records as light, in any order or as an iterator over all.
+    ///
+    /// # Errors
+    /// `"auto"` without anything to test the clock by, or an offset out of range.
+    pub fn hours(&self, reading: Reading) -> Result<Hours<'_>, HourError> {
+        let offset = match reading.offset {
+            SunOffset::Minutes(minutes) if minutes.abs() <= WIDEST_OFFSET => minutes,
+            SunOffset::Minutes(minutes) => return Err(HourError::Offset(minutes)),
+            // A clock that was tested before is stated by the file.
+            SunOffset::Auto if self.tested.is_some() => 0.0,
+            SunOffset::Auto => self.closure()?.ok_or(HourError::NoClosure)?.best_offset,
+        };
+        let path = SunPath::new(&self.station);
+        Ok(Hours { weather: self, path, offset: self.clock + offset, light: reading.light, next: 0 })
+    }
+}
+
+impl Hours<'_> {
+    /// Minutes by which intervals lie later than the records say, the file's own clock included.
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// The light of a record.
+    ///
+    /// # Errors
+    /// A missing code by day; no such record.
+    pub fn at(&mut self, index: usize) -> Result<Hour, HourError> {
+        self.part(index, 0, 1)
+    }
+
+    /// The light in a part of a record's interval, of `parts` equal ones: the sun moves, its irradiances stay.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn part(&mut self, index: usize, part: u32, parts: u32) -> Result<Hour, HourError> {
+        let record = self.weather.records.get(index).ok_or(HourError::Index(index))?;
+        self.path.turn_to(record.day.number())?;
+        let interval = f64::from(self.weather.interval) / f64::from(parts);
+        let middle = record.middle_seconds(self.weather.interval, part, parts) / 60.0 + self.offset;
+        let part = lit_part(&self.path, middle - 0.5 * interval, middle + 0.5 * interval);
+        let sun = Dir::from_unit(self.path.at(part.map_or(middle, |(_, middle)| middle)));
+        let lit = part.map_or(0.0, |(share, _)| share);
+        self.with_sun(index, record, sun, lit)
+    }
+
+    fn with_sun(&self, index: usize, record: &Record, sun: Dir<World>, lit: f64) -> Result<Hour, HourError> {
+        let weather = self.weather;
+        let up = lit > 0.0 && sun.vector().z > 0.0;
+        let figure = |value: Option<f64>, field: Field| match value {
+            Some(value) => Ok(value),
+            None if !up => Ok(0.0),
+            None => Err(HourError::Missing {
+                line: record.line,
+                field: weather.field_name(field),
+                time: format!("{} {}", record.day, record.clock_words(weather.interval)),
+            }),
+        };
+        let diffuse = figure(record.diffuse, Field::Diffuse)?.max(0.0);
+        let direct = if up { figure(record.direct, Field::Direct)?.max(0.0) } else { 0.0 };
+        let mut hour = Hour {
+            index,
+            sun,
+            lit,
+            direct_normal_irradiance: 0.0,
+            diffuse_horizontal_irradiance: 0.0,
+            direct_normal: 0.0,
+            diffuse_horizontal: 0.0,
+            light: LightSource::Efficacy,
+            state: None,
+        };
+        if direct <= 0.0 && diffuse <= 0.0 {
+            return Ok(hour);
+        }
+        let altitude = sun.altitude().max(0.0);
+        let air =
+            Air { eccentricity: record.day.eccentricity(), water: record.dew_point.map_or(Air::UNKNOWN.water, water) };
+        let by_efficacy = |direct: f64, diffuse: f64| {
+            let state = PerezState::in_air(altitude, direct, diffuse, air);
+            let light = state.map_or([0.0; 2], |s| [direct * s.direct_efficacy(), diffuse * s.diffuse_efficacy()]);
+            (state, light)
+        };
+        let (irradiances, light) = match weather.quantity {
+            Quantity::NormalIrradiance => ([direct, diffuse], None),
+            Quantity::HorizontalIrradiance => {
+                // Of a sun that just stands above the horizon no more than the sun sends.
+                let most = SOLAR_CONSTANT * air.eccentricity;
+                let normal = if up { (direct / sun.vector().z).min(most) } else { 0.0 };
+                ([normal, diffuse], None)
+            }
+            Quantity::NormalIlluminance => {
+                // Back from light to power: a few rounds, since the efficacy is that of the answer.
+                let mut power = [direct / 100.0, diffuse / 120.0];
+                for _ in 0..ROUNDS {
+                    let (_, light) = by_efficacy(power[0], power[1]);
+                    for ((power, light), wanted) in power.iter_mut().zip(light).zip([direct, diffuse]) {
+                        *power *= if light > 0.0 { (wanted / light).clamp(0.2, 5.0) } else { 1.0 };
+                    }
+                }
+                (power, Some([direct, diffuse]))
+            }
+        };
+        [hour.direct_normal_irradiance, hour.diffuse_horizontal_irradiance] = irradiances;
+        let (state, by_model) = by_efficacy(irradiances[0], irradiances[1]);
+        hour.state = state;
+        let told = light.or_else(|| (self.light == LightSource::File).then(|| told(record, irradiances)).flatten());
+        if told.is_some() {
+            hour.light = LightSource::File;
+        }
+        [hour.direct_normal, hour.diffuse_horizontal] = told.unwrap_or(by_model);
+        Ok(hour)
+    }
+}
+
+/// Rounds from illuminance back to irradiance: each brings the rest down to a tenth.
+const ROUNDS: usize = 8;
+
+impl Iterator for Hours<'_> {
+    type Item = Result<Hour, HourError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let index = self.next;
+        self.next += 1;
+        (index < self.weather.records.len()).then(|| self.at(index))
+    }
+}
+
+/// Precipitable water for a dew point \[°C\], in cm.
+fn water(dew_point: f64) -> f64 {
+    (0.07 * dew_point - 0.075).exp()
+}
+
+/// The file's own illuminances where both are there and plausible for their irradiances.
+fn told(record: &Record, [direct, diffuse]: [f64; 2]) -> Option<[f64; 2]> {
+    let plausible = |light: Option<f64>, power: f64, least: f64, most: f64| match light {
+        _ if power <= 0.0 => Some(0.0),
+        Some(light) if (least * power..=most * power).contains(&light) => Some(light),
+        _ => None,
+    };
+    Some([
+        plausible(record.direct_illuminance, direct, 20.0, 140.0)?,
+        plausible(record.diffuse_illuminance, diffuse, 60.0, 200.0)?,
+    ])
+}
+
+/// Share and middle \[min\] of the part of an interval in which the sun's centre is above the horizon; of two parts the
+/// longer. `None`: it stays down.
+fn lit_part(path: &SunPath, from: f64, to: f64) -> Option<(f64, f64)> {
+    /// Sine of an altitude that the sun does not cross between three places of an hour.
+    const CLEAR: f64 = 0.01;
+    let height = |minutes: f64| path.at(minutes).z;
+    let ends = [from, 0.5 * (from + to), to].map(height);
+    if ends.iter().all(|z| *z > CLEAR) {
+        return Some((1.0, 0.5 * (from + to)));
+    }
+    if ends.iter().all(|z| *z < -CLEAR) {
+        return None;
+    }
+    // Minute by minute, straight between.
+    let steps = ((to - from).round() as usize).clamp(12, 60);
+    let step = (to - from) / steps as f64;
+    let (mut best, mut begun, mut last) = (None::<(f64, f64)>, (ends[0] > 0.0).then_some(from), ends[0]);
+    let longer = |best: Option<(f64, f64)>, part: (f64, f64)| match best {
+        Some(one) if one.1 - one.0 >= part.1 - part.0 => Some(one),
+        _ => Some(part),
+    };
+    for k in 1..=steps {
+        let end = from + step * k as f64;
+        let z = height(end);
+        let crossing = end - step + step * last / (last - z);
+        match begun {
+            Some(begin) if z <= 0.0 => {
+                best = longer(best, (begin, crossing));
+                begun = None;
+            }
+            None if z > 0.0 => begun = Some(if last == z { end } else { crossing }),
+            _ => {}
+        }
+        last = z;
+    }
+    if let Some(begin) = begun {
+        best = longer(best, (begin, to));
+    }
+    best.filter(|(begin, end)| end > begin).map(|(begin, end)| ((end - begin) / (to - from), 0.5 * (begin + end)))
+}

@@ -1,0 +1,28 @@
+//! Weather of a place, interval by interval: what a file told, where the sun stood, how much light that is.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `calendar` | days of the civil calendar, the earth's distance from the sun |
+//! | `record` | what a file tells: station, records, their quantities |
+//! | `sun_path` | the sun's place at any minute of a day, fast |
+//! | `hour` | a record with its sun in the lit part, irradiances and illuminances |
+//! | `closure` | is the file's clock right? |
+//! | `examine` | gaps, missing values, light with the sun down, sums |
+//!
+//! Intervals are those of the file (an hour mostly), in local standard time all the year round. The sun of an interval
+//! stands where it is at the middle of the part in which its centre is above the horizon (true altitude, no
+//! refraction); irradiances stay the means over the whole interval. The sun is never binned.
+
+mod calendar;
+mod closure;
+mod examine;
+mod hour;
+mod record;
+mod sun_path;
+
+pub use calendar::Day;
+pub use closure::SEARCHED;
+pub use examine::{Summary, Sums};
+pub use hour::{Hour, HourError, Hours, LightSource, Reading, SunOffset, WIDEST_OFFSET};
+pub use record::{Closure, Field, Quantity, Record, Station, Weather};
+pub use sun_path::{SunPath, SunPathError};

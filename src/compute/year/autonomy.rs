@@ -1,0 +1,118 @@
+//! Enough light, too much of it, and the sun on the desk: shares of all occupied steps, dark ones included.
+//!
+//! - DA: share with E ≥ x (Reinhart and Walkenhorst 2001). cDA: mean of min(1, E/x) (Rogers 2006).
+//! - UDI, in the bounds that are usual since Mardaljevic et al. 2012: below 100 lx, 100 to below 300, 300 to 3000, above
+//!   3000. The four add up to 1.
+//! - sDA300/50: share of the places with DA300 ≥ 50 %, with the states as they are. IES LM-83-12 works blinds by a rule of
+//!   its own, so that this is not its figure where something moves.
+//! - ASE1000,250 (IES LM-83-12): share of the places with 1000 lx or more straight from the sun, unscattered and
+//!   unreflected, in more than 250 h of the occupied ones.
+
+use super::hours::{Light, Step, occupied, share};
+
+/// By place.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Autonomy {
+    /// Mean over all steps, nights included. \[lx\]
+    pub mean: Vec<f64>,
+    /// DA, 300 lx.
+    pub da_300: Vec<f64>,
+    /// DA, 500 lx.
+    pub da_500: Vec<f64>,
+    /// Continuous DA, 300 lx.
+    pub cda_300: Vec<f64>,
+    /// UDI: too little.
+    pub udi_n: Vec<f64>,
+    /// UDI: supplementary.
+    pub udi_s: Vec<f64>,
+    /// UDI: autonomous.
+    pub udi_a: Vec<f64>,
+    /// UDI: exceeded.
+    pub udi_x: Vec<f64>,
+    /// sDA300/50.
+    pub sda_300_50: f64,
+}
+
+impl Autonomy {
+    /// Of a year or a part of one.
+    pub fn of(steps: &[Step], light: Light<'_>) -> Self {
+        let occupied = occupied(steps);
+        let over = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let sum = |place| occupied.iter().map(|&k| f(light.at(k, place))).sum::<f64>();
+            (0..light.places()).map(|place| sum(place) / occupied.len().max(1) as f64).collect()
+        };
+        let when = |f: &dyn Fn(f64) -> bool| over(&|e| f64::from(u8::from(f(e))));
+        let all = |place| (0..steps.len()).map(|k| light.at(k, place)).sum::<f64>();
+        let da_300 = when(&|e| e >= 300.0);
+        Self {
+            mean: (0..light.places()).map(|place| all(place) / steps.len().max(1) as f64).collect(),
+            sda_300_50: share(da_300.iter().filter(|da| **da >= 0.5).count(), da_300.len()),
+            da_300,
+            da_500: when(&|e| e >= 500.0),
+            cda_300: over(&|e| (e / 300.0).min(1.0)),
+            udi_n: when(&|e| e < 100.0),
+            udi_s: when(&|e| (100.0..300.0).contains(&e)),
+            udi_a: when(&|e| (300.0..=3000.0).contains(&e)),
+            udi_x: when(&|e| e > 3000.0),
+        }
+    }
+}
+
+/// Sun straight on the places.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Exposure {
+    /// Occupied hours with 1000 lx or more, by place.
+    pub hours_1000: Vec<f64>,
+    /// ASE1000,250.
+    pub ase_1000_250: f64,
+}
+
+impl Exposure {
+    /// Of the sun's light that comes through unscattered and unreflected; `length` of a step in hours.
+    pub fn of(steps: &[Step], sun: Light<'_>, length: f64) -> Self {
+        let occupied = occupied(steps);
+        let hours = |place| length * occupied.iter().filter(|&&k| sun.at(k, place) >= 1000.0).count() as f64;
+        let hours_1000: Vec<f64> = (0..sun.places()).map(hours).collect();
+        let ase_1000_250 = share(hours_1000.iter().filter(|hours| **hours > 250.0).count(), hours_1000.len());
+        Self { hours_1000, ase_1000_250 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn steps(occupied: &[bool]) -> Vec<Step> {
+        occupied.iter().map(|&occupied| Step { month: 1, occupied, diffuse_horizontal: 1.0 }).collect()
+    }
+
+    #[test]
+    fn borders_belong_to_the_sides_that_the_definitions_say() {
+        let steps = steps(&[true; 5]);
+        let values = [99.9, 100.0, 300.0, 3000.0, 3000.1];
+        let figures = Autonomy::of(&steps, Light::new(1, &values).unwrap());
+        assert_eq!((figures.udi_n[0], figures.udi_s[0], figures.udi_a[0], figures.udi_x[0]), (0.2, 0.2, 0.4, 0.2));
+        assert_eq!((figures.da_300[0], figures.da_500[0], figures.sda_300_50), (0.6, 0.4, 1.0));
+        let expected = (99.9 / 300.0 + 1.0 / 3.0 + 3.0) / 5.0;
+        assert!((figures.cda_300[0] - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn unoccupied_steps_count_for_the_mean_alone() {
+        let figures = Autonomy::of(&steps(&[true, false]), Light::new(2, &[400.0, 0.0, 0.0, 600.0]).unwrap());
+        assert_eq!(figures.mean, [200.0, 300.0]);
+        assert_eq!(figures.da_300, [1.0, 0.0]);
+        assert_eq!(figures.sda_300_50, 0.5);
+    }
+
+    #[test]
+    fn sunlight_counts_in_more_than_250_hours() {
+        let year = steps(&vec![true; 251]);
+        let mut sun = vec![1000.0; 2 * 251];
+        sun[1] = 999.9;
+        let light = Light::new(2, &sun).unwrap();
+        let exposure = Exposure::of(&year, light, 1.0);
+        assert_eq!((exposure.hours_1000, exposure.ase_1000_250), (vec![251.0, 250.0], 0.5));
+        assert_eq!(Exposure::of(&year, light, 0.5).ase_1000_250, 0.0);
+    }
+}

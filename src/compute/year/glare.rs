@@ -1,0 +1,65 @@
+//! Glare at an eye through the occupied steps: the simplified daylight glare probability DGPs = 6.22e-5 E_v + 0.184
+//! (Wienold 2009), as it comes out, not clipped.
+//!
+//! It is valid only while neither the sun's disc nor a lobe of it meets the eye. Steps with the sun straight at the eye are
+//! left out and counted; lobes are not seen here, and so the figure is too low where a system has any.
+
+use super::hours::{Light, Step, share};
+
+/// Limits of the classes of EN 17037: DGP that is exceeded in 5 % of the usage time at most.
+pub const LIMITS: [f64; 3] = [0.35, 0.40, 0.45];
+/// Share of the time in which a limit may be exceeded.
+const EXCEEDED: f64 = 0.05;
+
+/// Of one eye.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Glare {
+    /// Occupied steps with the sun straight at the eye, which are left out of the others.
+    pub sun_at_eye: usize,
+    /// DGPs that is exceeded in 5 % of the other occupied steps.
+    pub dgps_5_percent: f64,
+    /// Shares of the other occupied steps with more than [`LIMITS`].
+    pub above: [f64; 3],
+}
+
+/// DGPs of a vertical illuminance at the eye \[lx\].
+pub fn dgps(vertical: f64) -> f64 {
+    6.22e-5 * vertical + 0.184
+}
+
+/// Of every eye; `sun`: what of the sun comes straight to the eyes, where something lets it through unscattered.
+pub fn glare(steps: &[Step], eyes: Light<'_>, sun: Option<Light<'_>>) -> Vec<Glare> {
+    let of = |eye: usize| {
+        let occupied = || (0..steps.len()).filter(|&k| steps[k].occupied);
+        let at_eye = |k: &usize| sun.is_some_and(|sun| sun.at(*k, eye) > 0.0);
+        let mut values: Vec<f64> = occupied().filter(|k| !at_eye(k)).map(|k| dgps(eyes.at(k, eye))).collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        let rank = (EXCEEDED * values.len() as f64) as usize;
+        Glare {
+            sun_at_eye: occupied().filter(at_eye).count(),
+            dgps_5_percent: values.get(rank).copied().unwrap_or(0.0),
+            above: LIMITS.map(|limit| share(values.iter().filter(|value| **value > limit).count(), values.len())),
+        }
+    };
+    (0..eyes.places()).map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_brightest_twentieth_is_exceeded_and_suns_are_left_out() {
+        let steps = vec![Step { month: 1, occupied: true, diffuse_horizontal: 1.0 }; 41];
+        let values: Vec<f64> = (0..41).map(|k| 100.0 * f64::from(k)).collect();
+        let mut sun = vec![0.0; 41];
+        sun[40] = 1.0;
+        let light = |values| Light::new(1, values).unwrap();
+        let one = glare(&steps, light(&values), Some(light(&sun)))[0];
+        assert_eq!(one.sun_at_eye, 1);
+        assert_eq!(one.dgps_5_percent, dgps(3700.0));
+        // 0.35 ↔ 2669 lx: 2700 … 3900 lx are 13 of 40.
+        assert_eq!(one.above, [13.0 / 40.0, 5.0 / 40.0, 0.0]);
+        assert_eq!(glare(&steps, light(&values), None)[0].dgps_5_percent, dgps(3800.0));
+    }
+}

@@ -1,0 +1,138 @@
+//! What lamps take beside daylight, by steps of a year. The result has the unit of EN 15193-1's LENI, kWh/(m² a), and is
+//! not that standard's tabulated method.
+
+use super::hours::{Light, Step};
+
+/// How lamps follow daylight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// Always on while somebody is there.
+    None,
+    /// On while daylight does not suffice.
+    OnOff,
+    /// In so many steps of power.
+    Stepped(u32),
+    /// Dimmed.
+    Dimming {
+        /// Least light, as a share; below 1.
+        min_light: f64,
+        /// Power that this takes, as a share.
+        min_power: f64,
+        /// Off when daylight suffices.
+        off: bool,
+    },
+}
+
+impl Control {
+    /// Share of the installed power where daylight leaves a share of the target open, 0 … 1. 0 is off.
+    pub fn power(self, open: f64) -> f64 {
+        match self {
+            Self::None => 1.0,
+            Self::OnOff => f64::from(u8::from(open > 0.0)),
+            // A hair above a step is a step.
+            Self::Stepped(steps) => (open * f64::from(steps) - 1e-12).ceil().max(0.0) / f64::from(steps),
+            Self::Dimming { off: true, .. } if open <= 0.0 => 0.0,
+            Self::Dimming { min_light, min_power, .. } => {
+                min_power + (1.0 - min_power) * (open.max(min_light) - min_light) / (1.0 - min_light)
+            }
+        }
+    }
+}
+
+/// Lamps that follow the mean of some places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    /// Places.
+    pub places: Vec<usize>,
+    /// Share of the installed power.
+    pub share: f64,
+}
+
+/// An installation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lamps {
+    /// Installed. \[W/m²\]
+    pub power: f64,
+    /// Illuminance to be reached. \[lx\]
+    pub target: f64,
+    /// How it follows daylight.
+    pub control: Control,
+    /// Taken while off, nights included. \[W/m²\]
+    pub standby: f64,
+    /// At least one.
+    pub zones: Vec<Zone>,
+}
+
+/// Energy of a year. \[kWh/m²\]
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Energy {
+    /// By month.
+    pub months: [f64; 12],
+    /// Without any control, while somebody is there.
+    pub full: f64,
+}
+
+impl Energy {
+    /// Of all months.
+    pub fn total(&self) -> f64 {
+        self.months.iter().sum()
+    }
+}
+
+impl Lamps {
+    /// Taken in a step. \[W/m²\]
+    pub fn watts(&self, occupied: bool, light: &[f64]) -> f64 {
+        let zone = |zone: &Zone| {
+            let reading = zone.places.iter().map(|&place| light[place]).sum::<f64>() / zone.places.len().max(1) as f64;
+            let open = (1.0 - reading / self.target).max(0.0);
+            let part = if occupied { self.control.power(open) } else { 0.0 };
+            zone.share * (part * self.power + if part == 0.0 { self.standby } else { 0.0 })
+        };
+        self.zones.iter().map(zone).sum()
+    }
+
+    /// Over steps of `length` hours.
+    pub fn energy(&self, steps: &[Step], light: Light<'_>, length: f64) -> Energy {
+        let mut energy = Energy::default();
+        for (k, step) in steps.iter().enumerate() {
+            let month = usize::from(step.month.clamp(1, 12)) - 1;
+            energy.months[month] += self.watts(step.occupied, light.row(k)) * length / 1000.0;
+            energy.full += f64::from(u8::from(step.occupied)) * self.power * length / 1000.0;
+        }
+        energy
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lamps_follow_what_daylight_leaves_open() {
+        let dimming = |off| Control::Dimming { min_light: 0.1, min_power: 0.2, off };
+        assert_eq!((Control::OnOff.power(0.0), Control::OnOff.power(0.01)), (0.0, 1.0));
+        assert_eq!(
+            [0.0, 0.01, 1.0 / 3.0, 0.34, 1.0].map(|o| Control::Stepped(3).power(o)),
+            [0.0, 1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]
+        );
+        assert_eq!((dimming(true).power(0.0), dimming(false).power(0.0), dimming(true).power(0.05)), (0.0, 0.2, 0.2));
+        assert_eq!((dimming(true).power(0.55), dimming(true).power(1.0)), (0.6, 1.0));
+    }
+
+    #[test]
+    fn nights_cost_what_stands_by() {
+        let lamps = Lamps {
+            power: 10.0,
+            target: 500.0,
+            control: Control::OnOff,
+            standby: 0.5,
+            zones: vec![Zone { places: vec![0], share: 0.6 }, Zone { places: vec![1], share: 0.4 }],
+        };
+        let step = |month, occupied| Step { month, occupied, diffuse_horizontal: 0.0 };
+        let light = [600.0, 100.0, 0.0, 0.0];
+        let energy = lamps.energy(&[step(1, true), step(12, false)], Light::new(2, &light).unwrap(), 0.5);
+        assert!((energy.months[0] - 0.5e-3 * (0.6 * 0.5 + 0.4 * 10.0)).abs() < 1e-15);
+        assert!((energy.months[11] - 0.5e-3 * 0.5).abs() < 1e-15);
+        assert_eq!((energy.full, energy.total()), (5e-3, energy.months[0] + energy.months[11]));
+    }
+}

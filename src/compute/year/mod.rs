@@ -1,0 +1,19 @@
+//! A year in a room as figures: from the illuminances of its hours to what is asked of daylight, glare and lighting.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `hours` | the illuminances of a year, and which of its hours are occupied |
+//! | `autonomy` | daylight autonomy, useful daylight, spatial autonomy, sunlight exposure |
+//! | `provision` | EN 17037, daylight provision by hours |
+//! | `glare` | simplified daylight glare probability |
+//! | `lighting` | what lamps take beside daylight |
+//!
+//! Every definition is that of its edition; where an edition leaves two readings, both have names of their own.
+
+pub mod autonomy;
+pub mod glare;
+mod hours;
+pub mod lighting;
+pub mod provision;
+
+pub use hours::{Light, Step};

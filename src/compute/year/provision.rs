@@ -1,0 +1,112 @@
+//! Daylight provision by EN 17037:2018+A1:2021, method 2 (hourly illuminances; by public summaries, the standard was not at
+//! hand).
+//!
+//! Daylight hours are the half of the year with the most diffuse horizontal light. A level asks for a target illuminance on
+//! half of the plane and a minimum on 95 % of it, both in half of these hours. That leaves two readings: by point (how
+//! much of the plane reaches it in half of the hours) and by hour (in how many of the hours so much of the plane does),
+//! and by hour is at most as good.
+
+use super::hours::{Light, Step, share};
+
+/// Name, target and minimum illuminance \[lx\] of the levels.
+pub const LEVELS: [(&str, f64, f64); 3] = [("minimum", 300.0, 100.0), ("medium", 500.0, 300.0), ("high", 750.0, 500.0)];
+/// Share of the plane that has to reach the target.
+const TARGET_AREA: f64 = 0.5;
+/// Share of the plane that has to reach the minimum.
+const MINIMUM_AREA: f64 = 0.95;
+/// Share of the daylight hours, and of the plane where points are asked first.
+const HALF: f64 = 0.5;
+
+/// How far an illuminance is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reached {
+    /// Share of the places that reach it in half of the daylight hours.
+    pub area_by_point: f64,
+    /// Share of the daylight hours in which enough of the places reach it.
+    pub time_by_hour: f64,
+}
+
+/// One level.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Level {
+    /// The target illuminance, on half of the plane.
+    pub target: Reached,
+    /// The minimum illuminance, on 95 % of it.
+    pub minimum: Reached,
+}
+
+impl Level {
+    /// Met by points?
+    pub fn met_by_point(&self) -> bool {
+        self.target.area_by_point >= TARGET_AREA && self.minimum.area_by_point >= MINIMUM_AREA
+    }
+
+    /// Met by hours?
+    pub fn met_by_hour(&self) -> bool {
+        self.target.time_by_hour >= HALF && self.minimum.time_by_hour >= HALF
+    }
+}
+
+/// Of a whole year.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Provision {
+    /// Median of the diffuse horizontal illuminance in the daylight hours. \[lx\]
+    pub median_diffuse: f64,
+    /// In the order of [`LEVELS`].
+    pub levels: [Level; 3],
+}
+
+impl Provision {
+    /// Of a whole year; equal hours at the border of the daylight hours count as they come.
+    pub fn of(steps: &[Step], light: Light<'_>) -> Self {
+        let mut day: Vec<usize> = (0..steps.len()).collect();
+        let brightness = |k: usize| steps[k].diffuse_horizontal;
+        day.sort_by(|&a, &b| brightness(b).total_cmp(&brightness(a)));
+        day.truncate(steps.len() / 2);
+        if day.is_empty() {
+            return Self::default();
+        }
+        let median_diffuse = 0.5 * (brightness(day[(day.len() - 1) / 2]) + brightness(day[day.len() / 2]));
+        let places = light.places();
+        let reached = |limit: f64, area: f64| {
+            let often =
+                |place: &usize| share(day.iter().filter(|&&k| light.at(k, *place) >= limit).count(), day.len()) >= HALF;
+            let widely = |k: &&usize| {
+                light.row(**k).iter().filter(|e| **e >= limit).count() as f64 >= area * places as f64 - 1e-9
+            };
+            Reached {
+                area_by_point: share((0..places).filter(often).count(), places),
+                time_by_hour: share(day.iter().filter(widely).count(), day.len()),
+            }
+        };
+        let levels = LEVELS.map(|(_, target, minimum)| Level {
+            target: reached(target, TARGET_AREA),
+            minimum: reached(minimum, MINIMUM_AREA),
+        });
+        Self { median_diffuse, levels }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_readings_of_a_room_whose_halves_are_lit_in_turn() {
+        // Four daylight hours of eight: the left place is bright in the first two, the right one in the others.
+        let steps: Vec<Step> = [4.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0]
+            .map(|diffuse_horizontal| Step { month: 6, occupied: true, diffuse_horizontal })
+            .to_vec();
+        let mut values = vec![0.0; 16];
+        for (k, row) in values.chunks_mut(2).take(4).enumerate() {
+            row.copy_from_slice(if k < 2 { &[400.0, 0.0] } else { &[0.0, 400.0] });
+        }
+        let provision = Provision::of(&steps, Light::new(2, &values).unwrap());
+        assert_eq!(provision.median_diffuse, 2.5);
+        let least = provision.levels[0];
+        assert_eq!(least.target, Reached { area_by_point: 1.0, time_by_hour: 1.0 });
+        assert_eq!(least.minimum, Reached { area_by_point: 1.0, time_by_hour: 0.0 });
+        assert!(least.met_by_point() && !least.met_by_hour());
+        assert_eq!(provision.levels[1].target.area_by_point, 0.0);
+    }
+}

@@ -1,0 +1,236 @@
+//! EPW, the weather files of EnergyPlus ("Auxiliary Programs: EPW data dictionary").
+//!
+//! Read: eight lines of header in any of their spellings, Latin-1 or UTF-8, then rows of 35 fields of which the first 16
+//! must be there. Hours count from 1 to 24 and end there; of one record an hour the minute (0 or 60) says nothing. Rows
+//! are believed and the header's flags not: leap years, periods, gaps. Missing codes are no values.
+
+use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, text_of};
+use crate::compute::btdf::Finding;
+use crate::compute::limits;
+use crate::compute::weather::{Quantity, Record, Station, Weather};
+use crate::formats::location::excerpt;
+use crate::formats::{FormatError, Location};
+
+/// Names of the fields that are read, with their numbers from 1.
+const NAMES: [(usize, &str); 11] = [
+    (1, "field 1 (year)"),
+    (2, "field 2 (month)"),
+    (3, "field 3 (day)"),
+    (4, "field 4 (hour)"),
+    (5, "field 5 (minute)"),
+    (8, "field 8 (dew point)"),
+    (14, "field 14 (global horizontal irradiance)"),
+    (15, DIRECT),
+    (16, DIFFUSE),
+    (18, "field 18 (direct normal illuminance)"),
+    (19, "field 19 (diffuse horizontal illuminance)"),
+];
+const DIRECT: &str = "field 15 (direct normal irradiance)";
+const DIFFUSE: &str = "field 16 (diffuse horizontal irradiance)";
+/// Fields without which a row is none.
+const LEAST_FIELDS: usize = 16;
+/// Lines of header that are looked through for DATA PERIODS.
+const LONGEST_HEADER: usize = 200;
+
+/// Reads an EPW file.
+pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
+    let mut rows = lines(bytes);
+    let mut findings = Vec::new();
+    let (station, interval) = header(&mut rows, &mut findings)?;
+    let mut records = Vec::new();
+    let mut changed = Changed::default();
+    let mut last = 1;
+    for (number, line) in rows {
+        if line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        last = number;
+        records.push(row(line, number, interval, &mut changed)?);
+        if records.len() > limits::WEATHER_RECORDS {
+            break;
+        }
+    }
+    check_count(&records, Location::line(last))?;
+    if changed.negative > 0 {
+        let message = format!("{} irradiances between −1 and 0 W/m² were read as 0", changed.negative);
+        findings.push(Finding::info("negative-light", message));
+    }
+    if changed.years > 0 {
+        let message = format!("{} rows of years before 1900 or after 2100: their sun is that of 2001", changed.years);
+        findings.push(Finding::info("year-absurd", message));
+    }
+    Ok(Weather {
+        format: "EPW",
+        station,
+        quantity: Quantity::NormalIrradiance,
+        interval,
+        clock: 0.0,
+        tested: None,
+        records,
+        findings,
+        field_names: [DIRECT, DIFFUSE],
+    })
+}
+
+/// Station and length of the records. \[min\]
+fn header<'a>(
+    rows: &mut impl Iterator<Item = (usize, &'a [u8])>,
+    findings: &mut Vec<Finding>,
+) -> Result<(Station, u16), FormatError> {
+    let (_, first) = rows.next().unwrap_or((1, &[]));
+    let first = text_of(first);
+    if !first.trim_start().to_ascii_uppercase().starts_with("LOCATION") {
+        let found = if first.trim().is_empty() { "nothing".to_owned() } else { format!("\"{}\"", excerpt(&first)) };
+        return Err(FormatError::new(Location::line(1), found, "the LOCATION line with which an EPW file begins"));
+    }
+    let station = location(&first)?;
+    for (number, line) in rows.take(LONGEST_HEADER) {
+        let text = text_of(line);
+        let word = text.trim_start().to_ascii_uppercase();
+        if word.starts_with("DATA PERIODS") {
+            return Ok((station, interval(&text, number)?));
+        }
+        if word.starts_with("HOLIDAYS") {
+            say_summer_time(&text, findings);
+        }
+        if word.starts_with(|c: char| c.is_ascii_digit()) {
+            let found = format!("\"{}\"", excerpt(&text));
+            return Err(FormatError::new(Location::line(number), found, "the DATA PERIODS line before the first row"));
+        }
+    }
+    Err(FormatError::new(Location::file(), "no DATA PERIODS line", "eight lines of header before the first row"))
+}
+
+/// Fields of a header's line with their places.
+fn header_fields<'a>(text: &'a str, line: usize, name: &'static str) -> Vec<Field<'a>> {
+    let mut column = 1;
+    let mut fields = Vec::new();
+    for part in text.split(',') {
+        fields.push(Field { text: part, line, column, name });
+        column += part.chars().count() + 1;
+    }
+    fields
+}
+
+/// `LOCATION,city,state,country,source,WMO,latitude,longitude,time zone,elevation`
+fn location(text: &str) -> Result<Station, FormatError> {
+    let fields = header_fields(text, 1, "LOCATION");
+    if fields.len() < 10 {
+        let found = format!("LOCATION with {} fields", fields.len());
+        let expected =
+            "10: LOCATION, city, state, country, source, WMO number, latitude, longitude, time zone, elevation";
+        return Err(FormatError::new(Location::line(1), found, expected));
+    }
+    let told = |k: usize| Some(fields[k].text.trim()).filter(|text| *text != "-").unwrap_or_default().to_owned();
+    let number = told(5);
+    let source = if number.is_empty() { told(4) } else { format!("{} {number}", told(4)) };
+    let mut station = Station {
+        name: told(1),
+        region: told(2),
+        country: told(3),
+        source: source.trim().to_owned(),
+        ..Station::default()
+    };
+    let named = |k: usize, name: &'static str| Field { name, ..fields[k] };
+    place(
+        &mut station,
+        [
+            named(6, "LOCATION, latitude"),
+            named(7, "LOCATION, longitude"),
+            named(8, "LOCATION, time zone"),
+            named(9, "LOCATION, elevation"),
+        ],
+        1.0,
+        1.0,
+    )?;
+    Ok(station)
+}
+
+/// `HOLIDAYS/DAYLIGHT SAVINGS,leap year observed,start,end,holidays`: hours of the rows are standard time all the same.
+fn say_summer_time(text: &str, findings: &mut Vec<Finding>) {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let dates = fields.get(2..4).unwrap_or_default();
+    if dates.len() == 2 && dates.iter().all(|date| !matches!(*date, "" | "0" | "0/0" | "0/ 0")) {
+        let message = format!(
+            "the header sets summer time from {} to {}: rows are read as standard time all the year, as the format has it",
+            dates[0], dates[1]
+        );
+        findings.push(Finding::warning("summer-time", message));
+    }
+}
+
+/// `DATA PERIODS,number,records per hour,…`
+fn interval(text: &str, line: usize) -> Result<u16, FormatError> {
+    let fields = header_fields(text, line, "DATA PERIODS, records per hour");
+    let Some(field) = fields.get(2) else {
+        let expected = "DATA PERIODS, number of periods, records per hour, …";
+        return Err(FormatError::new(Location::line(line), "DATA PERIODS without records per hour", expected));
+    };
+    let records = field.integer(1, 60)?;
+    if 60 % records != 0 { Err(field.wrong("a number that divides 60")) } else { Ok(60 / records as u16) }
+}
+
+fn row(bytes: &[u8], line: usize, interval: u16, changed: &mut Changed) -> Result<Record, FormatError> {
+    // What is not ASCII is in remarks and flags, never in a number; a bad byte makes a bad number.
+    let mut fields = [Field { text: "", line, column: 0, name: "" }; NAMES.len()];
+    let (mut count, mut column, mut next) = (0, 1, 0);
+    for part in bytes.split(|byte| *byte == b',') {
+        count += 1;
+        if let Some((number, name)) = NAMES.get(next)
+            && *number == count
+        {
+            fields[next] = Field { text: std::str::from_utf8(part).unwrap_or("?"), line, column, name };
+            next += 1;
+        }
+        column += part.len() + 1;
+    }
+    if count < LEAST_FIELDS {
+        let at = Location::line_column(line, bytes.len() + 1);
+        return Err(FormatError::new(at, format!("a row of {count} fields"), "35 fields, the first 16 at least"));
+    }
+    let [year, month, date, hour, minute, dew, whole, sun, sky, sun_light, sky_light] = &fields;
+    let written = year.integer(-32_000, 32_000)?;
+    let day = day(written, month, date)?;
+    changed.years += usize::from(i32::from(day.year) != written);
+    let hour = hour.integer(1, 24)? as u16;
+    let start = if interval == 60 {
+        60 * (hour - 1)
+    } else {
+        // Counted within the hour, which ends with minute 60 or 0.
+        let end = match minute.integer(0, 60)? as u16 {
+            0 => 60,
+            end => end,
+        };
+        if end % interval != 0 {
+            return Err(minute.wrong(format!("a multiple of {interval} min, the end of the interval")));
+        }
+        60 * (hour - 1) + end - interval
+    };
+    let dew_point = dew.number()? + 0.0;
+    Ok(Record {
+        day,
+        start,
+        direct: irradiance(sun)?.map(|value| direct(value, sun, day, changed)).transpose()?,
+        diffuse: irradiance(sky)?.map(|value| diffuse(value, sky, changed)).transpose()?,
+        global: irradiance(whole)?.map(|value| global(value, whole, changed)).transpose()?,
+        dew_point: (dew_point < 99.0 && dew_point > -99.0).then_some(dew_point),
+        direct_illuminance: illuminance(sun_light)?,
+        diffuse_illuminance: illuminance(sky_light)?,
+        line: u32::try_from(line).unwrap_or(u32::MAX),
+    })
+}
+
+/// Missing: 9999, in older files 99990 and more.
+fn irradiance(field: &Field<'_>) -> Result<Option<f64>, FormatError> {
+    let value = field.number()?;
+    Ok(((value < 9999.0) || (value >= 10_000.0 && value < 99_990.0)).then_some(value))
+}
+
+/// Missing: 999999, in older files 999900; or no such field.
+fn illuminance(field: &Field<'_>) -> Result<Option<f64>, FormatError> {
+    if field.name.is_empty() || field.text.trim().is_empty() {
+        return Ok(None);
+    }
+    let value = field.number()?;
+    Ok((0.0..999_900.0).contains(&value).then_some(value))
+}

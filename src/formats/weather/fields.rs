@@ -1,0 +1,143 @@
+//! Lines of numbers: fields with their place, and the limits that all weather formats share.
+
+use crate::compute::limits;
+use crate::compute::sky::perez::SOLAR_CONSTANT;
+use crate::compute::weather::{Day, Record, Station};
+use crate::formats::encoding::any_text;
+use crate::formats::location::excerpt;
+use crate::formats::{FormatError, Location};
+
+/// The lines of a file that is ASCII in all that counts. Others become `?` for messages; no number has any.
+pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    bytes.split(|byte| *byte == b'\n').enumerate().map(|(k, line)| (k + 1, line.strip_suffix(b"\r").unwrap_or(line)))
+}
+
+/// Latin-1 or UTF-8 text of a header.
+pub fn text_of(line: &[u8]) -> String {
+    any_text(line).0
+}
+
+/// A field in its line.
+#[derive(Debug, Clone, Copy)]
+pub struct Field<'a> {
+    /// The text.
+    pub text: &'a str,
+    /// Number of its line.
+    pub line: usize,
+    /// Its column in the line, from 1.
+    pub column: usize,
+    /// What it is, for messages.
+    pub name: &'static str,
+}
+
+impl Field<'_> {
+    /// An error at this place.
+    pub fn wrong(&self, expected: impl Into<String>) -> FormatError {
+        let at = Location::line_column(self.line, self.column).in_element(self.name);
+        FormatError::new(at, format!("\"{}\"", excerpt(self.text)), expected)
+    }
+
+    /// A finite number.
+    pub fn number(&self) -> Result<f64, FormatError> {
+        let value = self.text.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+        value.ok_or_else(|| self.wrong("a number"))
+    }
+
+    /// A finite number between limits.
+    pub fn within(&self, min: f64, max: f64, unit: &str) -> Result<f64, FormatError> {
+        let value = self.number()?;
+        if (min..=max).contains(&value) {
+            Ok(value)
+        } else {
+            Err(self.wrong(format!("{min} to {max} {unit}").trim_end()))
+        }
+    }
+
+    /// A whole number between limits.
+    pub fn integer(&self, min: i32, max: i32) -> Result<i32, FormatError> {
+        // 1.0 is written by programs that know no integers.
+        let value = self.number()?;
+        if value.fract() == 0.0 && (f64::from(min)..=f64::from(max)).contains(&value) {
+            Ok(value as i32)
+        } else {
+            Err(self.wrong(format!("a whole number from {min} to {max}")))
+        }
+    }
+}
+
+/// Latitude, longitude (east positive), hours ahead of UTC and elevation within what there is.
+pub fn place(station: &mut Station, fields: [Field<'_>; 4], longitude_sign: f64, zone: f64) -> Result<(), FormatError> {
+    let [latitude, longitude, time_zone, elevation] = fields;
+    station.latitude = latitude.within(-90.0, 90.0, "° (north positive)")?;
+    let sense = if longitude_sign > 0.0 { "° (east positive)" } else { "° (west positive)" };
+    station.longitude = longitude_sign * longitude.within(-180.0, 180.0, sense)?;
+    let most = 14.0 / zone.abs();
+    let unit = if zone == 1.0 { "h (ahead of UTC)" } else { "° (west positive)" };
+    station.utc_offset = zone * time_zone.within(-most, most, unit)?;
+    station.elevation = elevation.within(-1000.0, 9999.9, "m")?;
+    Ok(())
+}
+
+/// A day that some year has; years that cannot be are 2001, or 2004 for a leap day.
+pub fn day(year: i32, month: &Field<'_>, day: &Field<'_>) -> Result<Day, FormatError> {
+    let (m, d) = (month.integer(1, 12)?, day.integer(1, 31)?);
+    let year = if (1900..=2100).contains(&year) {
+        year
+    } else if (m, d) == (2, 29) {
+        2004
+    } else {
+        2001
+    };
+    Day::new(year as i16, m as u8, d as u8).ok_or_else(|| day.wrong(format!("a day that month {m} has")))
+}
+
+/// Least irradiance that is taken for 0. \[W/m²\]
+const LEAST: f64 = -1.0;
+/// Most diffuse irradiance that any sky sends. \[W/m²\]
+const MOST_DIFFUSE: f64 = 1000.0;
+
+/// Counts of what was changed while reading.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Changed {
+    /// Irradiances a little below 0 that became 0.
+    pub negative: usize,
+    /// Years that cannot be.
+    pub years: usize,
+}
+
+/// An irradiance that some sun or sky sends: from a little below 0, which becomes 0.
+fn limited(value: f64, field: &Field<'_>, most: f64, changed: &mut Changed) -> Result<f64, FormatError> {
+    if !(LEAST..=most).contains(&value) {
+        return Err(field.wrong(format!("0 to {most:.0} W/m²")));
+    }
+    changed.negative += usize::from(value < 0.0);
+    // Not the zero of the minus sign, which some files write.
+    Ok(value.max(0.0) + 0.0)
+}
+
+/// Direct irradiance: at most a tenth more than the sun of that day sends.
+pub fn direct(value: f64, field: &Field<'_>, day: Day, changed: &mut Changed) -> Result<f64, FormatError> {
+    limited(value, field, 1.1 * SOLAR_CONSTANT * day.eccentricity(), changed)
+}
+
+/// Diffuse irradiance.
+pub fn diffuse(value: f64, field: &Field<'_>, changed: &mut Changed) -> Result<f64, FormatError> {
+    limited(value, field, MOST_DIFFUSE, changed)
+}
+
+/// Global irradiance: bright clouds around the sun may send more than the sun alone.
+pub fn global(value: f64, field: &Field<'_>, changed: &mut Changed) -> Result<f64, FormatError> {
+    limited(value, field, 2000.0, changed)
+}
+
+/// Not more of them than anybody has, and one at least.
+pub fn check_count(records: &[Record], at: Location) -> Result<(), FormatError> {
+    if records.is_empty() {
+        return Err(FormatError::new(at, "no rows of data", "a row for every interval"));
+    }
+    if records.len() > limits::WEATHER_RECORDS {
+        let expected = format!("at most {} (a leap year minute by minute)", limits::WEATHER_RECORDS);
+        return Err(FormatError::new(at, "too many rows", expected));
+    }
+    Ok(())
+}

@@ -1,0 +1,175 @@
+//! `aperture.system` as typed: a closed form, a file, a family of files, a product, luminaire files.
+
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// `aperture.system`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "SystemAsTyped", into = "SystemAsTyped")]
+pub enum SystemKeys {
+    /// `{ ideal = "transparent", transmittance = 1.0 }`
+    Ideal {
+        /// Transparent or diffuse.
+        kind: IdealKind,
+        /// 0 … 1
+        transmittance: f64,
+    },
+    /// `{ file = "system.xml" }`
+    File {
+        /// Relative to the scene file.
+        path: PathBuf,
+        /// Key of the state in a file of several.
+        state: Option<String>,
+    },
+    /// `{ catalogue = "product-key", state = "45" }`
+    Catalogue {
+        /// Product key.
+        key: String,
+        /// Key of the state, or "controlled".
+        state: Option<String>,
+    },
+    /// `{ states = [{ state = "0", value = 0.0, file = "a.xml" }, …], state = "controlled" }`: a family of files.
+    Family {
+        /// At least one.
+        states: Vec<FamilyState>,
+        /// Key of the state, or "controlled".
+        state: Option<String>,
+    },
+    /// `{ luminaires = "x.index.csv" }`: luminaire files as a host takes them.
+    Luminaires {
+        /// Their index, relative to the scene file.
+        index: PathBuf,
+        /// Member of a series.
+        set: Option<String>,
+    },
+}
+
+/// One of `aperture.system.states`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FamilyState {
+    /// Its key.
+    pub state: String,
+    /// Its number: slat angle, or any by which a control tells states apart.
+    pub value: f64,
+    /// Relative to the scene file.
+    pub file: PathBuf,
+}
+
+/// All keys that `aperture.system` may have; which belong together is judged afterwards, so that the message can say.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct SystemAsTyped {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ideal: Option<IdealKind>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transmittance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    catalogue: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    states: Option<Vec<FamilyState>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    luminaires: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    set: Option<String>,
+}
+
+impl TryFrom<SystemAsTyped> for SystemKeys {
+    type Error = String;
+
+    fn try_from(typed: SystemAsTyped) -> Result<Self, String> {
+        if let SystemAsTyped { luminaires: Some(index), set, .. } = &typed {
+            let keys = Self::Luminaires { index: index.clone(), set: set.clone() };
+            if SystemAsTyped::from(keys.clone()) == typed {
+                return Ok(keys);
+            }
+        }
+        if let SystemAsTyped { states: Some(states), state, .. } = &typed {
+            let keys = Self::Family { states: states.clone(), state: state.clone() };
+            if SystemAsTyped::from(keys.clone()) == typed {
+                return family(states).map(|()| keys);
+            }
+        }
+        match typed {
+            SystemAsTyped {
+                ideal: Some(kind),
+                transmittance: Some(transmittance),
+                file: None,
+                catalogue: None,
+                state: None,
+                states: None,
+                luminaires: None,
+                set: None,
+            } => Ok(Self::Ideal { kind, transmittance }),
+            SystemAsTyped {
+                ideal: None,
+                transmittance: None,
+                file: Some(path),
+                catalogue: None,
+                state,
+                states: None,
+                luminaires: None,
+                set: None,
+            } => Ok(Self::File { path, state }),
+            SystemAsTyped {
+                ideal: None,
+                transmittance: None,
+                file: None,
+                catalogue: Some(key),
+                state,
+                states: None,
+                luminaires: None,
+                set: None,
+            } => Ok(Self::Catalogue { key, state }),
+            _ => Err(
+                "system needs exactly one of: ideal and transmittance; file; catalogue; states; luminaires (state goes with \
+                      file, catalogue and states, set with luminaires)"
+                    .into(),
+            ),
+        }
+    }
+}
+
+/// Some states, each with a key of its own and a number.
+fn family(states: &[FamilyState]) -> Result<(), String> {
+    if states.is_empty() {
+        return Err("states: none; expected at least one".into());
+    }
+    for (place, one) in states.iter().enumerate() {
+        if states[..place].iter().any(|other| other.state == one.state) {
+            return Err(format!("states: two are called '{}'; expected a key for each", one.state));
+        }
+        if !one.value.is_finite() {
+            return Err(format!("states: the value of '{}' is no number", one.state));
+        }
+    }
+    Ok(())
+}
+
+impl From<SystemKeys> for SystemAsTyped {
+    fn from(keys: SystemKeys) -> Self {
+        match keys {
+            SystemKeys::Ideal { kind, transmittance } => {
+                Self { ideal: Some(kind), transmittance: Some(transmittance), ..Self::default() }
+            }
+            SystemKeys::File { path, state } => Self { file: Some(path), state, ..Self::default() },
+            SystemKeys::Catalogue { key, state } => Self { catalogue: Some(key), state, ..Self::default() },
+            SystemKeys::Family { states, state } => Self { states: Some(states), state, ..Self::default() },
+            SystemKeys::Luminaires { index, set } => Self { luminaires: Some(index), set, ..Self::default() },
+        }
+    }
+}
+
+/// `system.ideal`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum IdealKind {
+    /// Light goes straight on.
+    Transparent,
+    /// Lambertian emission, τ independent of incidence.
+    Diffuse,
+}

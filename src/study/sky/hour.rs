@@ -1,0 +1,171 @@
+//! The hour of a weather file as sky and sun of a scene.
+
+use super::keys::{SkyKeyError, wrong};
+use crate::compute::sky::{Distribution, Outside, SkyError};
+use crate::compute::weather::{Closure, Hour, LightSource, Reading, SunOffset, Weather};
+use crate::study::scene_file::{IlluminanceKey, SiteKeys, SkyKeys, SkyModelKey};
+use crate::study::sun_position::parse_local_time;
+use crate::study::weather::load;
+use crate::study::weather_keys::reading;
+use std::path::Path;
+
+/// Furthest that a scene may lie from its weather without being told. \[°\]
+const SAME_PLACE: f64 = 0.5;
+/// Furthest that its clock may be off from that of its weather without being told. \[h\]
+const SAME_CLOCK: f64 = 0.5;
+
+/// What `sky.weather` and `sky.time` name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HourOfWeather {
+    /// Sun and light.
+    pub hour: Hour,
+    /// The row's own day and the interval: `1958-03-21 12:00–13:00`.
+    pub interval: String,
+    /// The weather's name as the scene has it.
+    pub name: String,
+    /// Minutes by which the interval was moved.
+    pub offset: f64,
+    /// What a person should know.
+    pub warnings: Vec<String>,
+}
+
+impl HourOfWeather {
+    /// In one line: which hour, its irradiances, where its sun stands, its light and how that was found.
+    pub fn note(&self) -> String {
+        let hour = &self.hour;
+        let light = match hour.light {
+            LightSource::Efficacy => "by luminous efficacy",
+            LightSource::File => "as the file states them",
+        };
+        let moved = if self.offset == 0.0 { String::new() } else { format!(" moved by {:+} min", self.offset) };
+        format!(
+            "weather {}, {}{moved}: direct normal {:.0} W/m², diffuse {:.0} W/m², sun at {:.2}°, bearing {:.2}°; \
+             direct normal {:.0} lx, diffuse {:.0} lx {light}",
+            self.name,
+            self.interval,
+            hour.direct_normal_irradiance,
+            hour.diffuse_horizontal_irradiance,
+            hour.sun.altitude().to_degrees(),
+            hour.sun.bearing().degrees(),
+            hour.direct_normal,
+            hour.diffuse_horizontal,
+        )
+    }
+}
+
+/// The hour that a scene's sky is; `None` for skies of a model. `base`: what relative paths start from.
+///
+/// # Errors
+/// Keys that do not go with `sky.weather`; a file that cannot be read; an hour that it does not hold.
+pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Option<HourOfWeather>, SkyKeyError> {
+    check_keys(sky)?;
+    let Some(name) = &sky.weather else { return Ok(None) };
+    let Some(time) = &sky.time else {
+        return Err(wrong("sky.time", "missing: sky.weather needs it, month, day and hour of the row"));
+    };
+    let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
+    let weather = load(name, base).map_err(|error| wrong("sky.weather", error.to_string()))?;
+    let minute = 60 * time.hour() as u16 + time.minute() as u16;
+    let index = weather.find(time.month() as u8, time.day() as u8, minute).ok_or_else(|| {
+        let found = format!("{} has no interval that holds {}", name.display(), time.strftime("%-d %B, %H:%M"));
+        wrong("sky.time", format!("{found}; expected one of its {} rows", weather.records.len()))
+    })?;
+    let reading = reading(sky.light, sky.sun_offset_minutes);
+    let failed =
+        |error: crate::compute::weather::HourError| wrong("sky.weather", format!("{}: {error}", name.display()));
+    let mut hours = weather.hours(reading).map_err(failed)?;
+    let hour = hours.at(index).map_err(failed)?;
+    let record = &weather.records[index];
+    let mut warnings = places_apart(&weather, site);
+    let closure = weather.closure().map_err(|error| wrong("sky.weather", error.to_string()))?;
+    warnings.extend(clock_warning(&weather, name, reading, closure.as_ref(), "sun_offset_minutes"));
+    Ok(Some(HourOfWeather {
+        hour,
+        interval: format!("{} {}", record.day, record.clock_words(weather.interval)),
+        name: name.display().to_string(),
+        offset: hours.offset(),
+        warnings,
+    }))
+}
+
+/// `sky.weather` stands instead of a model and its values.
+fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
+    let by_weather = sky.model == SkyModelKey::Weather;
+    if sky.weather.is_none() {
+        const ALONE: &str = "belongs to sky.weather alone: leave it out";
+        if by_weather {
+            let message = "missing: \"cie\", \"uniform\", \"perez\" or \"scan\"; or weather = a file, and time";
+            return Err(wrong("sky.model", message));
+        }
+        if !sky.light.is_default() {
+            return Err(wrong("sky.light", ALONE));
+        }
+        return if sky.sun_offset_minutes.is_default() { Ok(()) } else { Err(wrong("sky.sun_offset_minutes", ALONE)) };
+    }
+    let not_beside = |key: &'static str, given: bool| {
+        if given {
+            Err(wrong(key, "given together with sky.weather, which says it: leave one of them out"))
+        } else {
+            Ok(())
+        }
+    };
+    not_beside("sky.model", !by_weather)?;
+    not_beside("sky.illuminance", sky.illuminance != IlluminanceKey::Stated)?;
+    not_beside("sky.type", sky.cie_type.is_some())?;
+    not_beside("sky.file", sky.file.is_some())?;
+    not_beside("sky.diffuse_horizontal", sky.diffuse_horizontal.is_some())?;
+    not_beside("sky.direct_horizontal_irradiance", sky.direct_horizontal_irradiance.is_some())?;
+    not_beside("sky.diffuse_horizontal_irradiance", sky.diffuse_horizontal_irradiance.is_some())?;
+    let sun = &sky.sun;
+    not_beside("sky.sun", sun.altitude.is_some() || sun.azimuth.is_some() || sun.direct_normal.is_some())
+}
+
+/// A clock that disagrees with the file's own irradiances, where nothing moves it; `key` moves it.
+pub fn clock_warning(
+    weather: &Weather,
+    name: &Path,
+    reading: Reading,
+    closure: Option<&Closure>,
+    key: &str,
+) -> Option<String> {
+    let unmoved = reading.offset == SunOffset::Minutes(0.0) && weather.tested.is_none();
+    closure.filter(|closure| unmoved && closure.is_off()).map(|closure| {
+        format!(
+            "the clock of {} disagrees with its irradiances, which close to {:.1} W/m², and to {:.1} W/m² with {key} = {}",
+            name.display(),
+            closure.rms,
+            closure.best_rms,
+            closure.best_offset
+        )
+    })
+}
+
+/// The weather's own place and clock count; a scene that states others is told.
+pub fn places_apart(weather: &Weather, site: &SiteKeys) -> Vec<String> {
+    let station = &weather.station;
+    [
+        ("site.latitude", site.latitude, station.latitude, SAME_PLACE, "°"),
+        ("site.longitude", site.longitude, station.longitude, SAME_PLACE, "°"),
+        ("site.utc_offset", site.utc_offset, station.utc_offset, SAME_CLOCK, " h"),
+    ]
+    .into_iter()
+    .filter_map(|(key, given, own, most, unit)| {
+        let given = given.filter(|given| (given - own).abs() > most)?;
+        Some(format!("{key} = {given}{unit}, but the weather is that of {own}{unit}: its own place and clock count"))
+    })
+    .collect()
+}
+
+/// The hour's sky, scaled to its illuminance, over black ground. `by`: how it is scaled.
+pub(super) fn sky_of(
+    hour: &Hour,
+    by: fn(Distribution, f64) -> Result<Outside, SkyError>,
+) -> Result<Outside, SkyKeyError> {
+    let (distribution, light) = match &hour.state {
+        Some(state) if hour.diffuse_horizontal > 0.0 => {
+            (Distribution::perez(state, hour.sky_sun()), hour.diffuse_horizontal)
+        }
+        _ => (Distribution::uniform(), 0.0),
+    };
+    by(distribution, light).map_err(|error| wrong("sky.weather", error.to_string()))
+}

@@ -1,0 +1,83 @@
+//! What a year comes to: autonomy, provision, glare, lighting, each with the error that the hours' own errors leave it.
+
+use super::Year;
+use crate::compute::year::autonomy::{Autonomy, Exposure};
+use crate::compute::year::glare::{Glare, glare};
+use crate::compute::year::lighting::Energy;
+use crate::compute::year::provision::Provision;
+use crate::compute::year::{Light, Step};
+
+/// Figures of the steps that were asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figures {
+    /// Steps.
+    pub steps: usize,
+    /// Occupied ones.
+    pub occupied: usize,
+    /// With light from the sky.
+    pub lit: usize,
+    /// Of the sensors.
+    pub autonomy: Autonomy,
+    /// Sun on the sensors; `None` where nothing lets it through unscattered, or where a control moves what does.
+    pub exposure: Option<Exposure>,
+    /// EN 17037; `None` for less than a year.
+    pub provision: Option<Provision>,
+    /// By eye.
+    pub glare: Vec<Glare>,
+    /// With lamps.
+    pub lighting: Option<Energy>,
+}
+
+/// The figures of a year, and of the same year with all illuminances less and more by their errors: between these lies what
+/// the errors leave open.
+pub fn figures(year: &Year) -> [Figures; 3] {
+    let light = &year.light;
+    let shifted = |sign: f64| -> Vec<f64> {
+        light.values.iter().zip(&light.errors).map(|(value, error)| (value + sign * error).max(0.0)).collect()
+    };
+    [of(year, &light.values), of(year, &shifted(-1.0)), of(year, &shifted(1.0))]
+}
+
+/// Columns of a table of rows.
+fn columns(values: &[f64], places: usize, from: usize, to: usize) -> Vec<f64> {
+    values.chunks_exact(places).flat_map(|row| row[from..to].iter().copied()).collect()
+}
+
+fn of(year: &Year, values: &[f64]) -> Figures {
+    let (sensors, places) = (year.settings.sensors, year.light.places);
+    let steps: Vec<Step> = year
+        .chosen
+        .iter()
+        .map(|&k| {
+            let step = &year.steps.list[k];
+            Step { month: step.month, occupied: step.occupied, diffuse_horizontal: step.hour.diffuse_horizontal }
+        })
+        .collect();
+    let whole = year.steps.whole && year.chosen.len() == year.steps.list.len();
+    let split = |values: &[f64]| (columns(values, places, 0, sensors), columns(values, places, sensors, places));
+    let (desks, eyes) = split(values);
+    let (sun_on_desks, sun_at_eyes) = year.light.sun.as_deref().map(split).unzip();
+    // A scene has sensors, or it is none; eyes it need not have.
+    let table = |values| Light::new(sensors.max(1), values);
+    let length = year.steps.length;
+    let light = table(&desks);
+    Figures {
+        steps: steps.len(),
+        occupied: steps.iter().filter(|step| step.occupied).count(),
+        lit: steps.iter().filter(|step| step.diffuse_horizontal > 0.0).count(),
+        autonomy: light.map(|light| Autonomy::of(&steps, light)).unwrap_or_default(),
+        exposure: sun_on_desks
+            .as_deref()
+            .filter(|_| whole && year.moving.is_empty())
+            .and_then(table)
+            .map(|sun| Exposure::of(&steps, sun, length)),
+        provision: light.filter(|_| whole).map(|light| Provision::of(&steps, light)),
+        glare: Light::new(places - sensors, &eyes)
+            .map(|eyes| {
+                let sun = sun_at_eyes.as_deref().and_then(|sun| Light::new(places - sensors, sun));
+                glare(&steps, eyes, sun)
+            })
+            .unwrap_or_default(),
+        lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
+    }
+}

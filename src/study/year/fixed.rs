@@ -1,0 +1,66 @@
+//! The scene of a step: states fixed, sky and sun of the hour.
+
+use super::steps::Steps;
+use crate::study::control::year::Moving;
+use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, SunKeys, SystemKeys, TimeKey};
+
+/// The scene with the states of its moving apertures fixed, and no year.
+pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
+    let mut scene = SceneFile { year: None, ..file.clone() };
+    for (one, &state) in moving.iter().zip(states) {
+        let key = one.device.keys[state].clone();
+        match &mut scene.aperture[one.aperture - 1].system {
+            SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
+                *state = Some(key);
+            }
+            SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {}
+        }
+    }
+    scene
+}
+
+/// A sky that only says that there is light: what it is prepared for sees the hours later.
+pub fn put_ordinary(scene: &mut SceneFile) {
+    scene.sky = SkyKeys { cie_type: Some(16), diffuse_horizontal: Some(1e4), ..bare(scene, SkyModelKey::Cie) };
+}
+
+/// What stands before the sky stays, all else goes.
+fn bare(scene: &SceneFile, model: SkyModelKey) -> SkyKeys {
+    SkyKeys {
+        model,
+        weather: None,
+        light: Default::default(),
+        sun_offset_minutes: Default::default(),
+        cie_type: None,
+        illuminance: IlluminanceKey::Stated,
+        diffuse_horizontal: None,
+        sun: SunKeys::default(),
+        time: None,
+        direct_horizontal_irradiance: None,
+        diffuse_horizontal_irradiance: None,
+        file: None,
+        ..scene.sky.clone()
+    }
+}
+
+/// Sky, sun and ground of a step as keys of a plain scene: model, irradiances and the illuminances that they are scaled to.
+pub fn put_at(scene: &mut SceneFile, steps: &Steps, at: usize) {
+    let step = &steps.list[at];
+    let hour = &step.hour;
+    let clock = scene.site.dst.clock(step.time, steps.station.utc_offset);
+    let (altitude, azimuth) = (hour.sun.altitude(), hour.sun.bearing().degrees());
+    let direct = hour.direct_normal_irradiance * altitude.sin().max(0.0);
+    scene.sky = SkyKeys {
+        time: Some(TimeKey::Text(clock.strftime("%Y-%m-%dT%H:%M:%S").to_string())),
+        sun: SunKeys {
+            altitude: Some(altitude.to_degrees()),
+            azimuth: Some(azimuth),
+            direct_normal: Some(hour.direct_normal),
+        },
+        diffuse_horizontal: Some(hour.diffuse_horizontal),
+        direct_horizontal_irradiance: Some(direct),
+        diffuse_horizontal_irradiance: Some(hour.diffuse_horizontal_irradiance),
+        ..bare(scene, SkyModelKey::Perez)
+    };
+    scene.site.ground_reflectance = steps.ground(at);
+}

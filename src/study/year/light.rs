@@ -1,0 +1,229 @@
+//! Illuminances of the steps of a year.
+//!
+//! Steps are grouped by the states of the moving apertures, and what the room makes of light is found once for each group.
+//! Where all that comes through is known by cells or in closed form, that is coefficients for sky and sun; else every
+//! step is a room of its own, with geometry and room kept by the session.
+
+use super::fixed::{put_ordinary, with_states};
+use super::settings::Settings;
+use super::steps::Steps;
+use crate::compute::btdf::{Btdf, Scattered};
+use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
+use crate::compute::lid::{BeamLight, Facing};
+use crate::compute::room::direct::beams_through;
+use crate::compute::sky::{Outside, Sun};
+use crate::study::coefficients::Coefficients;
+use crate::study::control::year::Moving;
+use crate::study::error::StudyError;
+use crate::study::outside::Before;
+use crate::study::scene::Scene;
+use crate::study::scene_file::{Interpolation, SceneFile};
+use crate::study::session::Session;
+use crate::study::system::SystemLibrary;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How the light of the steps was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Products with coefficients, prepared once for each set of states.
+    Coefficients,
+    /// Every step as a room.
+    Rooms,
+}
+
+/// Illuminances of the chosen steps: rows of steps, columns of places, sensors first, then eyes. \[lx\]
+#[derive(Debug, Clone, PartialEq)]
+pub struct Light {
+    /// Sensors and eyes.
+    pub places: usize,
+    /// All light.
+    pub values: Vec<f64>,
+    /// How far that may be off.
+    pub errors: Vec<f64>,
+    /// Of it the sun that comes through unscattered and unreflected; `None` where nothing lets it.
+    pub sun: Option<Vec<f64>>,
+    /// How it was found.
+    pub way: Way,
+    /// Sets of states that occur with light.
+    pub sets: usize,
+    /// Steps without light, which were not computed.
+    pub dark: usize,
+}
+
+/// What is asked.
+pub(super) struct Question<'a> {
+    pub file: &'a SceneFile,
+    pub base: &'a Path,
+    pub library: &'a dyn SystemLibrary,
+    pub session: &'a Session,
+    pub settings: &'a Settings,
+    pub steps: &'a Steps,
+    pub moving: &'a [Moving],
+}
+
+/// Of the chosen steps, with the states of all steps.
+///
+/// # Errors
+/// Of the scene; cancelled.
+pub(super) fn light(
+    question: &Question<'_>,
+    states: &[Vec<usize>],
+    chosen: &[usize],
+    notes: &mut Vec<String>,
+    progress: &dyn Progress,
+) -> Result<Light, StudyError> {
+    let places = question.settings.sensors + question.settings.eyes.len();
+    let mut groups: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
+    for (row, &k) in chosen.iter().enumerate() {
+        if question.steps.list[k].hour.is_lit() {
+            groups.entry(&states[k]).or_default().push(row);
+        }
+    }
+    let lit: usize = groups.values().map(Vec::len).sum();
+    let mut light = Light {
+        places,
+        values: vec![0.0; places * chosen.len()],
+        errors: vec![0.0; places * chosen.len()],
+        sun: None,
+        way: Way::Coefficients,
+        sets: groups.len(),
+        dark: chosen.len() - lit,
+    };
+    let done = AtomicUsize::new(0);
+    for (set, rows) in groups {
+        let scene = prepared(question, set)?;
+        let engine = Engine::new(question, scene, progress)?;
+        if let Engine::Rooms(..) = engine {
+            light.way = Way::Rooms;
+        }
+        let found: Vec<(usize, Found)> = rows
+            .par_iter()
+            .map(|&row| {
+                if progress.cancelled() {
+                    return Err(StudyError::from(Cancelled));
+                }
+                let found = engine.at(question.session, question.steps.outside(chosen[row])?)?;
+                progress.advance("hours", done.fetch_add(1, Ordering::Relaxed) + 1, lit);
+                Ok((row, found))
+            })
+            .collect::<Result<_, _>>()?;
+        for (row, found) in found {
+            let at = row * places;
+            for (place, e) in found.light.into_iter().enumerate() {
+                light.values[at + place] = e.value;
+                light.errors[at + place] = e.error;
+            }
+            if let Some(sun) = found.sun {
+                let all = light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()]);
+                all[at..at + places].copy_from_slice(&sun);
+            }
+        }
+    }
+    if light.way == Way::Rooms {
+        notes.push(
+            "every hour was computed as a room: its beams, boxes or skyline are not known by coefficients".to_owned(),
+        );
+    }
+    Ok(light)
+}
+
+/// The scene with the states of a set, eyes behind its sensors, under a sky that only says that there is light.
+fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError> {
+    let mut file = with_states(question.file, question.moving, set);
+    put_ordinary(&mut file);
+    // Boxes are lit by the sky of each step.
+    file.outside = Vec::new();
+    let mut scene = Scene::resolve(&file, question.base, question.library)?;
+    scene.sensors.extend(&question.settings.eyes);
+    scene.grid = None;
+    Ok(scene)
+}
+
+/// What a step comes to.
+struct Found {
+    light: Vec<Estimate>,
+    sun: Option<Vec<f64>>,
+}
+
+/// Ready for any sky and sun.
+enum Engine {
+    Coefficients(Box<Scene>, Box<Coefficients>),
+    Rooms(Box<Scene>, Before),
+}
+
+impl Engine {
+    fn new(question: &Question<'_>, scene: Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
+        let before = Before::of(
+            &question.file.outside,
+            &scene.room,
+            &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
+        )?;
+        if before.is_empty() && scene.outside.surroundings().is_none() && known(&scene) {
+            let coefficients = Coefficients::new(question.session, &scene, progress)?;
+            return Ok(Self::Coefficients(Box::new(scene), Box::new(coefficients)));
+        }
+        Ok(Self::Rooms(Box::new(scene), before))
+    }
+
+    fn at(&self, session: &Session, (outside, sun): (Outside, Option<Sun>)) -> Result<Found, StudyError> {
+        match self {
+            Self::Coefficients(scene, coefficients) => {
+                let mut light = coefficients.sky_estimate(&outside);
+                if let Some(sun) = &sun {
+                    light.iter_mut().zip(coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
+                }
+                Ok(Found { light, sun: straight(scene, &outside, sun.as_ref()) })
+            }
+            Self::Rooms(scene, before) => {
+                let outside = before.stand(outside, sun.as_ref(), &scene.room, scene.orientation, &Silent)?;
+                let scene = Scene { outside, sun, ..Scene::clone(scene) };
+                let result = session.room(&scene, &Silent)?;
+                let light = result.sensors.iter().map(|one| one.total()).collect();
+                // What boxes hide of the sun differs from place to place.
+                let seen = before.is_empty().then(|| straight(&scene, &scene.outside, scene.sun.as_ref()));
+                Ok(Found { light, sun: seen.flatten() })
+            }
+        }
+    }
+}
+
+/// Is all that the systems do known by cells or in closed form? What keeps light together otherwise is found anew for every
+/// sun.
+fn known(scene: &Scene) -> bool {
+    let one = |btdf: &Btdf| match &btdf.scattered {
+        None | Some(Scattered::Lambert(_)) => true,
+        Some(Scattered::Cells(_) | Scattered::Directions(_)) => scene.interpolation == Interpolation::Patch,
+        Some(Scattered::Tree(_)) => false,
+    };
+    scene.apertures.iter().all(|aperture| {
+        // What keeps its straight light apart says all of it by its data.
+        let very = aperture.system.very.as_ref();
+        let by_data =
+            scene.interpolation == Interpolation::Patch || very.is_none_or(|very| very.0.keeps_regular_apart());
+        by_data && aperture.system.dataset.transmission().is_some_and(one)
+    })
+}
+
+/// The sun straight at the places through what lets it pass unscattered; `None` where nothing does.
+fn straight(scene: &Scene, outside: &Outside, sun: Option<&Sun>) -> Option<Vec<f64>> {
+    let regular =
+        |index: usize| scene.apertures[index].system.dataset.transmission().and_then(|btdf| btdf.regular.as_ref());
+    let through: Vec<usize> = (0..scene.apertures.len()).filter(|&index| regular(index).is_some()).collect();
+    if through.is_empty() {
+        return None;
+    }
+    let mut sums = vec![0.0; scene.sensors.len()];
+    for index in through {
+        let one = &scene.apertures[index];
+        let facing = Facing { outside, sun, orientation: scene.orientation, surface: one.aperture.surface };
+        let Some(beam) = BeamLight::regular(regular(index), &facing) else { continue };
+        let beam = beam.scaled(one.clear);
+        for (sum, sensor) in sums.iter_mut().zip(&scene.sensors) {
+            *sum += beams_through(sensor, &one.aperture, &[beam], &facing).beam;
+        }
+    }
+    Some(sums)
+}

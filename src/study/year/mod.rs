@@ -1,0 +1,121 @@
+//! A year in a room: every step of a weather file, the states that controls pick, and the illuminance at every sensor and
+//! eye, as the room of that moment has it.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `settings` | keys judged together |
+//! | `steps` | the weather's intervals with sun and sky |
+//! | `states` | the state of every aperture in every step |
+//! | `fixed` | the scene with fixed states, at a step |
+//! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
+//! | `figures` | what the year comes to, with errors |
+//!
+//! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
+//! dark steps, and nothing for states that no step picks.
+
+mod figures;
+mod fixed;
+mod light;
+mod settings;
+mod states;
+mod steps;
+
+pub use figures::{Figures, figures};
+pub use light::{Light, Way};
+pub use settings::{Settings, settings};
+pub use steps::{Step, Steps};
+
+use super::error::StudyError;
+use super::scene_file::SceneFile;
+use super::session::Session;
+use super::system::SystemLibrary;
+use crate::compute::estimate::Progress;
+use crate::study::control::year::Moving;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A year, or the part of it that was asked for.
+#[derive(Debug, Clone)]
+pub struct Year {
+    /// What it was asked with.
+    pub settings: Settings,
+    /// All steps of the weather.
+    pub steps: Steps,
+    /// The apertures whose state a control picks.
+    pub moving: Vec<Moving>,
+    /// By step and moving aperture: index of the state.
+    pub states: Vec<Vec<usize>>,
+    /// Movements of each moving aperture over all steps.
+    pub movements: Vec<usize>,
+    /// Indices of the steps that were asked for, rising.
+    pub chosen: Vec<usize>,
+    /// Light of the chosen steps.
+    pub light: Light,
+    /// What a person should know.
+    pub notes: Vec<String>,
+    /// How long each stage took.
+    pub spent: Vec<(&'static str, Duration)>,
+}
+
+/// Computes the steps that `wanted` takes.
+///
+/// # Errors
+/// A scene without `[year]`; wrong keys; a weather file that cannot be read; cancelled.
+pub fn year(
+    file: &SceneFile,
+    base: &Path,
+    library: &dyn SystemLibrary,
+    session: &Session,
+    wanted: &dyn Fn(&Step) -> bool,
+    progress: &dyn Progress,
+) -> Result<Year, StudyError> {
+    let mut clock = Instant::now();
+    let mut spent = Vec::new();
+    let mut lap = |stage| {
+        spent.push((stage, clock.elapsed()));
+        clock = Instant::now();
+    };
+    let settings = settings(file)?;
+    let steps = steps::steps(file, &settings, base)?;
+    lap("weather");
+    let mut notes = steps.warnings.clone();
+    let (moving, states, movements) = states::states(file, base, library, &steps, &mut notes, progress)?;
+    lap("states");
+    let chosen: Vec<usize> = (0..steps.list.len()).filter(|&k| wanted(&steps.list[k])).collect();
+    if chosen.is_empty() {
+        return Err(StudyError::key("year.weather", "holds none of the hours that were asked for"));
+    }
+    let question =
+        light::Question { file, base, library, session, settings: &settings, steps: &steps, moving: &moving };
+    let light = light::light(&question, &states, &chosen, &mut notes, progress)?;
+    lap("light");
+    Ok(Year { settings, steps, moving, states, movements, chosen, light, notes, spent })
+}
+
+/// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of
+/// every moving aperture.
+///
+/// # Errors
+/// As [`year`]; a moment that the weather does not hold.
+pub fn scene_at(
+    file: &SceneFile,
+    base: &Path,
+    library: &dyn SystemLibrary,
+    time: jiff::civil::DateTime,
+    progress: &dyn Progress,
+) -> Result<SceneFile, StudyError> {
+    let settings = settings(file)?;
+    let steps = steps::steps(file, &settings, base)?;
+    let (moving, states, _) = states::states(file, base, library, &steps, &mut Vec::new(), progress)?;
+    let at = steps.at(time).ok_or_else(|| {
+        let message = format!(
+            "{} has no interval that holds {}",
+            settings.keys.weather.display(),
+            time.strftime("%Y-%m-%d %H:%M")
+        );
+        StudyError::key("year.weather", message)
+    })?;
+    let mut scene = fixed::with_states(file, &moving, &states[at]);
+    fixed::put_at(&mut scene, &steps, at);
+    Ok(scene)
+}
