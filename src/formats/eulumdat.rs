@@ -26,7 +26,8 @@ pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     let flux = luminaire.flux();
     let rated = luminaire.lamp_flux.unwrap_or(flux);
     // Lamps of next to no light: the flux that the file can say would not be the one that intensities are divided by.
-    let rated = if rated < LEAST_LAMPS && luminaire.peak() > 0.0 { 1000.0 } else { rated };
+    let light = luminaire.peak().max(rated) > 0.0;
+    let rated = if rated < LEAST_LAMPS && light { 1000.0 } else { rated.min(limits::LAMP_FLUX) };
     let planes = luminaire.c_deg.len();
     let text = &luminaire.text;
     let mut lines = Vec::with_capacity(64 + planes * (luminaire.gamma_deg.len() + 1));

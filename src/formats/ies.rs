@@ -7,9 +7,10 @@
 use super::FormatError;
 use super::location::excerpt;
 use super::luminaire::{
-    Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
+    CLOSEST, Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
 };
 use crate::compute::btdf::Finding;
+use std::borrow::Cow;
 
 /// Editions that are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,12 +48,22 @@ pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
         keyword_lines(&mut out, "OTHER", remark);
     }
     out.push("TILT=NONE".to_owned());
-    // A full turn repeats C0 at 360°, so that no reader assumes a symmetry.
     let mut c_deg = luminaire.c_deg.clone();
-    let mut planes: Vec<usize> = (0..c_deg.len()).collect();
+    let mut planes: Vec<Cow<'_, [f64]>> = (0..c_deg.len()).map(|k| luminaire.plane(k).into()).collect();
     if c_deg.len() > 1 {
+        // A turn begins at C0; of EULUMDAT it may begin elsewhere, and C0 is then what lies between its neighbours.
+        if c_deg[0] > CLOSEST {
+            let (first, last) = (c_deg[0], 360.0 - c_deg[c_deg.len() - 1]);
+            let share = last / (first + last);
+            let between =
+                planes[planes.len() - 1].iter().zip(planes[0].iter()).map(|(a, b)| a + share * (b - a)).collect();
+            c_deg.insert(0, 0.0);
+            planes.insert(0, between);
+        }
+        c_deg[0] = 0.0;
+        // A full turn repeats C0 at 360°, so that no reader assumes a symmetry.
         c_deg.push(360.0);
-        planes.push(0);
+        planes.push(planes[0].clone());
     }
     let Opening { along_c0, along_c90, height } = luminaire.opening;
     // "Width" lies across the C0 plane, "length" along it.
@@ -64,7 +75,7 @@ pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
     // Five significant digits of the peak at least.
     let decimals = (5.0 - luminaire.peak().max(1e-9).log10().floor()).clamp(2.0, 12.0) as usize;
     for plane in planes {
-        wrap(&mut out, luminaire.plane(plane), decimals);
+        wrap(&mut out, &plane, decimals);
     }
     let mut file = out.join("\r\n");
     file.push_str("\r\n");

@@ -315,7 +315,7 @@ pub(super) fn plausible(mut luminaire: Luminaire) -> Result<Luminaire, FormatErr
 /// Of the largest intensity, how far below 0 differences of measurements may be.
 const BELOW_ZERO: f64 = 0.01;
 /// Angles closer together are the same once they are written, with four decimals. \[°\]
-const CLOSEST: f64 = 2e-4;
+pub(super) const CLOSEST: f64 = 2e-4;
 /// A luminaire's power. \[W\]
 const MOST_POWER: f64 = 1e7;
 /// A luminaire's extent. \[m\]

@@ -4,6 +4,7 @@ use crate::readers::Target;
 use cfs::catalogue;
 use cfs::compute::btdf::{Btdf, Dataset, Scattered, TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};
 use cfs::compute::limits;
+use cfs::formats::control_curve::read_control_curve;
 use cfs::formats::package::{self, Package, PackageProduct, PackageState};
 use cfs::formats::{bsdf_xml, dataset_blob, eulumdat, ies, luminaire_index, scan};
 use cfs::study::{Scene, SceneFile, SystemLibrary};
@@ -35,7 +36,7 @@ fn a_tree_of_few_bytes_whose_branches_share_their_children_has_not_more_leaves_t
 #[test]
 fn the_name_of_a_tilt_file_is_not_cut_within_a_letter() {
     let error = told(ies::read(&stored("ies", "tilt-file-with-an-umlaut-where-it-is-cut")));
-    assert!(error.contains("TILT=AÄÄÄ") && error.contains("external tilt file"), "{error}");
+    assert!(error.contains("TILT=Aäää") && error.contains("external tilt file"), "{error}");
 }
 
 #[test]
@@ -102,6 +103,36 @@ fn lamps_of_next_to_no_light_keep_their_intensities_in_eulumdat() {
 }
 
 #[test]
+fn a_turn_that_does_not_begin_at_c0_can_be_handed_on_as_ies() {
+    // Written from 10° to 360°, which no reader takes.
+    let lines = |planes: &str| {
+        format!("x\n1\n0\n2\n0\n2\n0\n{}1\n1\nlamp\n1000\n\n\n10\n{}{planes}", "\n".repeat(18), "0\n".repeat(10))
+    };
+    let turned = eulumdat::read(lines("10\n190\n0\n90\n100\n100\n300\n300\n").as_bytes()).unwrap();
+    let again = ies::read(&ies::write(&turned, ies::IesEdition::Lm63_2002)).unwrap();
+    assert_eq!(again.c_deg, [0.0, 10.0, 190.0]);
+    // C0 lies 170° behind the last plane and 10° before the first.
+    assert!((again.plane(0)[0] - (300.0 - 200.0 * 170.0 / 180.0)).abs() < 0.1, "{:?}", again.plane(0));
+}
+
+#[test]
+fn light_beyond_lamps_and_lamps_beyond_counting_are_written_so_that_they_are_read() {
+    // No lamps, and a flux above all that lamps are believed to have; lamps whose flux has no reciprocal.
+    for (lamps, lit) in [("-1", "500000000000"), ("1e-320", "0")] {
+        let text =
+            format!("IESNA:LM-63-2002\nTILT=NONE\n1 {lamps} 1 3 1 1 2 1 1 0\n1 1 0\n0 90 180\n0\n{lit} {lit} {lit}\n");
+        let bright = ies::read(text.as_bytes()).unwrap();
+        let again = eulumdat::read(&eulumdat::write(&bright)).unwrap();
+        assert!(
+            (again.peak() - bright.peak()).abs() <= 1e-6 * bright.peak(),
+            "{} cd of {} cd",
+            again.peak(),
+            bright.peak()
+        );
+    }
+}
+
+#[test]
 fn an_index_has_no_negative_light_and_no_size_that_is_written_as_nothing() {
     let error = told(luminaire_index::read(&stored("index", "flux-below-zero")));
     assert!(error.contains("line 2: flux_lm -5e0; expected light, 0 or more"), "{error}");
@@ -115,6 +146,25 @@ fn messages_do_not_repeat_a_whole_file() {
     assert!(told(scan::read_scan(format!("1 2 3\n{word}\n").as_bytes())).len() < 200);
     let scene = format!("[room]\n{word} = 1\n");
     assert!(told(SceneFile::parse(&scene)).len() < 2000);
+}
+
+#[test]
+fn texts_beyond_what_such_files_have_are_refused_before_their_words_are_listed() {
+    // A gigabyte of numbers took sixteen of memory.
+    let long = " ".repeat(limits::TEXT_BYTES + 1);
+    let bytes = long.as_bytes();
+    let length = bytes.len().to_string();
+    for error in [
+        told(ies::read(bytes)),
+        told(eulumdat::read(bytes)),
+        told(luminaire_index::read(bytes)),
+        told(scan::read_scan(bytes)),
+        told(read_control_curve(bytes)),
+        told(SceneFile::parse(&long)),
+    ] {
+        assert!(error.contains(&format!("a text of {length} bytes; expected at most")), "{error}");
+    }
+    assert!(told(ies::read(&bytes[..limits::TEXT_BYTES])).contains("no TILT line"));
 }
 
 #[test]
