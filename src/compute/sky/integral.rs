@@ -177,5 +177,7 @@ pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
             integrate_region(outside, &region, Weight::Solid, tolerance) + changed(outside, &region, Weight::Solid)
         })
         .sum();
-    flux * (1.0 / patch.solid_angle())
+    let mean = flux * (1.0 / patch.solid_angle());
+    // Of a patch that is all hidden the sky is taken away again: what remains of it is error, no light.
+    Estimate::new(mean.value.max(0.0), mean.error)
 }

@@ -151,7 +151,10 @@ fn touching(axis: DVec3, theta: f64) -> [Option<DVec3>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Distribution, Outside, Scan, incident_illuminances_within, irradiance, irradiance_through};
+    use super::super::{
+        Distribution, Outside, Scan, incident_illuminances_within, irradiance, irradiance_through, mean_luminance,
+        tregenza_patches,
+    };
     use super::*;
     use crate::compute::angle::Bearing;
     use crate::compute::basis::{AzimuthMap, RingBasis};
@@ -203,6 +206,19 @@ mod tests {
                     assert!((found / exact - 1.0).abs() < 1e-3, "{surface:?} {luminance}: {found} {exact}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn what_a_black_skyline_hides_is_dark_and_never_below() {
+        let knots = [[0.0, 20.0], [90.0, 25.0], [180.0, 13.0], [270.0, 18.0]];
+        let skyline = Skyline::new(knots.iter().map(|knot| knot.map(f64::to_radians)), 0.0).unwrap();
+        let scan: Vec<f64> = (0..145).map(|k| 500.0 + 40.0 * f64::from((k * 37) % 145)).collect();
+        let outside = behind(Outside::measured(Scan::new(&scan).unwrap()), Vec::new(), Some(skyline));
+        // The lowest ring of patches ends at 12°.
+        for patch in &tregenza_patches()[..30] {
+            let mean = mean_luminance(&outside, patch);
+            assert!(mean.value >= 0.0 && mean.value < 5.0 && mean.error >= 0.0, "{mean:?}");
         }
     }
 
