@@ -57,7 +57,9 @@ const fn outlook(damage: &Damage) -> &'static str {
         Place::Product { builtin: true, .. } => "comes with the program anew",
         Place::Product { builtin: false, .. } => "cannot be made anew: import it again",
         Place::Data { builtin: true, .. } => "is computed anew when it is asked for",
-        Place::Data { builtin: false, .. } => "can be mended while the dataset file that it was read from is there, unchanged; import a package again",
+        Place::Data { builtin: false, .. } => {
+            "can be mended while the dataset file that it was read from is there, unchanged; import a package again"
+        }
     }
 }
 

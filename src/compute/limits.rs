@@ -102,7 +102,7 @@ limits! {
     /// Patches of a room.
     most PATCHES: usize = 8000, "patches of a room", "";
     /// Apertures of a scene; each is held against all others.
-    most APERTURES: usize = 1000, "apertures of a scene", "";
+    most APERTURES: usize = 10_000, "apertures of a scene", "";
     /// Boxes outside.
     most BOXES: usize = 200, "boxes outside", "";
     /// The shortest side of an aperture. \[m\]

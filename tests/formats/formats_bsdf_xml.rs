@@ -226,7 +226,10 @@ fn refusals_name_the_place_and_what_would_be_right() {
         (swap(&format!("{data}{first}"), &format!("{data}nan")), "value 1 is 'nan', not a finite number"),
         (swap(&format!("{data}{first}"), &format!("{data}1e999")), "not a finite number"),
         (swap(&format!("{data}{first}"), &format!("{data}1.5D-03")), "'1.5D-03', not a number"),
-        (swap(&format!("{data}{first}"), &format!("{data}1e308")), "not plausible"),
+        (
+            swap(&format!("{data}{first}"), &format!("{data}1e308")),
+            "which no cell can have; expected values of at most 1e9",
+        ),
         (swap(&format!("{data}{first}"), &format!("{data}-0.5")), "negative values"),
         (good.replace("Transmission Back", "Transmission Front"), "duplicate block Transmission Front (Visible)"),
         (swap("Transmission Back", "Transmission Up"), "unknown WavelengthDataDirection 'Transmission Up'"),

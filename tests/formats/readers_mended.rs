@@ -191,5 +191,5 @@ fn apertures_beyond_counting_are_refused_before_each_is_held_against_all_others(
     let mut file = SceneFile::parse(&office).unwrap();
     file.aperture = vec![file.aperture[0].clone(); limits::APERTURES + 1];
     let error = told(Scene::resolve(&file, Path::new("."), &Nothing));
-    assert_eq!(error, "aperture: 1001 apertures (allowed: up to 1000)");
+    assert_eq!(error, "aperture: 10001 apertures (allowed: up to 10000)");
 }

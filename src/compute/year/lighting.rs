@@ -116,7 +116,7 @@ mod tests {
             [0.0, 1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]
         );
         assert_eq!((dimming(true).power(0.0), dimming(false).power(0.0), dimming(true).power(0.05)), (0.0, 0.2, 0.2));
-        assert_eq!((dimming(true).power(0.55), dimming(true).power(1.0)), (0.6, 1.0));
+        assert!((dimming(true).power(0.55) - 0.6).abs() < 1e-15 && (dimming(true).power(1.0) - 1.0).abs() < 1e-15);
     }
 
     #[test]

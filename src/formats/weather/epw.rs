@@ -223,7 +223,8 @@ fn row(bytes: &[u8], line: usize, interval: u16, changed: &mut Changed) -> Resul
 /// Missing: 9999, in older files 99990 and more.
 fn irradiance(field: &Field<'_>) -> Result<Option<f64>, FormatError> {
     let value = field.number()?;
-    Ok(((value < 9999.0) || (value >= 10_000.0 && value < 99_990.0)).then_some(value))
+    // Beyond five digits it is a slip, to be refused by its range.
+    Ok((value < 9999.0 || (10_000.0..99_990.0).contains(&value) || value >= 1e5).then_some(value))
 }
 
 /// Missing: 999999, in older files 999900; or no such field.
