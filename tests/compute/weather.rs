@@ -297,7 +297,8 @@ fn sums_are_those_of_the_files() {
             assert!((got - expected).abs() < 0.06 || (expected - got) / expected < 0.01, "{name} {got} {expected}");
         }
         let efficacy = got.global_light / got.global;
-        assert!((95.0..125.0).contains(&efficacy), "{name} {efficacy}");
+        // The Californian file's own illuminances are low: 63 lm/W of its sun.
+        assert!((80.0..125.0).contains(&efficacy), "{name} {efficacy}");
     }
 }
 

@@ -153,7 +153,7 @@ fn touching(axis: DVec3, theta: f64) -> [Option<DVec3>; 2] {
 mod tests {
     use super::super::{
         Distribution, Outside, Scan, incident_illuminances_within, irradiance, irradiance_through, mean_luminance,
-        tregenza_patches,
+        patches::tregenza_patches,
     };
     use super::*;
     use crate::compute::angle::Bearing;

@@ -133,6 +133,8 @@ impl SunPath {
         let axial = sin_declination - parallax * self.axial;
         let north = axial * self.cos_latitude - radial * self.sin_latitude;
         let up = radial * self.cos_latitude + axial * self.sin_latitude;
-        DVec3::new(-cos_declination * sin_hour, north, up).normalize()
+        let way = DVec3::new(-cos_declination * sin_hour, north, up);
+        // Of unit length but for the parallax, 4e-5.
+        way / way.length()
     }
 }
