@@ -13,7 +13,7 @@ pub(super) fn print(text: &str) -> anyhow::Result<()> {
     }
 }
 
-/// Text for reading to standard output: as [`print`], and no number longer than its reader's patience.
+/// Text for reading to standard output: as [`print()`], and no number longer than its reader's patience.
 pub(super) fn print_text(text: &str) -> anyhow::Result<()> {
     print(&short_numbers(text))
 }
