@@ -32,6 +32,7 @@ use super::system::SystemLibrary;
 use crate::compute::estimate::Progress;
 use crate::study::control::year::Moving;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A year, or the part of it that was asked for.
@@ -40,7 +41,7 @@ pub struct Year {
     /// What it was asked with.
     pub settings: Settings,
     /// All steps of the weather.
-    pub steps: Steps,
+    pub steps: Arc<Steps>,
     /// The apertures whose state a control picks.
     pub moving: Vec<Moving>,
     /// By step and moving aperture: index of the state.
@@ -57,11 +58,52 @@ pub struct Year {
     pub spent: Vec<(&'static str, Duration)>,
 }
 
+/// What a year asks and the weather of it, whatever systems stand in the apertures: found once, used for every product.
+#[derive(Debug, Clone)]
+pub struct Climate {
+    /// What is asked.
+    pub settings: Settings,
+    /// All steps of the weather.
+    pub steps: Arc<Steps>,
+}
+
+/// Reads the weather of a scene's year.
+///
+/// # Errors
+/// A scene without `[year]`; wrong keys; a weather file that cannot be read.
+pub fn climate(file: &SceneFile, base: &Path) -> Result<Climate, StudyError> {
+    let settings = settings(file)?;
+    let steps = Arc::new(steps::steps(file, &settings, base)?);
+    Ok(Climate { settings, steps })
+}
+
 /// Computes the steps that `wanted` takes.
 ///
 /// # Errors
-/// A scene without `[year]`; wrong keys; a weather file that cannot be read; cancelled.
+/// As [`climate`] and [`year_in`].
 pub fn year(
+    file: &SceneFile,
+    base: &Path,
+    library: &dyn SystemLibrary,
+    session: &Session,
+    wanted: &dyn Fn(&Step) -> bool,
+    progress: &dyn Progress,
+) -> Result<Year, StudyError> {
+    let clock = Instant::now();
+    let climate = climate(file, base)?;
+    let weather = clock.elapsed();
+    let mut year = year_in(&climate, file, base, library, session, wanted, progress)?;
+    year.spent.insert(0, ("weather", weather));
+    Ok(year)
+}
+
+/// The same in a climate that is known already. `file` may name other systems than the scene that the climate was read for;
+/// room, sensors, site and `[year]` are the same.
+///
+/// # Errors
+/// Of systems and controls; none of the steps wanted; cancelled.
+pub fn year_in(
+    climate: &Climate,
     file: &SceneFile,
     base: &Path,
     library: &dyn SystemLibrary,
@@ -75,9 +117,7 @@ pub fn year(
         spent.push((stage, clock.elapsed()));
         clock = Instant::now();
     };
-    let settings = settings(file)?;
-    let steps = steps::steps(file, &settings, base)?;
-    lap("weather");
+    let Climate { settings, steps } = climate.clone();
     let mut notes = steps.warnings.clone();
     let (moving, states, movements) = states::states(file, base, library, &steps, &mut notes, progress)?;
     lap("states");
@@ -104,8 +144,7 @@ pub fn scene_at(
     time: jiff::civil::DateTime,
     progress: &dyn Progress,
 ) -> Result<SceneFile, StudyError> {
-    let settings = settings(file)?;
-    let steps = steps::steps(file, &settings, base)?;
+    let Climate { settings, steps } = climate(file, base)?;
     let (moving, states, _) = states::states(file, base, library, &steps, &mut Vec::new(), progress)?;
     let at = steps.at(time).ok_or_else(|| {
         let message = format!(
