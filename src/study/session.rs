@@ -354,16 +354,27 @@ impl Session {
         if !keeps(scene, count) {
             return Ok(SeenBands::Anew(aperture, upright, count));
         }
+        self.kept_bands(scene, index, (upright, count), progress).map(SeenBands::Kept)
+    }
+
+    /// The same for bands of a kind: upright or not, and how many; always kept.
+    pub(super) fn kept_bands(
+        &self,
+        scene: &Scene,
+        index: usize,
+        (upright, count): (bool, usize),
+        progress: &dyn Progress,
+    ) -> Result<Arc<Vec<BandWeights>>, StudyError> {
+        let aperture = &scene.apertures[index].aperture;
         let mut key = reception_key(scene, index, None);
         key.extend([u64::from(upright), count as u64]);
-        let kept = self.bands.get(key, || {
+        self.bands.get(key, || {
             let of = |sensor: &Sensor| {
                 check(progress)?;
                 Ok::<_, StudyError>(bands_of(sensor, aperture, upright, count))
             };
             scene.sensors.par_iter().map(of).collect()
-        });
-        kept.map(SeenBands::Kept)
+        })
     }
 
     fn direct(

@@ -10,6 +10,7 @@ mod lamp;
 mod leaf_doubt;
 mod mixed;
 pub mod peaks;
+pub mod sky_columns;
 mod sky_through;
 mod sun_through;
 pub mod tiling;

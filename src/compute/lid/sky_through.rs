@@ -19,7 +19,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 /// Directions a side of a cell for its mean share.
-const POINTS: usize = 3;
+pub(super) const POINTS: usize = 3;
 /// Bands of the profile angle of incidence: 1°.
 const BANDS: usize = 181;
 /// Turned light is gathered in bins of this width. \[rad\]
@@ -29,21 +29,21 @@ const FAINT: f64 = 1e-5;
 /// Relative accuracy of the illuminance through every patch.
 const PATCH: f64 = 1e-4;
 /// What the width of the cells and bands costs, relative; seen against cells half as wide, in the tests below.
-const CELL_ERROR: f64 = 2e-3;
+pub(super) const CELL_ERROR: f64 = 2e-3;
 /// The same of what mirrors turn, whose profile angles are gathered in bins, more.
-const BIN_ERROR: f64 = 8e-3;
+pub(super) const BIN_ERROR: f64 = 8e-3;
 
 /// Answers of a system for diffuse light from outside.
 pub struct SkyThrough {
-    cells: Arc<RingBasis>,
+    pub(super) cells: Arc<RingBasis>,
     /// Mean straight share, a cell.
-    straight: Vec<f64>,
-    turned: Turned,
-    scattered: Scattered,
+    pub(super) straight: Vec<f64>,
+    pub(super) turned: Turned,
+    pub(super) scattered: Scattered,
 }
 
 /// Where the light of emergent directions comes from by turned beams.
-enum Turned {
+pub(super) enum Turned {
     None,
     /// For every cell.
     ByCell(Vec<Vec<Source>>),
@@ -56,20 +56,20 @@ enum Turned {
 }
 
 /// Light of a direction outside, as a share of its luminance.
-struct Source {
-    name: Dir<Facade>,
-    share: f64,
+pub(super) struct Source {
+    pub name: Dir<Facade>,
+    pub share: f64,
 }
 
 /// q of what is scattered, and the error of its share.
-enum Scattered {
+pub(super) enum Scattered {
     None,
     ByProfile { upright: bool, rows: Vec<ProfileLight> },
     ByCells { incident: RingBasis, rows: Vec<Vec<f64>>, error: f64 },
 }
 
 /// The name of a profile angle with the direction cosine `along` the structure.
-fn name_of(upright: bool, along: f64, psi: f64) -> Dir<Facade> {
+pub(super) fn name_of(upright: bool, along: f64, psi: f64) -> Dir<Facade> {
     let across = (1.0 - along * along).max(0.0).sqrt();
     let (sin, cos) = psi.sin_cos();
     Dir::from_unit(if upright {
@@ -80,7 +80,7 @@ fn name_of(upright: bool, along: f64, psi: f64) -> Dir<Facade> {
 }
 
 /// Direction cosine along the structure, and profile angle.
-fn angles(upright: bool, name: Dir<Facade>) -> (f64, f64) {
+pub(super) fn angles(upright: bool, name: Dir<Facade>) -> (f64, f64) {
     let v = name.vector();
     if upright { (v.y, v.x.atan2(v.z)) } else { (v.x, v.y.atan2(v.z)) }
 }
@@ -92,7 +92,7 @@ fn middle(band: usize) -> f64 {
     psi.clamp(0.25 * BIN - FRAC_PI_2, FRAC_PI_2 - 0.25 * BIN)
 }
 
-fn band_of(psi: f64) -> usize {
+pub(super) fn band_of(psi: f64) -> usize {
     (((psi + FRAC_PI_2) / PI * (BANDS - 1) as f64).round().max(0.0) as usize).min(BANDS - 1)
 }
 

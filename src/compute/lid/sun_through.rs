@@ -235,6 +235,21 @@ impl SunThrough {
         let cells = if bands.is_none() { scattered(specimen, facing) } else { None };
         Self { illuminance: facing.sun_illuminance(), beams: sun_beams(specimen, facing), bands, cells }
     }
+
+    /// What goes on as beams.
+    pub fn beams(&self) -> &[BeamLight] {
+        &self.beams
+    }
+
+    /// What is scattered where that is a matter of a profile angle alone.
+    pub fn bands(&self) -> Option<&BandLight> {
+        self.bands.as_ref()
+    }
+
+    /// What is scattered otherwise, on [`sun_cells`].
+    pub fn cells(&self) -> Option<&CellLight> {
+        self.cells.as_ref()
+    }
 }
 
 impl Emission {

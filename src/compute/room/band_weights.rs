@@ -30,6 +30,11 @@ impl BandWeights {
         Self { first, weights: weights[first..end].to_vec() }
     }
 
+    /// The bands that are seen, with their weights.
+    pub fn each(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.weights.iter().enumerate().map(|(k, weight)| (self.first + k, *weight))
+    }
+
     /// Σ weight · value over the bands.
     pub fn of(&self, values: &[f64]) -> f64 {
         self.weights.iter().zip(&values[self.first..]).map(|(w, v)| w * v).sum()

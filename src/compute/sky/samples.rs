@@ -81,6 +81,32 @@ impl SkySamples {
         }
     }
 
+    /// Leaves out what is hidden; `open`: the projected solid angle that each of [`Self::cells`] keeps, to which the weights
+    /// of what is left are scaled. \[sr\]
+    pub fn without(&mut self, hidden: impl Fn(DVec3) -> bool, open: &[f64]) {
+        let (mut first, mut directions, mut weights) = (vec![0], Vec::new(), Vec::new());
+        for (pair, open) in self.first.windows(2).zip(open) {
+            let begin = weights.len();
+            for k in pair[0]..pair[1] {
+                if !hidden(self.directions[k]) {
+                    directions.push(self.directions[k]);
+                    weights.push(self.weights[k]);
+                }
+            }
+            // A cell of which but a corner shows, between the directions: they stand for it.
+            if weights.len() == begin && *open > 0.0 {
+                directions.extend(&self.directions[pair[0]..pair[1]]);
+                weights.extend(&self.weights[pair[0]..pair[1]]);
+            }
+            let kept: f64 = weights[begin..].iter().sum();
+            if kept > 0.0 {
+                weights[begin..].iter_mut().for_each(|weight| *weight *= open.max(0.0) / kept);
+            }
+            first.push(weights.len());
+        }
+        (self.first, self.directions, self.weights) = (first, directions, weights);
+    }
+
     /// The cells that reach above the horizon, rising.
     pub fn cells(&self) -> &[usize] {
         &self.cells

@@ -22,6 +22,16 @@ impl Skyline {
         (!knots.is_empty()).then_some(Self { knots, luminance })
     }
 
+    /// The same with another luminance.
+    pub fn with_luminance(self, luminance: f64) -> Self {
+        Self { luminance, ..self }
+    }
+
+    /// Does another one rise and fall at the same places, whatever its luminance?
+    pub fn same_shape(&self, other: &Self) -> bool {
+        self.knots == other.knots
+    }
+
     /// Altitude at a compass bearing. \[rad\]
     pub fn altitude(&self, bearing: f64) -> f64 {
         let count = self.knots.len();

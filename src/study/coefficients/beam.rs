@@ -1,6 +1,7 @@
-//! The sun over a prepared scene: its scattered light as one column, its beam where it falls.
+//! The sun over a prepared scene: its scattered light, and its beams where they fall.
 
 use super::Coefficients;
+use super::sun_way::SunLight;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::direct::beams_through;
@@ -12,80 +13,92 @@ use crate::study::session::responses::Responses;
 impl Coefficients {
     /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
     pub fn sun(&self, sun: &Sun) -> Vec<f64> {
-        let sensors = self.scene.sensors.len();
-        let mut sums = vec![0.0; sensors];
-        let mut first = dark(self);
-        for (index, part) in self.parts.iter().enumerate() {
-            let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
-            let illuminance = part.clear * facing.sun_illuminance();
-            let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
-            part.transport.sun(direction, sensors, &mut sums, illuminance);
-            add_beam(self, index, &facing, &mut first, &mut sums);
-        }
-        if let Some((room, landing)) = landing(self, first) {
-            let (mesh, sensors) = (&room.radiosity.nested.fine, &self.scene.sensors);
-            for (s, reflected) in room.of_beams(&landing, false).into_iter().enumerate() {
-                sums[s] += reflected.value + landing.light_at(mesh, sensors[s].position, sensors[s].normal);
-            }
-        }
-        sums.iter_mut().for_each(|e| *e = e.max(0.0));
-        sums
+        self.of_sun(sun, false).into_iter().map(|e| e.value).collect()
     }
 
     /// The same with its error.
-    pub fn sun_estimate(&self, light: &Sun) -> Vec<Estimate> {
+    pub fn sun_estimate(&self, sun: &Sun) -> Vec<Estimate> {
+        self.of_sun(sun, true)
+    }
+
+    /// Without `doubts` values only.
+    fn of_sun(&self, sun: &Sun, doubts: bool) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
-        let mut estimates: Vec<Estimate> = self.sun(light).into_iter().map(Estimate::exact).collect();
-        let mut first = dark(self);
-        for (index, part) in self.parts.iter().enumerate() {
-            let facing = Facing { sun: Some(light), ..self.scene.facing(index) };
-            let illuminance = part.clear * facing.sun_illuminance();
-            let Some(direction) = facing.sun_direction().filter(|_| illuminance > 0.0) else { continue };
-            let column = part.transport.for_direction(direction, sensors);
+        let mut sums = vec![Estimate::default(); sensors];
+        let mut first = self.room.as_ref().map(|room| FirstLight::dark(room.radiosity.nested.fine.patches.len()));
+        for index in 0..self.parts.len() {
+            let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
+            if facing.sun_illuminance() <= 0.0 {
+                continue;
+            }
+            let beams = match self.parts[index].sun.light(&facing, sensors) {
+                Some(found) => self.add_scattered(index, found, &mut sums),
+                None => self.add_data(index, &facing, doubts, &mut sums),
+            };
+            let aperture = &self.scene.apertures[index].aperture;
+            for (sum, sensor) in sums.iter_mut().zip(&self.scene.sensors) {
+                let seen = beams_through(sensor, aperture, &beams, &facing);
+                *sum += seen.all + Estimate::new(0.0, seen.data_error);
+            }
+            if let Some(first) = &mut first {
+                beams.iter().for_each(|beam| first.add_beam(aperture, beam, &facing));
+            }
+        }
+        if let Some((room, landing)) = self.landing(first) {
+            let rest = self.rest().hypot(landing.gap);
+            let mesh = &room.radiosity.nested.fine;
+            for ((sum, reflected), sensor) in
+                sums.iter_mut().zip(room.of_beams(&landing, doubts)).zip(&self.scene.sensors)
+            {
+                // The outlines are seen in closed form.
+                let outlines = landing.light_at(mesh, sensor.position, sensor.normal);
+                let error = (DIFFERENCE_ALONE * reflected.difference).hypot(rest * reflected.value);
+                *sum += Estimate::new(reflected.value + outlines, error + UNEVEN * reflected.thrown_back);
+            }
+        }
+        let whole = |e: Estimate| Estimate::new(e.value.max(0.0), e.error + 1e-6 * e.value.abs());
+        sums.into_iter().map(whole).collect()
+    }
+
+    /// Adds light found for this very sun, and gives its beams.
+    fn add_scattered(&self, index: usize, found: SunLight, sums: &mut [Estimate]) -> Vec<BeamLight> {
+        let (clear, sensors) = (self.parts[index].clear, sums.len());
+        for (s, sum) in sums.iter_mut().enumerate() {
+            let [value, reflected, doubt] = [0, 1, 2].map(|row| clear * found.light[row * sensors + s]);
+            let error = doubt.hypot(self.rest() * reflected) + clear * found.errors[s];
+            *sum += Estimate::new(value, error);
+        }
+        found.beams.into_iter().map(|beam| beam.scaled(clear)).collect()
+    }
+
+    /// The same by the data's own cells or directions.
+    fn add_data(&self, index: usize, facing: &Facing<'_>, doubts: bool, sums: &mut [Estimate]) -> Vec<BeamLight> {
+        let (part, sensors) = (&self.parts[index], sums.len());
+        let illuminance = part.clear * facing.sun_illuminance();
+        if let Some(direction) = facing.sun_entering() {
             let mut own = vec![0.0; sensors];
             part.transport.sun(direction, sensors, &mut own, illuminance);
-            for (s, sum) in estimates.iter_mut().enumerate() {
-                let reflected = column.light[sensors + s].abs() * illuminance;
-                let doubt = column.light[2 * sensors + s] * illuminance;
-                // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
-                let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
-                sum.error +=
-                    doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s];
-            }
-            add_beam(self, index, &facing, &mut first, &mut own);
-        }
-        if let Some((room, landing)) = landing(self, first) {
-            let rest = self.rest().hypot(landing.gap);
-            for (s, reflected) in room.of_beams(&landing, true).into_iter().enumerate() {
-                // The outlines are seen in closed form.
-                estimates[s].error += (DIFFERENCE_ALONE * reflected.difference).hypot(rest * reflected.value)
-                    + UNEVEN * reflected.thrown_back;
+            let column = doubts.then(|| part.transport.for_direction(direction, sensors));
+            for (s, sum) in sums.iter_mut().enumerate() {
+                let error = column.as_ref().map_or(0.0, |column| {
+                    let reflected = column.light[sensors + s].abs() * illuminance;
+                    let doubt = column.light[2 * sensors + s] * illuminance;
+                    // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
+                    let simpler =
+                        column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
+                    doubt.hypot(self.rest() * reflected)
+                        + simpler.abs()
+                        + part.transport.relative_error() * own[s]
+                });
+                *sum += Estimate::new(own[s], error);
             }
         }
-        estimates.iter_mut().for_each(|e| e.error += 1e-6 * e.value);
-        estimates
+        BeamLight::regular(part.regular.as_ref(), facing).map(|beam| beam.scaled(part.clear)).into_iter().collect()
     }
-}
 
-fn dark(all: &Coefficients) -> Option<FirstLight> {
-    all.room.as_ref().map(|room| FirstLight::dark(room.radiosity.nested.fine.patches.len()))
-}
-
-/// Where the beams land in a room that reflects them.
-fn landing(all: &Coefficients, first: Option<FirstLight>) -> Option<(&Responses, BeamLanding)> {
-    let room = all.room.as_ref()?;
-    Some((room, first?.landing(&room.radiosity.nested.fine)?))
-}
-
-/// The unscattered sun through one aperture: at the sensors, and on the surfaces.
-fn add_beam(all: &Coefficients, index: usize, facing: &Facing<'_>, first: &mut Option<FirstLight>, sums: &mut [f64]) {
-    let Some(beam) = BeamLight::regular(all.parts[index].regular.as_ref(), facing) else { return };
-    let beam = beam.scaled(all.parts[index].clear);
-    let aperture = &all.scene.apertures[index].aperture;
-    for (sum, sensor) in sums.iter_mut().zip(&all.scene.sensors) {
-        *sum += beams_through(sensor, aperture, &[beam], facing).beam;
-    }
-    if let Some(first) = first {
-        first.add_beam(aperture, &beam, facing);
+    /// Where the beams land in a room that reflects them.
+    fn landing(&self, first: Option<FirstLight>) -> Option<(&Responses, BeamLanding)> {
+        let room = self.room.as_ref()?;
+        Some((room, first?.landing(&room.radiosity.nested.fine)?))
     }
 }

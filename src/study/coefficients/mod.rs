@@ -5,18 +5,24 @@
 //! | --- | --- |
 //! | `views` | V: sensors by emergent cell |
 //! | `transport` | V·T: sensors by incident direction |
+//! | `described` | the same of systems known by their description |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
+//! | `far` | what stands far away: its light, and what it hides |
+//! | `sun_way` | how the very sun comes through a system |
 //! | `beam` | the sun |
 //!
-//! The sun is known by the data's own cells or directions, as with `[compute] beam = "cells"`; only what the data keep apart
-//! as regular goes as a sharp beam.
+//! The sun is the moment's: by the description where there is one, with the beams that are taken out of the data's cells,
+//! or, with `[compute] beam = "cells"`, by the data's own cells or directions.
 //!
 //! Prepared are the room, its apertures and sensors, the systems in their present states and the altitude of the skyline.
 //! A measured sky, constant over patches with jumps between them, and a skyline of another altitude have no fixed
 //! directions that suit them: their light is integrated anew and takes milliseconds.
 
 mod beam;
+mod described;
+mod far;
 mod part;
+mod sun_way;
 mod transport;
 mod views;
 
@@ -31,6 +37,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
 use crate::compute::sky::{Distribution, Outside};
 use part::{AperturePart, Sums};
+use std::sync::Arc;
 
 /// A prepared scene.
 pub struct Coefficients {
@@ -60,10 +67,9 @@ impl Coefficients {
                 "luminaire files hold the light of one sky; name the system itself here",
             ));
         }
-        if let Some(around) = scene.outside.surroundings() {
-            let key = if around.solids.is_empty() { "sky.skyline" } else { "outside" };
-            let message = "coefficients know a horizontal skyline alone: leave the key out, or compute single hours";
-            return Err(StudyError::key(key, message));
+        if scene.outside.surroundings().is_some_and(|around| !around.solids.is_empty()) {
+            let message = "coefficients know no boxes: leave the key out, or compute single hours";
+            return Err(StudyError::key("outside", message));
         }
         let reflects = scene.room.floor > 0.0
             || scene.room.walls > 0.0
@@ -112,6 +118,9 @@ impl Coefficients {
         let clear = |sky_type: u8, altitude: f64, turn: f64| {
             let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade + turn));
             let outside = Outside::new(Distribution::cie(sky_type, sun)?, 1e4).ok()?;
+            if let Some(around) = self.scene.outside.surroundings() {
+                return Some(outside.behind(Arc::new(around.clone())));
+            }
             outside.with_skyline(self.scene.outside.skyline_altitude(), self.scene.outside.skyline_luminance()).ok()
         };
         let skies = [Some(self.scene.outside.clone()), clear(12, 0.5, 0.4), clear(2, 0.9, -0.7)];
@@ -129,7 +138,7 @@ impl Coefficients {
 
     /// Can it be done by the fixed directions?
     fn is_smooth(&self, outside: &Outside) -> bool {
-        !outside.is_piecewise_constant() && outside.skyline_altitude() == self.scene.outside.skyline_altitude()
+        !outside.is_piecewise_constant() && far::same(outside, &self.scene.outside)
     }
 
     fn diffuse(&self, outside: &Outside, smooth: bool) -> Vec<f64> {

@@ -1,6 +1,9 @@
 //! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
 //! is seen straight through, by directions of every sensor's own.
 
+use super::described::{Described, DescribedViews};
+use super::far::{self, Constants};
+use super::sun_way::SunWay;
 use super::transport::{self, ACROSS, Transport};
 use super::views::{Views, Want};
 use crate::compute::basis::RingBasis;
@@ -11,13 +14,15 @@ use crate::compute::lid::Facing;
 use crate::compute::quadrature::{Tolerance, gauss_legendre};
 use crate::compute::room::radiosity::dot;
 use crate::compute::room::through;
-use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_illuminances_within};
+use crate::compute::sky::{Frame, Outside, SkySamples, incident_illuminances_within};
+use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::responses::Responses;
+use crate::study::system::VerySystem;
+use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 
 /// Accuracy of the constant columns.
 const RELATIVE: f64 = 1e-7;
@@ -39,6 +44,8 @@ pub(super) struct AperturePart {
     pub transport: Transport,
     /// The regular part.
     pub regular: Option<AngularTransmittance>,
+    /// How the very sun comes through.
+    pub sun: SunWay,
     seen: Vec<SensorView>,
     /// Mean relative gap of flux of the regular part.
     pub gap: f64,
@@ -79,9 +86,34 @@ impl AperturePart {
         let facing = scene.facing(index);
         let frame = Frame::of_aperture(scene.orientation, facing.surface);
         let altitude = scene.outside.skyline_altitude();
-        let (patches, spacing) = transport::patches(btdf, scene.interpolation);
-        let samples = SkySamples::new(&patches, &frame, altitude, spacing);
-        let transport = Transport::new(session, scene, index, btdf, room, progress)?;
+        let very = scene.apertures[index].system.very.as_ref().filter(|_| scene.beams);
+        let described = very.map(|very| described_views(session, scene, index, very, room, progress)).transpose()?;
+        let by_description = match (very, &described) {
+            (Some(very), Some(views)) if very.answers_for_the_sky() => {
+                let through = session.sky_through(very);
+                Some(Described::new(&through.1, views))
+            }
+            _ => None,
+        };
+        // What the description answers for is not asked of the data, which need not be there.
+        let nothing = Btdf::default();
+        let btdf = if by_description.is_some() { &nothing } else { btdf };
+        let (patches, spacing, transport) = match by_description {
+            Some(own) => (RingBasis::clone(&own.basis), transport::SPACING, Transport::Described(Box::new(own))),
+            None => {
+                let (patches, spacing) = transport::patches(btdf, scene.interpolation);
+                (patches, spacing, Transport::new(session, scene, index, btdf, room, progress)?)
+            }
+        };
+        let mut samples = SkySamples::new(&patches, &frame, altitude, spacing);
+        let constants = Constants::of(&scene.outside);
+        if let (Some(even), Some(skyline)) = (&constants.even, far::shape(&scene.outside)) {
+            let open = illuminances(even, &patches, &frame, RELATIVE);
+            let open: Vec<f64> = samples.cells().iter().map(|&cell| open[cell]).collect();
+            samples.without(|d| skyline.covers(d), &open);
+        }
+        let very = very.cloned().zip(described);
+        let sun = SunWay::new(session, scene, index, btdf, very, room, progress)?;
         // What goes straight to the sensors is left to `seen`: here is what the room makes of that light.
         let straight = match (&btdf.regular, room) {
             (Some(tau), Some(room)) => {
@@ -106,8 +138,8 @@ impl AperturePart {
             })
             .collect();
         // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
-        let [ground, skyline] = constants(altitude).map(|outside| {
-            outside.map_or_else(|| vec![0.0; patches.len()], |o| illuminances(&o, &patches, &frame, RELATIVE))
+        let [ground, skyline] = [&constants.ground, &constants.skyline].map(|outside| {
+            outside.as_ref().map_or_else(|| vec![0.0; patches.len()], |o| illuminances(o, &patches, &frame, RELATIVE))
         });
         // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
         let open = samples.cells();
@@ -133,7 +165,10 @@ impl AperturePart {
         let total = tables.pop().unwrap_or_default();
         // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
         let seen = match &btdf.regular {
-            Some(tau) => scene.sensors.par_iter().map(|sensor| SensorView::new(scene, index, sensor, tau)).collect(),
+            Some(tau) => {
+                let view = |sensor| SensorView::new(scene, index, sensor, tau, &constants);
+                scene.sensors.par_iter().map(view).collect()
+            }
             None => Vec::new(),
         };
         Ok(Self {
@@ -146,6 +181,7 @@ impl AperturePart {
             doubtful,
             interpolated,
             transport,
+            sun,
             regular: btdf.regular.clone(),
             seen,
             gap: straight.map_or(0.0, |(_, views)| views.gap),
@@ -169,7 +205,7 @@ impl AperturePart {
             e.extend(self.samples.cells().iter().zip(&self.by_ground).map(|(&p, g)| all[p] - ground * g));
         }
         e.push(outside.ground_luminance());
-        e.push(if smooth { outside.skyline_luminance() } else { 0.0 });
+        e.push(if smooth { far::luminance(outside) } else { 0.0 });
         e.iter_mut().for_each(|e| *e *= self.clear);
         e
     }
@@ -188,7 +224,7 @@ impl AperturePart {
         if smooth {
             for (sum, seen) in out.iter_mut().zip(&self.seen) {
                 let sky: f64 = seen.directions.iter().map(|(d, weight)| weight * outside.luminance(*d)).sum();
-                let seen = sky + seen.ground * outside.ground_luminance() + seen.skyline * outside.skyline_luminance();
+                let seen = sky + seen.ground * outside.ground_luminance() + seen.skyline * far::luminance(outside);
                 *sum += self.clear * seen;
             }
         } else {
@@ -216,6 +252,20 @@ impl AperturePart {
     }
 }
 
+/// What the sensors see of a system known by its description.
+fn described_views(
+    session: &Session,
+    scene: &Scene,
+    index: usize,
+    very: &VerySystem,
+    room: Option<&Responses>,
+    progress: &dyn Progress,
+) -> Result<DescribedViews, StudyError> {
+    let normal = Dir::from_unit(DVec3::Z);
+    let bands = very.0.profile_light(normal, Side::Front).map(|light| (light.upright, light.q.len()));
+    DescribedViews::new(session, scene, index, bands, room, progress)
+}
+
 /// Accuracy of what is not done by fixed directions.
 const EXACT: f64 = 1e-5;
 
@@ -225,33 +275,37 @@ impl SensorView {
         index: usize,
         sensor: &crate::compute::room::direct::Sensor,
         tau: &AngularTransmittance,
+        constants: &Constants,
     ) -> Self {
         let facing = scene.facing(index);
         let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
             return Self::default();
         };
         let altitude = scene.outside.skyline_altitude();
-        let directions = through::samples(&view, facing.surface, altitude, tau, POINTS)
+        let mut directions: Vec<(Dir<World>, f64)> = through::samples(&view, facing.surface, altitude, tau, POINTS)
             .into_iter()
             .map(|(d, weight)| (scene.orientation.world_from_room(d), weight))
             .collect();
-        let [ground, skyline] = constants(altitude)
-            .map(|outside| outside.map_or(0.0, |o| seen_exactly(scene, index, sensor, tau, &o, RELATIVE).value));
+        let exact = |outside: &Option<Outside>| {
+            outside.as_ref().map_or(0.0, |o| seen_exactly(scene, index, sensor, tau, o, RELATIVE).value)
+        };
+        if let Some(skyline) = far::shape(&scene.outside) {
+            let open = exact(&constants.even);
+            let free = |(d, _): &(Dir<World>, f64)| !skyline.covers(d.vector());
+            // Of an opening of which but a corner shows sky, between the directions, they stand for it.
+            if directions.iter().any(free) {
+                directions.retain(free);
+            }
+            let kept: f64 = directions.iter().map(|(_, weight)| weight).sum();
+            directions.iter_mut().for_each(|(_, weight)| *weight *= if kept > 0.0 { open / kept } else { 0.0 });
+        }
+        let [ground, skyline] = [&constants.ground, &constants.skyline].map(exact);
         Self { directions, ground, skyline }
     }
 }
 
 /// Gauss points along each side of a piece of what a sensor sees straight through, at least.
 const POINTS: usize = 3;
-
-/// Black sky with a ground of luminance 1, and with a skyline of luminance 1 if it stands above the horizon.
-fn constants(altitude: f64) -> [Option<Outside>; 2] {
-    let black = || Outside::new(Distribution::uniform(), 0.0).ok();
-    [
-        black().and_then(|outside| outside.with_ground(1.0, PI).ok()),
-        black().filter(|_| altitude > 0.0).and_then(|outside| outside.with_skyline(altitude, 1.0).ok()),
-    ]
-}
 
 fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()

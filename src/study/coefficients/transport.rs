@@ -1,5 +1,6 @@
 //! V·T: what every sensor receives per illuminance of an aperture from one incident direction or cell.
 
+use super::described::Described;
 use super::views::{SensorRows, Views, Want, even};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered, TensorTree};
@@ -24,7 +25,7 @@ const TREE_PATCH: f64 = 5.0 * PI / 180.0;
 /// Sub-patches where the light of lobes is interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 /// Directions in cells that are as wide as a dataset's. \[rad\]
-const SPACING: f64 = 4.0 * PI / 180.0;
+pub(super) const SPACING: f64 = 4.0 * PI / 180.0;
 /// Gauss points for τ across a ring.
 pub(super) const ACROSS: usize = 3;
 /// What the straightened cells of a tree cost, relative.
@@ -44,6 +45,8 @@ pub(super) enum Transport {
     Lobes(Box<Lobes>),
     /// A tree and its emergent cells.
     Tree(Box<TensorTree>, Views),
+    /// By the description.
+    Described(Box<Described>),
 }
 
 /// Lobes that move: the bases as light at the sensors, the lobes' own cells.
@@ -137,6 +140,7 @@ impl Transport {
         match self {
             Self::Lobes(_) => REST,
             Self::Tree(..) => TREE_CELL_ERROR,
+            Self::Described(described) => described.error,
             _ => 0.0,
         }
     }
@@ -148,6 +152,7 @@ impl Transport {
                 Column::scaled(even, tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(ACROSS)) / PI)
             }
             Self::Cells(_, columns) => Column::scaled(&columns[index], 1.0),
+            Self::Described(described) => Column::scaled(&described.columns[index], 1.0),
             Self::Tree(tree, views) => {
                 let mut column = Column::dark(sensors);
                 for (s, t) in [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)] {
@@ -171,6 +176,10 @@ impl Transport {
             Self::Cells(basis, columns) => {
                 basis.index(d).map_or_else(|| Column::dark(sensors), |cell| Column::scaled(&columns[cell], 1.0))
             }
+            Self::Described(described) => described
+                .basis
+                .index(d)
+                .map_or_else(|| Column::dark(sensors), |cell| Column::scaled(&described.columns[cell], 1.0)),
             Self::Nearest(data, columns) => {
                 data.standing_for(d).map_or_else(|| Column::dark(sensors), |i| Column::scaled(&columns[i], 1.0))
             }

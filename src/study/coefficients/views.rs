@@ -4,6 +4,7 @@ use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::estimate::Progress;
 use crate::compute::room::first_bounce::from_even;
 use crate::compute::room::patch_weights::{MOST_CELLS, merged_basis};
+use crate::compute::system::measure::ProfileLight;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
@@ -79,6 +80,41 @@ impl Views {
                 for to in 0..merged.len() {
                     for &(cell, share) in resampling.shares(to) {
                         add(cell, to, share);
+                    }
+                }
+            }
+        }
+        Ok(Self { width, rows, gap })
+    }
+
+    /// Of the bands of a profile angle instead of cells: upright or not, and how many.
+    pub fn of_bands(
+        session: &Session,
+        scene: &Scene,
+        index: usize,
+        (upright, bands): (bool, usize),
+        room: Option<&Responses>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        let sensors = scene.sensors.len();
+        let width = 3 * sensors;
+        let mut rows = vec![0.0_f32; bands * width];
+        for (s, seen) in session.kept_bands(scene, index, (upright, bands), progress)?.iter().enumerate() {
+            seen.each().for_each(|(band, weight)| rows[band * width + s] = weight as f32);
+        }
+        let mut gap = 0.0;
+        if let Some(room) = room {
+            let merged = Arc::new(merged_basis());
+            gap = room.weights(session, index, &merged).gap();
+            let by_sensor = room.of_cells(session, index, &merged, true);
+            for (cell, shares) in ProfileLight::shares_on(upright, bands, &merged).iter().enumerate() {
+                for &(band, share) in shares {
+                    let row = &mut rows[band * width..(band + 1) * width];
+                    for (s, by_cell) in by_sensor.iter().enumerate() {
+                        let light = by_cell[cell];
+                        row[s] += (share * light.value) as f32;
+                        row[sensors + s] += (share * light.value) as f32;
+                        row[2 * sensors + s] += (share * light.doubt()) as f32;
                     }
                 }
             }

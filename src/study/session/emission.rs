@@ -46,10 +46,15 @@ impl Session {
         if !very.answers_for_the_sky() {
             return self.by_data(scene, &system.dataset, facing);
         }
+        self.sky_through(very).1.emission(facing)
+    }
+
+    /// Answers of a described system for all diffuse light.
+    pub(in crate::study) fn sky_through(&self, very: &VerySystem) -> Arc<(VerySystem, SkyThrough)> {
         let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
         let compute = || Ok::<_, std::convert::Infallible>((very.clone(), SkyThrough::new(very.0.as_ref())));
         match self.skies.get(key, compute) {
-            Ok(own) => own.1.emission(facing),
+            Ok(own) => own,
             Err(never) => match never {},
         }
     }

@@ -7,7 +7,6 @@
 use super::fixed::{put_ordinary, with_states};
 use super::settings::Settings;
 use super::steps::Steps;
-use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::direct::beams_through;
@@ -17,7 +16,7 @@ use crate::study::control::year::Moving;
 use crate::study::error::StudyError;
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
-use crate::study::scene_file::{Interpolation, SceneFile};
+use crate::study::scene_file::SceneFile;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use rayon::prelude::*;
@@ -161,7 +160,7 @@ impl Engine {
             &scene.room,
             &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
         )?;
-        if before.is_empty() && scene.outside.surroundings().is_none() && known(&scene) {
+        if before.is_empty() {
             let coefficients = Coefficients::new(question.session, &scene, progress)?;
             return Ok(Self::Coefficients(Box::new(scene), Box::new(coefficients)));
         }
@@ -188,23 +187,6 @@ impl Engine {
             }
         }
     }
-}
-
-/// Is all that the systems do known by cells or in closed form? What keeps light together otherwise is found anew for every
-/// sun.
-fn known(scene: &Scene) -> bool {
-    let one = |btdf: &Btdf| match &btdf.scattered {
-        None | Some(Scattered::Lambert(_)) => true,
-        Some(Scattered::Cells(_) | Scattered::Directions(_)) => scene.interpolation == Interpolation::Patch,
-        Some(Scattered::Tree(_)) => false,
-    };
-    scene.apertures.iter().all(|aperture| {
-        // What keeps its straight light apart says all of it by its data.
-        let very = aperture.system.very.as_ref();
-        let by_data =
-            scene.interpolation == Interpolation::Patch || very.is_none_or(|very| very.0.keeps_regular_apart());
-        by_data && aperture.system.dataset.transmission().is_some_and(one)
-    })
 }
 
 /// The sun straight at the places through what lets it pass unscattered; `None` where nothing does.

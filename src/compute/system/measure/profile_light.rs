@@ -27,14 +27,41 @@ impl ProfileLight {
 
     /// Profile angle that a name has for these bands. \[rad\]
     pub fn angle(&self, name: Dir<Facade>) -> f64 {
+        Self::angle_of(self.upright, name)
+    }
+
+    /// Profile angle of a name. \[rad\]
+    fn angle_of(upright: bool, name: Dir<Facade>) -> f64 {
         let v = name.vector();
-        if self.upright { v.x } else { v.y }.atan2(v.z)
+        if upright { v.x } else { v.y }.atan2(v.z)
+    }
+
+    /// The band of so many that a profile angle lies in.
+    fn band(angle: f64, bands: usize) -> usize {
+        ((angle + FRAC_PI_2) / PI * (bands - 1) as f64).round().max(0.0) as usize
     }
 
     /// q of a name. \[1/sr\]
     pub fn at(&self, name: Dir<Facade>) -> f64 {
-        let place = (self.angle(name) + FRAC_PI_2) / PI * (self.q.len() - 1) as f64;
-        self.q.get(place.round().max(0.0) as usize).copied().unwrap_or(0.0)
+        self.q.get(Self::band(self.angle(name), self.q.len())).copied().unwrap_or(0.0)
+    }
+
+    /// Of what bands the means over cells are made, with their shares: [`Self::on`] for any q in so many bands.
+    pub fn shares_on(upright: bool, bands: usize, cells: &RingBasis) -> Vec<Vec<(usize, f64)>> {
+        let of = |cell| {
+            let mut shares: Vec<(usize, f64)> = Vec::new();
+            for name in sub_directions(&cell, POINTS) {
+                let band = Self::band(Self::angle_of(upright, name), bands);
+                let each = 1.0 / (POINTS * POINTS) as f64;
+                match shares.iter_mut().find(|(known, _)| *known == band) {
+                    Some((_, sum)) => *sum += each,
+                    None => shares.push((band, each)),
+                }
+            }
+            shares.retain(|(band, _)| *band < bands);
+            shares
+        };
+        cells.cells().map(of).collect()
     }
 
     /// Share of the incident light.
@@ -80,6 +107,11 @@ mod tests {
             let on = light.on(&cells);
             let sum: f64 = on.iter().zip(cells.projected_solid_angles()).map(|(q, w)| q * w).sum();
             assert!((sum / light.share() - 1.0).abs() < 1e-3, "{sum} {}", light.share());
+            let shares = ProfileLight::shares_on(upright, upwards.len(), &cells);
+            for (mean, shares) in on.iter().zip(&shares) {
+                let by_shares: f64 = shares.iter().map(|(band, share)| share * upwards[*band]).sum();
+                assert!((by_shares - mean).abs() < 1e-12);
+            }
             let up = Dir::from_theta_phi(0.7, if upright { 0.0 } else { FRAC_PI_2 });
             let down = Dir::from_theta_phi(0.7, if upright { PI } else { -FRAC_PI_2 });
             assert!((light.at(up) - 0.7_f64.to_degrees() / 0.25 / 1000.0).abs() < 1e-3 && light.at(down) == 0.0);
