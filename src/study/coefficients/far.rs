@@ -1,0 +1,65 @@
+//! What stands far away all round, a flat skyline or one that rises and falls: its light is a constant, and it hides the
+//! same directions from every point.
+
+use crate::compute::sky::{Distribution, Outside};
+use crate::compute::surroundings::Surroundings;
+use crate::compute::surroundings::skyline::Skyline;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Outsides of which all others are made.
+pub(super) struct Constants {
+    /// Black sky, black skyline, ground of luminance 1.
+    pub ground: Option<Outside>,
+    /// Black sky and ground, skyline of luminance 1; `None` without one.
+    pub skyline: Option<Outside>,
+    /// Sky of luminance 1, all else black, where the skyline rises and falls.
+    pub even: Option<Outside>,
+}
+
+impl Constants {
+    /// With the skyline of an outside.
+    pub fn of(outside: &Outside) -> Self {
+        let sky = |luminance: f64| Outside::new(Distribution::uniform(), PI * luminance).ok();
+        let before = |luminance| with_luminance(outside, luminance);
+        let hidden = |all: Outside| match before(0.0) {
+            Some(before) => Some(all.behind(before)),
+            None => Some(all),
+        };
+        let altitude = outside.skyline_altitude();
+        Self {
+            ground: sky(0.0).and_then(|all| all.with_ground(1.0, PI).ok()).and_then(hidden),
+            skyline: match before(1.0) {
+                Some(before) => sky(0.0).map(|all| all.behind(before)),
+                None => sky(0.0).filter(|_| altitude > 0.0).and_then(|all| all.with_skyline(altitude, 1.0).ok()),
+            },
+            even: sky(1.0).filter(|_| before(0.0).is_some()).and_then(hidden),
+        }
+    }
+}
+
+/// The skyline that rises and falls, if any does.
+pub(super) fn shape(outside: &Outside) -> Option<&Skyline> {
+    outside.surroundings()?.skyline.as_ref()
+}
+
+fn with_luminance(outside: &Outside, luminance: f64) -> Option<Arc<Surroundings>> {
+    let all = outside.surroundings()?;
+    let skyline = all.skyline.clone()?.with_luminance(luminance);
+    Some(Arc::new(Surroundings { skyline: Some(skyline), ..all.clone() }))
+}
+
+/// Luminance of the skyline of either kind. \[cd/m²\]
+pub(super) fn luminance(outside: &Outside) -> f64 {
+    shape(outside).map_or(outside.skyline_luminance(), |skyline| skyline.luminance)
+}
+
+/// Do two outsides hide the same of the sky?
+pub(super) fn same(one: &Outside, other: &Outside) -> bool {
+    one.skyline_altitude() == other.skyline_altitude()
+        && match (shape(one), shape(other)) {
+            (None, None) => true,
+            (Some(a), Some(b)) => a.same_shape(b),
+            _ => false,
+        }
+}

@@ -1,0 +1,137 @@
+//! How the very sun comes through a system: by the description, by beams taken out of the data's cells, or as the data's
+//! own cells and directions have it.
+
+use super::described::DescribedViews;
+use super::views::{Views, Want};
+use crate::compute::btdf::{Btdf, CellMatrix, Scattered};
+use crate::compute::estimate::Progress;
+use crate::compute::lid::peaks::{MOST_CELLS, Peaks};
+use crate::compute::lid::{BandLight, BeamLight, Facing, SunThrough};
+use crate::study::error::StudyError;
+use crate::study::scene::Scene;
+use crate::study::scene_file::Interpolation;
+use crate::study::session::Session;
+use crate::study::session::responses::Responses;
+use crate::study::system::VerySystem;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// One of the ways.
+pub(super) enum SunWay {
+    /// By the data's own cells or directions, and what they keep apart as regular.
+    Data,
+    /// By the description.
+    Described(VerySystem, DescribedViews),
+    /// By beams taken out of the data's cells, what is left on these.
+    Peaks(Box<InCells>),
+}
+
+/// Data on cells with beams in them.
+pub(super) struct InCells {
+    matrix: CellMatrix,
+    views: Views,
+    /// Beams, by the incident cell that the sun is in where there are too many cells to look at all of them.
+    known: Mutex<BTreeMap<usize, Arc<Peaks>>>,
+}
+
+/// What the sun makes behind a system.
+pub(super) struct SunLight {
+    /// What goes on as beams.
+    pub beams: Vec<BeamLight>,
+    /// Scattered light at the sensors: a row of values and two of what they hang on, as views have them.
+    pub light: Vec<f64>,
+    /// Errors of the scattered light at the sensors. \[lx\]
+    pub errors: Vec<f64>,
+}
+
+impl SunWay {
+    /// Of one aperture; `bands`: how a described system scatters, where that is by profile angle.
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        index: usize,
+        btdf: &Btdf,
+        described: Option<(VerySystem, DescribedViews)>,
+        room: Option<&Responses>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
+        if let Some((very, views)) = described {
+            return Ok(Self::Described(very, views));
+        }
+        match &btdf.scattered {
+            Some(Scattered::Cells(matrix)) if scene.beams && scene.interpolation != Interpolation::Patch => {
+                let basis = Arc::new(matrix.emergent().clone());
+                let views = Views::new(session, scene, index, basis, room, Want::All, progress)?;
+                let matrix: &CellMatrix = matrix;
+                Ok(Self::Peaks(Box::new(InCells { matrix: matrix.clone(), views, known: Mutex::default() })))
+            }
+            _ => Ok(Self::Data),
+        }
+    }
+
+    /// The light of the sun that stands before an aperture; `None` where the data's own cells are to be asked.
+    pub fn light(&self, facing: &Facing<'_>, sensors: usize) -> Option<SunLight> {
+        match self {
+            Self::Data => None,
+            Self::Described(very, views) => Some(described(very, views, facing, sensors)),
+            Self::Peaks(cells) => Some(cells.light(facing, sensors)),
+        }
+    }
+}
+
+fn described(very: &VerySystem, views: &DescribedViews, facing: &Facing<'_>, sensors: usize) -> SunLight {
+    let through = SunThrough::new(very.0.as_ref(), facing);
+    let mut sum = SunLight { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
+    let mut add = |part: Vec<f64>, relative: f64| {
+        sum.errors.iter_mut().zip(&part).for_each(|(error, e)| *error += relative * e);
+        sum.light.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e);
+    };
+    if let Some(bands) = through.bands() {
+        let mut part = vec![0.0; 3 * sensors];
+        views.add_bands(bands, 1.0, &mut part);
+        add(part, relative_error(bands));
+    }
+    if let Some(cells) = through.cells() {
+        let mut part = vec![0.0; 3 * sensors];
+        views.cells.add_all(&cells.sun, &mut part);
+        add(part, cells.relative_error);
+    }
+    sum
+}
+
+fn relative_error(bands: &BandLight) -> f64 {
+    let share = bands.light.share();
+    if share > 0.0 { bands.light.error / share } else { 0.0 }
+}
+
+impl InCells {
+    fn peaks(&self, facing: &Facing<'_>) -> Option<Arc<Peaks>> {
+        let sun = facing.sun_entering()?;
+        let cell = self.matrix.incident().index(sun)?;
+        let key = if self.matrix.incident().len() > MOST_CELLS { cell } else { 0 };
+        // What is kept is whole even if another thread has failed while it held the lock.
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(peaks) = known().get(&key) {
+            return Some(Arc::clone(peaks));
+        }
+        let peaks = Arc::new(Peaks::new(&self.matrix, sun));
+        known().insert(key, Arc::clone(&peaks));
+        Some(peaks)
+    }
+
+    fn light(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
+        let mut sum = SunLight { beams: Vec::new(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
+        let Some(sun) = self.peaks(facing).and_then(|peaks| peaks.sun(facing)) else { return sum };
+        self.views.add_all(&sun.luminance, &mut sum.light);
+        let mut squares = vec![0.0; sensors];
+        let mut part = vec![0.0; 3 * sensors];
+        for doubt in &sun.doubts {
+            part.fill(0.0);
+            self.views.add_all(doubt, &mut part);
+            squares.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e * e);
+        }
+        sum.errors.iter_mut().zip(squares).for_each(|(error, square)| *error = square.sqrt());
+        sum.beams = sun.beams;
+        sum
+    }
+}
