@@ -192,5 +192,10 @@ fn luminance_coefficients(bin: usize, clearness: f64, brightness: f64, zenith: f
         x[2] = (delta * (c1 + c2 * zenith)).powf(c3).exp() - c4;
         x[3] = -(delta * (d1 + d2 * zenith)).exp() + d3 + delta * d4;
     }
+    // With a and b above 0 the luminance grows without bound towards the horizon, which no sky does: an even gradation is
+    // the nearest that the model has. Met with a high sun under a wrong clock.
+    if x[0] > 0.0 {
+        x[1] = x[1].min(0.0);
+    }
     x
 }
