@@ -34,7 +34,7 @@ impl Frame {
     pub(super) const DOME: Self = Self { x: DVec3::Y, y: DVec3::X, z: DVec3::Z };
 
     #[inline]
-    pub(super) fn direction(&self, theta: f64, phi: f64) -> DVec3 {
+    pub fn direction(&self, theta: f64, phi: f64) -> DVec3 {
         let (sin_theta, cos_theta) = theta.sin_cos();
         let (sin_phi, cos_phi) = phi.sin_cos();
         self.x * (sin_theta * cos_phi) + self.y * (sin_theta * sin_phi) + self.z * cos_theta
