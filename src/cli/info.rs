@@ -3,7 +3,8 @@
 use crate::cli::output::{print, print_text};
 use crate::cli::{dataset_file, luminaire_info, weather_info};
 use crate::compute::btdf::{
-    BandName, Btdf, Component, Dataset, Scattered, Severity, SolarSource, Thermal, ThermalKey, TreeRank, reciprocity_error,
+    BandName, Btdf, Component, Dataset, Scattered, Severity, SolarSource, Thermal, ThermalKey, TreeRank,
+    reciprocity_error,
 };
 use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine_all};

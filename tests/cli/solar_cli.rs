@@ -233,9 +233,7 @@ fn solar_blocks_of_others_are_read_and_used() {
         let (info, _) = done(here.path(), &["info", &path, "--json"]);
         let info: Value = serde_json::from_str(&info).unwrap();
         assert_eq!(info["solar_source"], "solar data", "{name}");
-        for (key, known) in
-            [("/tau_normal_hemispherical", visible), ("/solar_tau_normal_hemispherical", solar)]
-        {
+        for (key, known) in [("/tau_normal_hemispherical", visible), ("/solar_tau_normal_hemispherical", solar)] {
             assert!((number(&info, key) - known).abs() < 2e-5, "{name}{key}: {}", number(&info, key));
         }
     }

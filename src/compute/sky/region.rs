@@ -33,6 +33,7 @@ impl Frame {
     /// Bearings and zenith angles: φ is the compass bearing, θ = 90° − altitude.
     pub(super) const DOME: Self = Self { x: DVec3::Y, y: DVec3::X, z: DVec3::Z };
 
+    /// Unit vector of a polar angle from the normal and an azimuth. \[rad\]
     #[inline]
     pub fn direction(&self, theta: f64, phi: f64) -> DVec3 {
         let (sin_theta, cos_theta) = theta.sin_cos();

@@ -66,15 +66,15 @@ mod tests {
 
     #[test]
     fn months_hours_and_half_years_add_up() {
-        let steps: Vec<When> =
-            (1..=12).flat_map(|month| (0..24).map(move |hour| When { month, hour })).collect();
+        let steps: Vec<When> = (1..=12).flat_map(|month| (0..24).map(move |hour| When { month, hour })).collect();
         let watts: Vec<f64> = (0..steps.len()).map(|k| (k % 37) as f64).collect();
         let energy = Transmitted::of(&steps, &watts, 0.5);
         let all = watts.iter().sum::<f64>() * 0.5 / 1000.0;
         assert!((energy.total() - all).abs() < 1e-12 * all);
         assert!((energy.hours.iter().sum::<f64>() - all).abs() < 1e-12 * all);
         assert!((energy.summer() + energy.winter() - all).abs() < 1e-12 * all);
-        let summer: f64 = steps.iter().zip(&watts).filter(|(when, _)| (4..=9).contains(&when.month)).map(|(_, w)| w).sum();
+        let summer: f64 =
+            steps.iter().zip(&watts).filter(|(when, _)| (4..=9).contains(&when.month)).map(|(_, w)| w).sum();
         assert!((energy.summer() - summer * 0.5e-3).abs() < 1e-12 * all);
         assert!((energy.scaled(2.0).hours[7] - 2.0 * energy.hours[7]).abs() < 1e-15);
     }

@@ -24,14 +24,9 @@ fn materials(word: &str) -> &'static [Material] {
         "prismatic" => &[("", CLEAR)],
         "redirecting-glass" => &[("", CLEAR), ("outer", CLEAR), ("inner", CLEAR)],
         "pane" => {
-            &[(
-                "",
-                &["index", "absorption", "transmittance_normal", "reflectance_normal", "reflectance_normal_back"],
-            )]
+            &[("", &["index", "absorption", "transmittance_normal", "reflectance_normal", "reflectance_normal_back"])]
         }
-        "diffuser" => {
-            &[("", &["transmittance", "reflectance", "index", "regular", "lobe", "spread", "absorbed"])]
-        }
+        "diffuser" => &[("", &["transmittance", "reflectance", "index", "regular", "lobe", "spread", "absorbed"])],
         "woven" => &[("", &["reflectance", "reflectance_back", "transmittance"])],
         "perforated" => &[("", &["reflectance", "reflectance_back", "reflectance_wall"])],
         _ => &[],
@@ -99,7 +94,6 @@ pub(super) fn told(error: FormatError) -> FormatError {
 #[cfg(test)]
 mod tests {
     use super::super::read;
-    use super::*;
     use crate::compute::system::SystemKind;
     use crate::compute::system::panes::coated::{CoatedPane, Layer};
 

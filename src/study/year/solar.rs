@@ -184,7 +184,8 @@ fn told(list: &[ThroughAperture]) -> String {
     let of = |source: SolarSource| -> Vec<String> {
         list.iter().filter(|one| one.source == source).map(|one| one.number.to_string()).collect()
     };
-    let mut text = "solar energy is directly transmitted, secondary heat left out; the ground reflects as for light".to_owned();
+    let mut text =
+        "solar energy is directly transmitted, secondary heat left out; the ground reflects as for light".to_owned();
     for source in [SolarSource::Partly, SolarSource::Visible] {
         let numbers = of(source);
         if numbers.len() == list.len() {
@@ -205,7 +206,8 @@ impl<'a> Engine<'a> {
             (watts + hour.diffuse_horizontal_irradiance, lux + hour.diffuse_horizontal)
         });
         let per_lux = if lux > 0.0 { watts / lux } else { 0.0 };
-        let in_watts = |keys: &OutsideKeys| OutsideKeys { luminance: keys.luminance.map(|l| l * per_lux), ..keys.clone() };
+        let in_watts =
+            |keys: &OutsideKeys| OutsideKeys { luminance: keys.luminance.map(|l| l * per_lux), ..keys.clone() };
         let outside: Vec<OutsideKeys> = file.outside.iter().map(in_watts).collect();
         let before = Before::of(&outside, &room, geometry)?;
         let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
@@ -291,7 +293,9 @@ impl<'a> Engine<'a> {
         let [low, right, _, up] = aperture.corners();
         let share = |k: usize| (k as f64 + 0.5) / a_side as f64;
         (0..a_side * a_side)
-            .map(|k| self.orientation.to_world(low + (right - low) * share(k % a_side) + (up - low) * share(k / a_side)))
+            .map(|k| {
+                self.orientation.to_world(low + (right - low) * share(k % a_side) + (up - low) * share(k / a_side))
+            })
             .collect()
     }
 
@@ -308,9 +312,7 @@ impl<'a> Engine<'a> {
             let index = self.received(group.surface, passage);
             let received = match &mut known[index] {
                 Some(received) if !alone => received,
-                place => place.insert(
-                    self.received[index].1.through(&outside, &self.points(&group.aperture, EYES)),
-                ),
+                place => place.insert(self.received[index].1.through(&outside, &self.points(&group.aperture, EYES))),
             };
             let diffuse: f64 = received.iter().zip(&passage.by_cell).map(|(e, tau)| e * tau).sum();
             let judged = passage.judged[usize::from(group.surface == Surface::Roof)];
@@ -387,9 +389,7 @@ impl<'a> Engine<'a> {
 /// The error with the place in the scene that led to it.
 fn in_aperture(index: usize, error: StudyError) -> StudyError {
     match error {
-        StudyError::Key { key, message } => {
-            StudyError::Key { key: format!("aperture[{}].{key}", index + 1), message }
-        }
+        StudyError::Key { key, message } => StudyError::Key { key: format!("aperture[{}].{key}", index + 1), message },
         other => other,
     }
 }

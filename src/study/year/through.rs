@@ -81,9 +81,9 @@ impl<'a> DirectSolar<'a> {
 
 fn of_data(system: &Arc<System>) -> Result<Found, StudyError> {
     let dataset = &system.dataset;
-    let btdf: &Btdf = dataset.transmission_of(BandName::Solar).ok_or_else(|| {
-        StudyError::key("system", format!("'{}' has no transmission data", system.label))
-    })?;
+    let btdf: &Btdf = dataset
+        .transmission_of(BandName::Solar)
+        .ok_or_else(|| StudyError::key("system", format!("'{}' has no transmission data", system.label)))?;
     // Measured data do not say how exact they are: then only what lies between their directions is in doubt.
     let tau = DirectionalTransmittance::of_data(btdf, stated_error(dataset).unwrap_or(0.0));
     Ok(Found { tau, source: dataset.solar_source() })
