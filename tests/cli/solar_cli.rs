@@ -167,12 +167,15 @@ fn computed_solar_bands_go_into_files_with_their_mark() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let put = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
-    put("blind.system.toml", &BLIND.replace("0.2 }", "0.2, solar = { reflectance = 0.5 } }"));
-    put("pane.system.toml", "name = \"p\"\nkind = \"pane\"\n[pane]\nindex = 1.5\nabsorption = 0.0\nsolar = {}\n");
     put(
-        "stack.system.toml",
-        "name = \"s\"\nkind = \"stack\"\n[stack]\nlayers = [{ file = \"pane.system.toml\" }, { file = \"blind.system.toml\", state = \"30\" }]\n",
+        "sheet.system.toml",
+        "name = \"d\"\nkind = \"diffuser\"\n[diffuser]\nmodel = \"lambertian\"\ntransmittance = 0.4\nreflectance = 0.4\nsolar = { transmittance = 0.55 }\n",
     );
+    let pane = "name = \"p\"\nkind = \"pane\"\n[pane]\nindex = 1.5\nabsorption = 0.0\n";
+    put("pane.system.toml", pane);
+    put("both.system.toml", &format!("{pane}solar = {{}}\n"));
+    let layers = ["both", "sheet", "pane"].map(|name| format!("{{ file = \"{name}.system.toml\" }}")).join(", ");
+    put("stack.system.toml", &format!("name = \"s\"\nkind = \"stack\"\n[stack]\nlayers = [{layers}]\n"));
     let (told, _) = done(folder, &["goniophotometer", "stack.system.toml", "--out", "stack.xml", "--json"]);
     let told: Value = serde_json::from_str(&told).unwrap();
     let partly = "solar data, partly visible taken as solar";
