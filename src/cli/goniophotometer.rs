@@ -4,7 +4,7 @@ use super::writing::Over;
 use super::{output, progress::TerminalProgress};
 use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
-use crate::compute::btdf::{Btdf, Component, Dataset, Scattered, matrix_on};
+use crate::compute::btdf::{BandName, Btdf, Component, Dataset, Scattered, SolarSource, matrix_on};
 use crate::formats::{FileKind, Format, Written, btdf_text, format_to_write, write_dataset};
 use crate::study::Library;
 use crate::study::goniophotometer::{Computed, Described, Request};
@@ -263,14 +263,25 @@ fn to_json(one: &Computed) -> Value {
         })
     });
     let t = one.dataset.visible.transmission_front.as_ref();
+    let solar = solar_of(&one.dataset);
     json!({
         "state": one.dataset.state,
         "seconds": one.seconds,
         "kept": one.quality.is_none(),
-        "tau_normal_hemispherical": t.map(crate::compute::btdf::Btdf::tau_normal),
-        "tau_hemispherical_hemispherical": t.map(crate::compute::btdf::Btdf::tau_hemispherical),
+        "tau_normal_hemispherical": t.map(Btdf::tau_normal),
+        "tau_hemispherical_hemispherical": t.map(Btdf::tau_hemispherical),
+        "solar": {
+            "source": one.dataset.solar_source().words(),
+            "tau_normal_hemispherical": solar.map(Btdf::tau_normal),
+            "tau_hemispherical_hemispherical": solar.map(Btdf::tau_hemispherical),
+        },
         "quality": quality,
     })
+}
+
+/// Transmission in the solar band where it was computed.
+fn solar_of(dataset: &Dataset) -> Option<&Btdf> {
+    dataset.transmission_of(BandName::Solar).filter(|_| dataset.solar.is_some())
 }
 
 fn to_text(described: &Described, request: &Request, computed: &[Computed]) -> anyhow::Result<String> {
@@ -280,8 +291,8 @@ fn to_text(described: &Described, request: &Request, computed: &[Computed]) -> a
     writeln!(text, "state      τ normal  τ hemi.  τ+ρ+α−1   reciprocity  error    seconds")?;
     for one in computed {
         let t = one.dataset.visible.transmission_front.as_ref();
-        let normal = t.map_or(0.0, crate::compute::btdf::Btdf::tau_normal);
-        let hemispherical = t.map_or(0.0, crate::compute::btdf::Btdf::tau_hemispherical);
+        let normal = t.map_or(0.0, Btdf::tau_normal);
+        let hemispherical = t.map_or(0.0, Btdf::tau_hemispherical);
         let state = if one.dataset.state.is_empty() { "-" } else { &one.dataset.state };
         write!(text, "{state:<10} {normal:<9.4} {hemispherical:<8.4} ")?;
         match one.quality {
@@ -294,6 +305,20 @@ fn to_text(described: &Described, request: &Request, computed: &[Computed]) -> a
                     quality.balance, quality.error, one.seconds
                 )?;
             }
+        }
+    }
+    let solar = |one: &&Computed| one.dataset.solar.is_some();
+    if computed.iter().any(|one| solar(&one)) {
+        writeln!(text, "solar band τ normal  τ hemi.  properties")?;
+    } else {
+        writeln!(text, "no solar properties in the description: {}", SolarSource::Visible.words())?;
+    }
+    for one in computed.iter().filter(solar) {
+        let state = if one.dataset.state.is_empty() { "-" } else { &one.dataset.state };
+        if let Some(t) = solar_of(&one.dataset) {
+            let (normal, hemispherical) = (t.tau_normal(), t.tau_hemispherical());
+            let source = one.dataset.solar_source().words();
+            writeln!(text, "{state:<10} {normal:<9.4} {hemispherical:<8.4} {source}")?;
         }
     }
     Ok(text)

@@ -3,7 +3,8 @@
 use crate::cli::output::{print, print_text};
 use crate::cli::{dataset_file, luminaire_info, weather_info};
 use crate::compute::btdf::{
-    Btdf, Component, Dataset, Scattered, Severity, Thermal, ThermalKey, TreeRank, reciprocity_error,
+    BandName, Btdf, Component, Dataset, Scattered, Severity, SolarSource, Thermal, ThermalKey, TreeRank,
+    reciprocity_error,
 };
 use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine_all};
@@ -90,6 +91,10 @@ fn to_json(dataset: &Dataset, all: &[Dataset], found: &[Diagnosis]) -> Value {
     // Beams are known by direction, computed anew from the description.
     object.insert("described".into(), dataset.described.is_some().into());
     object.insert("solar".into(), dataset.solar.is_some().into());
+    let solar = dataset.transmission_of(BandName::Solar).filter(|_| dataset.solar.is_some());
+    object.insert("solar_source".into(), dataset.solar_source().words().into());
+    object.insert("solar_tau_normal_hemispherical".into(), solar.map(Btdf::tau_normal).into());
+    object.insert("solar_tau_hemispherical_hemispherical".into(), solar.map(Btdf::tau_hemispherical).into());
     object.insert("tau_normal_hemispherical".into(), transmission.map(Btdf::tau_normal).into());
     object.insert("tau_hemispherical_hemispherical".into(), transmission.map(Btdf::tau_hemispherical).into());
     object.insert("hemispherical_hemispherical".into(), hemispherical(dataset));
@@ -185,6 +190,20 @@ fn resolution(btdf: &Btdf) -> String {
     }
 }
 
+/// What stands for solar properties, and what they let through.
+fn solar(dataset: &Dataset) -> String {
+    let source = dataset.solar_source();
+    match dataset.transmission_of(BandName::Solar) {
+        Some(btdf) if source != SolarSource::Visible => format!(
+            "{}: τ normal {:.5}, τ hemispherical {:.5}",
+            source.words(),
+            btdf.tau_normal(),
+            btdf.tau_hemispherical()
+        ),
+        _ => format!("none: {}", SolarSource::Visible.words()),
+    }
+}
+
 const fn unit(key: ThermalKey) -> &'static str {
     match key {
         ThermalKey::Conductivity => " W/mK",
@@ -217,7 +236,7 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
         format!("{}{derived}", component.key().replace('_', " "))
     });
     line("Visible", &components.collect::<Vec<_>>().join(", "));
-    line("Solar", if dataset.solar.is_some() { "kept" } else { "not in the file" });
+    line("Solar", &solar(dataset));
     // Others have them as their cells or their regular part say.
     let beams = dataset.described.as_ref().map(|_| "by direction, computed anew from the description");
     line("Beams", beams.unwrap_or_default());

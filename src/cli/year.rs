@@ -25,7 +25,8 @@ The scene says which weather in [year]; [sky] is not read but for skyline and ob
 Columns: time (middle of the interval, local standard time, the row's own year), sun_altitude_deg, sun_azimuth_deg (where the
 sun was taken), direct_normal_lx, diffuse_horizontal_lx, state_N (of aperture N where a control picks it; empty in the
 dark), E_i and Ev_i (sensors and eyes from 1, lx), E_error_i and Ev_error_i (estimated absolute errors), S_i and Sv_i (of these
-the sun straight through, where something lets it through unscattered), lighting_W_m2 (with [year.lighting]).")]
+the sun straight through, where something lets it through unscattered), lighting_W_m2 (with [year.lighting]), solar_W and
+solar_error_W (with solar = true in [year]: solar power straight through all apertures, secondary heat left out).")]
 pub struct YearArgs {
     /// Scene file (TOML) with [year]
     pub scene: PathBuf,
@@ -159,7 +160,8 @@ fn csv(year: &Year) -> String {
         }
     }
     let lamps = year.settings.lamps.as_ref();
-    text.push_str(if lamps.is_some() { ",lighting_W_m2\n" } else { "\n" });
+    text.push_str(if lamps.is_some() { ",lighting_W_m2" } else { "" });
+    text.push_str(if year.solar.is_some() { ",solar_W,solar_error_W\n" } else { "\n" });
     for (row, &k) in year.chosen.iter().enumerate() {
         let (step, hour) = (&year.steps.list[k], &year.steps.list[k].hour);
         let _ = write!(
@@ -186,6 +188,9 @@ fn csv(year: &Year) -> String {
         if let Some(lamps) = lamps {
             let watts = lamps.watts(step.occupied, &year.light.values[own.start..own.start + sensors]);
             let _ = write!(text, ",{}", number(watts));
+        }
+        if let Some(solar) = &year.solar {
+            let _ = write!(text, ",{},{}", number(solar.watts[row]), number(solar.errors[row]));
         }
         text.push('\n');
     }

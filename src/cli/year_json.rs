@@ -3,7 +3,7 @@
 use crate::compute::year::glare::LIMITS;
 use crate::compute::year::provision::{LEVELS, Reached};
 use crate::study::SceneFile;
-use crate::study::year::{Figures, Year};
+use crate::study::year::{Figures, Solar, SolarFigures, Year};
 use serde_json::{Map, Value, json};
 
 /// Figures, what the hours' errors leave open of them, weather, states, stages, and what was left out.
@@ -70,6 +70,9 @@ fn left_out(year: &Year, figures: &Figures) -> Vec<String> {
         if !never.is_empty() {
             list.push(format!("states of aperture {} that no lit step picks: {}", one.aperture, never.join(", ")));
         }
+    }
+    if year.solar.is_none() {
+        list.push("solar energy: asked for by solar = true in [year]".to_owned());
     }
     if figures.provision.is_none() {
         let steps = year.chosen.len();
@@ -140,7 +143,37 @@ fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
         lighting[key] = json!(total);
         all["lighting"] = lighting;
     }
+    if let (Some(solar), Some(figures)) = (&year.solar, &figures.solar) {
+        all["solar"] = solar_json(solar, figures);
+    }
     all
+}
+
+/// Solar energy straight through the apertures, by square metre of all of them where nothing else is said.
+fn solar_json(solar: &Solar, figures: &SolarFigures) -> Value {
+    let total = figures.energy.total();
+    let by_area = figures.energy.scaled(1.0 / solar.area());
+    let apertures = solar.apertures.iter().zip(&figures.apertures);
+    json!({
+        "kWh": total,
+        "kWh_m2": by_area.total(),
+        "kWh_m2_floor": total / solar.floor,
+        "month_kWh_m2": by_area.months,
+        "hour_kWh_m2": by_area.hours,
+        "summer_kWh_m2": by_area.summer(),
+        "winter_kWh_m2": by_area.winter(),
+        "source": solar.source().words(),
+        "meaning": "directly transmitted, secondary heat left out",
+        "apertures": apertures
+            .map(|(one, kilowatt_hours)| json!({
+                "aperture": one.number,
+                "area_m2": one.area,
+                "kWh": kilowatt_hours,
+                "kWh_m2": kilowatt_hours / one.area,
+                "source": one.source.words(),
+            }))
+            .collect::<Vec<_>>(),
+    })
 }
 
 /// The larger distance of every number from those of the year with less and with more light; what is no number is left out.

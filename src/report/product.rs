@@ -8,7 +8,7 @@ use super::tiles::{TileKind, draw, indicatrix, section};
 use super::words::{origin_words, severity_words, thermal_words};
 use super::{ReportError, picture};
 use crate::catalogue::{Origin as From, Product, State, moving_part};
-use crate::compute::btdf::{Btdf, LightFigures, Severity};
+use crate::compute::btdf::{BandName, Btdf, LightFigures, Severity, SolarSource};
 use crate::compute::direction::{Dir, Incident};
 use crate::compute::system::SystemDescription;
 use crate::drawing::chart;
@@ -166,6 +166,16 @@ fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)
     };
     add(texts::TAU_NORMAL, tau("tau_normal", told.tau_normal));
     add(texts::TAU_DIFFUSE, tau("tau_hemispherical", told.tau_hemispherical));
+    // Only of data that know the solar band.
+    let source = dataset.solar_source();
+    if let Some(solar) = dataset.transmission_of(BandName::Solar).filter(|_| source != SolarSource::Visible) {
+        for (name, value) in
+            [(texts::SOLAR_NORMAL, solar.tau_normal()), (texts::SOLAR_DIFFUSE, solar.tau_hemispherical())]
+        {
+            let value = number(value, 3);
+            add(name, if source == SolarSource::Partly { texts::solar_partly(value) } else { value });
+        }
+    }
     if let Some(light) = told.light {
         add(texts::TO_CEILING, share("to_ceiling", light.to_ceiling));
         add(texts::SUN_KEPT_OUT, share("sun_blocked", Some(light.sun_blocked)));

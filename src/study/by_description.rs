@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::goniophotometer::{Base, Described, LayerLibrary, Request};
 use super::system::{Need, System, VerySystem};
-use crate::compute::btdf::{Btdf, Dataset, Finding};
+use crate::compute::btdf::{BandName, Btdf, Dataset, Finding, SolarSource};
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
 use std::sync::Arc;
@@ -26,13 +26,23 @@ impl Described {
         if !states.iter().any(|key| key == state) {
             return Err(StudyError::key("system.state", no_such_state(&self.file.system.name, state, &states)));
         }
-        let very = VerySystem(Arc::from(self.specimen(state, library)?));
+        let very = self.very(state, library)?;
         let dataset = match need {
             Need::Light { lit } if !lit || very.answers_for_the_sky() => self.dark(state),
             Need::Everything | Need::Light { .. } => self.measure(state, &request(), library, None, &Silent)?.dataset,
         };
         let label = if state.is_empty() { dataset.name.clone() } else { format!("{}, {state}", dataset.name) };
         Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), very: Some(very) })
+    }
+
+    /// What answers for single directions, in the solar band too where something is known of it.
+    fn very(&self, state: &str, library: &dyn LayerLibrary) -> Result<VerySystem, StudyError> {
+        let source = SolarSource::of(self.materials(state, library)?);
+        let solar = match source {
+            SolarSource::Visible => None,
+            _ => Some((Arc::from(self.specimen_in(BandName::Solar, state, library)?), source)),
+        };
+        Ok(VerySystem(Arc::from(self.specimen(state, library)?), solar))
     }
 
     /// The place of data that nothing asks for.
@@ -55,7 +65,7 @@ impl Described {
 /// from here.
 pub(super) fn very_system(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<VerySystem> {
     let described = Described::from_text(text, Base::Builtin).ok()?;
-    described.specimen(state, library).ok().map(|specimen| VerySystem(Arc::from(specimen)))
+    described.very(state, library).ok()
 }
 
 /// The key of a described system's state in a file, for messages.

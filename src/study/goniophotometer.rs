@@ -3,30 +3,22 @@
 
 use super::error::StudyError;
 use super::files;
-use super::scene_file::SystemKeys;
-use super::system::{Need, System, SystemLibrary};
+use super::system::{System, SystemLibrary};
 use crate::catalogue::{METHODS, NewProduct, Product, builtin_system, described_dataset, method, product_of};
 use crate::compute::basis::RingBasis;
-use crate::compute::btdf::Dataset;
+use crate::compute::btdf::{Band, BandName, Dataset, SolarSource};
 use crate::compute::estimate::Progress;
 use crate::compute::system::SystemKind;
 use crate::compute::system::measure::directions::measured_at_directions;
-use crate::compute::system::measure::upright::Upright;
-use crate::compute::system::measure::{Quality, Setting, Specimen};
-use crate::compute::system::panes::Panes;
-use crate::compute::system::panes::coated::Layer as Pane;
-use crate::compute::system::stack::{DataLayer, Stack};
-use crate::compute::system::stack::{Layer, LayerSource};
+use crate::compute::system::measure::{Quality, Setting};
+use crate::compute::system::stack::LayerSource;
 use crate::formats::dataset_blob;
 use crate::formats::encoding::utf8;
-use crate::formats::system_toml::{self, EACH_STATE, MOST_NESTED, SystemFile, is_system_file};
+use crate::formats::system_toml::{self, MOST_NESTED, SystemFile, is_system_file};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
-
-/// Layers of a stack with all stacks in it, at most.
-const MOST_LAYERS: usize = 40;
 
 /// A system file with the place from which it names others.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,31 +80,6 @@ pub trait LayerLibrary: SystemLibrary {
     fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError>;
 }
 
-/// A layer of a stack. Panes next to each other stay panes: light keeps its polarisation between them, which matrices
-/// do not know.
-enum LayerRun {
-    Panes(Vec<Pane>),
-    Other(Box<dyn Specimen>),
-}
-
-impl LayerRun {
-    fn into_specimen(self) -> Box<dyn Specimen> {
-        match self {
-            Self::Panes(layers) => Box::new(Panes { layers }),
-            Self::Other(specimen) => specimen,
-        }
-    }
-
-    /// By a quarter turn about the normal, which panes do not notice.
-    fn turn(&mut self) {
-        if let Self::Other(_) = self
-            && let Self::Other(specimen) = std::mem::replace(self, Self::Panes(Vec::new()))
-        {
-            *self = Self::Other(Box::new(Upright(specimen)));
-        }
-    }
-}
-
 impl Described {
     /// Reads a system file. The error names the file.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
@@ -143,13 +110,13 @@ impl Described {
     }
 
     /// A layer that is described in this one's own text.
-    fn within(&self, text: &str) -> Result<Self, StudyError> {
+    pub(super) fn within(&self, text: &str) -> Result<Self, StudyError> {
         let told = |error: crate::formats::FormatError| StudyError::key("stack.layers", error.to_string());
         Self::from_text(text, self.base.clone()).map_err(told)
     }
 
     /// Where dataset files lie that it names.
-    fn folder(&self) -> &Path {
+    pub(super) fn folder(&self) -> &Path {
         match &self.base {
             Base::Folder(folder) => folder,
             Base::Builtin => Path::new("."),
@@ -162,104 +129,6 @@ impl Described {
     /// What is wrong with the text.
     pub fn from_text(text: &str, base: Base) -> Result<Self, crate::formats::FormatError> {
         Ok(Self { file: system_toml::read(text.as_bytes())?, text: text.to_owned(), base })
-    }
-
-    /// Keys of its states. For a stack with a moving layer, those of the layer.
-    pub fn states(&self, library: &dyn LayerLibrary) -> Result<Vec<String>, StudyError> {
-        self.states_within(library, 0)
-    }
-
-    fn states_within(&self, library: &dyn LayerLibrary, depth: usize) -> Result<Vec<String>, StudyError> {
-        let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.system.states()) };
-        let Some(layer) = layers.iter().find(|layer| layer.state == EACH_STATE) else { return Ok(vec![String::new()]) };
-        match &layer.source {
-            LayerSource::File(name) if is_system_file(name) => {
-                not_too_deep(depth)?;
-                self.other(name)?.states_within(library, depth + 1)
-            }
-            LayerSource::File(name) => {
-                let systems = library.load_file(&self.folder().join(name))?;
-                Ok(systems.iter().map(|system| system.state.clone()).collect())
-            }
-            LayerSource::Text(text) => {
-                not_too_deep(depth)?;
-                self.within(text)?.states_within(library, depth + 1)
-            }
-            LayerSource::Catalogue(key) => {
-                Ok(library.product(key)?.states.into_iter().map(|state| state.key).collect())
-            }
-        }
-    }
-
-    /// One state, ready to be measured.
-    pub fn specimen(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn Specimen>, StudyError> {
-        let mut layers = Vec::new();
-        self.layers_into(&mut layers, state, library, 0)?;
-        let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(LayerRun::into_specimen).collect();
-        Ok(match ready.len() {
-            1 => ready.pop().expect("counted"),
-            _ => Box::new(Stack::new(ready)),
-        })
-    }
-
-    /// Appends the system as a layer. Of a stack all layers, so that a stack in a stack is solved with it, on the same
-    /// cells.
-    fn layers_into(
-        &self,
-        list: &mut Vec<LayerRun>,
-        state: &str,
-        library: &dyn LayerLibrary,
-        depth: usize,
-    ) -> Result<(), StudyError> {
-        let system = &self.file.system;
-        let SystemKind::Stack(layers) = &system.kind else {
-            let made = system.specimen(state).map_err(|error| StudyError::key("state", error.to_string()))?;
-            match (&system.kind, list.last_mut()) {
-                (SystemKind::Pane(pane), Some(LayerRun::Panes(before))) => before.extend(pane.layers()),
-                (SystemKind::Pane(pane), _) => list.push(LayerRun::Panes(pane.layers())),
-                _ => list.push(LayerRun::Other(made)),
-            }
-            return Ok(());
-        };
-        not_too_deep(depth)?;
-        let moving = layers.iter().any(|layer| layer.state == EACH_STATE);
-        if !moving && !state.is_empty() {
-            return Err(StudyError::key("state", "a stack without a moving layer has no states"));
-        }
-        let first = list.len();
-        for layer in layers {
-            self.layer_into(list, layer, state, library, depth)?;
-            if list.len() > MOST_LAYERS {
-                return Err(StudyError::key("stack.layers", format!("more than {MOST_LAYERS} layers in all")));
-            }
-        }
-        if system.upright {
-            list[first..].iter_mut().for_each(LayerRun::turn);
-        }
-        Ok(())
-    }
-
-    fn layer_into(
-        &self,
-        list: &mut Vec<LayerRun>,
-        layer: &Layer,
-        state: &str,
-        library: &dyn LayerLibrary,
-        depth: usize,
-    ) -> Result<(), StudyError> {
-        let state = if layer.state == EACH_STATE { state } else { &layer.state };
-        let told = (!state.is_empty()).then(|| state.to_owned());
-        let keys = match &layer.source {
-            LayerSource::File(name) if is_system_file(name) => {
-                return self.other(name)?.layers_into(list, state, library, depth + 1);
-            }
-            LayerSource::Text(text) => return self.within(text)?.layers_into(list, state, library, depth + 1),
-            LayerSource::File(name) => SystemKeys::File { path: name.into(), state: told },
-            LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state: told },
-        };
-        let system = library.load(&keys, self.folder(), Need::Everything)?;
-        list.push(LayerRun::Other(Box::new(DataLayer(system.dataset.visible.clone()))));
-        Ok(())
     }
 
     /// Computes one state. States kept under `keep` are taken from there, and finished ones left there.
@@ -281,22 +150,44 @@ impl Described {
             return Ok(Computed { dataset, quality: None, seconds: 0.0 });
         }
         let start = Instant::now();
-        let Request { incident, emergent, error, seed } = request;
-        let setting = Setting { incident, emergent, error: *error, seed: *seed };
-        let specimen = self.specimen(state, library)?;
-        let (visible, quality) = if request.at_directions() {
-            let measured = measured_at_directions(specimen.as_ref(), &setting, progress)?;
-            (measured.band_at_directions(), measured.quality())
-        } else {
-            specimen.examine(&setting, progress)?
-        };
-        let mut dataset = described_dataset(&self.file, state.to_owned(), visible, &quality, *error);
+        let (visible, mut quality) = self.band(BandName::Visible, state, request, library, progress)?;
+        // Of what says nothing of the solar band there is nothing but light to be computed.
+        let materials = self.materials(state, library)?;
+        let mut solar = None;
+        if SolarSource::of(materials) != SolarSource::Visible {
+            let (band, of_band) = self.band(BandName::Solar, state, request, library, progress)?;
+            (solar, quality) = (Some(band), quality.worse(of_band));
+        }
+        let mut dataset = described_dataset(&self.file, state.to_owned(), visible, &quality, request.error);
+        dataset.solar = solar;
+        if SolarSource::of(materials) == SolarSource::Partly {
+            dataset.mark_partly_visible(materials);
+        }
         dataset.described = self.described(state, library);
         if let Some(path) = &kept {
             // A state that cannot be kept is computed again next time: nothing is lost.
             drop(files::write_at_once(path, &dataset_blob::encode(&dataset)));
         }
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
+    }
+
+    /// The four functions of a state in one band.
+    fn band(
+        &self,
+        band: BandName,
+        state: &str,
+        request: &Request,
+        library: &dyn LayerLibrary,
+        progress: &dyn Progress,
+    ) -> Result<(Band, Quality), StudyError> {
+        let Request { incident, emergent, error, seed } = request;
+        let setting = Setting { incident, emergent, error: *error, seed: *seed };
+        let specimen = self.specimen_in(band, state, library)?;
+        if request.at_directions() {
+            let measured = measured_at_directions(specimen.as_ref(), &setting, progress)?;
+            return Ok((measured.band_at_directions(), measured.quality()));
+        }
+        Ok(specimen.examine(&setting, progress)?)
     }
 
     /// Computes several states, as many at a time as there are threads. Progress is told by finished states; that of a
@@ -336,7 +227,7 @@ impl Described {
     /// Name of a kept state: by everything that decides its values.
     fn kept_name(&self, state: &str, request: &Request, library: &dyn LayerLibrary) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
-        for part in [state, request.incident.name(), request.emergent.name()] {
+        for part in [state, request.incident.name(), request.emergent.name(), "light and solar"] {
             hash.update(part.as_bytes()).update(b"\0");
         }
         self.sources_into(&mut hash, library, 0)?;
@@ -396,9 +287,4 @@ impl Progress for Withdrawn<'_> {
     fn cancelled(&self) -> bool {
         self.0.cancelled()
     }
-}
-
-fn not_too_deep(depth: usize) -> Result<(), StudyError> {
-    let told = || StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}"));
-    (depth < MOST_NESTED).then_some(()).ok_or_else(told)
 }

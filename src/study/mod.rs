@@ -48,6 +48,7 @@ mod self_contained;
 pub mod session;
 pub mod sky;
 pub mod skyline;
+mod specimen;
 pub mod subject;
 pub mod subscriptions;
 pub mod sun_position;

@@ -10,7 +10,7 @@ use super::scene_file::units::unit_of;
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, SceneFile, SystemKeys,
 };
-use super::scene_places::{apertures, room, sensors, within};
+use super::scene_places::{apertures, clear, room, sensors, within};
 use super::sky::{HourOfWeather, Illuminances, hour_of_weather, illuminances, outside_from_keys};
 use super::sun_position::parse_local_time;
 use super::system::{Need, System, SystemLibrary};
@@ -213,8 +213,7 @@ impl Scene {
                     // What falls on an aperture straight from another is known as an illuminance, not by cells.
                     BackReflectionMode::Auto => file.aperture.iter().all(|other| other.surface == keys.surface),
                 };
-            let frame = within(&format!("aperture[{}].frame", index + 1), keys.frame, 0.0, 0.95, "")?;
-            let clear = (1.0 - frame) * within(&format!("aperture[{}].dirt", index + 1), keys.dirt, 0.0, 1.0, "")?;
+            let clear = clear(keys, index)?;
             let controlled = picked;
             list.push(SceneAperture {
                 aperture,

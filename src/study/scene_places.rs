@@ -97,6 +97,13 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
     Ok(list)
 }
 
+/// Share of its light that an aperture's frame and dirt leave; `index` from 0.
+pub(super) fn clear(keys: &ApertureKeys, index: usize) -> Result<f64, StudyError> {
+    let name = |key: &str| format!("aperture[{}].{key}", index + 1);
+    let frame = within(&name("frame"), keys.frame, 0.0, 0.95, "")?;
+    Ok((1.0 - frame) * within(&name("dirt"), keys.dirt, 0.0, 1.0, "")?)
+}
+
 /// The sensors, and how many stand along each side where they are a plane.
 pub(super) fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[usize; 2]>), StudyError> {
     let mut list = Vec::new();

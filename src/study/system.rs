@@ -3,7 +3,7 @@
 use super::control::{ControlQuestion, Device};
 use super::error::StudyError;
 use super::scene_file::{IdealKind, SystemKeys};
-use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::btdf::{Btdf, Dataset, SolarSource};
 use crate::compute::system::measure::Specimen;
 use std::fmt;
 use std::path::Path;
@@ -22,11 +22,17 @@ pub struct System {
     pub very: Option<VerySystem>,
 }
 
-/// A system that answers for light of single directions. Two are equal when they are the same.
+/// A system that answers for light of single directions; and in the solar band, where its description has properties for it.
+/// Two are equal when they are the same.
 #[derive(Clone)]
-pub struct VerySystem(pub Arc<dyn Specimen>);
+pub struct VerySystem(pub Arc<dyn Specimen>, pub Option<(Arc<dyn Specimen>, SolarSource)>);
 
 impl VerySystem {
+    /// What answers in the solar band: by its own properties, else by those of light.
+    pub fn solar(&self) -> (&dyn Specimen, SolarSource) {
+        self.1.as_ref().map_or((&*self.0, SolarSource::Visible), |(specimen, source)| (&**specimen, *source))
+    }
+
     /// May sky and ground be computed from its answers? Else its data are: where thousands of answers take too long, and
     /// where data keep straight light apart, which is better still.
     pub fn answers_for_the_sky(&self) -> bool {

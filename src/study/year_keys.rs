@@ -28,6 +28,9 @@ pub struct YearKeys {
     /// Where somebody looks, and whither.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub eyes: Vec<EyeKeys>,
+    /// Is solar energy asked for, directly transmitted?
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub solar: bool,
     /// Lamps; without them there are no figures of lighting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lighting: Option<LightingKeys>,

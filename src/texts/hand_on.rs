@@ -84,6 +84,9 @@ texts! {
     const DATA_HEADING = "Data" | "Daten";
     const TAU_NORMAL = "τ, normal incidence" | "τ, senkrechter Einfall";
     const TAU_DIFFUSE = "τ, diffuse (hemispherical)" | "τ, diffus (hemisphärisch)";
+    const SOLAR_NORMAL = "τ solar, normal incidence" | "τ solar, senkrechter Einfall";
+    const SOLAR_DIFFUSE = "τ solar, diffuse" | "τ solar, diffus";
+    fn solar_partly(value) = "{value} (partly visible taken as solar)" | "{value} (zum Teil sichtbar für solar genommen)";
     const TO_CEILING = "to the ceiling" | "zur Decke";
     const SUN_KEPT_OUT = "sun kept out (45°)" | "Sonne abgehalten (45°)";
     const VIEW = "view (straight through)" | "Durchsicht (gerade)";

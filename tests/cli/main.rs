@@ -17,5 +17,6 @@ mod report_cli;
 #[path = "../scenes/rooms.rs"]
 mod rooms;
 mod safe_cli;
+mod solar_cli;
 mod weather_cli;
 mod year_cli;

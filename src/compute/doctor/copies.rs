@@ -34,7 +34,8 @@ fn repeats(a: &Btdf, b: &Btdf) -> bool {
 
 /// A solar band that repeats the visible one.
 pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
-    let Some(solar) = &dataset.solar else { return Vec::new() };
+    // What was computed from a description is what that says, in both bands.
+    let Some(solar) = dataset.solar.as_ref().filter(|_| dataset.described.is_none()) else { return Vec::new() };
     let shared: Vec<Component> =
         dataset.visible.components().into_iter().filter(|component| solar.get(*component).is_some()).collect();
     let same = |component: &Component| {

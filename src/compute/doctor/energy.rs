@@ -166,7 +166,8 @@ fn percent(at: &At) -> Vec<Diagnosis> {
 
 /// A band whose transmission is about 100 times that of the other.
 pub(super) fn between_bands(dataset: &Dataset) -> Option<Diagnosis> {
-    let solar = dataset.solar.as_ref()?;
+    // A description may well stop nearly all of one band.
+    let solar = dataset.solar.as_ref().filter(|_| dataset.described.is_none())?;
     let hemispherical = |btdf: Option<&Btdf>| btdf.map_or(0.0, Btdf::tau_hemispherical);
     let (visible, solar) = (hemispherical(dataset.transmission()), hemispherical(solar.transmission_front.as_ref()));
     let ratio = if visible > 0.0 && solar > 0.0 { visible / solar } else { return None };

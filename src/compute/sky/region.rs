@@ -33,8 +33,9 @@ impl Frame {
     /// Bearings and zenith angles: φ is the compass bearing, θ = 90° − altitude.
     pub(super) const DOME: Self = Self { x: DVec3::Y, y: DVec3::X, z: DVec3::Z };
 
+    /// Unit vector of a polar angle from the normal and an azimuth. \[rad\]
     #[inline]
-    pub(super) fn direction(&self, theta: f64, phi: f64) -> DVec3 {
+    pub fn direction(&self, theta: f64, phi: f64) -> DVec3 {
         let (sin_theta, cos_theta) = theta.sin_cos();
         let (sin_phi, cos_phi) = phi.sin_cos();
         self.x * (sin_theta * cos_phi) + self.y * (sin_theta * sin_phi) + self.z * cos_theta

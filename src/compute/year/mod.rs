@@ -7,6 +7,9 @@
 //! | `provision` | EN 17037, daylight provision by hours |
 //! | `glare` | simplified daylight glare probability |
 //! | `lighting` | what lamps take beside daylight |
+//! | `transmittance` | what a system lets through from any direction, as one figure |
+//! | `received` | what an aperture receives, by cell, under one outside after the other |
+//! | `solar` | solar energy straight through apertures, by month and hour |
 //!
 //! Every definition is that of its edition; where an edition leaves two readings, both have names of their own.
 
@@ -15,5 +18,8 @@ pub mod glare;
 mod hours;
 pub mod lighting;
 pub mod provision;
+pub mod received;
+pub mod solar;
+pub mod transmittance;
 
 pub use hours::{Light, Step};

@@ -88,17 +88,25 @@ fn placeholder(band: &mut Band, findings: &mut Vec<Finding>) {
 }
 
 fn derive_front(dataset: &mut Dataset, findings: &mut Vec<Finding>) {
-    if dataset.visible.transmission_front.is_some() {
-        return;
-    }
-    let Some((front, how)) = dataset.visible.transmission_back.as_ref().and_then(|back| by_reciprocity(back, true))
-    else {
-        return;
+    let derived = |band: &Band| match (&band.transmission_front, &band.transmission_back) {
+        (None, Some(back)) => by_reciprocity(back, true),
+        _ => None,
     };
-    findings.push(Finding::info(
-        "front-by-reciprocity",
-        format!("The file has no front transmission; it is derived from the back by reciprocity, {how}."),
-    ));
-    dataset.visible.transmission_front = Some(front);
-    dataset.derived.push(Component::TransmissionFront);
+    if let Some((front, how)) = derived(&dataset.visible) {
+        findings.push(Finding::info(
+            "front-by-reciprocity",
+            format!("The file has no front transmission; it is derived from the back by reciprocity, {how}."),
+        ));
+        dataset.visible.transmission_front = Some(front);
+        dataset.derived.push(Component::TransmissionFront);
+    }
+    if let Some(solar) = &mut dataset.solar
+        && let Some((front, how)) = derived(solar)
+    {
+        findings.push(Finding::info(
+            "front-by-reciprocity",
+            format!("The file has no solar front transmission; it is derived from the back by reciprocity, {how}."),
+        ));
+        solar.transmission_front = Some(front);
+    }
 }

@@ -27,7 +27,7 @@ pub use write_tree::{TreeForm, rank_of, write_tree};
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{
-    Band, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeRank,
+    Band, BandName, Btdf, CellMatrix, Component, Dataset, Finding, Scattered, TensorTree, TreeAxes, TreeRank,
 };
 use crate::compute::limits;
 use crate::formats::Written;
@@ -54,22 +54,6 @@ enum Structure {
     Columns,
     Rows,
     Tree(TreeRank),
-}
-
-/// Which band a block belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum BandName {
-    Visible,
-    Solar,
-}
-
-impl BandName {
-    const fn word(self) -> &'static str {
-        match self {
-            Self::Visible => "Visible",
-            Self::Solar => "Solar",
-        }
-    }
 }
 
 /// Reads one file into one dataset.
@@ -117,6 +101,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
         Some(Err(finding)) => dataset.findings.push(finding),
         None => {}
     }
+    dataset.tell_partly_visible();
     assess::assess(&mut dataset)?;
     Ok(dataset)
 }

@@ -1,6 +1,8 @@
-//! The keys of a system file as typed, with their defaults. Angles in degrees, lengths in metres.
+//! The keys of a system file as typed, with their defaults. Angles in degrees, lengths in metres. `solar` is judged by
+//! [`super::solar`], which makes other keys of it.
 
 use serde::Deserialize;
+use toml::Table;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -34,7 +36,7 @@ pub(super) struct Steps {
     pub step: f64,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Face {
     pub reflectance: f64,
@@ -42,6 +44,8 @@ pub(super) struct Face {
     pub specular: f64,
     #[serde(default)]
     pub roughness: f64,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -54,6 +58,8 @@ pub(super) struct LaserCut {
     pub absorption: f64,
     #[serde(default)]
     pub cut_loss: f64,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -67,6 +73,8 @@ pub(super) struct Prismatic {
     pub flipped: bool,
     #[serde(default)]
     pub absorption: f64,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -79,15 +87,19 @@ pub(super) struct RedirectingGlass {
     pub bodies: Vec<Vec<Pair>>,
     pub outer: Option<Sheet>,
     pub inner: Option<Sheet>,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Sheet {
     pub index: f64,
     pub thickness: f64,
     #[serde(default)]
     pub absorption: f64,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -102,6 +114,8 @@ pub(super) struct Pane {
     pub reflectance_normal_back: Option<f64>,
     #[serde(default = "one")]
     pub panes: usize,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 /// Two numbers, no more: an array would leave further ones unread.
@@ -133,6 +147,8 @@ pub(super) struct Diffuser {
     pub lobe: Option<f64>,
     pub spread: Option<f64>,
     pub absorbed: Option<f64>,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -151,6 +167,8 @@ pub(super) struct Woven {
     pub reflectance_back: Option<f64>,
     #[serde(default)]
     pub transmittance: f64,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -176,6 +194,8 @@ pub(super) struct Perforated {
     pub reflectance: f64,
     pub reflectance_back: Option<f64>,
     pub reflectance_wall: Option<f64>,
+    #[serde(rename = "solar")]
+    _solar: Option<Table>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -190,7 +210,7 @@ pub(super) struct Layer {
     pub file: Option<String>,
     pub catalogue: Option<String>,
     /// The layer's own description, with the keys of a system file.
-    pub system: Option<toml::Table>,
+    pub system: Option<Table>,
     #[serde(default)]
     pub state: String,
 }

@@ -1,12 +1,14 @@
 //! System files (`.system.toml`): geometry and material of a system, for the numerical goniophotometer.
 //!
-//! Keys, defaults and ranges; every wrong value is told by its key and by what would be right.
+//! Keys, defaults and ranges; every wrong value is told by its key and by what would be right. Materials may have solar
+//! properties beside those of light (`solar`).
 
 mod checks;
 mod contained;
 mod keys;
 mod layers;
 mod sheets;
+mod solar;
 mod transparent;
 
 use super::encoding::utf8;
@@ -15,6 +17,7 @@ pub use contained::{described, self_contained, states};
 pub use layers::{EACH_STATE, MOST_NESTED};
 
 use super::location::{FormatError, Location, excerpt};
+use crate::compute::btdf::BandName;
 use crate::compute::limits;
 use crate::compute::system::slats::{SlatProfile, Surface, Venetian};
 use crate::compute::system::stack::{Layer, LayerSource};
@@ -42,6 +45,20 @@ pub struct SystemFile {
     pub tags: Vec<String>,
     /// Word of the rule that makes its control curve; empty: none.
     pub control: String,
+    /// The system by its solar properties; `None` where it has none, and for a stack, whose layers have their own.
+    pub solar: Option<SystemKind>,
+    /// How many of its materials have solar properties, and how many there are; those of a stack are its layers'.
+    pub materials: [usize; 2],
+}
+
+impl SystemFile {
+    /// The system in a spectral band; by light where the file has no solar properties.
+    pub fn in_band(&self, band: BandName) -> SystemDescription {
+        match (band, &self.solar) {
+            (BandName::Solar, Some(kind)) => SystemDescription { kind: kind.clone(), ..self.system.clone() },
+            _ => self.system.clone(),
+        }
+    }
 }
 
 /// Does the name say that a file is a system file?
@@ -67,12 +84,13 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
             None => FormatError::new(at, message, "the keys of a system file, as TOML"),
         }
     })?;
-    let kind = kind(&keys)?;
+    let (word, kind) = kind(&keys)?;
     if let SystemKind::Stack(layers) = &kind {
         for (k, layer) in layers.iter().enumerate() {
             layer_is_right(k, layer)?;
         }
     }
+    let (solar, materials) = solar_kind(text, word)?;
     let catalogue = keys.catalogue;
     if catalogue.key.chars().any(|c| !(c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')) {
         return wrong("catalogue.key", excerpt(&catalogue.key), "lower-case letters, digits and hyphens");
@@ -82,7 +100,21 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
         key: catalogue.key,
         tags: catalogue.tags,
         control: catalogue.control,
+        solar,
+        materials,
     })
+}
+
+/// The system by its solar properties, and how many of its materials have some.
+fn solar_kind(text: &str, word: &str) -> Result<(Option<SystemKind>, [usize; 2]), FormatError> {
+    let (table, materials) = solar::keys(text, word)?;
+    let Some(table) = table else { return Ok((None, materials)) };
+    let keys: Keys = table.try_into().map_err(|error: toml::de::Error| {
+        let at = Location::file().in_element("solar");
+        FormatError::new(at, error.message(), "the keys of a system file")
+    })?;
+    let (_, kind) = kind(&keys).map_err(solar::told)?;
+    Ok((Some(kind), materials))
 }
 
 /// Reads what describes a layer itself, to tell what is wrong with it.
@@ -119,7 +151,8 @@ macro_rules! families {
             $(#[serde(rename = $word)] $kind,)*
         }
 
-        fn kind(keys: &Keys) -> Result<SystemKind, FormatError> {
+        /// Word and reading of a file's kind.
+        fn kind(keys: &Keys) -> Result<(&'static str, SystemKind), FormatError> {
             let word = match keys.kind { $(Kind::$kind => $word,)* };
             let there = [$(($word, keys.$table.is_some()),)*];
             if let Some((other, _)) = there.iter().find(|(other, there)| *there && *other != word) {
@@ -130,9 +163,10 @@ macro_rules! families {
                 let found = format!("kind = \"{word}\" without its table");
                 FormatError::new(Location::file(), found, format!("a table [{word}]"))
             };
-            Ok(match keys.kind {
+            let kind = match keys.kind {
                 $(Kind::$kind => SystemKind::$kind($read(keys.$table.as_ref().ok_or_else(none)?)?),)*
-            })
+            };
+            Ok((word, kind))
         }
     };
 }
@@ -149,7 +183,7 @@ families! {
     Stack "stack" stack: keys::Stack, stack;
 }
 
-fn face(key: &str, face: keys::Face) -> Result<Surface, FormatError> {
+fn face(key: &str, face: &keys::Face) -> Result<Surface, FormatError> {
     let diffuse = share(&format!("{key}.reflectance"), face.reflectance)?;
     let mirror = share(&format!("{key}.specular"), face.specular)?;
     if diffuse + mirror > 1.0 + 1e-12 {
@@ -203,8 +237,8 @@ fn venetian(blind: &keys::Venetian) -> Result<Venetian, FormatError> {
         spacing,
         thickness: within("venetian.thickness", blind.thickness, (0.0, spacing))?,
         angles: degrees.into_iter().map(f64::to_radians).collect(),
-        upper: face("venetian.upper", blind.upper)?,
-        lower: face("venetian.lower", blind.lower)?,
+        upper: face("venetian.upper", &blind.upper)?,
+        lower: face("venetian.lower", &blind.lower)?,
     })
 }
 

@@ -48,7 +48,7 @@ pub(super) fn prismatic(sheet: &keys::Prismatic) -> Result<Prisms, FormatError> 
     })
 }
 
-fn material(key: &str, sheet: keys::Sheet) -> Result<Pane, FormatError> {
+fn material(key: &str, sheet: &keys::Sheet) -> Result<Pane, FormatError> {
     Ok(Pane {
         index: index(&format!("{key}.index"), sheet.index)?,
         thickness: extent(&format!("{key}.thickness"), sheet.thickness)?,
@@ -61,13 +61,13 @@ pub(super) fn redirecting(glass: &keys::RedirectingGlass) -> Result<RedirectingG
         return wrong("redirecting-glass.bodies", "no outline", "at least one closed outline");
     }
     let bodies = glass.bodies.iter().map(|body| outline("redirecting-glass.bodies", body, 3));
-    let sheet = |key, sheet: Option<keys::Sheet>| sheet.map(|sheet| material(key, sheet)).transpose();
+    let sheet = |key, sheet: &Option<keys::Sheet>| sheet.as_ref().map(|sheet| material(key, sheet)).transpose();
     Ok(RedirectingGlass {
         index: index("redirecting-glass.index", glass.index)?,
         absorption: absorption("redirecting-glass.absorption", glass.absorption)?,
         spacing: length("redirecting-glass.spacing", glass.spacing)?,
         bodies: bodies.collect::<Result<_, _>>()?,
-        panes: [sheet("redirecting-glass.outer", glass.outer)?, sheet("redirecting-glass.inner", glass.inner)?],
+        panes: [sheet("redirecting-glass.outer", &glass.outer)?, sheet("redirecting-glass.inner", &glass.inner)?],
     })
 }
 

@@ -5,6 +5,7 @@ use crate::compute::year::autonomy::{Autonomy, Exposure};
 use crate::compute::year::glare::{Glare, glare};
 use crate::compute::year::lighting::Energy;
 use crate::compute::year::provision::Provision;
+use crate::compute::year::solar::{Transmitted, When};
 use crate::compute::year::{Light, Step};
 
 /// Figures of the steps that were asked for.
@@ -26,6 +27,17 @@ pub struct Figures {
     pub glare: Vec<Glare>,
     /// With lamps.
     pub lighting: Option<Energy>,
+    /// Where it is asked for.
+    pub solar: Option<SolarFigures>,
+}
+
+/// Solar energy straight through apertures. \[kWh\]
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolarFigures {
+    /// All of them together.
+    pub energy: Transmitted,
+    /// One by one, in the scene's order.
+    pub apertures: Vec<f64>,
 }
 
 /// The figures of a year, and of the same year with all illuminances less and more by their errors: between these lies what
@@ -35,7 +47,26 @@ pub fn figures(year: &Year) -> [Figures; 3] {
     let shifted = |sign: f64| -> Vec<f64> {
         light.values.iter().zip(&light.errors).map(|(value, error)| (value + sign * error).max(0.0)).collect()
     };
-    [of(year, &light.values), of(year, &shifted(-1.0)), of(year, &shifted(1.0))]
+    [of(year, &light.values, 0.0), of(year, &shifted(-1.0), -1.0), of(year, &shifted(1.0), 1.0)]
+}
+
+/// Solar energy, with `sign` times the errors of its steps.
+fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
+    let solar = year.solar.as_ref()?;
+    let steps: Vec<When> = year
+        .chosen
+        .iter()
+        .map(|&k| {
+            let step = &year.steps.list[k];
+            When { month: step.month, hour: step.time.hour().unsigned_abs() }
+        })
+        .collect();
+    let shifted = |value: f64, error: f64| (value + sign * error).max(0.0);
+    let watts: Vec<f64> = solar.watts.iter().zip(&solar.errors).map(|(watts, error)| shifted(*watts, *error)).collect();
+    Some(SolarFigures {
+        energy: Transmitted::of(&steps, &watts, year.steps.length),
+        apertures: solar.apertures.iter().map(|one| shifted(one.energy.value, one.energy.error)).collect(),
+    })
 }
 
 /// Columns of a table of rows.
@@ -43,7 +74,8 @@ fn columns(values: &[f64], places: usize, from: usize, to: usize) -> Vec<f64> {
     values.chunks_exact(places).flat_map(|row| row[from..to].iter().copied()).collect()
 }
 
-fn of(year: &Year, values: &[f64]) -> Figures {
+/// Of illuminances; `sign`: times the errors of solar power are added to it.
+fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let steps: Vec<Step> = year
         .chosen
@@ -78,6 +110,7 @@ fn of(year: &Year, values: &[f64]) -> Figures {
                 glare(&steps, eyes, sun)
             })
             .unwrap_or_default(),
+        solar: transmitted(year, sign),
         lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
     }
 }

@@ -8,15 +8,19 @@ use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, 
 pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
     let mut scene = SceneFile { year: None, ..file.clone() };
     for (one, &state) in moving.iter().zip(states) {
-        let key = one.device.keys[state].clone();
-        match &mut scene.aperture[one.aperture - 1].system {
-            SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
-                *state = Some(key);
-            }
-            SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {}
-        }
+        put_state(&mut scene.aperture[one.aperture - 1].system, &one.device.keys[state]);
     }
     scene
+}
+
+/// Names the state of a system that has states.
+pub fn put_state(system: &mut SystemKeys, key: &str) {
+    match system {
+        SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
+            *state = Some(key.to_owned());
+        }
+        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {}
+    }
 }
 
 /// A sky that only says that there is light: what it is prepared for sees the hours later.

@@ -8,6 +8,8 @@
 //! | `states` | the state of every aperture in every step |
 //! | `fixed` | the scene with fixed states, at a step |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
+//! | `through` | the solar transmittance of what stands in the apertures |
+//! | `solar` | solar power straight through the apertures |
 //! | `figures` | what the year comes to, with errors |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
@@ -17,12 +19,15 @@ mod figures;
 mod fixed;
 mod light;
 mod settings;
+mod solar;
 mod states;
 mod steps;
+mod through;
 
-pub use figures::{Figures, figures};
+pub use figures::{Figures, SolarFigures, figures};
 pub use light::{Light, Way};
 pub use settings::{Settings, settings};
+pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};
 
 use super::error::StudyError;
@@ -52,6 +57,8 @@ pub struct Year {
     pub chosen: Vec<usize>,
     /// Light of the chosen steps.
     pub light: Light,
+    /// Solar energy through the apertures, where it is asked for.
+    pub solar: Option<Solar>,
     /// What a person should know.
     pub notes: Vec<String>,
     /// How long each stage took.
@@ -129,7 +136,13 @@ pub fn year_in(
         light::Question { file, base, library, session, settings: &settings, steps: &steps, moving: &moving };
     let light = light::light(&question, &states, &chosen, &mut notes, progress)?;
     lap("light");
-    Ok(Year { settings, steps, moving, states, movements, chosen, light, notes, spent })
+    let asked =
+        solar::Question { file, base, library, steps: &steps, moving: &moving, states: &states, chosen: &chosen };
+    let solar = settings.keys.solar.then(|| solar::solar(&asked, &mut notes, progress)).transpose()?;
+    if solar.is_some() {
+        lap("solar");
+    }
+    Ok(Year { settings, steps, moving, states, movements, chosen, light, solar, notes, spent })
 }
 
 /// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of

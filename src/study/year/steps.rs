@@ -150,4 +150,29 @@ impl Steps {
         outside_of_hour(&self.list[step].hour, &self.sky, &site)
             .map_err(|SkyKeyError { key, message }| StudyError::key(key, message))
     }
+
+    /// The same in W/m²: sky, ground and sun by the hour's irradiances, in the same shape. `per_lux`: what a fixed luminance of
+    /// the skyline counts. \[W/lm\]
+    ///
+    /// # Errors
+    /// As [`Self::outside`].
+    pub fn outside_in_watts(&self, step: usize, per_lux: f64) -> Result<(Outside, Option<Sun>), StudyError> {
+        let hour = &self.list[step].hour;
+        let hour = Hour {
+            direct_normal: hour.direct_normal_irradiance,
+            diffuse_horizontal: hour.diffuse_horizontal_irradiance,
+            ..*hour
+        };
+        let site = SiteKeys { ground_reflectance: self.ground(step), ..self.site };
+        let fixed = self.sky.obstruction.is_some() || self.sky.skyline.is_some();
+        let sky = if fixed {
+            let mut sky = self.sky.clone();
+            sky.obstruction.iter_mut().for_each(|keys| keys.luminance *= per_lux);
+            sky.skyline.iter_mut().for_each(|keys| keys.luminance *= per_lux);
+            std::borrow::Cow::Owned(sky)
+        } else {
+            std::borrow::Cow::Borrowed(&self.sky)
+        };
+        outside_of_hour(&hour, &sky, &site).map_err(|SkyKeyError { key, message }| StudyError::key(key, message))
+    }
 }

@@ -159,6 +159,17 @@ pub struct Quality {
     pub error: f64,
 }
 
+impl Quality {
+    /// Of two bands together: the worse of each.
+    pub fn worse(self, other: Self) -> Self {
+        let reciprocity = match (self.reciprocity, other.reciprocity) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        };
+        Self { balance: self.balance.max(other.balance), reciprocity, error: self.error.max(other.error) }
+    }
+}
+
 /// Zeros for a matrix on fine cells, whose pages are there when they are written to and gone when it is dropped: the C
 /// library of Linux keeps freed blocks below 32 MiB to itself once it has seen one of their size, and a window that
 /// computes one stack after the other held twice what it used. What is reserved beyond `count` is never touched.

@@ -1,0 +1,154 @@
+//! The solar band of data: where its values come from, and the mark that goes with them.
+//!
+//! Data and descriptions that say nothing of the solar band are used with their visible values; whoever asks is told
+//! ([`SolarSource`]). Where a description gives solar properties of some of its materials only, the computed band is a
+//! mixture: the words [`PARTLY_VISIBLE`] stand in the dataset's own text then, which every format keeps, and make the
+//! finding of the same name whenever it is read.
+
+use super::{Band, Btdf, Dataset, Finding};
+
+/// A spectral band.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum BandName {
+    /// Light, weighted by the eye.
+    #[default]
+    Visible,
+    /// The whole of the sun's radiation.
+    Solar,
+}
+
+impl BandName {
+    /// The word of files.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Visible => "Visible",
+            Self::Solar => "Solar",
+        }
+    }
+}
+
+/// What stands for the solar properties of a system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SolarSource {
+    /// Its own.
+    Own,
+    /// Its own, but for materials that have none: there the visible ones.
+    Partly,
+    /// The visible ones.
+    Visible,
+}
+
+impl SolarSource {
+    /// Of a description of which some materials have solar properties of their own.
+    pub const fn of([given, all]: [usize; 2]) -> Self {
+        match (given, given < all) {
+            (0, _) => Self::Visible,
+            (_, true) => Self::Partly,
+            (_, false) => Self::Own,
+        }
+    }
+
+    /// As results say it.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Own => "solar data",
+            Self::Partly => "solar data, partly visible taken as solar",
+            Self::Visible => "visible taken as solar",
+        }
+    }
+}
+
+/// Code of the finding, and the words in a dataset's text, of a solar band that is partly the visible one.
+pub const PARTLY_VISIBLE: [&str; 2] = ["solar-partly-visible", "Solar band: visible taken as solar for"];
+
+impl Dataset {
+    /// The functions of a band; the visible ones where the data have not all of them as solar.
+    pub fn band(&self, name: BandName) -> &Band {
+        let whole = |solar: &&Band| self.visible.components().iter().all(|one| solar.get(*one).is_some());
+        match (name, self.solar.as_ref().filter(whole)) {
+            (BandName::Solar, Some(solar)) => solar,
+            _ => &self.visible,
+        }
+    }
+
+    /// Transmission of light from outside in a band; the visible one where the data have none that is solar.
+    pub fn transmission_of(&self, name: BandName) -> Option<&Btdf> {
+        match (name, self.solar.as_ref().and_then(|solar| solar.transmission_front.as_ref())) {
+            (BandName::Solar, Some(solar)) => Some(solar),
+            _ => self.transmission(),
+        }
+    }
+
+    /// What [`Self::transmission_of`] gives as solar.
+    pub fn solar_source(&self) -> SolarSource {
+        self.source(self.solar.as_ref().is_some_and(|solar| solar.transmission_front.is_some()))
+    }
+
+    /// What [`Self::band`] gives as solar.
+    pub fn solar_source_of_all(&self) -> SolarSource {
+        self.source(!std::ptr::eq(self.band(BandName::Solar), &self.visible))
+    }
+
+    fn source(&self, own: bool) -> SolarSource {
+        let [code, words] = PARTLY_VISIBLE;
+        let partly = || self.findings.iter().any(|one| one.code == code) || self.description.contains(words);
+        match own {
+            false => SolarSource::Visible,
+            true if partly() => SolarSource::Partly,
+            true => SolarSource::Own,
+        }
+    }
+
+    /// Marks a solar band for which materials without solar properties were taken by their visible ones.
+    pub fn mark_partly_visible(&mut self, [given, all]: [usize; 2]) {
+        let words = format!("{} {} of {all} materials.", PARTLY_VISIBLE[1], all.saturating_sub(given));
+        if !self.description.is_empty() {
+            self.description.push(' ');
+        }
+        self.description.push_str(&words);
+        self.tell_partly_visible();
+    }
+
+    /// The finding of a mark that stands in the dataset's text; nothing without one.
+    pub fn tell_partly_visible(&mut self) {
+        let [code, words] = PARTLY_VISIBLE;
+        let told = self.findings.iter().any(|one| one.code == code);
+        if let (Some(at), true, false) = (self.description.find(words), self.solar.is_some(), told) {
+            let rest = &self.description[at..];
+            let sentence = rest.split_inclusive('.').next().unwrap_or(rest).to_owned();
+            self.findings.push(Finding::info(code, sentence));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missing_is_visible_and_marked() {
+        let mut data = Dataset::default();
+        data.visible.transmission_front = Some(Btdf::ideal_diffuse(0.5));
+        let of = |data: &Dataset| data.transmission_of(BandName::Solar).map(Btdf::tau_hemispherical);
+        assert_eq!((data.solar_source(), of(&data)), (SolarSource::Visible, Some(0.5)));
+        let solar = Band { transmission_front: Some(Btdf::ideal_diffuse(0.3)), ..Band::default() };
+        data.solar = Some(solar);
+        assert_eq!((data.solar_source(), of(&data)), (SolarSource::Own, Some(0.3)));
+        assert_eq!(data.band(BandName::Visible), &data.visible);
+        data.description = "A blind.".to_owned();
+        data.mark_partly_visible([1, 3]);
+        assert_eq!(data.solar_source(), SolarSource::Partly);
+        assert_eq!(data.findings[0].message, "Solar band: visible taken as solar for 2 of 3 materials.");
+        // As when it is read from a file that keeps the text alone.
+        data.findings.clear();
+        data.tell_partly_visible();
+        data.tell_partly_visible();
+        assert_eq!((data.findings.len(), data.solar_source()), (1, SolarSource::Partly));
+    }
+
+    #[test]
+    fn materials_are_counted() {
+        let of = SolarSource::of;
+        assert_eq!([of([0, 2]), of([1, 2]), of([2, 2])], [SolarSource::Visible, SolarSource::Partly, SolarSource::Own]);
+    }
+}

@@ -1,0 +1,203 @@
+//! What a description makes: its layers run together into one specimen, in either spectral band, and what of it is known in the
+//! solar one.
+
+use super::error::StudyError;
+use super::goniophotometer::{Described, LayerLibrary};
+use super::scene_file::SystemKeys;
+use super::system::{Need, System};
+use crate::compute::btdf::{BandName, SolarSource};
+use crate::compute::system::SystemKind;
+use crate::compute::system::measure::Specimen;
+use crate::compute::system::measure::upright::Upright;
+use crate::compute::system::panes::Panes;
+use crate::compute::system::panes::coated::Layer as Pane;
+use crate::compute::system::stack::{DataLayer, Layer, LayerSource, Stack};
+use crate::formats::system_toml::{EACH_STATE, MOST_NESTED, is_system_file};
+use std::sync::Arc;
+
+/// Layers of a stack with all stacks in it, at most.
+const MOST_LAYERS: usize = 40;
+
+/// A layer of a stack. Panes next to each other stay panes: light keeps its polarisation between them, which matrices
+/// do not know.
+enum LayerRun {
+    Panes(Vec<Pane>),
+    Other(Box<dyn Specimen>),
+}
+
+impl LayerRun {
+    fn into_specimen(self) -> Box<dyn Specimen> {
+        match self {
+            Self::Panes(layers) => Box::new(Panes { layers }),
+            Self::Other(specimen) => specimen,
+        }
+    }
+
+    /// By a quarter turn about the normal, which panes do not notice.
+    fn turn(&mut self) {
+        if let Self::Other(_) = self
+            && let Self::Other(specimen) = std::mem::replace(self, Self::Panes(Vec::new()))
+        {
+            *self = Self::Other(Box::new(Upright(specimen)));
+        }
+    }
+}
+
+impl Described {
+    /// Keys of its states. For a stack with a moving layer, those of the layer.
+    pub fn states(&self, library: &dyn LayerLibrary) -> Result<Vec<String>, StudyError> {
+        self.states_within(library, 0)
+    }
+
+    fn states_within(&self, library: &dyn LayerLibrary, depth: usize) -> Result<Vec<String>, StudyError> {
+        let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.system.states()) };
+        let Some(layer) = layers.iter().find(|layer| layer.state == EACH_STATE) else { return Ok(vec![String::new()]) };
+        match &layer.source {
+            LayerSource::File(name) if is_system_file(name) => {
+                not_too_deep(depth)?;
+                self.other(name)?.states_within(library, depth + 1)
+            }
+            LayerSource::File(name) => {
+                let systems = library.load_file(&self.folder().join(name))?;
+                Ok(systems.iter().map(|system| system.state.clone()).collect())
+            }
+            LayerSource::Text(text) => {
+                not_too_deep(depth)?;
+                self.within(text)?.states_within(library, depth + 1)
+            }
+            LayerSource::Catalogue(key) => {
+                Ok(library.product(key)?.states.into_iter().map(|state| state.key).collect())
+            }
+        }
+    }
+
+    /// One state, ready to be measured.
+    pub fn specimen(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn Specimen>, StudyError> {
+        self.specimen_in(BandName::Visible, state, library)
+    }
+
+    /// The same in a spectral band; what has no solar properties is taken by those of light, see [`Self::materials`].
+    pub fn specimen_in(
+        &self,
+        band: BandName,
+        state: &str,
+        library: &dyn LayerLibrary,
+    ) -> Result<Box<dyn Specimen>, StudyError> {
+        let mut layers = Vec::new();
+        self.layers_into(&mut layers, (band, state), library, 0)?;
+        let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(LayerRun::into_specimen).collect();
+        Ok(match ready.len() {
+            1 => ready.pop().expect("counted"),
+            _ => Box::new(Stack::new(ready)),
+        })
+    }
+
+    /// Appends the system as a layer. Of a stack all layers, so that a stack in a stack is solved with it, on the same
+    /// cells.
+    fn layers_into(
+        &self,
+        list: &mut Vec<LayerRun>,
+        (band, state): (BandName, &str),
+        library: &dyn LayerLibrary,
+        depth: usize,
+    ) -> Result<(), StudyError> {
+        let system = &self.file.in_band(band);
+        let SystemKind::Stack(layers) = &system.kind else {
+            let made = system.specimen(state).map_err(|error| StudyError::key("state", error.to_string()))?;
+            match (&system.kind, list.last_mut()) {
+                (SystemKind::Pane(pane), Some(LayerRun::Panes(before))) => before.extend(pane.layers()),
+                (SystemKind::Pane(pane), _) => list.push(LayerRun::Panes(pane.layers())),
+                _ => list.push(LayerRun::Other(made)),
+            }
+            return Ok(());
+        };
+        not_too_deep(depth)?;
+        let moving = layers.iter().any(|layer| layer.state == EACH_STATE);
+        if !moving && !state.is_empty() {
+            return Err(StudyError::key("state", "a stack without a moving layer has no states"));
+        }
+        let first = list.len();
+        for layer in layers {
+            self.layer_into(list, layer, (band, state), library, depth)?;
+            if list.len() > MOST_LAYERS {
+                return Err(StudyError::key("stack.layers", format!("more than {MOST_LAYERS} layers in all")));
+            }
+        }
+        if system.upright {
+            list[first..].iter_mut().for_each(LayerRun::turn);
+        }
+        Ok(())
+    }
+
+    fn layer_into(
+        &self,
+        list: &mut Vec<LayerRun>,
+        layer: &Layer,
+        (band, state): (BandName, &str),
+        library: &dyn LayerLibrary,
+        depth: usize,
+    ) -> Result<(), StudyError> {
+        let state = if layer.state == EACH_STATE { state } else { &layer.state };
+        match self.described_layer(layer)? {
+            Some(described) => described.layers_into(list, (band, state), library, depth + 1),
+            None => {
+                let data = self.data_layer(layer, state, library)?;
+                list.push(LayerRun::Other(Box::new(DataLayer(data.dataset.band(band).clone()))));
+                Ok(())
+            }
+        }
+    }
+
+    /// The description of a layer; `None` for one that is known by data.
+    fn described_layer(&self, layer: &Layer) -> Result<Option<Self>, StudyError> {
+        match &layer.source {
+            LayerSource::File(name) if is_system_file(name) => self.other(name).map(Some),
+            LayerSource::Text(text) => self.within(text).map(Some),
+            LayerSource::File(_) | LayerSource::Catalogue(_) => Ok(None),
+        }
+    }
+
+    /// The data of a layer that is no description here.
+    fn data_layer(&self, layer: &Layer, state: &str, library: &dyn LayerLibrary) -> Result<Arc<System>, StudyError> {
+        let state = (!state.is_empty()).then(|| state.to_owned());
+        let keys = match &layer.source {
+            LayerSource::Catalogue(key) => SystemKeys::Catalogue { key: key.clone(), state },
+            LayerSource::File(name) | LayerSource::Text(name) => SystemKeys::File { path: name.into(), state },
+        };
+        library.load(&keys, self.folder(), Need::Everything)
+    }
+
+    /// How many materials have solar properties, and how many there are in a state; data count as one.
+    pub fn materials(&self, state: &str, library: &dyn LayerLibrary) -> Result<[usize; 2], StudyError> {
+        self.materials_within(state, library, 0)
+    }
+
+    fn materials_within(
+        &self,
+        state: &str,
+        library: &dyn LayerLibrary,
+        depth: usize,
+    ) -> Result<[usize; 2], StudyError> {
+        let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.materials) };
+        not_too_deep(depth)?;
+        let mut sum = [0; 2];
+        for layer in layers {
+            let state = if layer.state == EACH_STATE { state } else { &layer.state };
+            let own = match self.described_layer(layer)? {
+                Some(described) => described.materials_within(state, library, depth + 1)?,
+                None => match self.data_layer(layer, state, library)?.dataset.solar_source_of_all() {
+                    SolarSource::Own => [1, 1],
+                    SolarSource::Partly => [1, 2],
+                    SolarSource::Visible => [0, 1],
+                },
+            };
+            sum = [sum[0] + own[0], sum[1] + own[1]];
+        }
+        Ok(sum)
+    }
+}
+
+fn not_too_deep(depth: usize) -> Result<(), StudyError> {
+    let told = || StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}"));
+    (depth < MOST_NESTED).then_some(()).ok_or_else(told)
+}
