@@ -6,6 +6,7 @@
 //! | `autonomy` | daylight autonomy, useful daylight, spatial autonomy, sunlight exposure |
 //! | `provision` | EN 17037, daylight provision by hours |
 //! | `glare` | simplified daylight glare probability |
+//! | `probability` | daylight glare probability, its classes |
 //! | `lighting` | what lamps take beside daylight |
 //!
 //! Every definition is that of its edition; where an edition leaves two readings, both have names of their own.
@@ -14,6 +15,7 @@ pub mod autonomy;
 pub mod glare;
 mod hours;
 pub mod lighting;
+pub mod probability;
 pub mod provision;
 
 pub use hours::{Light, Step};

@@ -31,6 +31,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
 use crate::compute::sky::{Distribution, Outside};
 use part::{AperturePart, Sums};
+pub(super) use transport::patches as incident_patches;
 
 /// A prepared scene.
 pub struct Coefficients {

@@ -8,20 +8,28 @@
 //! | `states` | the state of every aperture in every step |
 //! | `fixed` | the scene with fixed states, at a step |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
+//! | `dgp` | glare at the eyes, from the light |
+//! | `eye_light` | what eyes see of an aperture, ready for any sky |
+//! | `opening` | exposure to sunlight and view out, without light |
 //! | `figures` | what the year comes to, with errors |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
 
+mod dgp;
+mod eye_light;
 mod figures;
 mod fixed;
 mod light;
+mod opening;
 mod settings;
 mod states;
 mod steps;
 
+pub use dgp::Dgp;
 pub use figures::{Figures, figures};
 pub use light::{Light, Way};
+pub use opening::{NOT_JUDGED, Opening, opening};
 pub use settings::{Settings, settings};
 pub use steps::{Step, Steps};
 
@@ -52,6 +60,8 @@ pub struct Year {
     pub chosen: Vec<usize>,
     /// Light of the chosen steps.
     pub light: Light,
+    /// Daylight glare probability of the chosen steps; `None` without eyes, or where it is not asked for.
+    pub dgp: Option<Dgp>,
     /// What a person should know.
     pub notes: Vec<String>,
     /// How long each stage took.
@@ -129,7 +139,11 @@ pub fn year_in(
         light::Question { file, base, library, session, settings: &settings, steps: &steps, moving: &moving };
     let light = light::light(&question, &states, &chosen, &mut notes, progress)?;
     lap("light");
-    Ok(Year { settings, steps, moving, states, movements, chosen, light, notes, spent })
+    let dgp = dgp::dgp(&question, &states, &chosen, &light, &mut notes, progress)?;
+    if dgp.is_some() {
+        lap("glare");
+    }
+    Ok(Year { settings, steps, moving, states, movements, chosen, light, dgp, notes, spent })
 }
 
 /// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of
