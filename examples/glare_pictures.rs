@@ -28,7 +28,7 @@ const SYSTEMS: [(&str, &str); 4] = [
     ("laser-cut", "{ file = \"SYSTEMS/laser-cut-panel.system.toml\" }"),
 ];
 /// Altitude and azimuth; illuminances of sky and sun.
-const SUNS: [[f64; 4]; 3] = [[14.0, 184.0, 9e3, 3.5e4], [38.0, 165.0, 2.2e4, 7.5e4], [55.0, 215.0, 1.2e4, 8e4]];
+const SUNS: [[f64; 4]; 3] = [[14.0, 184.0, 4e3, 6e2], [38.0, 165.0, 1e4, 1.5e4], [55.0, 215.0, 9e3, 3e4]];
 const EYES: [([f64; 3], [f64; 3]); 2] = [([2.5, 2.0, 1.2], [0.0, -1.0, 0.0]), ([1.2, 3.0, 1.2], [0.8, -0.6, 0.0])];
 
 fn scene(system: &str, [altitude, azimuth, sky, sun]: [f64; 4], base: &Path) -> anyhow::Result<Scene> {

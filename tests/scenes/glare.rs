@@ -126,6 +126,7 @@ fn patches_are_the_picture(scene: &Scene, name: &str) {
         let off = (found.glare.dgp.value - expected).abs();
         println!("{name}: DGP {:.4} of {expected:.4}, Σ {own:.4e} of {picture:.4e}", found.glare.dgp.value);
         assert!(off <= 0.002, "{name}: {} of {expected}", found.glare.dgp.value);
+        assert!(off <= found.glare.dgp.error + 1e-4, "{name}: {off} of ± {}", found.glare.dgp.error);
         assert!(
             found.discs.is_empty()
                 && found.dgps.is_some() != found.glare.sources.list.iter().any(|s| s.kind != Kind::Bright)

@@ -2,9 +2,11 @@
 
 use super::discs::Disc;
 use super::field::Field;
+use super::gaze::position_index;
 use super::probability::dgp;
 use super::sources::Sources;
 use crate::compute::estimate::Estimate;
+use glam::DVec2;
 use std::f64::consts::PI;
 
 /// What is brighter than this glares.
@@ -44,34 +46,53 @@ pub struct Glare {
     pub dgp: Estimate,
     /// Mean luminance of all that is in front of the eye, walls taken as even. \[cd/m²\]
     pub mean: f64,
+    /// Of it that of all but the apertures. Where it is above the threshold, the error holds what even walls would glare.
+    /// \[cd/m²\]
+    pub walls: f64,
     /// What is brighter glares. \[cd/m²\]
     pub threshold: f64,
     /// What glares.
     pub sources: Sources,
 }
 
-/// Mean luminance in front of an eye: patches and discs as they are, all else as even as the rest of the illuminance says.
-fn mean_luminance(view: &View<'_>) -> f64 {
+/// All that is in front of an eye: patches and discs as they are, all else as even as the rest of the illuminance says.
+struct Whole {
+    /// Mean luminance. \[cd/m²\]
+    mean: f64,
+    /// That of all else. \[cd/m²\]
+    walls: f64,
+    /// Middle of the light in the picture.
+    middle: DVec2,
+}
+
+fn whole(view: &View<'_>) -> Whole {
     let (mut flux, mut illuminance) = (0.0, 0.0);
+    // Of an even hemisphere the middle is that of the picture: walls lack what the openings have.
+    let (mut place, mut lacking) = (DVec2::ZERO, DVec2::ZERO);
     for (patch, l) in view.field.patches.iter().zip(view.luminance) {
         flux += l * patch.solid_angle;
         illuminance += l * patch.projected;
+        place += l * patch.solid_angle * patch.place;
+        lacking += patch.solid_angle * patch.place;
     }
     for disc in view.discs {
         let own = disc.luminance * disc.solid_angle;
         flux += own;
+        place += own * view.field.gaze.place(disc.to);
         illuminance += own * disc.to.dot(view.field.gaze.forward).max(0.0);
     }
     let [seen, projected] = view.field.solid_angles();
     let rest = (PI - projected).max(0.0);
     let walls = if rest > 1e-6 { (view.vertical.value - illuminance).max(0.0) / rest } else { 0.0 };
-    (flux + walls * (2.0 * PI - seen).max(0.0)) / (2.0 * PI)
+    let all = flux + walls * (2.0 * PI - seen).max(0.0);
+    let middle = if all > 0.0 { (place - walls * lacking) / all } else { DVec2::ZERO };
+    Whole { mean: all / (2.0 * PI), walls, middle }
 }
 
 /// Finds the sources and what they come to. The error holds that of the illuminance, that of the luminances, what the width
 /// of the patches costs, and what of them stands so near the threshold that it may or may not glare.
 pub fn glare(view: &View<'_>, threshold: Threshold) -> Glare {
-    let mean = mean_luminance(view);
+    let Whole { mean, walls, middle } = whole(view);
     let limit = match threshold {
         Threshold::Luminance(limit) => limit,
         Threshold::TimesMean(times) => times * mean,
@@ -91,7 +112,11 @@ pub fn glare(view: &View<'_>, threshold: Threshold) -> Glare {
         let with = |limit: f64| dgp(e.value, Sources::new(view.field, view.luminance, view.discs, limit).sum);
         error += off(with(band[0])).max(off(with(band[1])));
     }
-    Glare { dgp: Estimate::new(value, error), mean, threshold: limit, sources }
+    // Walls are even in no room: where their mean glares, something of them does.
+    if walls > limit {
+        error += off(dgp(e.value, sources.sum.max(2.0 * PI * (mean / position_index(middle)).powi(2))));
+    }
+    Glare { dgp: Estimate::new(value, error), mean, walls, threshold: limit, sources }
 }
 
 #[cfg(test)]
@@ -123,6 +148,20 @@ mod tests {
         assert!(found.sources.list.is_empty());
         assert!((found.dgp.value - (5.87e-5 * 700.0 * PI + 0.16)).abs() < 1e-12);
         assert!((found.dgp.error - 5.87e-5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn walls_above_the_threshold_are_in_the_error() {
+        let field = field();
+        let luminance = vec![5000.0; field.patches.len()];
+        let vertical = Estimate::exact(5000.0 * field.solid_angles()[1] + 2100.0 * (PI - field.solid_angles()[1]));
+        let view = View { field: &field, luminance: &luminance, discs: &[], vertical, relative: 0.0 };
+        let found = glare(&view, Threshold::default());
+        assert!((found.walls / 2100.0 - 1.0).abs() < 1e-9);
+        // As one source: mean² 2π over the square of an index little above 1.
+        let merged = dgp(vertical.value, found.mean.powi(2) * 2.0 * PI / 1.02_f64.powi(2));
+        assert!((found.dgp.value + found.dgp.error - merged).abs() < 0.01, "{found:?} {merged}");
+        assert!(glare(&view, Threshold::Luminance(2200.0)).dgp.error < 0.001);
     }
 
     #[test]
