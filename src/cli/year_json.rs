@@ -12,9 +12,11 @@ pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, ope
     let area = file.room.width * file.room.depth;
     let [mut own, less, more] = figures.each_ref().map(|one| metrics(year, one, area));
     let errors = between(&own, &less, &more).unwrap_or_default();
-    // No illuminance is in these: what they may be off stands beside them.
-    own["EN17037"]["sunlight"] = sunlight(opening);
-    own["EN17037"]["view"] = view(opening);
+    // Beside the standard's other figures. No illuminance is in these: what they may be off stands with them.
+    if let Some(standard) = own.get_mut("EN17037") {
+        standard["sunlight"] = sunlight(opening);
+        standard["view"] = view(opening);
+    }
     let closure = year.steps.closure;
     let seconds: Map<String, Value> =
         year.spent.iter().map(|(stage, time)| ((*stage).to_owned(), json!(time.as_secs_f64()))).collect();

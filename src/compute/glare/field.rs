@@ -27,8 +27,8 @@ pub struct Patch {
     pub solid_angle: f64,
     /// Times the cosine to the line of sight. \[sr\]
     pub projected: f64,
-    /// One half of the patches, evenly spread: they tell what the width of the patches costs.
-    pub even: bool,
+    /// Odd or even row and column, 0 to 3: parts of the patches tell what their width costs.
+    pub quarter: usize,
 }
 
 /// All apertures before an eye.
@@ -92,7 +92,7 @@ impl Field {
                     place: self.gaze.place(to),
                     solid_angle: solid_angle.max(0.0),
                     projected: solid_angle.max(0.0) * cosine,
-                    even: (row + column) % 2 == 0,
+                    quarter: 2 * (row % 2) + column % 2,
                 });
             }
         }
@@ -162,7 +162,8 @@ mod tests {
             for (side, other) in beside.into_iter().enumerate() {
                 if let Some(other) = other {
                     assert_eq!(field.beside(other)[side ^ 1], Some(at));
-                    assert_ne!(field.patches[other].even, field.patches[at].even);
+                    let differ = field.patches[other].quarter ^ field.patches[at].quarter;
+                    assert_eq!(differ, if side < 2 { 1 } else { 2 });
                 }
             }
         }
