@@ -53,7 +53,7 @@ fn picture(scene: &Scene, lids: &[Lid], eye: &Sensor, found: &EyeGlare) -> Vec<f
     let (mut lit, mut dark) = (0.0, 0.0);
     // Pixels of each disc, and what they would send to the eye.
     let mut discs: Vec<(Vec<usize>, f64)> = vec![(Vec::new(), 0.0); found.discs.len()];
-    for at in 0..SIDE * SIDE {
+    for (at, pixel) in luminance.iter_mut().enumerate() {
         let place = step * DVec2::new((at % SIDE) as f64 + 0.5, (SIDE - 1 - at / SIDE) as f64 + 0.5) - 0.5 * PI;
         let sigma = place.length();
         if sigma >= 0.5 * PI {
@@ -73,7 +73,7 @@ fn picture(scene: &Scene, lids: &[Lid], eye: &Sensor, found: &EyeGlare) -> Vec<f
         }
         match seen {
             Some(own) => {
-                luminance[at] = own;
+                *pixel = own;
                 lit += own * omega * sigma.cos();
             }
             None => {
