@@ -6,7 +6,7 @@ use super::writing::Over;
 use super::year_json::to_json;
 use crate::formats::FileKind;
 use crate::study::inputs::with_absolute_names;
-use crate::study::year::{Step, Way, Year, figures, scene_at, year};
+use crate::study::year::{Step, Way, Year, figures, opening, scene_at, year};
 use crate::study::{Library, SceneFile, Session, StudyError, read_scene_file};
 use anyhow::{Context as _, anyhow, bail};
 use jiff::civil::{Date, DateTime};
@@ -25,7 +25,8 @@ The scene says which weather in [year]; [sky] is not read but for skyline and ob
 Columns: time (middle of the interval, local standard time, the row's own year), sun_altitude_deg, sun_azimuth_deg (where the
 sun was taken), direct_normal_lx, diffuse_horizontal_lx, state_N (of aperture N where a control picks it; empty in the
 dark), E_i and Ev_i (sensors and eyes from 1, lx), E_error_i and Ev_error_i (estimated absolute errors), S_i and Sv_i (of these
-the sun straight through, where something lets it through unscattered), lighting_W_m2 (with [year.lighting]), solar_W and
+the sun straight through, where something lets it through unscattered), DGP_i and DGP_error_i (daylight glare probability
+at eye i; only while somebody is there and there is light), lighting_W_m2 (with [year.lighting]), solar_W and
 solar_error_W (with solar = true in [year]: solar power straight through all apertures, secondary heat left out).")]
 pub struct YearArgs {
     /// Scene file (TOML) with [year]
@@ -76,7 +77,8 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
         args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
     }
     if args.json {
-        print(&format!("{:#}\n", to_json(&year, &figures(&year), &file)))?;
+        let opening = opening(&file, &year.settings, &year.steps).map_err(told)?;
+        print(&format!("{:#}\n", to_json(&year, &figures(&year), &file, &opening)))?;
     } else if args.out.is_none() {
         print(&csv(&year))?;
     }
@@ -159,6 +161,12 @@ fn csv(year: &Year) -> String {
             };
         }
     }
+    let dgp = year.dgp.as_ref();
+    for word in ["DGP", "DGP_error"] {
+        for i in 0..dgp.map_or(0, |dgp| dgp.eyes) {
+            let _ = write!(text, ",{word}_{}", i + 1);
+        }
+    }
     let lamps = year.settings.lamps.as_ref();
     text.push_str(if lamps.is_some() { ",lighting_W_m2" } else { "" });
     text.push_str(if year.solar.is_some() { ",solar_W,solar_error_W\n" } else { "\n" });
@@ -184,6 +192,16 @@ fn csv(year: &Year) -> String {
         {
             text.push(',');
             text.push_str(&number(*value));
+        }
+        if let Some(dgp) = dgp {
+            // Empty where nobody is there, and in the dark.
+            let field = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.5}"));
+            for one in dgp.row(row) {
+                let _ = write!(text, ",{}", field(one.map(|one| one.value)));
+            }
+            for one in dgp.row(row) {
+                let _ = write!(text, ",{}", field(one.map(|one| one.error)));
+            }
         }
         if let Some(lamps) = lamps {
             let watts = lamps.watts(step.occupied, &year.light.values[own.start..own.start + sensors]);

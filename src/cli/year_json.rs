@@ -3,14 +3,20 @@
 use crate::compute::year::glare::LIMITS;
 use crate::compute::year::provision::{LEVELS, Reached};
 use crate::study::SceneFile;
-use crate::study::year::{Figures, Solar, SolarFigures, Year};
+use crate::study::session::glare::CAVEAT;
+use crate::study::year::{Figures, NOT_JUDGED, Opening, Solar, SolarFigures, Year};
 use serde_json::{Map, Value, json};
 
 /// Figures, what the hours' errors leave open of them, weather, states, stages, and what was left out.
-pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile) -> Value {
+pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, opening: &Opening) -> Value {
     let area = file.room.width * file.room.depth;
-    let [own, less, more] = figures.each_ref().map(|one| metrics(year, one, area));
+    let [mut own, less, more] = figures.each_ref().map(|one| metrics(year, one, area));
     let errors = between(&own, &less, &more).unwrap_or_default();
+    // Beside the standard's other figures. No illuminance is in these: what they may be off stands with them.
+    if let Some(standard) = own.get_mut("EN17037") {
+        standard["sunlight"] = sunlight(opening);
+        standard["view"] = view(opening);
+    }
     let closure = year.steps.closure;
     let seconds: Map<String, Value> =
         year.spent.iter().map(|(stage, time)| ((*stage).to_owned(), json!(time.as_secs_f64()))).collect();
@@ -30,7 +36,39 @@ pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile) -> 
         "control": year.moving.iter().enumerate().map(|(m, one)| control(year, m, one.aperture)).collect::<Vec<_>>(),
         "seconds": seconds,
         "left_out": left_out(year, &figures[0]),
-        "notes": year.notes,
+        "notes": year.notes.iter().map(String::as_str).chain(year.dgp.as_ref().map(|_| CAVEAT)).collect::<Vec<_>>(),
+    })
+}
+
+/// EN 17037, exposure to sunlight.
+fn sunlight(opening: &Opening) -> Value {
+    json!({
+        "date": opening.day.to_string(),
+        "min_altitude_deg": opening.least_altitude.to_degrees(),
+        "hours": opening.any.hours(),
+        "hours_error": opening.any.error(),
+        "level": opening.any.level().unwrap_or("none"),
+        "hours_by_aperture": opening.by_aperture.iter().map(|one| one.hours()).collect::<Vec<_>>(),
+        "not_judged": [NOT_JUDGED[0], NOT_JUDGED[2]],
+    })
+}
+
+/// EN 17037, view out, from three quarters of the sensors' places.
+fn view(opening: &Opening) -> Value {
+    let view = &opening.view;
+    json!({
+        "points": opening.points,
+        "sight_angle_deg": view.sight_angle.to_degrees(),
+        // Nothing in the way has no number.
+        "distance_m": view.distance.filter(|distance| distance.is_finite()),
+        "distance": match view.distance {
+            Some(distance) if distance.is_finite() => "known",
+            Some(_) => "nothing in the way",
+            None => "not known",
+        },
+        "layers": {"sky": view.sky, "landscape": view.landscape, "ground": view.ground},
+        "level": view.level().unwrap_or("none"),
+        "not_judged": [NOT_JUDGED[0], NOT_JUDGED[1]],
     })
 }
 
@@ -126,6 +164,13 @@ fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
             let mut eye = json!({"sun_at_eye_hours": hours(glare.sun_at_eye), "DGPs_5pct": glare.dgps_5_percent});
             for (limit, above) in LIMITS.iter().zip(glare.above) {
                 eye[format!("share_above_{limit:.2}")] = json!(above);
+            }
+            if let Some(probability) = figures.probability.get(i) {
+                eye["DGP_5pct"] = json!(probability.dgp_5_percent);
+                eye["DGP_class"] = json!(probability.class().unwrap_or("none"));
+                for (limit, above) in LIMITS.iter().zip(probability.above) {
+                    eye[format!("DGP_share_above_{limit:.2}")] = json!(above);
+                }
             }
             (format!("Ev_{}", i + 1), eye)
         });

@@ -25,6 +25,8 @@
 //! - `doctor`: faults of data and their repair
 //! - `lid`: the aperture as a luminaire
 //! - `room`: apertures, direct light and interreflection
+//! - `glare`: what an eye sees of apertures, and how much that disturbs
+//! - `sunlight`: hours of sun on an opening, the view out of it
 //! - `control`: which state a moving system takes
 //! - `year`: what the illuminances of a year come to
 //!
@@ -52,6 +54,7 @@ pub mod control;
 pub mod direction;
 pub mod doctor;
 pub mod estimate;
+pub mod glare;
 pub mod incidence;
 pub mod lid;
 pub mod limits;
@@ -62,6 +65,7 @@ pub mod room;
 pub mod scaling;
 pub mod sequence;
 pub mod sky;
+pub mod sunlight;
 pub mod surroundings;
 pub mod sweep;
 pub mod system;

@@ -4,6 +4,7 @@
 mod behind;
 mod creases;
 mod emission;
+pub mod glare;
 pub(super) mod interreflected;
 mod lights;
 mod outside_seen;

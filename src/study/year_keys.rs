@@ -31,6 +31,12 @@ pub struct YearKeys {
     /// Is solar energy asked for, directly transmitted?
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub solar: bool,
+    /// Daylight glare probability at the eyes in every lit occupied step?
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub dgp: bool,
+    /// The day of EN 17037's exposure to sunlight.
+    #[serde(default, skip_serializing_if = "SunlightKeys::is_default")]
+    pub sunlight: SunlightKeys,
     /// Lamps; without them there are no figures of lighting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lighting: Option<LightingKeys>,
@@ -60,6 +66,28 @@ pub struct HoursKeys {
 impl Default for HoursKeys {
     fn default() -> Self {
         Self { from: 8.0, to: 18.0, days: DaysKey::All }
+    }
+}
+
+/// `year.sunlight`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SunlightKeys {
+    /// Month and day, MM-DD, from 02-01 to 03-21.
+    pub date: String,
+    /// The sun counts from this altitude on; national annexes name it. \[°\]
+    pub min_altitude: f64,
+}
+
+impl Default for SunlightKeys {
+    fn default() -> Self {
+        Self { date: "03-21".to_owned(), min_altitude: 10.0 }
+    }
+}
+
+impl SunlightKeys {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
     }
 }
 
@@ -121,6 +149,11 @@ const fn usual_steps() -> u32 {
 
 const fn yes() -> bool {
     true
+}
+
+/// Nothing that the file needs to say.
+const fn is_yes(asked: &bool) -> bool {
+    *asked
 }
 
 /// `year.lighting.control`

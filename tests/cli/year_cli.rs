@@ -165,3 +165,64 @@ fn wrong_years_are_refused_in_one_line() {
     refused(&keys(""), &at, "--scene-at noon");
     assert!(!folder.join("hour.toml").exists());
 }
+
+#[test]
+fn glare_stands_behind_the_light_and_openings_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let system = "{ ideal = \"transparent\", transmittance = 0.8 }";
+    let year =
+        "[year]\nweather = \"builtin:renton\"\neyes = [{ point = [2.0, 1.5, 1.2], direction = [0.0, -1.0, 0.0] }]\n";
+    scene(folder, system, year);
+    let text = done(folder, &["year", "scene.toml", "--day", "03-21", "--json", "--out", "hours.csv"]);
+    let rows = table(&std::fs::read_to_string(folder.join("hours.csv")).unwrap());
+    let mut values: Vec<f64> = Vec::new();
+    for row in &rows {
+        let hour: f64 = row["time"][11..13].parse().unwrap();
+        let there = (8.0..18.0).contains(&hour);
+        assert_eq!(row["DGP_1"].is_empty(), !(there && number(row, "diffuse_horizontal_lx") > 0.0), "{}", row["time"]);
+        assert_eq!(row["DGP_1"].is_empty(), row["DGP_error_1"].is_empty());
+        if there {
+            let value = if row["DGP_1"].is_empty() { 0.0 } else { number(row, "DGP_1") };
+            assert!((0.0..=1.0).contains(&value), "{value}");
+            values.push(value);
+        }
+    }
+    // Of ten hours none may exceed it.
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let eye = &json["metrics"]["glare"]["Ev_1"];
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    assert!((eye["DGP_5pct"].as_f64().unwrap() - largest).abs() < 1e-5);
+    let above = values.iter().filter(|value| **value > 0.40).count() as f64 / values.len() as f64;
+    assert_eq!(eye["DGP_share_above_0.40"].as_f64().unwrap(), above);
+    let limits = [(0.35, "high"), (0.40, "medium"), (0.45, "minimum"), (2.0, "none")];
+    assert_eq!(eye["DGP_class"], limits.iter().find(|(limit, _)| largest <= *limit).unwrap().1);
+    assert!(eye["DGPs_5pct"].as_f64().unwrap() > 0.18);
+    // Left out where it is not asked for, and days that are none are refused.
+    scene(folder, system, &format!("{year}dgp = false\n"));
+    assert!(!table(&done(folder, &["year", "scene.toml", "--day", "03-21"]))[0].contains_key("DGP_1"));
+    scene(folder, system, &format!("{year}sunlight = {{ date = \"05-01\" }}\n"));
+    let refused = cfs(folder, &["year", "scene.toml", "--day", "03-21", "--json"]);
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success() && told.contains("year.sunlight.date"), "{told}");
+}
+
+#[test]
+fn openings_stand_beside_a_whole_year() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let rest = "[compute]\ninterreflection = false\n[year]\nweather = \"builtin:renton\"\n";
+    scene(folder, "{ ideal = \"diffuse\", transmittance = 0.5 }", rest);
+    let json: serde_json::Value = serde_json::from_str(&done(folder, &["year", "scene.toml", "--json"])).unwrap();
+    let standard = &json["metrics"]["EN17037"];
+    assert!(standard["median_diffuse_lx"].as_f64().unwrap() > 1000.0);
+    // The façade looks 20° west of south: at equinox at 47.48° N the sun is 10° high for so long on a free plane,
+    // of which mornings are lost before it comes round.
+    let cosine = 10_f64.to_radians().sin() / 47.48_f64.to_radians().cos();
+    let expected = 2.0 * cosine.acos().to_degrees() / 15.0;
+    let hours = standard["sunlight"]["hours"].as_f64().unwrap();
+    assert!(standard["sunlight"]["level"] == "high" && hours < expected + 0.1, "{hours} {expected}");
+    assert!(hours > 0.5 * expected + 3.0, "{hours} {expected}");
+    assert_eq!((&standard["view"]["layers"]["ground"], &standard["view"]["points"]), (&true.into(), &4.into()));
+    assert_eq!(standard["view"]["distance"], "nothing in the way");
+}

@@ -5,6 +5,7 @@
 //! left out and counted; lobes are not seen here, and so the figure is too low where a system has any.
 
 use super::hours::{Light, Step, share};
+use crate::compute::glare::dgps;
 
 /// Limits of the classes of EN 17037: DGP that is exceeded in 5 % of the usage time at most.
 pub const LIMITS: [f64; 3] = [0.35, 0.40, 0.45];
@@ -20,11 +21,6 @@ pub struct Glare {
     pub dgps_5_percent: f64,
     /// Shares of the other occupied steps with more than [`LIMITS`].
     pub above: [f64; 3],
-}
-
-/// DGPs of a vertical illuminance at the eye \[lx\].
-pub fn dgps(vertical: f64) -> f64 {
-    6.22e-5 * vertical + 0.184
 }
 
 /// Of every eye; `sun`: what of the sun comes straight to the eyes, where something lets it through unscattered.

@@ -6,6 +6,7 @@
 //! | `autonomy` | daylight autonomy, useful daylight, spatial autonomy, sunlight exposure |
 //! | `provision` | EN 17037, daylight provision by hours |
 //! | `glare` | simplified daylight glare probability |
+//! | `probability` | daylight glare probability, its classes |
 //! | `lighting` | what lamps take beside daylight |
 //! | `transmittance` | what a system lets through from any direction, as one figure |
 //! | `received` | what an aperture receives, by cell, under one outside after the other |
@@ -17,6 +18,7 @@ pub mod autonomy;
 pub mod glare;
 mod hours;
 pub mod lighting;
+pub mod probability;
 pub mod provision;
 pub mod received;
 pub mod solar;

@@ -38,6 +38,7 @@ use crate::compute::room::near_field::NearField;
 use crate::compute::sky::{Distribution, Outside};
 use part::{AperturePart, Sums};
 use std::sync::Arc;
+pub(super) use transport::patches as incident_patches;
 
 /// A prepared scene.
 pub struct Coefficients {

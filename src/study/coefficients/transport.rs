@@ -67,7 +67,7 @@ pub(super) struct Column {
 }
 
 /// The division of the incident hemisphere that suits a system, and how far apart directions in it may stand. \[rad\]
-pub(super) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
+pub(in crate::study) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
     match &btdf.scattered {
         None | Some(Scattered::Lambert(_)) => (sub_patches(PATCH), SPACING),
         Some(Scattered::Cells(matrix)) => (matrix.incident().clone(), SPACING),

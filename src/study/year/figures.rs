@@ -4,6 +4,7 @@ use super::Year;
 use crate::compute::year::autonomy::{Autonomy, Exposure};
 use crate::compute::year::glare::{Glare, glare};
 use crate::compute::year::lighting::Energy;
+use crate::compute::year::probability::Probability;
 use crate::compute::year::provision::Provision;
 use crate::compute::year::solar::{Transmitted, When};
 use crate::compute::year::{Light, Step};
@@ -25,6 +26,8 @@ pub struct Figures {
     pub provision: Option<Provision>,
     /// By eye.
     pub glare: Vec<Glare>,
+    /// The same by daylight glare probability; empty where that was not asked for.
+    pub probability: Vec<Probability>,
     /// With lamps.
     pub lighting: Option<Energy>,
     /// Where it is asked for.
@@ -74,7 +77,7 @@ fn columns(values: &[f64], places: usize, from: usize, to: usize) -> Vec<f64> {
     values.chunks_exact(places).flat_map(|row| row[from..to].iter().copied()).collect()
 }
 
-/// Of illuminances; `sign`: times the errors of solar power are added to it.
+/// Of illuminances; `sign`: times their errors are added to solar power and glare.
 fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let steps: Vec<Step> = year
@@ -111,6 +114,16 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
             })
             .unwrap_or_default(),
         solar: transmitted(year, sign),
+        probability: probability(year, sign),
         lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
     }
+}
+
+/// Of every eye; dark steps have no glare.
+fn probability(year: &Year, sign: f64) -> Vec<Probability> {
+    let Some(dgp) = &year.dgp else { return Vec::new() };
+    let occupied = |row: &usize| year.steps.list[year.chosen[*row]].occupied;
+    let value = |row: usize, eye: usize| dgp.row(row)[eye].map_or(0.0, |one| one.value + sign * one.error);
+    let of = |eye: usize| Probability::of((0..year.chosen.len()).filter(occupied).map(|row| value(row, eye)).collect());
+    (0..dgp.eyes).map(of).collect()
 }

@@ -10,22 +10,30 @@
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
 //! | `through` | the solar transmittance of what stands in the apertures |
 //! | `solar` | solar power straight through the apertures |
+//! | `dgp` | glare at the eyes, from the light |
+//! | `eye_light` | what eyes see of an aperture, ready for any sky |
+//! | `opening` | exposure to sunlight and view out, without light |
 //! | `figures` | what the year comes to, with errors |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
 
+mod dgp;
+mod eye_light;
 mod figures;
 mod fixed;
 mod light;
+mod opening;
 mod settings;
 mod solar;
 mod states;
 mod steps;
 mod through;
 
+pub use dgp::Dgp;
 pub use figures::{Figures, SolarFigures, figures};
 pub use light::{Light, Way};
+pub use opening::{NOT_JUDGED, Opening, opening};
 pub use settings::{Settings, settings};
 pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};
@@ -59,6 +67,8 @@ pub struct Year {
     pub light: Light,
     /// Solar energy through the apertures, where it is asked for.
     pub solar: Option<Solar>,
+    /// Daylight glare probability of the chosen steps; `None` without eyes, or where it is not asked for.
+    pub dgp: Option<Dgp>,
     /// What a person should know.
     pub notes: Vec<String>,
     /// How long each stage took.
@@ -142,7 +152,11 @@ pub fn year_in(
     if solar.is_some() {
         lap("solar");
     }
-    Ok(Year { settings, steps, moving, states, movements, chosen, light, solar, notes, spent })
+    let dgp = dgp::dgp(&question, &states, &chosen, &light, &mut notes, progress)?;
+    if dgp.is_some() {
+        lap("glare");
+    }
+    Ok(Year { settings, steps, moving, states, movements, chosen, light, solar, dgp, notes, spent })
 }
 
 /// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of

@@ -1,0 +1,186 @@
+//! Apertures as an eye sees them: patches whose solid angles are exact and whose luminance is that towards the eye.
+
+use super::gaze::Gaze;
+use crate::compute::direction::Dir;
+use crate::compute::direction::Facade;
+use crate::compute::room::aperture::{Aperture, View};
+use crate::compute::room::direct::Sensor;
+use glam::{DVec2, DVec3};
+use std::ops::Range;
+
+/// Patches are no wider than this across the line of sight to them. \[rad\] Their midpoints against 10⁵ directions: DGP
+/// within 0.002, as `tests/scenes/glare` has it.
+const WIDEST: f64 = 2.0 * std::f64::consts::PI / 180.0;
+/// An opening has this many along each side at least.
+const FEWEST: f64 = 6.0;
+
+/// A piece of an aperture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patch {
+    /// From the eye to its middle in the aperture's frame: the through-name of the light that comes from there.
+    pub through: Dir<Facade>,
+    /// The same in the room's axes.
+    pub to: DVec3,
+    /// Where it lies in the eye's picture. \[rad\]
+    pub place: DVec2,
+    /// \[sr\]
+    pub solid_angle: f64,
+    /// Times the cosine to the line of sight. \[sr\]
+    pub projected: f64,
+    /// Odd or even row and column, 0 to 3: parts of the patches tell what their width costs.
+    pub quarter: usize,
+}
+
+/// All apertures before an eye.
+#[derive(Debug, Clone)]
+pub struct Field {
+    /// The eye.
+    pub gaze: Gaze,
+    /// Patches in front of the eye.
+    pub patches: Vec<Patch>,
+    /// Those of each aperture.
+    pub of: Vec<Range<usize>>,
+    /// Patches that share a side with each: left, right, below, above.
+    beside: Vec<[Option<usize>; 4]>,
+    /// Patches by rising height of their direction.
+    rising: Vec<usize>,
+}
+
+impl Field {
+    /// Of an eye.
+    pub fn new<'a>(eye: &Sensor, apertures: impl IntoIterator<Item = &'a Aperture>) -> Self {
+        Self::with_widest(eye, apertures, WIDEST)
+    }
+
+    /// With patches of a width of one's own. \[rad\]
+    pub fn with_widest<'a>(eye: &Sensor, apertures: impl IntoIterator<Item = &'a Aperture>, widest: f64) -> Self {
+        let gaze = Gaze::new(eye);
+        let mut field = Self { gaze, patches: Vec::new(), of: Vec::new(), beside: Vec::new(), rising: Vec::new() };
+        for aperture in apertures {
+            let from = field.patches.len();
+            if let Some(view) = aperture.view(eye.position, gaze.forward) {
+                field.cut(aperture, &view, widest);
+            }
+            field.of.push(from..field.patches.len());
+        }
+        field.rising = (0..field.patches.len()).collect();
+        field.rising.sort_by(|&a, &b| field.patches[a].to.z.total_cmp(&field.patches[b].to.z));
+        field
+    }
+
+    fn cut(&mut self, aperture: &Aperture, view: &View, widest: f64) {
+        let [columns, rows] = [view.x, view.y].map(|limits| knots(limits, view.distance, widest));
+        let (width, height) = (columns.len() - 1, rows.len() - 1);
+        let mut numbers = vec![None; width * height];
+        for row in 0..height {
+            for column in 0..width {
+                let (x, y) = ([columns[column], columns[column + 1]], [rows[row], rows[row + 1]]);
+                let [u, v] = [x, y].map(|[low, high]| middle(low, high, view.distance));
+                let Some(through) = Dir::<Facade>::new(DVec3::new(u, v, view.distance)) else { continue };
+                let to = aperture.surface.room_from_facade(through.vector());
+                let cosine = to.dot(self.gaze.forward);
+                if cosine <= 0.0 {
+                    continue;
+                }
+                let corner =
+                    |x: f64, y: f64| (x * y).atan2(view.distance * (x * x + y * y + view.distance.powi(2)).sqrt());
+                let solid_angle = corner(x[1], y[1]) - corner(x[0], y[1]) - corner(x[1], y[0]) + corner(x[0], y[0]);
+                numbers[row * width + column] = Some(self.patches.len());
+                self.patches.push(Patch {
+                    through,
+                    to,
+                    place: self.gaze.place(to),
+                    solid_angle: solid_angle.max(0.0),
+                    projected: solid_angle.max(0.0) * cosine,
+                    quarter: 2 * (row % 2) + column % 2,
+                });
+            }
+        }
+        for at in (0..width * height).filter(|&at| numbers[at].is_some()) {
+            let (row, column) = (at / width, at % width);
+            let number = |row: usize, column: usize| {
+                if row < height && column < width { numbers[row * width + column] } else { None }
+            };
+            self.beside.push([
+                number(row, column.wrapping_sub(1)),
+                number(row, column + 1),
+                number(row.wrapping_sub(1), column),
+                number(row + 1, column),
+            ]);
+        }
+    }
+
+    /// Patches that share a side with one: left, right, below, above.
+    pub(super) fn beside(&self, patch: usize) -> [Option<usize>; 4] {
+        self.beside[patch]
+    }
+
+    /// Patches by rising height of their direction.
+    pub(super) fn rising(&self) -> &[usize] {
+        &self.rising
+    }
+
+    /// Solid angle of all patches, and that projected. \[sr\]
+    pub fn solid_angles(&self) -> [f64; 2] {
+        self.patches.iter().fold([0.0; 2], |[all, projected], p| [all + p.solid_angle, projected + p.projected])
+    }
+}
+
+/// Limits along one side at even steps of the angle.
+fn knots([low, high]: [f64; 2], distance: f64, widest: f64) -> Vec<f64> {
+    let (from, to) = (low.atan2(distance), high.atan2(distance));
+    let count = ((to - from) / widest).ceil().max(FEWEST);
+    let inner = (1..count as usize).map(|k| (from + (to - from) * k as f64 / count).tan() * distance);
+    std::iter::once(low).chain(inner).chain(std::iter::once(high)).collect()
+}
+
+/// The place half the angle on between two.
+fn middle(low: f64, high: f64, distance: f64) -> f64 {
+    (0.5 * (low.atan2(distance) + high.atan2(distance))).tan() * distance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Surface;
+    use crate::compute::polygon::projected_solid_angle;
+
+    #[test]
+    fn patches_fill_the_opening_and_keep_their_neighbours() {
+        let aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [4.0, 1.8] };
+        let eye = Sensor { position: DVec3::new(2.5, 2.0, 1.2), normal: DVec3::NEG_Y };
+        let field = Field::new(&eye, [&aperture]);
+        let [all, projected] = field.solid_angles();
+        let view = aperture.view(eye.position, eye.normal).unwrap();
+        let exact = projected_solid_angle(&view.corners(), view.normal);
+        assert!((projected / exact - 1.0).abs() < 2e-4, "{projected} {exact}");
+        // Half of a box seen from its middle: Ω by the corners' own formula, by symmetry.
+        let f = |x: f64, y: f64| (x * y / (2.0 * (4.0 + x * x + y * y).sqrt())).atan();
+        assert!((all - 2.0 * (f(2.0, 1.5) + f(2.0, 0.3))).abs() < 1e-12);
+        assert!(field.patches.iter().all(|p| p.solid_angle < 1.3e-3));
+        for (at, beside) in (0..field.patches.len()).map(|at| (at, field.beside(at))) {
+            for (side, other) in beside.into_iter().enumerate() {
+                if let Some(other) = other {
+                    assert_eq!(field.beside(other)[side ^ 1], Some(at));
+                    let differ = field.patches[other].quarter ^ field.patches[at].quarter;
+                    assert_eq!(differ, if side < 2 { 1 } else { 2 });
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_behind_the_eye_is_not_seen_and_a_speck_is() {
+        let aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [4.0, 1.8] };
+        let eye = Sensor { position: DVec3::new(2.5, 2.0, 1.2), normal: DVec3::X };
+        let field = Field::new(&eye, [&aperture]);
+        assert!(!field.patches.is_empty() && field.patches.iter().all(|p| p.to.x > 0.0));
+        let away = Sensor { normal: DVec3::Y, ..eye };
+        assert!(Field::new(&away, [&aperture]).patches.is_empty());
+        let speck = Aperture { size: [1e-3, 1e-3], ..aperture };
+        let [all, _] = Field::new(&Sensor { normal: DVec3::NEG_Y, ..eye }, [&speck]).solid_angles();
+        let to = DVec3::new(0.5, 0.0, 0.9) - eye.position;
+        let expected = 1e-6 * 2.0 / to.length().powi(3);
+        assert!((all / expected - 1.0).abs() < 1e-3, "{all} {expected}");
+    }
+}

@@ -1,0 +1,308 @@
+//! What glares: patches and discs above a threshold, grouped as `evalglare` groups the pixels of a picture.
+//!
+//! What is nearer than [`REACH`] to each other is one source of their mean luminance, at the middle of their light in the
+//! picture; of it what is brighter than [`PEAK`] is sources of its own.
+
+use super::discs::Disc;
+use super::field::Field;
+use super::gaze::position_index;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// Half of the search angle of `evalglare` (its `-r 0.2`): what is no further apart belongs together. \[rad\]
+pub const REACH: f64 = 0.1;
+/// From here on it is a peak (its `-Y 50000`). \[cd/m²\]
+pub const PEAK: f64 = 5e4;
+
+/// What a source is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Bright patches.
+    Bright,
+    /// Patches above [`PEAK`].
+    Peak,
+    /// The sun, straight or turned.
+    Sun,
+}
+
+/// One source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Source {
+    /// What it is.
+    pub kind: Kind,
+    /// From the eye to the middle of its light, in the room's axes.
+    pub to: DVec3,
+    /// Mean. \[cd/m²\]
+    pub luminance: f64,
+    /// \[sr\]
+    pub solid_angle: f64,
+    /// Guth's, or Iwata's.
+    pub position_index: f64,
+}
+
+/// All sources of an eye.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sources {
+    /// The brightest light first.
+    pub list: Vec<Source>,
+    /// Σ L² ω / P². \[cd²/m⁴ sr\]
+    pub sum: f64,
+    /// How far that may be off for the width of the patches: by halves of them.
+    pub error: f64,
+}
+
+/// Light of a group, or of a part of it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Light {
+    solid_angle: f64,
+    /// Luminance times solid angle.
+    flux: f64,
+    /// Places, by flux.
+    place: DVec2,
+}
+
+impl Light {
+    fn add(&mut self, luminance: f64, solid_angle: f64, place: DVec2) {
+        let flux = luminance * solid_angle;
+        self.solid_angle += solid_angle;
+        self.flux += flux;
+        self.place += flux * place;
+    }
+
+    fn plus(self, other: Self, factor: f64) -> Self {
+        Self {
+            solid_angle: self.solid_angle + factor * other.solid_angle,
+            flux: self.flux + factor * other.flux,
+            place: self.place + factor * other.place,
+        }
+    }
+
+    fn luminance(&self) -> f64 {
+        self.flux / self.solid_angle
+    }
+
+    fn middle(&self) -> DVec2 {
+        self.place / self.flux
+    }
+
+    /// L² ω / P² with the position index of a place.
+    fn term(&self, place: DVec2) -> f64 {
+        if self.solid_angle <= 0.0 || self.flux <= 0.0 {
+            return 0.0;
+        }
+        self.flux * self.luminance() / position_index(place).powi(2)
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Group {
+    quarters: [Light; 4],
+    discs: Light,
+}
+
+impl Group {
+    fn whole(&self) -> Light {
+        self.quarters.iter().fold(self.discs, |sum, quarter| sum.plus(*quarter, 1.0))
+    }
+
+    /// L² ω / P² by every other row against that by the others, by columns, and by the fields of a chessboard: the largest
+    /// difference. Half of it would be the error of their mean, were they independent; along straight edges they are not.
+    /// Rows and columns stand for the solid angle of all, of which they need not have one half each; the place is that of
+    /// all, for halves lie a little aside.
+    fn error(&self, place: DVec2) -> f64 {
+        let all: f64 = self.quarters.iter().map(|quarter| quarter.solid_angle).sum();
+        let by = |halves: [[usize; 2]; 2], scaled: bool| {
+            let terms = halves.map(|[a, b]| {
+                let half = self.quarters[a].plus(self.quarters[b], 1.0);
+                let factor = if scaled && half.solid_angle > 0.0 { all / half.solid_angle } else { 2.0 };
+                self.discs.plus(half, factor).term(place)
+            });
+            (terms[0] - terms[1]).abs()
+        };
+        by([[0, 1], [2, 3]], true).max(by([[0, 2], [1, 3]], true)).max(by([[0, 3], [1, 2]], false))
+    }
+}
+
+impl Sources {
+    /// Of patches with their luminances, and discs. `threshold`: what is brighter glares. \[cd/m²\]
+    pub fn new(field: &Field, luminance: &[f64], discs: &[Disc], threshold: f64) -> Self {
+        let count = field.patches.len();
+        let bright = linked(field, luminance, discs, threshold);
+        let peaks = linked(field, luminance, discs, threshold.max(PEAK));
+        // Peaks are groups of their own.
+        let mut groups: BTreeMap<(bool, usize), Group> = BTreeMap::new();
+        let key = |at: usize| peaks[at].map(|root| (true, root)).or_else(|| bright[at].map(|root| (false, root)));
+        for (at, patch) in field.patches.iter().enumerate() {
+            if let Some(key) = key(at) {
+                let quarter = &mut groups.entry(key).or_default().quarters[patch.quarter];
+                quarter.add(luminance[at], patch.solid_angle, patch.place);
+            }
+        }
+        for (at, disc) in discs.iter().enumerate() {
+            if let Some(key) = key(count + at) {
+                let place = field.gaze.place(disc.to);
+                groups.entry(key).or_default().discs.add(disc.luminance, disc.solid_angle, place);
+            }
+        }
+        let mut all = Self::default();
+        for ((peak, _), group) in groups {
+            let whole = group.whole();
+            if whole.flux <= 0.0 || whole.solid_angle <= 0.0 {
+                continue;
+            }
+            let place = whole.middle();
+            all.sum += whole.term(place);
+            all.error += group.error(place);
+            all.list.push(Source {
+                kind: match peak {
+                    true if group.discs.flux > 0.0 => Kind::Sun,
+                    true => Kind::Peak,
+                    false => Kind::Bright,
+                },
+                to: field.gaze.direction(place),
+                luminance: whole.luminance(),
+                solid_angle: whole.solid_angle,
+                position_index: position_index(place),
+            });
+        }
+        all.list.sort_by(|a, b| b.luminance.total_cmp(&a.luminance));
+        all
+    }
+}
+
+/// Sets that are joined.
+struct Links(Vec<usize>);
+
+impl Links {
+    fn root(&mut self, mut at: usize) -> usize {
+        while self.0[at] != at {
+            self.0[at] = self.0[self.0[at]];
+            at = self.0[at];
+        }
+        at
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+/// Radius of a disc of a solid angle. \[rad\]
+fn radius(solid_angle: f64) -> f64 {
+    (solid_angle / std::f64::consts::PI).sqrt()
+}
+
+/// The group of every patch, then of every disc, that is brighter than `least`, a number of its own for each group.
+fn linked(field: &Field, luminance: &[f64], discs: &[Disc], least: f64) -> Vec<Option<usize>> {
+    let count = field.patches.len();
+    let bright = |at: usize| luminance[at] > least;
+    let mut links = Links((0..count + discs.len()).collect());
+    // Neighbours touch; who has a dark one beside it, or none, may be near to others beyond.
+    let mut rim = Vec::new();
+    let mut widest: f64 = 0.0;
+    for &at in field.rising().iter().filter(|&&at| bright(at)) {
+        let beside = field.beside(at);
+        for other in beside.into_iter().flatten().filter(|&other| bright(other)) {
+            links.join(at, other);
+        }
+        if beside.iter().any(|other| !other.is_some_and(bright)) {
+            rim.push(at);
+            widest = widest.max(radius(field.patches[at].solid_angle));
+        }
+    }
+    let near = |a: DVec3, b: DVec3, reach: f64| a.distance_squared(b) <= (2.0 * (0.5 * reach).sin()).powi(2);
+    for (k, &at) in rim.iter().enumerate() {
+        let own = &field.patches[at];
+        let reach = REACH + radius(own.solid_angle);
+        for &other in &rim[k + 1..] {
+            let beyond = &field.patches[other];
+            // They rise: whoever is too high is followed by higher ones.
+            if beyond.to.z - own.to.z > reach + widest {
+                break;
+            }
+            if near(own.to, beyond.to, reach + radius(beyond.solid_angle)) {
+                links.join(at, other);
+            }
+        }
+    }
+    for (k, disc) in discs.iter().enumerate().filter(|(_, disc)| disc.luminance > least) {
+        let reach = REACH + radius(disc.solid_angle);
+        for (at, patch) in field.patches.iter().enumerate().filter(|(at, _)| bright(*at)) {
+            if near(disc.to, patch.to, reach + radius(patch.solid_angle)) {
+                links.join(count + k, at);
+            }
+        }
+        for (other, beyond) in discs.iter().enumerate().take(k).filter(|(_, beyond)| beyond.luminance > least) {
+            if near(disc.to, beyond.to, reach + radius(beyond.solid_angle)) {
+                links.join(count + k, count + other);
+            }
+        }
+    }
+    let shines = |at: usize| if at < count { bright(at) } else { discs[at - count].luminance > least };
+    (0..count + discs.len()).map(|at| shines(at).then(|| links.root(at))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Surface;
+    use crate::compute::room::aperture::Aperture;
+    use crate::compute::room::direct::Sensor;
+
+    fn eye() -> Sensor {
+        Sensor { position: DVec3::new(2.5, 2.0, 1.2), normal: DVec3::NEG_Y }
+    }
+
+    fn window(x: f64, width: f64) -> Aperture {
+        Aperture { surface: Surface::Facade, corner: DVec3::new(x, 0.0, 0.9), size: [width, 1.0] }
+    }
+
+    #[test]
+    fn windows_apart_are_two_sources_and_near_ones_are_one() {
+        // 0.1 rad are 0.2 m at 2 m.
+        for (gap, expected) in [(0.15, 1), (0.30, 2)] {
+            let pair = [window(1.4 - 0.5 * gap, 1.1), window(2.5 + 0.5 * gap, 1.1)];
+            let field = Field::new(&eye(), &pair);
+            let all = Sources::new(&field, &vec![3000.0; field.patches.len()], &[], 2000.0);
+            assert_eq!(all.list.len(), expected, "{gap}");
+            let [seen, _] = field.solid_angles();
+            let listed: f64 = all.list.iter().map(|one| one.solid_angle).sum();
+            assert!((listed - seen).abs() < 1e-9);
+            assert!(all.list.iter().all(|one| (one.luminance - 3000.0).abs() < 1e-6));
+        }
+        let field = Field::new(&eye(), &[window(1.4, 2.2)]);
+        assert!(Sources::new(&field, &vec![2000.0; field.patches.len()], &[], 2000.0).list.is_empty());
+    }
+
+    #[test]
+    fn the_sum_is_that_of_the_sources() {
+        let field = Field::new(&eye(), &[window(1.4, 2.2)]);
+        let all = Sources::new(&field, &vec![3000.0; field.patches.len()], &[], 2000.0);
+        let [one] = all.list[..] else { panic!("{all:?}") };
+        let expected = one.luminance.powi(2) * one.solid_angle / one.position_index.powi(2);
+        assert!((all.sum / expected - 1.0).abs() < 1e-12 && all.error < 0.01 * all.sum);
+        // Symmetric about the line of sight but for height.
+        assert!(one.to.x.abs() < 1e-9 && one.to.z > 0.0);
+    }
+
+    #[test]
+    fn suns_and_peaks_are_sources_of_their_own() {
+        let field = Field::new(&eye(), &[window(1.4, 2.2)]);
+        let sun = Disc { to: DVec3::new(0.0, -0.98, 0.199).normalize_or_zero(), luminance: 1e8, solid_angle: 6.8e-5 };
+        let all = Sources::new(&field, &vec![3000.0; field.patches.len()], &[sun], 2000.0);
+        assert_eq!(all.list.iter().map(|one| one.kind).collect::<Vec<_>>(), [Kind::Sun, Kind::Bright]);
+        // A faint disc is no peak: it joins the window that it stands in.
+        let faint = Disc { luminance: 4e4, ..sun };
+        let all = Sources::new(&field, &vec![3000.0; field.patches.len()], &[faint], 2000.0);
+        assert_eq!(all.list.len(), 1);
+        // Before a dark window it is alone.
+        let all = Sources::new(&field, &vec![100.0; field.patches.len()], &[faint], 2000.0);
+        assert_eq!(all.list.len(), 1);
+        assert!((all.sum / (1.6e9 * 6.8e-5 / all.list[0].position_index.powi(2)) - 1.0).abs() < 1e-9);
+        // The upper half a peak.
+        let halves: Vec<f64> = field.patches.iter().map(|p| if p.to.z > 0.0 { 6e4 } else { 3000.0 }).collect();
+        let all = Sources::new(&field, &halves, &[], 2000.0);
+        assert_eq!(all.list.iter().map(|one| one.kind).collect::<Vec<_>>(), [Kind::Peak, Kind::Bright]);
+    }
+}

@@ -1,0 +1,60 @@
+//! Glare at an eye through the occupied steps by the daylight glare probability, and its class by EN 17037, Annex E: DGP
+//! that is exceeded in no more than 5 % of the usage time. Dark steps are usage, too, and have none.
+
+use super::glare::LIMITS;
+use super::hours::share;
+
+/// Classes of EN 17037 by rising [`LIMITS`].
+pub const CLASSES: [&str; 3] = ["high", "medium", "minimum"];
+/// Share of the usage time in which a class's limit may be exceeded.
+const EXCEEDED: f64 = 0.05;
+
+/// Of one eye.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Probability {
+    /// DGP that is exceeded in 5 % of the occupied steps at most.
+    pub dgp_5_percent: f64,
+    /// Shares of the occupied steps with more than [`LIMITS`].
+    pub above: [f64; 3],
+}
+
+impl Probability {
+    /// Of the values of all occupied steps, dark ones as 0.
+    pub fn of(mut values: Vec<f64>) -> Self {
+        values.sort_by(|a, b| b.total_cmp(a));
+        let rank = (EXCEEDED * values.len() as f64) as usize;
+        Self {
+            dgp_5_percent: values.get(rank).copied().unwrap_or(0.0),
+            above: LIMITS.map(|limit| share(values.iter().filter(|value| **value > limit).count(), values.len())),
+        }
+    }
+
+    /// The best class whose limit is kept; `None` where not even the lowest is.
+    pub fn class(&self) -> Option<&'static str> {
+        LIMITS.iter().zip(CLASSES).find(|(limit, _)| self.dgp_5_percent <= **limit).map(|(_, class)| class)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_class_is_kept_while_its_limit_is_exceeded_in_a_twentieth_at_most() {
+        // 5 of 100 steps above .35 are a twentieth, 6 are more.
+        let with = |count: usize, value: f64| {
+            let mut values = vec![0.3; 100];
+            values[..count].fill(value);
+            Probability::of(values)
+        };
+        assert_eq!(with(5, 0.36).class(), Some("high"));
+        assert_eq!(with(6, 0.36).class(), Some("medium"));
+        assert_eq!(with(6, 0.40).class(), Some("medium"));
+        assert_eq!(with(6, 0.41).class(), Some("minimum"));
+        assert_eq!(with(6, 0.45).class(), Some("minimum"));
+        assert_eq!(with(6, 0.46).class(), None);
+        assert_eq!(with(6, 0.46).above, [0.06; 3]);
+        assert_eq!(with(6, 0.35).above, [0.0; 3]);
+        assert_eq!(Probability::of(Vec::new()), Probability::default());
+    }
+}

@@ -1,0 +1,176 @@
+//! Daylight glare probability of every lit occupied step at every eye, from the illuminances that are there already.
+//!
+//! What does not change between steps is found once for each set of states: the patches that an eye sees, and for systems
+//! by data what each emergent cell makes of the outside. Elsewhere every step asks the systems anew.
+
+use super::eye_light::{EyeLight, is_tabled};
+use super::fixed::{put_ordinary, with_states};
+use super::light::{Light, Question};
+use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
+use crate::compute::glare::{Field, LEAST_ILLUMINANCE, Threshold, add_emitted, discs};
+use crate::compute::lid::{Emission, Facing};
+use crate::compute::sky::{Outside, Sun};
+use crate::study::error::StudyError;
+use crate::study::outside::Before;
+use crate::study::scene::Scene;
+use crate::study::session::Session;
+use crate::study::session::glare::{EyeGlare, evaluated, eye_field, open_rays};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// DGP of the chosen steps: rows of steps, columns of eyes; `None` where nobody is there, or in the dark.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dgp {
+    /// Eyes.
+    pub eyes: usize,
+    /// Step by step.
+    pub values: Vec<Option<Estimate>>,
+    /// Values outside of what the formula was tested for with people.
+    pub unproven: usize,
+}
+
+impl Dgp {
+    /// Of one step.
+    pub fn row(&self, step: usize) -> &[Option<Estimate>] {
+        &self.values[step * self.eyes..][..self.eyes]
+    }
+}
+
+/// Of the chosen steps, with the states of all steps and the light of the chosen; `None` where there are no eyes, or where
+/// it is not asked for.
+///
+/// # Errors
+/// Of the scene; cancelled.
+pub(super) fn dgp(
+    question: &Question<'_>,
+    states: &[Vec<usize>],
+    chosen: &[usize],
+    light: &Light,
+    notes: &mut Vec<String>,
+    progress: &dyn Progress,
+) -> Result<Option<Dgp>, StudyError> {
+    let settings = question.settings;
+    let eyes = settings.eyes.len();
+    if eyes == 0 || !settings.keys.dgp {
+        return Ok(None);
+    }
+    let mut groups: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
+    for (row, &k) in chosen.iter().enumerate() {
+        let step = &question.steps.list[k];
+        if step.occupied && step.hour.is_lit() {
+            groups.entry(&states[k]).or_default().push(row);
+        }
+    }
+    let total: usize = groups.values().map(Vec::len).sum();
+    let mut found = Dgp { eyes, values: vec![None; eyes * chosen.len()], unproven: 0 };
+    let done = AtomicUsize::new(0);
+    for (set, rows) in groups {
+        let engine = Engine::new(question, set)?;
+        let of = |&row: &usize| {
+            if progress.cancelled() {
+                return Err(StudyError::from(Cancelled));
+            }
+            let at = row * light.places + settings.sensors;
+            let vertical: Vec<Estimate> =
+                (at..at + eyes).map(|k| Estimate::new(light.values[k], light.errors[k])).collect();
+            let glare = engine.at(question, question.steps.outside(chosen[row])?, &vertical)?;
+            progress.advance("glare", done.fetch_add(1, Ordering::Relaxed) + 1, total);
+            Ok((row, glare))
+        };
+        let all: Vec<(usize, Vec<EyeGlare>)> = rows.par_iter().map(of).collect::<Result<_, StudyError>>()?;
+        for (row, glare) in all {
+            for (eye, one) in glare.into_iter().enumerate() {
+                found.values[row * eyes + eye] = Some(one.glare.dgp);
+                found.unproven += usize::from(!one.proven);
+            }
+        }
+    }
+    if found.unproven > 0 {
+        notes.push(format!(
+            "{} of {} glare probabilities lie outside of what the formula was tested for (0.2 to 0.8, {LEAST_ILLUMINANCE} lx \
+             and more): they say no more than little, or much",
+            found.unproven,
+            found.values.iter().flatten().count()
+        ));
+    }
+    Ok(Some(found))
+}
+
+/// Ready for any sky and sun in one set of states.
+struct Engine {
+    scene: Scene,
+    before: Before,
+    /// Of every eye.
+    fields: Vec<Field>,
+    /// Of every aperture; empty where systems are asked step by step.
+    tables: Vec<EyeLight>,
+}
+
+impl Engine {
+    fn new(question: &Question<'_>, set: &[usize]) -> Result<Self, StudyError> {
+        let mut file = with_states(question.file, question.moving, set);
+        put_ordinary(&mut file);
+        // Boxes are lit by the sky of each step.
+        file.outside = Vec::new();
+        let scene = Scene::resolve(&file, question.base, question.library)?;
+        let apertures: Vec<_> = scene.apertures.iter().map(|one| one.aperture).collect();
+        let before = Before::of(&question.file.outside, &scene.room, &apertures)?;
+        let fields: Vec<Field> = question.settings.eyes.iter().map(|eye| eye_field(&scene, eye)).collect();
+        let tabled = before.is_empty()
+            && scene.outside.surroundings().is_none()
+            && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
+        let table = |index: usize| {
+            let btdf = scene.apertures[index].system.dataset.transmission()?;
+            Some(EyeLight::new(question.session, &scene, index, btdf, &fields))
+        };
+        let tables = if tabled { (0..scene.apertures.len()).filter_map(table).collect() } else { Vec::new() };
+        Ok(Self { scene, before, fields, tables })
+    }
+
+    /// At every eye, given the illuminance there.
+    fn at(
+        &self,
+        question: &Question<'_>,
+        (outside, sun): (Outside, Option<Sun>),
+        vertical: &[Estimate],
+    ) -> Result<Vec<EyeGlare>, StudyError> {
+        let eyes = &question.settings.eyes;
+        if !self.tables.is_empty() {
+            return Ok(self.by_tables(question.session, question, &outside, sun.as_ref(), vertical));
+        }
+        let outside = self.before.stand(outside, sun.as_ref(), &self.scene.room, self.scene.orientation, &Silent)?;
+        let scene = Scene { outside, sun, ..self.scene.clone() };
+        let shining = question.session.shining(&scene)?;
+        let of = |((eye, field), vertical)| shining.glare(&scene, field, eye, vertical, Threshold::default());
+        Ok(eyes.iter().zip(&self.fields).zip(vertical.iter().copied()).map(of).collect())
+    }
+
+    fn by_tables(
+        &self,
+        session: &Session,
+        question: &Question<'_>,
+        outside: &Outside,
+        sun: Option<&Sun>,
+        vertical: &[Estimate],
+    ) -> Vec<EyeGlare> {
+        let scene = &self.scene;
+        let cells: Vec<Vec<f64>> = self.tables.iter().map(|table| table.cells(outside)).collect();
+        let sunlight: Vec<Option<Emission>> =
+            (0..self.tables.len()).map(|index| session.sunlight_alone(scene, index, sun?)).collect();
+        let of = |number: usize| {
+            let (eye, field) = (&question.settings.eyes[number], &self.fields[number]);
+            let mut luminance = vec![0.0; field.patches.len()];
+            let mut rays = Vec::new();
+            for (index, table) in self.tables.iter().enumerate() {
+                table.add(number, &cells[index], outside, &mut luminance[field.of[index].clone()]);
+                let Some(emission) = &sunlight[index] else { continue };
+                let facing = Facing { outside, sun, ..scene.facing(index) };
+                add_emitted(field, index, emission, &facing, &mut luminance);
+                rays.extend(open_rays(eye, &scene.apertures[index].aperture, &emission.beams, &facing));
+            }
+            evaluated(field, eye, &luminance, discs(&rays), vertical[number], Threshold::default())
+        };
+        (0..self.fields.len()).map(of).collect()
+    }
+}
