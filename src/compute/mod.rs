@@ -27,6 +27,7 @@
 //! - `room`: apertures, direct light and interreflection
 //! - `control`: which state a moving system takes
 //! - `year`: what the illuminances of a year come to
+//! - `rank`: which of many is best, as far as figures with errors tell
 //!
 //! # Symbols
 //!
@@ -58,6 +59,7 @@ pub mod limits;
 pub mod polygon;
 pub mod profile_angle;
 pub mod quadrature;
+pub mod rank;
 pub mod room;
 pub mod scaling;
 pub mod sequence;

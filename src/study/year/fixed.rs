@@ -6,14 +6,14 @@ use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, 
 
 /// The scene with the states of its moving apertures fixed, and no year.
 pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
-    let mut scene = SceneFile { year: None, ..file.clone() };
+    let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
     for (one, &state) in moving.iter().zip(states) {
         let key = one.device.keys[state].clone();
         match &mut scene.aperture[one.aperture - 1].system {
             SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
                 *state = Some(key);
             }
-            SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {}
+            SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } | SystemKeys::Ranked => {}
         }
     }
     scene

@@ -9,6 +9,7 @@
 //! | `fixed` | the scene with fixed states, at a step |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
 //! | `figures` | what the year comes to, with errors |
+//! | `metrics` | figures by their keys |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
@@ -16,6 +17,7 @@
 mod figures;
 mod fixed;
 mod light;
+pub mod metrics;
 mod settings;
 mod states;
 mod steps;
