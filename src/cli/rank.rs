@@ -164,8 +164,11 @@ fn table(lists: &[List]) -> String {
             let (row, found) = ranked[k];
             let one = &ranking.list[k];
             let ranks = one.ranks;
-            let rank =
-                if ranks.first == ranks.last { ranks.first.to_string() } else { format!("{}-{}", ranks.first, ranks.last) };
+            let rank = if ranks.first == ranks.last {
+                ranks.first.to_string()
+            } else {
+                format!("{}-{}", ranks.first, ranks.last)
+            };
             let value = |value: f64, error: f64| format!("{} ± {}", ticks::number(value, 3), ticks::number(error, 1));
             let mark = if found.approximate.is_empty() { "" } else { " ~" };
             let place = if one.place == Place::Behind { "" } else { one.place.word() }.to_owned();

@@ -158,7 +158,8 @@ impl Columns {
                     found.parts.push(parts_of(text(self.parts + column)?)?);
                 }
                 let approximate = text(self.approximate)?;
-                found.approximate = approximate.split(BETWEEN).filter(|one| !one.is_empty()).map(str::to_owned).collect();
+                found.approximate =
+                    approximate.split(BETWEEN).filter(|one| !one.is_empty()).map(str::to_owned).collect();
                 Ok(found)
             }
             reason => Err(reason.to_owned()),

@@ -87,7 +87,9 @@ pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
         })?;
         let time = of_year(time);
         if rows.last().is_some_and(|last| last.of_year >= time) {
-            return Err(wrong(format!("{field} does not come after the row before; expected rising times of one year")));
+            return Err(wrong(format!(
+                "{field} does not come after the row before; expected rising times of one year"
+            )));
         }
         let state = record.get(state_at).unwrap_or_default();
         if state.is_empty() {

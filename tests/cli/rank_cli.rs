@@ -149,7 +149,10 @@ fn shards_merged_in_any_order_are_the_run_in_one() {
     let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), 10);
     let out: Vec<&csv::StringRecord> = rows.iter().filter(|row| !row[14].is_empty()).collect();
-    assert!(out.len() == 2 && out.iter().all(|row| row[14].contains("no transmission data") && row[4].is_empty()), "{out:?}");
+    assert!(
+        out.len() == 2 && out.iter().all(|row| row[14].contains("no transmission data") && row[4].is_empty()),
+        "{out:?}"
+    );
     assert!(rows.iter().filter(|row| row[14].is_empty()).all(|row| row[15].contains("the mean")), "{rows:?}");
     for count in [1, 2, 3] {
         let name = |number: usize| format!("part-{count}-{number}.csv");
@@ -215,7 +218,10 @@ fn merges_that_cannot_be(folder: &Path) {
     let other = row.replacen(fields[4], "0.123", 1);
     std::fs::write(folder.join("wrong.csv"), text.replace(row, &other)).unwrap();
     let error = merge(&["part-3-0.csv", "wrong.csv", "part-3-1.csv", "part-3-2.csv"]);
-    assert!(error.contains("two values for key") && error.contains("part-3-0.csv") && error.contains("wrong.csv"), "{error}");
+    assert!(
+        error.contains("two values for key") && error.contains("part-3-0.csv") && error.contains("wrong.csv"),
+        "{error}"
+    );
     // A piece that lost a row, and one of another ranking.
     std::fs::write(folder.join("cut.csv"), text.replace(&format!("{row}\n"), "")).unwrap();
     let error = merge(&["cut.csv", "part-3-1.csv", "part-3-2.csv"]);
@@ -257,7 +263,10 @@ fn reasons_add_up_and_ranks_are_of_intervals() {
                 (Some(1 + better as u64), Some((4 - worse) as u64))
             );
             let rival = products.iter().find(|other| other["product"] == product["to_best"]["product"]).unwrap();
-            let against = [(&product["to_best"], utility(product) - utility(rival)), (&product["to_mean"], utility(product) - mean)];
+            let against = [
+                (&product["to_best"], utility(product) - utility(rival)),
+                (&product["to_mean"], utility(product) - mean),
+            ];
             for (why, difference) in against {
                 let shares = why["shares"].as_array().unwrap();
                 let sum: f64 = shares.iter().map(|share| number(&share["utility"])).sum();
@@ -317,7 +326,8 @@ fn states_from_a_table_hold_until_the_next_row() {
     let folder = folder.path();
     let state = |key: &str| format!("{{ state = \"{key}\", value = {key}.0, file = \"slats_{key}.xml\" }}");
     let system = format!("system = {{ state = \"controlled\", states = [{}, {}] }}", state("0"), state("60"));
-    let scene = SCENE.replace("system = \"ranked\"", &system).replace("\"din-5034\"", "\"table\"\nfile = \"states.csv\"");
+    let scene =
+        SCENE.replace("system = \"ranked\"", &system).replace("\"din-5034\"", "\"table\"\nfile = \"states.csv\"");
     std::fs::write(folder.join("table.toml"), &scene).unwrap();
     let states = "time,state\n2001-01-01T00:00,60\n2019-04-20T10:30,0\n2019-04-20T12:00,60\n2005-10-01T00:00,0\n";
     std::fs::write(folder.join("states.csv"), states).unwrap();
@@ -346,7 +356,8 @@ fn states_from_a_table_hold_until_the_next_row() {
     // A moment of a room takes the row that holds then.
     let room = |time: &str| {
         let sky = "[sky]\nmodel = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0\ntime = ";
-        let text = scene.replace("[sky]\nmodel = \"uniform\"\ndiffuse_horizontal = 1.0\n", &format!("{sky}\"{time}\"\n"));
+        let text =
+            scene.replace("[sky]\nmodel = \"uniform\"\ndiffuse_horizontal = 1.0\n", &format!("{sky}\"{time}\"\n"));
         std::fs::write(folder.join("moment.toml"), text).unwrap();
         let table = done(folder, &["room", "moment.toml"]);
         table.lines().nth(1).unwrap().split(',').nth(6).unwrap().parse::<f64>().unwrap()

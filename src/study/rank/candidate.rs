@@ -17,13 +17,14 @@ pub fn with_product(file: &SceneFile, product: &Product, by: RankControlKey) -> 
     let moves = product.states.len() > 1;
     for aperture in scene.aperture.iter_mut().filter(|aperture| aperture.system == SystemKeys::Ranked) {
         let told = aperture.control.as_ref().or(file.control.as_ref()).cloned();
-        let rule = match by {
-            _ if !moves => None,
-            RankControlKey::Product => first_keys(own).or(told),
-            RankControlKey::Scene => Some(told.ok_or_else(|| {
-                StudyError::key("rank.control", "\"scene\" needs a [control] section with a mode")
-            })?),
-        };
+        let rule =
+            match by {
+                _ if !moves => None,
+                RankControlKey::Product => first_keys(own).or(told),
+                RankControlKey::Scene => Some(told.ok_or_else(|| {
+                    StudyError::key("rank.control", "\"scene\" needs a [control] section with a mode")
+                })?),
+            };
         let fixed = || product.states.get(stands).map(|state| state.key.clone()).filter(|key| !key.is_empty());
         let state = if rule.is_some() { Some(CONTROLLED.to_owned()) } else { fixed() };
         aperture.system = SystemKeys::Catalogue { key: product.key.clone(), state };
@@ -47,10 +48,9 @@ mod tests {
             dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(*tau));
             dataset
         };
-        let names = states.iter().map(|(state, _)| crate::catalogue::StateName {
-            label: (*state).to_owned(),
-            value: state.parse().ok(),
-        });
+        let names = states
+            .iter()
+            .map(|(state, _)| crate::catalogue::StateName { label: (*state).to_owned(), value: state.parse().ok() });
         let new = NewProduct {
             key: Some(key.to_owned()),
             name: key.to_owned(),

@@ -98,7 +98,9 @@ impl Setting<'_> {
     pub fn check(&self, first: &Product, progress: &dyn Progress) -> Result<(), StudyError> {
         let year = dark(self.climate);
         let all = three(&year, self.group.file.room.width * self.group.file.room.depth);
-        let Some(error) = self.group.figures.iter().find_map(|key| figure(&year, &all, key).err()) else { return Ok(()) };
+        let Some(error) = self.group.figures.iter().find_map(|key| figure(&year, &all, key).err()) else {
+            return Ok(());
+        };
         match self.product(first, Stage::Full, progress) {
             Err(StudyError::Key { key, message }) if key == NO_FIGURE => Err(StudyError::Key { key, message }),
             Err(StudyError::Cancelled(cancelled)) => Err(cancelled.into()),
@@ -181,7 +183,8 @@ fn coarse(year: &Year, three: &[Value; 3], halves: &[[Value; 3]], key: &str) -> 
         .map(|half| Some(read(half, key)?.value * scale(metrics::number(&half[0], "hours")? / year.steps.length)))
         .collect();
     let each = each?;
-    let spread = each.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)) - each.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+    let spread =
+        each.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)) - each.iter().fold(f64::INFINITY, |a, b| a.min(*b));
     Some(Estimate { value: own.value, error: own.error + 0.5 * spread })
 }
 
@@ -231,6 +234,9 @@ mod tests {
 
     #[test]
     fn figures_keep_the_digits_of_a_table() {
-        assert_eq!([0.1 + 0.2, 0.0, 123_456_789.44, 1e-12 / 3.0].map(as_written), [0.3, 0.0, 123_456_789.0, 3.333_333_33e-13]);
+        assert_eq!(
+            [0.1 + 0.2, 0.0, 123_456_789.44, 1e-12 / 3.0].map(as_written),
+            [0.3, 0.0, 123_456_789.0, 3.333_333_33e-13]
+        );
     }
 }

@@ -49,10 +49,8 @@ impl List {
     pub fn ranking(&self, objectives: &[Objective]) -> Ranking {
         let ranked = self.ranked();
         let figures: Vec<&[Estimate]> = ranked.iter().map(|(_, found)| found.figures.as_slice()).collect();
-        let parts: Vec<Vec<Vec<f64>>> = ranked
-            .iter()
-            .map(|(_, found)| found.parts.iter().map(|parts| parts.values.clone()).collect())
-            .collect();
+        let parts: Vec<Vec<Vec<f64>>> =
+            ranked.iter().map(|(_, found)| found.parts.iter().map(|parts| parts.values.clone()).collect()).collect();
         Ranking::of(objectives, &figures, &parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
     }
 

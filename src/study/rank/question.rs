@@ -42,16 +42,18 @@ pub fn groups(
     words: Option<&str>,
     find: &dyn Fn(&str) -> Result<Vec<Product>, StudyError>,
 ) -> Result<Vec<Group>, StudyError> {
-    let keys = file.rank.as_ref().ok_or_else(|| {
-        StudyError::key("rank", "missing: a ranking needs a [rank] section with [[rank.objective]]")
-    })?;
+    let keys = file
+        .rank
+        .as_ref()
+        .ok_or_else(|| StudyError::key("rank", "missing: a ranking needs a [rank] section with [[rank.objective]]"))?;
     if !file.aperture.iter().any(|aperture| aperture.system == SystemKeys::Ranked) {
         let message = "none is ranked: give the one that products are to fill system = \"ranked\"";
         return Err(StudyError::key("aperture", message));
     }
-    let year = file.year.as_ref().ok_or_else(|| {
-        StudyError::key("year", "missing: a ranking needs a [year] section with weather = \"x.epw\"")
-    })?;
+    let year = file
+        .year
+        .as_ref()
+        .ok_or_else(|| StudyError::key("year", "missing: a ranking needs a [year] section with weather = \"x.epw\""))?;
     let objectives = objectives(keys)?;
     let azimuths = if keys.azimuths.is_empty() { vec![file.site.azimuth] } else { keys.azimuths.clone() };
     if let Some(wrong) = azimuths.iter().find(|azimuth| !(-360.0..=360.0).contains(*azimuth)) {
@@ -160,11 +162,17 @@ mod tests {
             (&*format!("azimuths = [90.0, 90.0]\n{ONE}"), "rank.azimuths: 90 is named twice"),
             (&*format!("weather = [\"a.epw\", \"a.epw\"]\n{ONE}"), "rank.weather: a.epw is named twice"),
             (&*format!("{ONE}{ONE}"), "rank.objective: UDI_x is named twice"),
-            (&*ONE.replace("0.5", "0.0"), "rank.objective[1].best: 0 is not better than worst = 0, where less is better"),
+            (
+                &*ONE.replace("0.5", "0.0"),
+                "rank.objective[1].best: 0 is not better than worst = 0, where less is better",
+            ),
             (&*ONE.replace("less", "more"), "rank.objective[1].best: 0 is not better than worst = 0.5"),
             (&*format!("{ONE}weight = 0.0\n"), "rank.objective[1].weight: 0 (allowed: above 0)"),
             (&*ONE.replace("UDI_x", "UDI x"), "rank.objective[1].figure: \"UDI x\""),
-            (&*format!("products = \"none\"\n{ONE}"), "rank.products: no product of the catalogue is found by \"none\""),
+            (
+                &*format!("products = \"none\"\n{ONE}"),
+                "rank.products: no product of the catalogue is found by \"none\"",
+            ),
         ] {
             let error = asked(&scene(text)).unwrap_err().to_string();
             assert!(error.starts_with(words), "{text}: {error}");

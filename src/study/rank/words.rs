@@ -53,7 +53,9 @@ fn shares(list: &List, own: &Found, why: &Why, other: Option<&Found>) -> String 
             number(rival, 3)
         );
         let mut groups: Vec<usize> = (0..share.parts.len())
-            .filter(|&part| share.parts[part].abs() >= LARGE * share.figure.abs() && share.parts[part] * share.figure > 0.0)
+            .filter(|&part| {
+                share.parts[part].abs() >= LARGE * share.figure.abs() && share.parts[part] * share.figure > 0.0
+            })
             .collect();
         groups.sort_by(|&a, &b| share.parts[b].abs().total_cmp(&share.parts[a].abs()));
         for (place, part) in groups.into_iter().take(PARTS).enumerate() {

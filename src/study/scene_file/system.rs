@@ -68,7 +68,11 @@ impl<'de> Deserialize<'de> for SystemKeys {
                 f.write_str("a table, e.g. { file = \"system.xml\" }, or the word \"ranked\"")
             }
             fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<SystemKeys, E> {
-                if word == RANKED { Ok(SystemKeys::Ranked) } else { Err(E::invalid_value(Unexpected::Str(word), &self)) }
+                if word == RANKED {
+                    Ok(SystemKeys::Ranked)
+                } else {
+                    Err(E::invalid_value(Unexpected::Str(word), &self))
+                }
             }
             fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<SystemKeys, A::Error> {
                 let typed = SystemAsTyped::deserialize(MapAccessDeserializer::new(map))?;

@@ -135,7 +135,9 @@ mod tests {
         let at = |key| number(&metrics, key);
         assert_eq!((at("DA300"), at("glare.Ev_1.share_above_0.40")), (Some(0.75), Some(0.125)));
         assert_eq!(at("EN17037.minimum.met_by_point"), Some(1.0));
-        for wrong in ["", "DA", "DA3000", "DA300.", "glare", "glare.Ev_1", "glare.Ev_1.share_above_0", "name", "none", "."] {
+        for wrong in
+            ["", "DA", "DA3000", "DA300.", "glare", "glare.Ev_1", "glare.Ev_1.share_above_0", "name", "none", "."]
+        {
             assert_eq!(at(wrong), None, "{wrong}");
         }
         let keys = keys(&metrics);
@@ -145,7 +147,11 @@ mod tests {
 
     #[test]
     fn errors_are_the_larger_distance() {
-        let found = errors(&json!({"a": 2.0, "b": [1.0], "c": true}), &json!({"a": 1.5, "b": [1.5]}), &json!({"a": 2.25, "b": [1.0]}));
+        let found = errors(
+            &json!({"a": 2.0, "b": [1.0], "c": true}),
+            &json!({"a": 1.5, "b": [1.5]}),
+            &json!({"a": 2.25, "b": [1.0]}),
+        );
         assert_eq!(found, Some(json!({"a": 0.5, "b": [0.5]})));
     }
 }
