@@ -63,7 +63,8 @@ pub fn of_year(time: DateTime) -> f64 {
 /// # Errors
 /// With the line: a row without time or state, times that do not rise.
 pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
-    let text = utf8(not_too_long(bytes)?)?;
+    // Lines of other systems are counted like ours.
+    let text = utf8(not_too_long(bytes)?)?.replace("\r\n", "\n");
     let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
     let header = reader.headers().map_err(|_| StateTableError::Header)?;
     let column = |name: &str| header.iter().position(|field| field == name).ok_or(StateTableError::Header);

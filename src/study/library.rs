@@ -7,7 +7,7 @@ use super::error::StudyError;
 use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
 use super::scene_file::{FamilyState, SystemKeys};
-use super::system::{Need, System, SystemLibrary, VerySystem, ideal, ranked};
+use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, Query};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
@@ -165,7 +165,7 @@ impl SystemLibrary for Library {
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
         match keys {
             SystemKeys::Ideal { kind, transmittance } => ideal(*kind, *transmittance),
-            SystemKeys::Ranked => Err(ranked("system")),
+            SystemKeys::Ranked => Err(StudyError::ranked("system")),
             SystemKeys::Luminaires { index, .. } => Err(StudyError::key(
                 "system.luminaires",
                 format!("{}: luminaire files hold no dataset", index.display()),
@@ -209,7 +209,7 @@ impl SystemLibrary for Library {
                 let states = described.states(self)?;
                 Ok(Device::described(&described.file, &described.text, states))
             }
-            SystemKeys::Ranked => Err(ranked("system")),
+            SystemKeys::Ranked => Err(StudyError::ranked("system")),
             SystemKeys::File { .. } | SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => Err(StudyError::key(
                 "system.state",
                 "\"controlled\" needs a product, a description or a family of files",

@@ -86,11 +86,6 @@ pub trait SystemLibrary: Sync {
     }
 }
 
-/// Why a place for every product of a ranking is none in itself.
-pub fn ranked(key: &str) -> StudyError {
-    StudyError::key(key, "\"ranked\" stands for every product in turn: use `cfs rank`, or name one product here")
-}
-
 /// An ideal system.
 pub fn ideal(kind: IdealKind, transmittance: f64) -> Result<Arc<System>, StudyError> {
     if !(0.0..=1.0).contains(&transmittance) {

@@ -1,6 +1,8 @@
 //! `cfs rank`: lists of products in a year, pieces of them merged, reasons that add up, refusals.
 
 use crate::program::cfs;
+use cfs::catalogue::{Catalogue, NewProduct};
+use cfs::compute::btdf::{Btdf, Dataset};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -93,7 +95,7 @@ best = 0.0
 "#;
 
 /// A folder with a scene, four days of weather, and a catalogue with three products of one state, one of two, and one that
-/// transmits nothing that is known.
+/// cannot follow the scene's rule.
 fn prepared() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
@@ -106,9 +108,15 @@ fn prepared() -> tempfile::TempDir {
     std::fs::write(path.join("slats_0.xml"), sheet("Rankling blind 0", 0.2)).unwrap();
     std::fs::write(path.join("slats_60.xml"), sheet("Rankling blind 60", 0.02)).unwrap();
     done(path, &["catalogue", "import", "slats_0.xml", "slats_60.xml", "--name", "Rankling blind"]);
-    let blocked = sheet("Rankling back", 0.1).replace("Transmission Front", "Reflection Front");
-    std::fs::write(path.join("y.xml"), blocked).unwrap();
-    done(path, &["catalogue", "import", "y.xml", "--name", "Rankling back"]);
+    // Its states have no numbers, which the scene's rule needs.
+    let state = |state: &str, tau| {
+        let mut dataset = Dataset { name: "glass".to_owned(), state: state.to_owned(), ..Dataset::default() };
+        dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(tau));
+        dataset
+    };
+    let new = NewProduct { name: "Rankling glass".to_owned(), ..NewProduct::default() };
+    let mut catalogue = Catalogue::open(&path.join("catalogue.cfsdb")).unwrap();
+    catalogue.import(&[state("clear", 0.5), state("dark", 0.1)], new).unwrap();
     folder
 }
 
@@ -150,7 +158,7 @@ fn shards_merged_in_any_order_are_the_run_in_one() {
     assert_eq!(rows.len(), 10);
     let out: Vec<&csv::StringRecord> = rows.iter().filter(|row| !row[14].is_empty()).collect();
     assert!(
-        out.len() == 2 && out.iter().all(|row| row[14].contains("no transmission data") && row[4].is_empty()),
+        out.len() == 2 && out.iter().all(|row| row[14].contains("states without numbers") && row[4].is_empty()),
         "{out:?}"
     );
     assert!(rows.iter().filter(|row| row[14].is_empty()).all(|row| row[15].contains("the mean")), "{rows:?}");
@@ -311,7 +319,7 @@ fn rankings_that_cannot_be_are_refused_in_one_line() {
         let error = refused(folder, &["rank", "wrong.toml", "--out", "x.csv"]);
         assert!(error.contains("wrong.toml") && error.contains(words), "{words}: {error}");
     }
-    for command in [["room", "scene.toml"], ["year", "scene.toml"], ["control", "scene.toml"], ["lid", "scene.toml"]] {
+    for command in [["room", "scene.toml"], ["year", "scene.toml"], ["control", "scene.toml"], ["compare", "scene.toml"]] {
         let error = refused(folder, &command);
         assert!(error.contains("aperture[1].system") && error.contains("use `cfs rank`"), "{command:?}: {error}");
     }

@@ -26,7 +26,6 @@ use crate::study::scene_file::{DstKey, IlluminanceKey, SceneFile, SurfaceKey, Sy
 use crate::study::sky::{CLEANEST, HAZIEST, HIGHEST, LOWEST};
 use crate::study::skyline::skyline as by_bearing;
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
-use crate::study::system::ranked;
 use jiff::ToSpan;
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
@@ -136,7 +135,7 @@ pub fn moving(
     let mut list = Vec::new();
     for (index, aperture) in file.aperture.iter().enumerate() {
         if aperture.system == SystemKeys::Ranked {
-            return Err(ranked(&format!("aperture[{}].system", index + 1)));
+            return Err(StudyError::ranked(format!("aperture[{}].system", index + 1)));
         }
         let (SystemKeys::Catalogue { state: Some(word), .. }
         | SystemKeys::File { state: Some(word), .. }
