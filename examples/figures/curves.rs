@@ -54,6 +54,7 @@ fn characteristic(name: &'static str, rule: Rule, [low, high]: [i32; 2]) -> Opti
         let sun = SunAt { centre, span: [centre - SUN_HALF_ANGLE, centre + SUN_HALF_ANGLE] };
         let inputs = Inputs {
             hour: 12.0,
+            of_year: None,
             day: true,
             sun: Some(sun),
             facade_direct: 50_000.0,

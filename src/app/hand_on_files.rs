@@ -85,7 +85,7 @@ impl Order {
             ReportKind::Sheet => sheet_pages(&Sheet { subject: &subject, tender: &choices.tender, inks: self.inks() })?,
             ReportKind::Study => {
                 let scene = &self.question.scene;
-                let asked = SceneFile { year: None, compare: Vec::new(), ..scene.clone() };
+                let asked = SceneFile { year: None, rank: None, compare: Vec::new(), ..scene.clone() };
                 let scene = if choices.comparison { scene } else { &asked };
                 let wanted = Wanted { lid: true, room: true, control: self.compared.0 == TileKind::Control };
                 let comparison = Comparison::of(scene, self.compared, |scene, name| {

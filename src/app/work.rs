@@ -28,6 +28,7 @@ use crate::study::StudyError;
 use crate::study::accuracy::Accuracy;
 use crate::study::comparison::DataFacts;
 use crate::study::control::ControlQuestion;
+use crate::study::control::table::of_scene;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene::seen_by_first_aperture;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -212,7 +213,7 @@ pub(super) fn take_from_shelf(
             surface: surface_of(scene, aperture),
         };
         let hour = super::moment::of(scene).map(|time| f64::from(time.hour()) + f64::from(time.minute()) / 60.0);
-        let asked = ControlQuestion { keys, base, hour, facing };
+        let asked = ControlQuestion { keys, base, hour, of_year: of_scene(scene), facing };
         shelf.controlled_state(&selection.product, &asked)?
     } else if selection.state.is_empty() {
         product.states.get(product.representative().1).map(|state| state.key.clone()).unwrap_or_default()

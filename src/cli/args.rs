@@ -3,7 +3,7 @@
 use super::{
     accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, compare::CompareArgs, control::ControlArgs,
     convert::ConvertArgs, goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, picture::PictureArgs,
-    repair::RepairArgs, report::ReportArgs, room::RoomArgs, sky::SkyArgs, year::YearArgs,
+    rank::RankArgs, repair::RepairArgs, report::ReportArgs, room::RoomArgs, sky::SkyArgs, year::YearArgs,
 };
 use crate::compute::limits;
 use clap::CommandFactory as _;
@@ -25,6 +25,7 @@ Examples:
   cfs report office.toml --out office.pdf                    a study, or a product sheet, as PDF
   cfs control blind.toml --out year.csv a year of states of controlled systems
   cfs year office.toml --out hours.csv --json                a year of weather, hour by hour
+  cfs rank rank.toml --out rank.csv     which product for this façade, with errors and reasons
   cfs sky office.toml                   luminances of the 145 sky patches
   cfs repair blind.xml --repair transpose --out mended.xml   what cfs info offers
   cfs convert blind.xml copy.xml        between dataset formats
@@ -159,6 +160,8 @@ pub enum Command {
     Control(ControlArgs),
     /// A year of weather in a room, hour by hour, and what it comes to
     Year(YearArgs),
+    /// Products of the catalogue in a scene's year, put in order by its objectives
+    Rank(RankArgs),
     /// What a dataset file is
     Info(InfoArgs),
     /// A dataset mended as its findings offer

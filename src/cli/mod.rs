@@ -29,6 +29,10 @@ mod output;
 pub mod packages;
 pub mod picture;
 mod progress;
+pub mod rank;
+mod rank_csv;
+mod rank_json;
+mod rank_merge;
 pub mod repair;
 pub mod report;
 pub mod room;
@@ -69,6 +73,7 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Goniophotometer(args) => goniophotometer::run(args, &library),
         Command::Control(args) => control::run(args, &library),
         Command::Year(args) => year::run(args, &library),
+        Command::Rank(args) => rank::run(args, &library),
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Compact(args) => compact::run(args),

@@ -29,6 +29,7 @@
 //! - `sunlight`: hours of sun on an opening, the view out of it
 //! - `control`: which state a moving system takes
 //! - `year`: what the illuminances of a year come to
+//! - `rank`: which of many is best, as far as figures with errors tell
 //!
 //! # Symbols
 //!
@@ -61,6 +62,7 @@ pub mod limits;
 pub mod polygon;
 pub mod profile_angle;
 pub mod quadrature;
+pub mod rank;
 pub mod room;
 pub mod scaling;
 pub mod sequence;

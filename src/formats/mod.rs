@@ -23,6 +23,7 @@ pub mod luminaire;
 pub mod luminaire_index;
 pub mod package;
 pub mod scan;
+pub mod state_table;
 pub mod system_toml;
 pub mod toml_place;
 pub mod weather;

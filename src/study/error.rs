@@ -67,6 +67,11 @@ impl From<TooManyPatches> for StudyError {
 }
 
 impl StudyError {
+    /// Why a place for every product of a ranking is no system.
+    pub fn ranked(key: impl Into<String>) -> Self {
+        Self::key(key, "\"ranked\" stands for every product in turn: use `cfs rank`, or name one product here")
+    }
+
     /// A wrong key.
     pub fn key(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self::Key { key: key.into(), message: message.into() }

@@ -61,6 +61,7 @@ pub fn first_scene() -> SceneFile {
         control: None,
         compute: ComputeKeys::default(),
         year: None,
+        rank: None,
         compare: Vec::new(),
     }
 }

@@ -8,7 +8,7 @@ use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
 use super::scene_file::{FamilyState, SystemKeys};
 use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
-use crate::catalogue::{Catalogue, CatalogueError, Product};
+use crate::catalogue::{Catalogue, CatalogueError, Product, Query};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
@@ -59,6 +59,18 @@ impl Library {
         let answer = ask(&mut catalogue).map_err(told);
         *open = Some(catalogue);
         answer
+    }
+
+    /// Products by words as in the window's search, none: all; and words that no product has, with what they were read as.
+    ///
+    /// # Errors
+    /// Of the catalogue.
+    pub fn search(&self, words: &str) -> Result<(Vec<Product>, Vec<(String, String)>), StudyError> {
+        self.in_catalogue(|catalogue| {
+            let found = catalogue.find(&Query { text: words.to_owned(), ..Query::default() })?;
+            let products = found.entries.iter().map(|row| catalogue.product(&row.key)).collect::<Result<_, _>>()?;
+            Ok((products, found.read_as))
+        })
     }
 
     /// Computes the state of a built-in product that is asked for before the catalogue holds its data, and keeps them.
@@ -153,6 +165,7 @@ impl SystemLibrary for Library {
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
         match keys {
             SystemKeys::Ideal { kind, transmittance } => ideal(*kind, *transmittance),
+            SystemKeys::Ranked => Err(StudyError::ranked("system")),
             SystemKeys::Luminaires { index, .. } => Err(StudyError::key(
                 "system.luminaires",
                 format!("{}: luminaire files hold no dataset", index.display()),
@@ -196,6 +209,7 @@ impl SystemLibrary for Library {
                 let states = described.states(self)?;
                 Ok(Device::described(&described.file, &described.text, states))
             }
+            SystemKeys::Ranked => Err(StudyError::ranked("system")),
             SystemKeys::File { .. } | SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => Err(StudyError::key(
                 "system.state",
                 "\"controlled\" needs a product, a description or a family of files",

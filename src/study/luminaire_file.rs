@@ -2,7 +2,7 @@
 //! header that says which scene, sky and product the light belongs to.
 
 use super::moment;
-use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys, TimeKey};
+use super::scene_file::{IdealKind, RANKED, SceneFile, SkyModelKey, SystemKeys, TimeKey};
 use super::sky::{Source, illuminances};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::Lid;
@@ -120,6 +120,7 @@ pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str
             let files = states.iter().map(|one| one.file.file_name().unwrap_or_default().to_string_lossy());
             with_state(format!("files {}", files.collect::<Vec<_>>().join(", ")), state.as_deref())
         }
+        SystemKeys::Ranked => RANKED.to_owned(),
         SystemKeys::Luminaires { index, set } => {
             let name = index.file_name().unwrap_or_default().to_string_lossy();
             set.as_ref().map_or_else(|| format!("files of {name}"), |set| format!("files of {name}, {set}"))

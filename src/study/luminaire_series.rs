@@ -58,7 +58,7 @@ impl Series {
                     | SystemKeys::Family { state: key, .. } => {
                         *key = Some(state.clone());
                     }
-                    SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {
+                    SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } | SystemKeys::Ranked => {
                         let place = format!("aperture[{}].system", aperture + 1);
                         return Err(StudyError::key(
                             place,

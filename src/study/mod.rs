@@ -39,6 +39,8 @@ mod part;
 pub mod places;
 pub mod plan;
 pub mod product_control;
+pub mod rank;
+pub mod rank_keys;
 pub mod scene;
 pub mod scene_file;
 mod scene_places;

@@ -21,7 +21,7 @@ const DAY_STEP: u32 = 30;
 
 /// What is to be said of the year of a control in a scene: it goes by the sun's place, and boxes outside do not hide it.
 pub fn remark(scene: &SceneFile, mode: ControlMode) -> Option<Text> {
-    let by_sun = !matches!(mode, ControlMode::Fixed | ControlMode::User);
+    let by_sun = !matches!(mode, ControlMode::Fixed | ControlMode::User | ControlMode::Table);
     (by_sun && !scene.outside.is_empty()).then_some(texts::BOXES_UNSEEN)
 }
 
@@ -48,6 +48,7 @@ pub fn words(mode: ControlMode) -> Words {
         ControlMode::RetroReflect => [RETRO, RETRO_DOES, RETRO_ORDER, RETRO_TIP],
         ControlMode::Redirect => [REDIRECT, REDIRECT_DOES, REDIRECT_ORDER, REDIRECT_TIP],
         ControlMode::User => [USER, USER_DOES, USER_DOES, USER_TIP],
+        ControlMode::Table => [TABLE, TABLE_DOES, TABLE_DOES, TABLE_TIP],
     }
     .map(Text::get);
     Words { short, does, order, tip }

@@ -1,5 +1,6 @@
 //! The scene as it is meant: keys judged together, systems loaded, everything in the units and frames of `compute`.
 
+use super::control::table::of_scene;
 use super::control::year::CONTROLLED;
 use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
@@ -155,13 +156,13 @@ impl Scene {
         let corners: Vec<DVec3> = geometry.iter().flat_map(Aperture::corners).collect();
         let outside = behind_boxes(outside, sun.as_ref(), &solids, &room, orientation, &corners, progress)?;
         let (sensors, grid) = sensors(&file.sensors, &room)?;
-        let hour = hour(file)?;
+        let (hour, of_year) = (hour(file)?, of_scene(file));
         let mut list = Vec::with_capacity(geometry.len());
         let beams = file.compute.beam == BeamMode::Auto && file.compute.interpolation == Interpolation::Auto;
         for (index, (keys, aperture)) in file.aperture.iter().zip(geometry).enumerate() {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
             let rule = keys.control.as_ref().or(file.control.as_ref());
-            let asked = rule.map(|keys| ControlQuestion { keys, base, hour, facing });
+            let asked = rule.map(|keys| ControlQuestion { keys, base, hour, of_year, facing });
             let wanted = controlled_state(keys, asked.as_ref(), library).map_err(|error| match &error {
                 // The scene's own section has its place in the file already.
                 StudyError::Key { key, .. } if key.starts_with("control.") && keys.control.is_none() => error,
@@ -373,6 +374,6 @@ fn wanted_state(keys: &SystemKeys) -> Option<String> {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
             state.clone()
         }
-        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => None,
+        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } | SystemKeys::Ranked => None,
     }
 }

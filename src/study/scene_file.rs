@@ -11,9 +11,10 @@ pub(super) mod units;
 
 pub use self::dst::DstKey;
 pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
-pub use self::system::{FamilyState, IdealKind, SystemKeys};
+pub use self::system::{FamilyState, IdealKind, RANKED, SystemKeys};
 pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;
+pub use super::rank_keys::{BetterKey, ObjectiveKeys, RankControlKey, RankKeys};
 pub use super::weather_keys::{LightKey, OffsetKey};
 pub use super::year_keys::YearKeys;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
@@ -47,6 +48,9 @@ pub struct SceneFile {
     /// A year of weather, and what is asked of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub year: Option<YearKeys>,
+    /// What is ranked in it, and by what.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rank: Option<RankKeys>,
     /// What is set beside each other: the tray of the window, the columns of `cfs compare`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<CompareKeys>,

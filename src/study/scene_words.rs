@@ -2,7 +2,7 @@
 
 use super::moment;
 use super::places::city_at;
-use super::scene_file::{IdealKind, SceneFile, SkyModelKey, SystemKeys};
+use super::scene_file::{IdealKind, RANKED, SceneFile, SkyModelKey, SystemKeys};
 use crate::compute::estimate::{Estimate, largest_relative_error};
 use crate::drawing::ticks::number;
 use crate::texts::{fixed, words as texts};
@@ -65,6 +65,7 @@ pub fn system(keys: &SystemKeys) -> String {
             with_state(format!("{first} …"), state)
         }
         SystemKeys::Luminaires { index, set } => with_state(index.display().to_string(), set),
+        SystemKeys::Ranked => RANKED.to_owned(),
         SystemKeys::Ideal { kind: IdealKind::Transparent, .. } => texts::IDEAL_TRANSPARENT.into(),
         SystemKeys::Ideal { kind: IdealKind::Diffuse, .. } => texts::IDEAL_DIFFUSE.into(),
     }

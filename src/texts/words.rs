@@ -91,6 +91,9 @@ texts! {
     const USER = "User" | "Nutzer";
     const USER_DOES = "by the user's clock" | "nach der Uhr des Nutzers";
     const USER_TIP = "A state by hours of the day; the hours are set in the scene file" | "Eine Stellung nach Tagesstunden; die Stunden stehen in der Szenendatei";
+    const TABLE = "Table" | "Tabelle";
+    const TABLE_DOES = "by a table" | "nach einer Tabelle";
+    const TABLE_TIP = "States given from elsewhere, row by row in time; the file is named in the scene file" | "Stellungen von anderswo, Zeile für Zeile in der Zeit; die Datei steht in der Szenendatei";
     const SLAT_ANGLE = "slat angle / °" | "Lamelle / °";
     const STATE_ANGLE = "state / °" | "Stellung / °";
     const STATE = "state" | "Stellung";

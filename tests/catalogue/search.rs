@@ -236,6 +236,7 @@ fn picked(device: &Device, mode: ControlMode) -> usize {
     let psi = TYPICAL_SUN.to_radians();
     let inputs = Inputs {
         hour: 12.0,
+        of_year: None,
         day: true,
         sun: Some(SunAt { centre: psi, span: [psi, psi] }),
         facade_direct: 50_000.0,

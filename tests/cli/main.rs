@@ -13,6 +13,7 @@ mod fault_cli;
 mod goniophotometer_cli;
 mod keeping_cli;
 mod program;
+mod rank_cli;
 mod report_cli;
 #[path = "../scenes/rooms.rs"]
 mod rooms;

@@ -49,6 +49,9 @@ pub enum Rule {
     Fixed(usize),
     /// By the clock; between the periods the state that is given first.
     User(usize, Vec<Period>),
+    /// Rows of a table: (seconds since the beginning of the year, index of the state), rising; each holds until the next,
+    /// the last to the end of the year.
+    Table(Vec<(f64, usize)>),
 }
 
 /// Everything that a controller is set to.
@@ -113,7 +116,7 @@ impl Settings {
             Rule::Curve(points, _) => points.clone(),
             Rule::RetroReflect(_) => sampled(&|psi| Some(retro_tilt(psi))),
             Rule::Redirect(elevation, _) => sampled(&|psi| Some(redirecting_tilt(psi, *elevation))),
-            Rule::Din5034 | Rule::Fixed(_) | Rule::User(..) => Vec::new(),
+            Rule::Din5034 | Rule::Fixed(_) | Rule::User(..) | Rule::Table(_) => Vec::new(),
         }
     }
 
@@ -128,6 +131,8 @@ impl Settings {
 pub struct Inputs {
     /// Hour of the day, local. \[h\]
     pub hour: f64,
+    /// Seconds since the beginning of the year, local standard time, in a calendar of 366 days; `None` without a date. \[s\]
+    pub of_year: Option<f64>,
     /// Is any of the sun above the horizon?
     pub day: bool,
     /// Profile angle of the sun's centre, and of the least and greatest of its visible disc; `None` while nothing of it is
@@ -277,6 +282,13 @@ impl Controller {
                 };
                 return plain(periods.iter().find(holds).map_or(*otherwise, |p| p.state), Reason::Schedule);
             }
+            Rule::Table(rows) => {
+                let now = inputs.of_year.unwrap_or(f64::NEG_INFINITY);
+                let begun = rows.partition_point(|(from, _)| *from <= now);
+                // Before the table begins, and without a date, its first row is the nearest.
+                let row = rows.get(begun.saturating_sub(1));
+                return plain(row.map_or(0, |(_, state)| *state), Reason::Schedule);
+            }
             _ => {}
         }
         if !inputs.day {
@@ -326,6 +338,7 @@ impl Controller {
             }
             Rule::Din5034 => (None, Some(s.closed)),
             Rule::Fixed(state) | Rule::User(state, _) => (None, Some(*state)),
+            Rule::Table(_) => (None, None),
         };
         (demanded, state.unwrap_or(s.closed))
     }

@@ -22,7 +22,7 @@ pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
     }
     if let Some(system) = system {
         scene.control.clone_from(control);
-        let from_catalogue = |one: &SystemKeys| matches!(one, SystemKeys::Catalogue { .. });
+        let from_catalogue = |one: &SystemKeys| matches!(one, SystemKeys::Catalogue { .. } | SystemKeys::Ranked);
         let any = scene.aperture.iter().any(|one| from_catalogue(&one.system));
         for (index, one) in scene.aperture.iter_mut().enumerate() {
             one.control = None;
@@ -36,7 +36,7 @@ pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
 
 /// Do two scenes ask for the same light? What is compared does not count.
 pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
-    let SceneFile { room, aperture, outside, site, sky, sensors, control, compute, year: _, compare: _ } = a;
+    let SceneFile { room, aperture, outside, site, sky, sensors, control, compute, year: _, rank: _, compare: _ } = a;
     (room, site, compute) == (&b.room, &b.site, &b.compute)
         && (aperture, outside, sky) == (&b.aperture, &b.outside, &b.sky)
         && (sensors, control) == (&b.sensors, &b.control)

@@ -8,10 +8,12 @@
 //!                           # "retro-reflect": mirror slats across the beam, 90° − ψ
 //!                           # "redirect": mirror slats that send the sun in at `elevation`, (elevation − ψ)/2
 //!                           # "fixed": `state`, or the product's first;  "user": by `schedule`, else `state`
+//!                           # "table": states given from elsewhere, `file`
 //! state = "45"                                                    # fixed, user
 //! schedule = [{ from = "08:00", to = "18:00", state = "45" }]     # user
 //! curve = [[0.0, 64.0], [30.0, 25.0], [60.0, 0.0]]                # curve: (profile angle °, value of the state)
 //! curve_file = "retro.csv"                                        # curve: columns profile_angle_deg, value_deg
+//! file = "states.csv"                                             # table: columns time,state; held until the next row
 //! rounding = "closed"       # or "nearest" (the default of redirect); not for cut-off
 //! elevation = 30.0          # redirect \[°\]
 //! slats = { width = 0.080, spacing = 0.072, rise = 0.0 }          # cut-off: where the product does not say
@@ -51,10 +53,12 @@ pub enum ControlMode {
     Fixed,
     /// By the clock.
     User,
+    /// States given from elsewhere, row by row in time.
+    Table,
 }
 
 impl ControlMode {
-    /// All, as scene files order them.
+    /// All that can be chosen without a file, as scene files order them.
     pub const ALL: [Self; 7] =
         [Self::CutOff, Self::Din5034, Self::Curve, Self::RetroReflect, Self::Redirect, Self::Fixed, Self::User];
 
@@ -68,6 +72,7 @@ impl ControlMode {
             Self::Redirect => "redirect",
             Self::Fixed => "fixed",
             Self::User => "user",
+            Self::Table => "table",
         }
     }
 }
@@ -132,6 +137,9 @@ pub struct ControlKeys {
     /// Curve: a file, relative to the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve_file: Option<PathBuf>,
+    /// Table: times and states, relative to the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
     /// Cut-off: may be missed by. \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -183,6 +191,7 @@ impl ControlKeys {
             rounding: None,
             curve: Vec::new(),
             curve_file: None,
+            file: None,
             tolerance: None,
             threshold: None,
             close_above: None,
@@ -210,6 +219,7 @@ impl ControlKeys {
             rounding: self.rounding.filter(|_| keep(&CURVES)),
             curve: if curve { self.curve.clone() } else { Vec::new() },
             curve_file: self.curve_file.clone().filter(|_| curve),
+            file: self.file.clone().filter(|_| keep(&[ControlMode::Table])),
             tolerance: self.tolerance.filter(|_| keep(&[ControlMode::CutOff])),
             schedule: if keep(&[ControlMode::User]) { self.schedule.clone() } else { Vec::new() },
             ..self.clone()
@@ -218,7 +228,7 @@ impl ControlKeys {
 
     /// The first key that another mode would take, with that mode's word.
     pub fn misplaced(&self) -> Option<(&'static str, &'static str)> {
-        use ControlMode::{Curve, CutOff, Fixed, Redirect, User};
+        use ControlMode::{Curve, CutOff, Fixed, Redirect, Table, User};
         let only = |key, given: bool, modes: &[ControlMode], word| {
             (given && !modes.contains(&self.mode)).then_some((key, word))
         };
@@ -226,6 +236,7 @@ impl ControlKeys {
             .or_else(|| only("schedule", !self.schedule.is_empty(), &[User], "\"user\""))
             .or_else(|| only("curve", !self.curve.is_empty(), &[Curve], "\"curve\""))
             .or_else(|| only("curve_file", self.curve_file.is_some(), &[Curve], "\"curve\""))
+            .or_else(|| only("file", self.file.is_some(), &[Table], "\"table\""))
             .or_else(|| only("elevation", self.elevation.is_some(), &[Redirect], "\"redirect\""))
             .or_else(|| only("tolerance", self.tolerance.is_some(), &[CutOff], "\"cut-off\""))
             .or_else(|| {
@@ -243,7 +254,7 @@ mod tests {
 
     #[test]
     fn words_are_those_of_the_file() {
-        for mode in ControlMode::ALL {
+        for mode in ControlMode::ALL.into_iter().chain([ControlMode::Table]) {
             let keys: ControlKeys = toml::from_str(&format!("mode = \"{}\"", mode.word())).unwrap();
             assert_eq!(keys, ControlKeys::of(mode));
             assert_eq!(toml::from_str::<ControlKeys>(&toml::to_string(&keys).unwrap()).unwrap(), keys);
@@ -264,7 +275,7 @@ mod tests {
             ..ControlKeys::of(ControlMode::CutOff)
         };
         assert!(full.misplaced().is_some());
-        for mode in ControlMode::ALL {
+        for mode in ControlMode::ALL.into_iter().chain([ControlMode::Table]) {
             let keys = full.with_mode(mode);
             assert_eq!((keys.misplaced(), keys.dwell), (None, Some(5.0)), "{mode:?}");
         }

@@ -3,6 +3,7 @@
 
 pub mod device;
 pub mod keys;
+pub mod table;
 pub mod year;
 
 pub use device::Device;
@@ -32,6 +33,8 @@ pub struct ControlQuestion<'a> {
     pub base: &'a Path,
     /// Hour of the day; `None` where the scene has no clock.
     pub hour: Option<f64>,
+    /// Seconds since the beginning of the year, see [`table::of_scene`].
+    pub of_year: Option<f64>,
     /// The aperture's outside.
     pub facing: Facing<'a>,
 }
@@ -45,18 +48,22 @@ pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String
     if matches!(&settings.rule, Rule::User(_, periods) if !periods.is_empty()) && asked.hour.is_none() {
         return Err(StudyError::key("control.schedule", "needs sky.time: with sun angles alone there is no clock"));
     }
+    table::begun(&settings.rule, asked.of_year)?;
     let inputs = inputs(&asked.facing, asked.hour.unwrap_or(0.0), asked.keys.indoor, settings.close_above.is_some());
+    let inputs = Inputs { of_year: asked.of_year, ..inputs };
     let state = Controller::new(settings).step(0.0, &inputs).state;
     Ok(device.keys[state].clone())
 }
 
-/// What the façade's and the room's sensors see of a moment. `global`: with sky and ground, which takes an integral.
+/// What the façade's and the room's sensors see of a moment, which has no date yet. `global`: with sky and ground, which takes
+/// an integral.
 pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool) -> Inputs {
     let direct = facing.sun_illuminance();
     let normal = facing.surface.room_dir(Dir::from_unit(DVec3::Z));
     let normal = facing.orientation.world_from_room(normal);
     Inputs {
         hour,
+        of_year: None,
         day: facing.sun.is_some() || facing.outside.diffuse_horizontal() > 0.0,
         sun: sun_at(facing).filter(|_| direct > 0.0),
         facade_direct: direct,
@@ -86,7 +93,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
         return Err(StudyError::key(format!("control.{key}"), format!("belongs to mode = {modes}: leave it out")));
     }
     let unmoved = || Settings::new(vec![0.0; device.keys.len()], Rule::Fixed(0));
-    let by_name = matches!(keys.mode, ControlMode::Fixed | ControlMode::User);
+    let by_name = matches!(keys.mode, ControlMode::Fixed | ControlMode::User | ControlMode::Table);
     let values = match &device.values {
         Some(values) => values.iter().map(|value| value.to_radians()).collect(),
         // Rules that name states never look at the numbers: any will do that tell the states apart.
@@ -185,6 +192,7 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
             // Between the periods: the state that is named, else the product's first.
             Rule::User(named()?, periods)
         }
+        ControlMode::Table => Rule::Table(table::read(keys.file.as_deref(), device, base)?),
     })
 }
 

@@ -8,6 +8,7 @@
 
 use super::device::section_from_keys;
 use super::keys::ControlKeys;
+use super::table::begun;
 use super::{Device, inputs, settings};
 use crate::compute::angle::Bearing;
 use crate::compute::control::controller::{Controller, Reason};
@@ -19,6 +20,7 @@ use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
 use crate::compute::surroundings::skyline::Skyline;
+use crate::formats::state_table::of_year;
 use crate::study::error::StudyError;
 use crate::study::scene_file::{DstKey, IlluminanceKey, SceneFile, SurfaceKey, SystemKeys};
 use crate::study::sky::{CLEANEST, HAZIEST, HIGHEST, LOWEST};
@@ -132,6 +134,9 @@ pub fn moving(
 ) -> Result<Vec<Moving>, StudyError> {
     let mut list = Vec::new();
     for (index, aperture) in file.aperture.iter().enumerate() {
+        if aperture.system == SystemKeys::Ranked {
+            return Err(StudyError::ranked(format!("aperture[{}].system", index + 1)));
+        }
         let (SystemKeys::Catalogue { state: Some(word), .. }
         | SystemKeys::File { state: Some(word), .. }
         | SystemKeys::Family { state: Some(word), .. }) = &aperture.system
@@ -345,6 +350,11 @@ impl Stepper<'_> {
                 surface: one.surface,
             };
             let mut inputs = inputs(&facing, hour, one.keys.indoor, false);
+            let at = of_year(time);
+            inputs.of_year = Some(at);
+            if up {
+                begun(&controller.settings().rule, Some(at))?;
+            }
             // An even sky, and the ground below it.
             inputs.facade_global += match one.surface {
                 Surface::Roof => diffuse,

@@ -1,11 +1,15 @@
-//! `aperture.system` as typed: a closed form, a file, a family of files, a product, luminaire files.
+//! `aperture.system` as typed: a closed form, a file, a family of files, a product, luminaire files, or the word "ranked".
 
-use serde::{Deserialize, Serialize};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error as _, Unexpected};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::PathBuf;
 
+/// The word for an aperture that a ranking fills with every product in turn.
+pub const RANKED: &str = "ranked";
+
 /// `aperture.system`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "SystemAsTyped", into = "SystemAsTyped")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum SystemKeys {
     /// `{ ideal = "transparent", transmittance = 1.0 }`
     Ideal {
@@ -42,6 +46,41 @@ pub enum SystemKeys {
         /// Member of a series.
         set: Option<String>,
     },
+    /// `"ranked"`: every product of a ranking in turn.
+    Ranked,
+}
+
+impl Serialize for SystemKeys {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match SystemAsTyped::of(self) {
+            Some(typed) => typed.serialize(serializer),
+            None => serializer.serialize_str(RANKED),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for SystemKeys {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = SystemKeys;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a table, e.g. { file = \"system.xml\" }, or the word \"ranked\"")
+            }
+            fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<SystemKeys, E> {
+                if word == RANKED {
+                    Ok(SystemKeys::Ranked)
+                } else {
+                    Err(E::invalid_value(Unexpected::Str(word), &self))
+                }
+            }
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<SystemKeys, A::Error> {
+                let typed = SystemAsTyped::deserialize(MapAccessDeserializer::new(map))?;
+                SystemKeys::try_from(typed).map_err(A::Error::custom)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
 }
 
 /// One of `aperture.system.states`
@@ -84,13 +123,13 @@ impl TryFrom<SystemAsTyped> for SystemKeys {
     fn try_from(typed: SystemAsTyped) -> Result<Self, String> {
         if let SystemAsTyped { luminaires: Some(index), set, .. } = &typed {
             let keys = Self::Luminaires { index: index.clone(), set: set.clone() };
-            if SystemAsTyped::from(keys.clone()) == typed {
+            if SystemAsTyped::of(&keys).as_ref() == Some(&typed) {
                 return Ok(keys);
             }
         }
         if let SystemAsTyped { states: Some(states), state, .. } = &typed {
             let keys = Self::Family { states: states.clone(), state: state.clone() };
-            if SystemAsTyped::from(keys.clone()) == typed {
+            if SystemAsTyped::of(&keys).as_ref() == Some(&typed) {
                 return family(states).map(|()| keys);
             }
         }
@@ -150,9 +189,10 @@ fn family(states: &[FamilyState]) -> Result<(), String> {
     Ok(())
 }
 
-impl From<SystemKeys> for SystemAsTyped {
-    fn from(keys: SystemKeys) -> Self {
-        match keys {
+impl SystemAsTyped {
+    /// Of a system that is a table.
+    fn of(keys: &SystemKeys) -> Option<Self> {
+        Some(match keys.clone() {
             SystemKeys::Ideal { kind, transmittance } => {
                 Self { ideal: Some(kind), transmittance: Some(transmittance), ..Self::default() }
             }
@@ -160,7 +200,8 @@ impl From<SystemKeys> for SystemAsTyped {
             SystemKeys::Catalogue { key, state } => Self { catalogue: Some(key), state, ..Self::default() },
             SystemKeys::Family { states, state } => Self { states: Some(states), state, ..Self::default() },
             SystemKeys::Luminaires { index, set } => Self { luminaires: Some(index), set, ..Self::default() },
-        }
+            SystemKeys::Ranked => return None,
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, 
 
 /// The scene with the states of its moving apertures fixed, and no year.
 pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
-    let mut scene = SceneFile { year: None, ..file.clone() };
+    let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
     for (one, &state) in moving.iter().zip(states) {
         put_state(&mut scene.aperture[one.aperture - 1].system, &one.device.keys[state]);
     }
@@ -19,7 +19,7 @@ pub fn put_state(system: &mut SystemKeys, key: &str) {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
             *state = Some(key.to_owned());
         }
-        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => {}
+        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } | SystemKeys::Ranked => {}
     }
 }
 

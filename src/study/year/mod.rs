@@ -14,6 +14,7 @@
 //! | `eye_light` | what eyes see of an aperture, ready for any sky |
 //! | `opening` | exposure to sunlight and view out, without light |
 //! | `figures` | what the year comes to, with errors |
+//! | `metrics` | figures by their keys |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
@@ -23,6 +24,7 @@ mod eye_light;
 mod figures;
 mod fixed;
 mod light;
+pub mod metrics;
 mod opening;
 mod settings;
 mod solar;

@@ -2,10 +2,12 @@
 
 use super::steps::Steps;
 use crate::compute::angle::Bearing;
-use crate::compute::control::controller::Controller;
+use crate::compute::control::controller::{Controller, Inputs};
 use crate::compute::direction::Orientation;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::lid::Facing;
+use crate::formats::state_table::of_year;
+use crate::study::control::table::begun;
 use crate::study::control::year::{CONTROLLED, Moving, moving};
 use crate::study::control::{inputs, settings};
 use crate::study::error::StudyError;
@@ -23,7 +25,7 @@ fn moves(file: &SceneFile) -> bool {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
             controlled(state)
         }
-        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } => false,
+        SystemKeys::Ideal { .. } | SystemKeys::Luminaires { .. } | SystemKeys::Ranked => false,
     })
 }
 
@@ -80,7 +82,11 @@ pub(super) fn states(
         for ((one, controller), moved) in moving.iter().zip(&mut controllers).zip(&mut movements) {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: one.surface };
             let global = controller.settings().close_above.is_some();
-            let inputs = inputs(&facing, step.clock, one.keys.indoor, global);
+            let at = Some(of_year(step.time));
+            if step.hour.is_lit() {
+                begun(&controller.settings().rule, at)?;
+            }
+            let inputs = Inputs { of_year: at, ..inputs(&facing, step.clock, one.keys.indoor, global) };
             let decision = controller.step(3600.0 * steps.length * k as f64, &inputs);
             *moved += usize::from(decision.moved);
             states.push(decision.state);

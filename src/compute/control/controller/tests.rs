@@ -16,6 +16,7 @@ fn sun(psi: f64) -> Inputs {
     let span = [centre - 0.00465, centre + 0.00465];
     Inputs {
         hour: 12.0,
+        of_year: None,
         day: true,
         sun: Some(SunAt { centre, span }),
         facade_direct: 50_000.0,
@@ -156,4 +157,13 @@ fn mirror_slats_follow_the_sun_both_ways() {
     let first = controller.step(0.0, &sun(50.0)).state;
     assert_eq!(controller.step(1.0, &sun(56.0)).state, first);
     assert_ne!(controller.step(2.0, &sun(58.0)).state, first);
+}
+
+#[test]
+fn a_row_of_a_table_holds_until_the_next() {
+    let rule = Rule::Table(vec![(100.0, 2), (200.0, 0), (300.0, 1)]);
+    let mut controller = Controller::new(Settings::new(degrees([0, 45, 75]), rule).unwrap());
+    let mut at = |of_year: f64| controller.step(0.0, &Inputs { of_year: Some(of_year), ..sun(30.0) });
+    assert_eq!([50.0, 100.0, 199.0, 200.0, 299.0, 300.0, 1e9].map(|time| at(time).state), [2, 2, 2, 0, 0, 1, 1]);
+    assert_eq!(at(400.0).reason, Reason::Schedule);
 }

@@ -1,0 +1,211 @@
+//! Tables of rankings: whole ones, and pieces with all that is needed to put them together again.
+//!
+//! A piece has the columns of a whole table, but without ranks and reasons, which others decide too. Behind them stand `list`
+//! (place among all lists), `objectives`, of every figure its `_parts`, `key` (a hash of all that the row was made from), and a
+//! last column without values, whose name says which piece it is, of which ranking, and how many rows there are.
+
+use super::output::number;
+use crate::compute::rank::{Better, Objective, utility};
+use crate::study::rank::{List, Parts, Row, Shard, why};
+use anyhow::Context as _;
+use std::path::Path;
+
+/// Which piece a table is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Shape {
+    /// n of N.
+    pub shard: Shard,
+    /// Key of the ranking.
+    pub run: String,
+    /// Rows that belong to it.
+    pub rows: usize,
+}
+
+impl Shape {
+    /// As the name of the last column.
+    fn name(&self) -> String {
+        format!("shard {}/{} of {} with {} rows", self.shard.number, self.shard.count, self.run, self.rows)
+    }
+
+    /// Of the name of a column.
+    pub(super) fn read(name: &str) -> Option<Self> {
+        let words: Vec<&str> = name.split(' ').collect();
+        let ["shard", shard, "of", run, "with", rows, "rows"] = words.as_slice() else { return None };
+        Some(Self { shard: Shard::read(shard).ok()?, run: (*run).to_owned(), rows: rows.parse().ok()? })
+    }
+}
+
+/// The piece that a file holds whole; `None` for all other files, and where there is none.
+pub(super) fn shard_of(path: &Path) -> Option<Shape> {
+    let mut reader = csv::Reader::from_path(path).ok()?;
+    let shape = Shape::read(reader.headers().ok()?.iter().next_back()?)?;
+    let rows = reader.records().try_fold(0, |count, record| record.map(|_| count + 1)).ok()?;
+    (rows == shape.rows).then_some(shape)
+}
+
+/// Columns before the figures.
+pub(super) const WHERE: [&str; 4] = ["scene", "climate", "azimuth", "product"];
+/// Columns behind them.
+pub(super) const RESULT: [&str; 8] =
+    ["utility", "utility_error", "rank_first", "rank_last", "front", "approximate", "excluded", "why"];
+/// Between the reasons why figures are approximate.
+pub(super) const BETWEEN: &str = "; ";
+
+fn header(figures: &[String]) -> Vec<String> {
+    let pairs = figures.iter().flat_map(|figure| [figure.clone(), format!("{figure}_error")]);
+    WHERE.map(str::to_owned).into_iter().chain(pairs).chain(RESULT.map(str::to_owned)).collect()
+}
+
+/// All its digits: figures have nine, and come back as they went.
+fn exact(value: f64) -> String {
+    // No sign of nought.
+    format!("{}", value + 0.0)
+}
+
+/// The columns of place and figures; empty ones for figures that are not this list's.
+fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
+    let mut fields = vec![list.scene.clone(), list.climate.clone(), exact(list.azimuth), row.product.clone()];
+    for figure in figures {
+        let own = list.figures.iter().position(|one| one == figure);
+        let found = own.zip(row.outcome.as_ref().ok()).map(|(k, found)| found.figures[k]);
+        fields.push(found.map(|found| exact(found.value)).unwrap_or_default());
+        fields.push(found.map(|found| exact(found.error)).unwrap_or_default());
+    }
+    fields
+}
+
+fn text_of(rows: Vec<Vec<String>>) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.write_record(&row).context("the table")?;
+    }
+    let bytes = writer.into_inner().context("the table")?;
+    String::from_utf8(bytes).context("the table")
+}
+
+/// A whole ranking: lists in their order, best first, those that are left out last.
+pub(super) fn ranked_csv(lists: &[List], figures: &[String]) -> anyhow::Result<String> {
+    let mut table = vec![header(figures)];
+    for list in lists {
+        let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));
+        let names: Vec<_> = ranked.iter().map(|(row, found)| (row.product.as_str(), *found)).collect();
+        for &k in &ranking.order {
+            let ((row, found), one) = (ranked[k], &ranking.list[k]);
+            let mut fields = begin(list, row, figures);
+            fields.extend([number(one.utility.value), number(one.utility.error)]);
+            fields.extend([one.ranks.first.to_string(), one.ranks.last.to_string(), one.place.word().to_owned()]);
+            fields.extend([found.approximate.join(BETWEEN), String::new(), why(list, &ranking.list, &names, k)]);
+            table.push(fields);
+        }
+        table.extend(list.excluded().into_iter().map(|(row, reason)| excluded(begin(list, row, figures), reason)));
+    }
+    text_of(table)
+}
+
+fn excluded(mut fields: Vec<String>, reason: &str) -> Vec<String> {
+    fields.extend(RESULT.map(|name| if name == "excluded" { reason.to_owned() } else { String::new() }));
+    fields
+}
+
+/// A piece of a ranking.
+pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> anyhow::Result<String> {
+    let mut head = header(figures);
+    head.extend(["list".to_owned(), "objectives".to_owned()]);
+    head.extend(figures.iter().map(|figure| format!("{figure}_parts")));
+    head.extend(["key".to_owned(), shape.name()]);
+    let mut table = vec![head];
+    for list in lists {
+        for row in &list.rows {
+            let mut fields = begin(list, row, figures);
+            match &row.outcome {
+                Ok(found) => {
+                    let utility = utility(&list.objectives, &found.figures);
+                    fields.extend([number(utility.value), number(utility.error)]);
+                    fields.extend([const { String::new() }; 3]);
+                    fields.extend([found.approximate.join(BETWEEN), String::new(), String::new()]);
+                }
+                Err(reason) => fields = excluded(fields, reason),
+            }
+            fields.extend([list.number.to_string(), objectives_text(list)]);
+            for figure in figures {
+                let own = list.figures.iter().position(|one| one == figure);
+                let parts = own.zip(row.outcome.as_ref().ok()).map(|(k, found)| parts_text(&found.parts[k]));
+                fields.push(parts.unwrap_or_default());
+            }
+            fields.extend([row.key.clone(), String::new()]);
+            table.push(fields);
+        }
+    }
+    text_of(table)
+}
+
+/// `figure less worst best weight`, one behind the other.
+fn objectives_text(list: &List) -> String {
+    let one = |(figure, one): (&String, &Objective)| {
+        let better = if one.better == Better::Less { "less" } else { "more" };
+        format!("{figure} {better} {} {} {}", one.worst, one.best, one.weight)
+    };
+    list.figures.iter().zip(&list.objectives).map(one).collect::<Vec<_>>().join(BETWEEN)
+}
+
+/// The objectives that [`shard_csv`] wrote.
+pub(super) fn objectives_of(text: &str) -> Option<(Vec<String>, Vec<Objective>)> {
+    let one = |text: &str| {
+        let words: Vec<&str> = text.split(' ').collect();
+        let [figure, better, worst, best, weight] = words.as_slice() else { return None };
+        let better = match *better {
+            "less" => Better::Less,
+            "more" => Better::More,
+            _ => return None,
+        };
+        let [worst, best, weight] = [worst, best, weight].map(|word| word.parse::<f64>().ok());
+        Some(((*figure).to_owned(), Objective { better, worst: worst?, best: best?, weight: weight? }))
+    };
+    Some(text.split(BETWEEN).map(one).collect::<Option<Vec<_>>>()?.into_iter().unzip())
+}
+
+/// Zones, then the parts in their order.
+fn parts_text(parts: &Parts) -> String {
+    if parts.values.is_empty() {
+        return String::new();
+    }
+    let values: Vec<String> = parts.values.iter().map(|part| exact(*part)).collect();
+    format!("{}|{}", parts.zones.join(";"), values.join(" "))
+}
+
+/// The parts that [`shard_csv`] wrote.
+pub(super) fn parts_of(text: &str) -> Option<Parts> {
+    if text.is_empty() {
+        return Some(Parts::default());
+    }
+    let (zones, values) = text.split_once('|')?;
+    let values: Vec<f64> = values.split(' ').map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    Some(Parts { zones: zones.split(';').map(str::to_owned).collect(), values })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_say_which_they_are() {
+        let shape = Shape { shard: Shard { number: 3, count: 8 }, run: "0123".to_owned(), rows: 12 };
+        assert_eq!(Shape::read(&shape.name()), Some(shape));
+        for wrong in ["why", "shard 8/8 of 0123 with 12 rows", "shard 1/8 of 0123 with x rows"] {
+            assert_eq!(Shape::read(wrong), None);
+        }
+    }
+
+    #[test]
+    fn parts_and_numbers_come_back_as_they_went() {
+        let parts = Parts { zones: vec!["whole room".to_owned()], values: vec![0.1, -1.23456789e-12, 0.0, 4e15] };
+        assert_eq!(parts_of(&parts_text(&parts)), Some(parts));
+        assert_eq!(parts_of(""), Some(Parts::default()));
+        assert_eq!((parts_of("a"), parts_of("a|1 x")), (None, None));
+        assert_eq!([exact(-0.0), exact(12.5), exact(1e-9)], ["0", "12.5", "0.000000001"]);
+        let (figures, objectives) = objectives_of("UDI_x less 0.5 0 1; cDA300 more 0.2 0.8 2.5").unwrap();
+        assert_eq!(figures, ["UDI_x", "cDA300"]);
+        assert_eq!((objectives[0].best, objectives[1].weight, objectives[1].better), (0.0, 2.5, Better::More));
+        assert!(objectives_of("").is_none() && objectives_of("a less 1 x 1").is_none());
+    }
+}

@@ -1,0 +1,92 @@
+//! What counts in a ranking: a figure, which way is better, between which anchors, and how much.
+
+use crate::compute::estimate::Estimate;
+
+/// Which way a figure is better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Better {
+    /// The less the better.
+    Less,
+    /// The more the better.
+    More,
+}
+
+/// One objective. Anchors are in the unit of its figure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Objective {
+    /// Which way is better.
+    pub better: Better,
+    /// Where the utility is 0.
+    pub worst: f64,
+    /// Where the utility is 1; on the better side of `worst`, and not equal to it.
+    pub best: f64,
+    /// Above 0; counts relative to the sum of all.
+    pub weight: f64,
+}
+
+impl Objective {
+    /// Linear between the anchors, clipped: 0 … 1.
+    pub fn utility(&self, value: f64) -> f64 {
+        ((value - self.worst) / (self.best - self.worst)).clamp(0.0, 1.0)
+    }
+
+    /// The same with an error: the larger distance of the utilities at the ends of the figure's interval.
+    pub fn utility_of(&self, figure: Estimate) -> Estimate {
+        let own = self.utility(figure.value);
+        let at = |value: f64| (self.utility(value) - own).abs();
+        Estimate { value: own, error: at(figure.value - figure.error).max(at(figure.value + figure.error)) }
+    }
+
+    /// Is `a` the better value, however little?
+    pub fn prefers(&self, a: f64, b: f64) -> bool {
+        match self.better {
+            Better::Less => a < b,
+            Better::More => a > b,
+        }
+    }
+
+    /// Is `a` better than `b` whatever their errors leave open: does the interval of the difference exclude 0?
+    pub fn surely_prefers(&self, a: Estimate, b: Estimate) -> bool {
+        self.prefers(a.value, b.value) && (a.value - b.value).abs() > a.error + b.error
+    }
+}
+
+/// The weighted mean of the utilities; errors are added as if all had the worse sign. `figures` in the order of the
+/// objectives.
+pub fn utility(objectives: &[Objective], figures: &[Estimate]) -> Estimate {
+    let weights: f64 = objectives.iter().map(|one| one.weight).sum();
+    let mut sum = Estimate { value: 0.0, error: 0.0 };
+    for (objective, figure) in objectives.iter().zip(figures) {
+        let own = objective.utility_of(*figure);
+        sum.value += objective.weight / weights * own.value;
+        sum.error += objective.weight / weights * own.error;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn utilities_are_linear_between_the_anchors_and_clipped() {
+        let energy = Objective { better: Better::Less, worst: 12.0, best: 2.0, weight: 2.0 };
+        assert_eq!([14.0, 12.0, 7.0, 2.0, 1.0].map(|value| energy.utility(value)), [0.0, 0.0, 0.5, 1.0, 1.0]);
+        let at = |value, error| energy.utility_of(Estimate { value, error });
+        assert!((at(7.0, 1.0).error - 0.1).abs() < 1e-15);
+        // Beyond an anchor only what reaches back counts.
+        assert_eq!((at(14.0, 1.0).error, at(13.0, 2.0).error), (0.0, 0.1));
+        let light = Objective { better: Better::More, worst: 0.2, best: 0.8, weight: 1.0 };
+        let both = utility(&[energy, light], &[Estimate::new(7.0, 1.0), Estimate::new(0.5, 0.06)]);
+        assert!((both.value - 0.5).abs() < 1e-15 && (both.error - (0.2 + 0.1) / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn one_is_surely_better_where_the_interval_of_the_difference_excludes_nought() {
+        let less = Objective { better: Better::Less, worst: 1.0, best: 0.0, weight: 1.0 };
+        let sure = |a: (f64, f64), b: (f64, f64)| less.surely_prefers(Estimate::new(a.0, a.1), Estimate::new(b.0, b.1));
+        assert!(sure((0.25, 0.125), (0.75, 0.25)) && !sure((0.75, 0.25), (0.25, 0.125)));
+        assert!(!sure((0.25, 0.25), (0.75, 0.25)), "touching intervals hold 0");
+        assert!(!sure((0.5, 0.0), (0.5, 0.0)));
+    }
+}

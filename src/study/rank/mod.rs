@@ -1,0 +1,34 @@
+//! Which system for this façade: every product of the catalogue, or of a search in it, in a scene's year, put in order by the
+//! scene's objectives.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `question` | `[rank]` judged: the lists to be made, each a scene in a climate with an azimuth |
+//! | `candidate` | the scene with a product in it, under its own control |
+//! | `parts` | figures that are sums over hours, by season, sun and zone |
+//! | `figures` | figures of a product with their errors, coarse and full |
+//! | `run` | all products, side by side, with progress and cancelling |
+//! | `list` | figures of the products of a list; ranked again whenever weights change |
+//! | `words` | why, in words |
+//! | `shard` | a ranking in pieces: which piece computes what, and keys that say from what it was made |
+//!
+//! Figures of a product do not depend on weights, anchors or other products: these make the ranking, in microseconds
+//! ([`List::ranking`]). A product that cannot be computed is left out with its reason and fails nothing.
+
+mod candidate;
+mod figures;
+mod list;
+mod parts;
+mod question;
+mod run;
+mod shard;
+mod words;
+
+pub use candidate::with_product;
+pub use figures::{Found, Outcome, Stage};
+pub use list::{List, Row};
+pub use parts::{Parts, SEASONS, SUN};
+pub use question::{Group, groups};
+pub use run::{Answer, Item, lists_of, run};
+pub use shard::{Shard, keys, run_key};
+pub use words::why;

@@ -1,0 +1,182 @@
+//! Figures that are sums over hours and places, by season, by sun on the façade or not, and by zone of the room.
+
+use crate::compute::angle::Bearing;
+use crate::compute::direction::{Orientation, Surface};
+use crate::compute::lid::Facing;
+use crate::compute::year::lighting::Lamps;
+use crate::study::error::StudyError;
+use crate::study::scene_file::{SceneFile, SurfaceKey, SystemKeys};
+use crate::study::scene_places::{room, sensors};
+use crate::study::year::{Climate, Year};
+
+/// Seasons by the calendar's whole months; on the southern half of the earth they are those of there.
+pub const SEASONS: [&str; 4] = ["winter", "spring", "summer", "autumn"];
+/// Is there sun on the façade that is ranked, in the middle of the step?
+pub const SUN: [&str; 2] = ["sun", "no sun"];
+
+/// Parts of a figure; with none of them it is no sum.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Parts {
+    /// Names of the zones.
+    pub zones: Vec<String>,
+    /// By season, in each by sun, in each by zone; they add up to the figure.
+    pub values: Vec<f64>,
+}
+
+impl Parts {
+    /// Season, sun and zone of a part, in words.
+    pub fn name(&self, part: usize) -> [&str; 3] {
+        let zones = self.zones.len().max(1);
+        let word = |list: &'static [&'static str], at: usize| list.get(at).copied().unwrap_or_default();
+        let zone = self.zones.get(part % zones).map_or("", String::as_str);
+        [word(&SEASONS, part / zones / SUN.len()), word(&SUN, part / zones % SUN.len()), zone]
+    }
+}
+
+/// How steps and sensors are grouped: found once for a climate and an azimuth.
+#[derive(Debug, Clone)]
+pub struct Grouping {
+    /// Of every step: season and sun as one index.
+    times: Vec<usize>,
+    /// Of every sensor.
+    zones: Vec<usize>,
+    names: Vec<String>,
+    /// Area of the floor. \[m²\]
+    area: f64,
+}
+
+impl Grouping {
+    /// Of a scene with ranked apertures; the sun is looked for at the first of them.
+    ///
+    /// # Errors
+    /// Keys of room, sensors or sky that are wrong.
+    pub fn of(file: &SceneFile, climate: &Climate) -> Result<Self, StudyError> {
+        let surface = match file.aperture.iter().find(|one| one.system == SystemKeys::Ranked).map(|one| one.surface) {
+            Some(SurfaceKey::Roof) => Surface::Roof,
+            Some(SurfaceKey::Facade) | None => Surface::Facade,
+        };
+        let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
+        let steps = &climate.steps;
+        let south = steps.station.latitude < 0.0;
+        let mut times = Vec::with_capacity(steps.list.len());
+        for (k, step) in steps.list.iter().enumerate() {
+            let season = (usize::from(step.month) % 12 / 3 + if south { 2 } else { 0 }) % 4;
+            let sunny = step.hour.is_lit() && {
+                let (outside, sun) = steps.even_outside(k)?;
+                Facing { outside: &outside, sun: sun.as_ref(), orientation, surface }.sun_illuminance() > 0.0
+            };
+            times.push(SUN.len() * season + usize::from(!sunny));
+        }
+        let box_room = room(&file.room)?;
+        let places = sensors(&file.sensors, &box_room)?.0;
+        let depths: Vec<f64> = places.iter().map(|sensor| sensor.position.y).collect();
+        let (zones, names) = zones(&depths, box_room.size.y, climate.settings.lamps.as_ref());
+        Ok(Self { times, zones, names, area: file.room.width * file.room.depth })
+    }
+
+    /// The parts of a figure of a year; none where it is no sum over hours and sensors.
+    pub fn parts(&self, year: &Year, key: &str) -> Parts {
+        match (key, year.settings.lamps.as_ref()) {
+            ("lighting.LENI_kWh_m2" | "lighting.kWh_m2", Some(lamps)) => self.lamps(year, lamps, 1.0),
+            ("lighting.kWh", Some(lamps)) => self.lamps(year, lamps, self.area),
+            ("annual_mean_lx", _) => self.places(year, false, |e| e),
+            ("DA300", _) => self.places(year, true, |e| one_if(e >= 300.0)),
+            ("DA500", _) => self.places(year, true, |e| one_if(e >= 500.0)),
+            ("cDA300", _) => self.places(year, true, |e| (e / 300.0).min(1.0)),
+            ("UDI_n", _) => self.places(year, true, |e| one_if(e < 100.0)),
+            ("UDI_s", _) => self.places(year, true, |e| one_if((100.0..300.0).contains(&e))),
+            ("UDI_a", _) => self.places(year, true, |e| one_if((300.0..=3000.0).contains(&e))),
+            ("UDI_x", _) => self.places(year, true, |e| one_if(e > 3000.0)),
+            _ => Parts::default(),
+        }
+    }
+
+    fn empty(&self, zones: Vec<String>) -> Parts {
+        Parts { values: vec![0.0; SEASONS.len() * SUN.len() * zones.len()], zones }
+    }
+
+    /// A mean over sensors and steps, occupied ones or all.
+    fn places(&self, year: &Year, occupied: bool, of: fn(f64) -> f64) -> Parts {
+        let mut parts = self.empty(self.names.clone());
+        let counts = |k: usize| !occupied || year.steps.list[k].occupied;
+        let steps = year.chosen.iter().filter(|&&k| counts(k)).count().max(1);
+        let scale = 1.0 / (steps * self.zones.len().max(1)) as f64;
+        for (row, &k) in year.chosen.iter().enumerate().filter(|(_, k)| counts(**k)) {
+            let light = &year.light.values[row * year.light.places..];
+            for (e, zone) in light.iter().zip(&self.zones) {
+                parts.values[self.times[k] * self.names.len() + zone] += scale * of(*e);
+            }
+        }
+        parts
+    }
+
+    /// Energy of the lamps, by their zones. \[kWh/m² × `scale`\]
+    fn lamps(&self, year: &Year, lamps: &Lamps, scale: f64) -> Parts {
+        let names = if lamps.zones.len() == 1 { vec!["whole room".to_owned()] } else { self.names.clone() };
+        let mut parts = self.empty(names);
+        let each: Vec<Lamps> =
+            lamps.zones.iter().map(|zone| Lamps { zones: vec![zone.clone()], ..lamps.clone() }).collect();
+        for (row, &k) in year.chosen.iter().enumerate() {
+            let light = &year.light.values[row * year.light.places..][..year.settings.sensors];
+            for (zone, lamps) in each.iter().enumerate() {
+                let energy = lamps.watts(year.steps.list[k].occupied, light) * year.steps.length / 1000.0;
+                parts.values[self.times[k] * parts.zones.len() + zone] += scale * energy;
+            }
+        }
+        parts
+    }
+}
+
+fn one_if(yes: bool) -> f64 {
+    f64::from(u8::from(yes))
+}
+
+/// Zone of every sensor and names of the zones: those of the lamps where there are several, by their depth; else the half at
+/// the façade and the other. Sensors that no lamp follows are a zone of their own.
+fn zones(depths: &[f64], depth: f64, lamps: Option<&Lamps>) -> (Vec<usize>, Vec<String>) {
+    let Some(lamps) = lamps.filter(|lamps| lamps.zones.len() > 1) else {
+        let zones = depths.iter().map(|y| usize::from(*y >= 0.5 * depth)).collect();
+        return (zones, vec!["front".to_owned(), "rear".to_owned()]);
+    };
+    let mean = |places: &[usize]| places.iter().map(|&k| depths[k]).sum::<f64>() / places.len().max(1) as f64;
+    let mut names: Vec<String> = (1..=lamps.zones.len()).map(|number| format!("zone {number}")).collect();
+    if let [a, b] = lamps.zones.as_slice()
+        && mean(&a.places) != mean(&b.places)
+    {
+        let front = mean(&a.places) < mean(&b.places);
+        names = if front { ["front", "rear"] } else { ["rear", "front"] }.map(str::to_owned).to_vec();
+    }
+    let others = names.len();
+    let own = |k: usize| lamps.zones.iter().position(|zone| zone.places.contains(&k)).unwrap_or(others);
+    let zones: Vec<usize> = (0..depths.len()).map(own).collect();
+    if zones.contains(&others) {
+        names.push("elsewhere".to_owned());
+    }
+    (zones, names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::year::lighting::{Control, Zone};
+
+    #[test]
+    fn zones_are_those_of_the_lamps_or_halves_of_the_room() {
+        let depths = [1.0, 2.9, 3.0, 5.0];
+        assert_eq!(zones(&depths, 6.0, None), (vec![0, 0, 1, 1], vec!["front".to_owned(), "rear".to_owned()]));
+        let zone = |places: &[usize]| Zone { places: places.to_vec(), share: 0.3 };
+        let lamps = |zones| Lamps { power: 8.0, target: 500.0, control: Control::OnOff, standby: 0.0, zones };
+        let (own, names) = zones(&depths, 6.0, Some(&lamps(vec![zone(&[3, 2]), zone(&[0])])));
+        assert_eq!((own, names.join(" ")), (vec![1, 2, 0, 0], "rear front elsewhere".to_owned()));
+        let (_, names) = zones(&depths, 6.0, Some(&lamps(vec![zone(&[0, 3]), zone(&[1, 2]), zone(&[1])])));
+        assert_eq!(names.join(" "), "zone 1 zone 2 zone 3");
+    }
+
+    #[test]
+    fn parts_have_names() {
+        let parts = Parts { zones: vec!["front".to_owned(), "rear".to_owned()], values: vec![0.0; 16] };
+        assert_eq!(parts.name(0), ["winter", "sun", "front"]);
+        assert_eq!(parts.name(3), ["winter", "no sun", "rear"]);
+        assert_eq!(parts.name(15), ["autumn", "no sun", "rear"]);
+    }
+}

@@ -1,0 +1,156 @@
+//! All products of all lists, side by side: first by typical days, then by whole years.
+
+use super::figures::{Outcome, Setting, Stage};
+use super::list::{List, Row};
+use super::parts::Grouping;
+use super::question::Group;
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::study::error::StudyError;
+use crate::study::goniophotometer::Withdrawn;
+use crate::study::session::Session;
+use crate::study::system::SystemLibrary;
+use crate::study::year::{Climate, climate};
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// One product of one list: indices of the group, and of the product in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Item {
+    /// Which list.
+    pub group: usize,
+    /// Which of its products.
+    pub product: usize,
+}
+
+/// A result as soon as it is there.
+#[derive(Debug, Clone, Copy)]
+pub struct Answer<'a> {
+    /// Of what.
+    pub item: Item,
+    /// How far the work on it has come.
+    pub stage: Stage,
+    /// What came out.
+    pub outcome: &'a Outcome,
+}
+
+/// What is known of a list before any product is.
+struct Ready {
+    climate: Climate,
+    grouping: Grouping,
+}
+
+/// Computes items, in their order as far as threads let. Results do not depend on the number of threads. `coarse`: by
+/// typical days first, all of them before any whole year; `told` hears of every result when it is there, from any thread.
+///
+/// # Errors
+/// A climate that cannot be read, a figure that no year has; cancelled. What is wrong with a product is its outcome.
+pub fn run(
+    groups: &[Group],
+    items: &[Item],
+    library: &dyn SystemLibrary,
+    session: &Session,
+    coarse: bool,
+    told: &(dyn Fn(Answer<'_>) + Sync),
+    progress: &dyn Progress,
+) -> Result<Vec<Outcome>, StudyError> {
+    let mut ready: BTreeMap<usize, Ready> = BTreeMap::new();
+    for item in items {
+        if !ready.contains_key(&item.group) {
+            if progress.cancelled() {
+                return Err(Cancelled.into());
+            }
+            let group = &groups[item.group];
+            progress.advance("weather", ready.len(), groups.len());
+            let climate = climate(&group.file, &group.base)?;
+            let grouping = Grouping::of(&group.file, &climate)?;
+            ready.insert(item.group, Ready { climate, grouping });
+        }
+    }
+    let one = |item: &Item, stage: Stage| {
+        let (group, ready) = (&groups[item.group], &ready[&item.group]);
+        let setting = Setting { group, climate: &ready.climate, grouping: &ready.grouping, library, session };
+        setting.product(&group.products[item.product], stage, &Withdrawn(progress))
+    };
+    // What is wrong with a scene is told once, before its products are computed in vain.
+    let mut asked: Vec<&str> = Vec::new();
+    for item in items {
+        let group = &groups[item.group];
+        if !asked.contains(&group.scene.as_str()) {
+            asked.push(&group.scene);
+            let ready = &ready[&item.group];
+            let setting = Setting { group, climate: &ready.climate, grouping: &ready.grouping, library, session };
+            setting.check(&group.products[item.product], &Withdrawn(progress))?;
+        }
+    }
+    let mut outcomes = Vec::new();
+    for stage in if coarse { &[Stage::Coarse, Stage::Full][..] } else { &[Stage::Full] } {
+        outcomes = side_by_side(items, *stage, &one, told, progress)?;
+    }
+    Ok(outcomes)
+}
+
+/// Threads of their own, each of which shares the computing of its product with all processors: work that waits for a lock
+/// must not hold up the pool whose work the lock's owner waits for.
+fn side_by_side(
+    items: &[Item],
+    stage: Stage,
+    one: &(dyn Fn(&Item, Stage) -> Result<super::figures::Found, StudyError> + Sync),
+    told: &(dyn Fn(Answer<'_>) + Sync),
+    progress: &dyn Progress,
+) -> Result<Vec<Outcome>, StudyError> {
+    let (next, done, stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+    let results: Mutex<Vec<Option<Outcome>>> = Mutex::new(vec![None; items.len()]);
+    let name = if stage == Stage::Coarse { "products, typical days" } else { "products" };
+    let work = || {
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(at) else { return };
+            if progress.cancelled() || stopped.load(Ordering::Relaxed) {
+                return;
+            }
+            let outcome = match one(item, stage) {
+                Ok(found) => Ok(found),
+                Err(StudyError::Cancelled(_)) => {
+                    stopped.store(true, Ordering::Relaxed);
+                    return;
+                }
+                Err(error) => Err(error.to_string()),
+            };
+            told(Answer { item: *item, stage, outcome: &outcome });
+            results.lock().unwrap_or_else(PoisonError::into_inner)[at] = Some(outcome);
+            progress.advance(name, done.fetch_add(1, Ordering::Relaxed) + 1, items.len());
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..rayon::current_num_threads().min(items.len()) {
+            scope.spawn(work);
+        }
+        work();
+    });
+    let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.into_iter().collect::<Option<Vec<Outcome>>>().ok_or_else(|| Cancelled.into())
+}
+
+/// Lists of what was computed; `keys` of the items' rows.
+pub fn lists_of(groups: &[Group], items: &[Item], outcomes: Vec<Outcome>, keys: &[String]) -> Vec<List> {
+    let mut lists: Vec<List> = groups
+        .iter()
+        .enumerate()
+        .map(|(number, group)| List {
+            number,
+            scene: group.scene.clone(),
+            climate: group.climate.clone(),
+            azimuth: group.azimuth,
+            figures: group.figures.clone(),
+            objectives: group.objectives.clone(),
+            rows: Vec::new(),
+        })
+        .collect();
+    for ((item, outcome), key) in items.iter().zip(outcomes).zip(keys) {
+        let product = groups[item.group].products[item.product].key.clone();
+        lists[item.group].rows.push(Row { product, key: key.clone(), outcome });
+    }
+    lists.retain(|list| !list.rows.is_empty());
+    lists
+}

@@ -1,0 +1,142 @@
+//! A ranking in pieces. A piece is a number n of 0 … N − 1; what it computes follows from the scenes, the catalogue and n / N
+//! alone.
+//!
+//! Lists come first, since all products of a list share the room and the year of light: as long as there are no more
+//! pieces than lists, a piece has whole lists; else a list is cut into as many as it gets.
+
+use super::question::Group;
+use super::run::Item;
+use crate::catalogue::Product;
+use crate::study::inputs::inputs_of;
+
+/// A piece, n of N.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// From 0.
+    pub number: usize,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl Shard {
+    /// All in one piece.
+    pub const WHOLE: Self = Self { number: 0, count: 1 };
+
+    /// Reads "n/N".
+    ///
+    /// # Errors
+    /// What would be right.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let wrong = || format!("\"{text}\" is no shard; expected n/N with n from 0 to N - 1, e.g. 0/8");
+        let (number, count) = text.split_once('/').ok_or_else(wrong)?;
+        let (number, count) = (number.parse().map_err(|_| wrong())?, count.parse().map_err(|_| wrong())?);
+        if number < count { Ok(Self { number, count }) } else { Err(wrong()) }
+    }
+
+    /// What it computes of lists with so many products each.
+    pub fn items(self, products: &[usize]) -> Vec<Item> {
+        let lists = products.len();
+        let mut items = Vec::new();
+        for (group, &own) in products.iter().enumerate() {
+            // The pieces from the first one of this list to that of the next one; none: the list belongs to a piece of several.
+            let first = |list: usize| (list * self.count).div_ceil(lists);
+            let (from, to) = (first(group), first(group + 1));
+            let (from, to) = if self.count <= lists {
+                let piece = group * self.count / lists;
+                (piece, piece + 1)
+            } else {
+                (from, to)
+            };
+            if !(from..to).contains(&self.number) {
+                continue;
+            }
+            let (piece, pieces) = (self.number - from, to - from);
+            items.extend((own * piece / pieces..own * (piece + 1) / pieces).map(|product| Item { group, product }));
+        }
+        items
+    }
+}
+
+/// Keys of the rows of items: hashes of all that their figures are made of – scene, files that it names, product, program.
+pub fn keys(groups: &[Group], items: &[Item]) -> Vec<String> {
+    let scenes: Vec<String> = groups.iter().map(of_group).collect();
+    let key = |item: &Item| {
+        let product = &groups[item.group].products[item.product];
+        digest(&[scenes[item.group].as_bytes(), product.key.as_bytes(), of_product(product).as_bytes()])
+    };
+    items.iter().map(key).collect()
+}
+
+/// The key of a whole ranking: pieces of one belong together, those of two do not.
+pub fn run_key(groups: &[Group]) -> String {
+    let all = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
+    digest(&keys(groups, &all).iter().map(String::as_bytes).collect::<Vec<_>>())
+}
+
+/// Half a hash is enough to tell millions apart.
+fn digest(parts: &[&[u8]]) -> String {
+    let mut hash = blake3::Hasher::new();
+    for part in parts {
+        hash.update(&(part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    hash.finalize().to_hex()[..16].to_owned()
+}
+
+fn of_group(group: &Group) -> String {
+    // What cannot be written is told apart by its debug form.
+    let text = toml::to_string(&*group.file).unwrap_or_else(|_| format!("{:?}", group.file));
+    let name = group.scene.clone().into_bytes();
+    let mut parts = vec![env!("CARGO_PKG_VERSION").as_bytes().to_vec(), name, text.into_bytes()];
+    // Where a file lies does not matter: what is in it does. One that cannot be read is told when it is needed.
+    let files = inputs_of(&group.file, &group.base);
+    parts.extend(files.iter().map(|path| std::fs::read(path).unwrap_or_default()));
+    digest(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
+/// Of a product's data: its description where it is computed from one, since the data may still be waiting to be computed.
+fn of_product(product: &Product) -> String {
+    let mut text = product.system.clone();
+    for state in &product.states {
+        let data = if product.system.is_empty() { state.dataset.as_deref().unwrap_or_default() } else { "" };
+        text.push_str(&format!("\n{}\t{:?}\t{data}", state.key, state.value));
+    }
+    for point in &product.control_curve {
+        text.push_str(&format!("\n{} {}", point.profile_angle, point.value));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_item_is_in_one_piece_and_lists_are_cut_last() {
+        for products in [&[5, 3, 4][..], &[1], &[0, 2], &[7, 7, 7, 7, 7]] {
+            let all = Shard::WHOLE.items(products);
+            assert_eq!(all.len(), products.iter().sum::<usize>());
+            for count in 1..20 {
+                let pieces: Vec<Vec<Item>> = (0..count).map(|number| Shard { number, count }.items(products)).collect();
+                assert_eq!(pieces.concat(), all, "{products:?} in {count}");
+                if count <= products.len() {
+                    // Whole lists alone.
+                    for group in 0..products.len() {
+                        let with = pieces.iter().filter(|piece| piece.iter().any(|item| item.group == group)).count();
+                        assert!(with <= 1, "{products:?} in {count}");
+                    }
+                } else {
+                    assert!(pieces.iter().all(|piece| piece.windows(2).all(|two| two[0].group == two[1].group)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shards_are_read() {
+        assert_eq!(Shard::read("3/8"), Ok(Shard { number: 3, count: 8 }));
+        for wrong in ["8/8", "0/0", "-1/8", "1", "1/x", "", "1/2/3"] {
+            assert!(Shard::read(wrong).unwrap_err().contains("expected n/N"), "{wrong}");
+        }
+    }
+}
