@@ -85,6 +85,7 @@ pub mod views;
 pub mod window;
 pub mod work;
 pub mod writing;
+pub mod year;
 
 pub use frame::run;
 pub use window::{App, Services};

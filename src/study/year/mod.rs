@@ -9,21 +9,36 @@
 //! | `fixed` | the scene with fixed states, at a step |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
 //! | `figures` | what the year comes to, with errors |
+//! | `annual` | a year with its figures, and what it hangs on |
+//! | `look` | what of it is looked at |
+//! | `maps` | its hours as a map |
+//! | `table` | its figures as rows with words |
+//! | `lamps` | the lamps over a day and by month |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
 
+mod annual;
 mod figures;
 mod fixed;
+mod lamps;
 mod light;
+mod look;
+mod maps;
 mod settings;
 mod states;
 mod steps;
+mod table;
 
+pub use annual::{Annual, at_step, question};
 pub use figures::{Figures, figures};
+pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
 pub use light::{Light, Way};
+pub use look::{Look, Page, Shows};
+pub use maps::{choices, error, map, title, weather_map};
 pub use settings::{Settings, settings};
 pub use steps::{Step, Steps};
+pub use table::{Row, Section, table};
 
 use super::error::StudyError;
 use super::scene_file::SceneFile;
