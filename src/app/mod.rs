@@ -3,6 +3,7 @@
 //! Drawing ([`panels`], [`tiles`], [`views`]) reads [`state::State`] and returns [`command::Command`]s; [`apply`] acts on
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
+mod annual;
 pub mod apply;
 pub mod arrange;
 mod asking;

@@ -1,24 +1,17 @@
-//! The year at work: what is asked of it, its job, and the weather that hours are picked from.
+//! What is asked about a year and its weather, the weather as hours are picked from it, and the year that a scene without
+//! one is given.
 
-use super::engine::Question;
-use super::jobs::Lane;
-use super::state::Shown;
-use super::tiles;
-use super::window::App;
-use super::work::Outcome;
 use crate::compute::weather::{Closure, Station, Weather};
 use crate::drawing::hour_map::HourMap;
 use crate::study::scene_file::{SceneFile, SkyKeys, SkyModelKey, TimeKey};
-use crate::study::sun_position::parse_local_time;
 use crate::study::weather::{YEARS, load, nearest};
 use crate::study::weather_keys::{LightKey, OffsetKey, reading};
-use crate::study::year::{Annual, Look, at_step, weather_map};
+use crate::study::year::{Look, weather_map};
 use crate::study::year_keys::{DaysKey, EyeKeys, HoursKeys, LampControlKey, LightingKeys, YearKeys};
 use crate::study::{StudyError, example::first_scene};
 use crate::texts::{fixed, year as say};
 use jiff::civil::{DateTime, date};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// What is asked about a year.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,20 +20,20 @@ pub enum YearAct {
     Compute,
     /// Look at something else of it.
     Look(Look),
-    /// Show a step of the year that is shown in every tile.
-    Show(usize),
+    /// Show a step of the year that is shown in every tile; `true`: on a walk by keys.
+    Show(usize, bool),
     /// Take a year of weather: for the scene's year, where it has one or the tile is asked, else as its sky.
     Weather(PathBuf),
     /// The same for the year alone.
     WeatherOfYear(PathBuf),
-    /// The sky of a record of the weather.
-    Pick(DateTime),
+    /// The sky of a record of the weather; `true`: on a walk by keys.
+    Pick(DateTime, bool),
 }
 
 impl YearAct {
-    /// Is what it changes in the document a step of its own for undo?
+    /// Is what it changes in the document a step of its own for undo? Not every hour that is walked over.
     pub const fn is_step(&self) -> bool {
-        !matches!(self, Self::Look(_))
+        !matches!(self, Self::Look(_) | Self::Show(_, true) | Self::Pick(_, true))
     }
 }
 
@@ -144,7 +137,7 @@ pub const fn usual_lamps() -> LightingKeys {
 }
 
 /// The sky of a record of a weather; what stands before it stays.
-fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
+pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
     let year = scene.year.as_ref().filter(|year| year.weather == weather);
     let same = scene.sky.weather.as_deref() == Some(weather);
     let (light, offset) = match year {
@@ -166,101 +159,6 @@ fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
         skyline: scene.sky.skyline.clone(),
         ..plain
     };
-}
-
-impl App {
-    /// Does what was asked about a year.
-    pub(super) fn year_act(&mut self, act: YearAct) {
-        match act {
-            YearAct::Compute => self.compute_year(),
-            YearAct::Look(look) => self.state.settings.year = look,
-            YearAct::Show(step) => {
-                if let Some(annual) = self.results.annual.value.clone()
-                    && step < annual.year.steps.list.len()
-                {
-                    self.state.document.scene = at_step(&self.state.document.scene, &annual.year, step);
-                }
-            }
-            YearAct::WeatherOfYear(name) => {
-                let scene = &mut self.state.document.scene;
-                let mut keys = scene.year.take().unwrap_or_else(|| usual_year(scene));
-                keys.weather = name;
-                scene.year = Some(keys);
-            }
-            YearAct::Weather(name) => self.take_weather(name),
-            YearAct::Pick(time) => {
-                let scene = &mut self.state.document.scene;
-                if let Some(weather) = weather_of(scene).map(Path::to_owned) {
-                    put_record(scene, &weather, time);
-                }
-            }
-        }
-    }
-
-    /// The weather becomes the scene's: its sky at the present moment is that of the weather, and its year too.
-    fn take_weather(&mut self, name: PathBuf) {
-        let scene = &mut self.state.document.scene;
-        if let Some(year) = &mut scene.year {
-            year.weather.clone_from(&name);
-        }
-        let time = scene.sky.time.as_ref().and_then(|time| parse_local_time(&time.text()).ok());
-        put_record(scene, &name, time.unwrap_or(date(2026, 3, 21).at(12, 0, 0, 0)));
-    }
-
-    fn compute_year(&mut self) {
-        let Some(shelf) = self.state.shelf() else {
-            self.toasts.info(crate::texts::shell::CATALOGUE_NOT_OPEN);
-            return;
-        };
-        let scene = &mut self.state.document.scene;
-        if scene.year.is_none() {
-            let keys = usual_year(scene);
-            self.toasts.info(say::ADDED_EYE);
-            scene.year = Some(keys);
-        }
-        let question = Question { scene: scene.clone(), base: self.state.base(), shelf };
-        let engine = self.services.engine.clone();
-        self.results.annual.error = None;
-        self.bring_up(tiles::YEAR);
-        self.start(Lane::Annual, move |job| Outcome::Annual(engine.year(&question, job).map(Box::new)));
-    }
-
-    /// Reads the weather that hours are picked from, when it is another one.
-    pub(super) fn ask_weather(&mut self) {
-        let scene = &self.state.document.scene;
-        let key = weather_of(scene).map(|name| {
-            let year = scene.year.as_ref().filter(|year| year.weather == name);
-            let own = (scene.sky.light, scene.sky.sun_offset_minutes);
-            let (light, offset) = year.map_or(own, |year| (year.light, year.sun_offset_minutes));
-            (name.to_owned(), self.state.base(), light, offset)
-        });
-        if key == self.asked_weather {
-            return;
-        }
-        self.asked_weather.clone_from(&key);
-        self.results.weather.stale = true;
-        match key {
-            Some(key) => self.start(Lane::Weather, move |_| Outcome::Weather(Calendar::read(key).map(Box::new))),
-            None => {
-                self.jobs.cancel(Lane::Weather);
-                self.results.weather = Shown::default();
-            }
-        }
-    }
-
-    /// A weather file that was opened or dropped.
-    pub(super) fn take_weather_file(&mut self, path: &Path) {
-        let base = self.state.base();
-        // Beside the scene it is found wherever both go.
-        let name = path.strip_prefix(&base).ok().filter(|_| !base.as_os_str().is_empty()).unwrap_or(path).to_owned();
-        self.toasts.success(say::weather_taken(name.display()));
-        self.apply(super::command::Command::Year(YearAct::Weather(name)));
-    }
-
-    /// The year that is shown, where it is that of the present scene.
-    pub(super) fn present_year(&self) -> Option<Arc<Annual>> {
-        self.results.annual.value.clone().filter(|annual| annual.is_of(&self.state.document.scene))
-    }
 }
 
 /// Place and clock of a station in words.

@@ -4,7 +4,6 @@ use super::colour_scale::LEGEND_HEIGHT;
 use super::palette::Palette;
 use super::plot::{self, LEFT, Look};
 use super::tile;
-use crate::app::views::Cache;
 use crate::drawing::Rgb;
 use crate::drawing::hour_map::{Colours, HourMap, name_colour};
 use crate::texts::year as say;
@@ -27,7 +26,8 @@ impl std::fmt::Debug for Picture {
 /// What a map remembers from frame to frame.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    picture: Cache<(u64, bool), Picture>,
+    /// Of which map, in the dark or not.
+    picture: Option<((u64, bool), Picture)>,
 }
 
 /// What is shown.
@@ -46,8 +46,10 @@ pub struct Input<'a> {
 /// What was done.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Answer {
-    /// The cell that was clicked, or that arrow keys came to.
+    /// The cell that was clicked.
     pub picked: Option<usize>,
+    /// The cell that arrow keys came to.
+    pub walked: Option<usize>,
     /// The cell under the pointer.
     pub pointed: Option<usize>,
 }
@@ -60,7 +62,7 @@ fn picture(ui: &Ui, map: &HourMap, empty: Color32) -> Picture {
     let cells = (0..map.rows).rev().flat_map(|row| (0..map.days).map(move |day| day * map.rows + row));
     let pixels = cells.map(|cell| map.colour(cell).map_or(empty, colour)).collect();
     let image = ColorImage::new([map.days, map.rows], pixels);
-    Picture(ui.ctx().load_texture("map of hours", image, TextureOptions::NEAREST))
+    Picture(ui.ctx().load_texture("map-of-hours", image, TextureOptions::NEAREST))
 }
 
 /// Draws map and legend into a rectangle.
@@ -69,13 +71,18 @@ pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> An
     let map = input.map;
     let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - LEGEND_HEIGHT);
     let key = (input.revision, ui.visuals().dark_mode);
-    let picture = state.picture.get(key, || picture(ui, map, palette.face));
+    if state.picture.as_ref().is_none_or(|(old, _)| *old != key) {
+        state.picture = Some((key, picture(ui, map, palette.face)));
+    }
+    let texture = state.picture.as_ref().map(|(_, picture)| picture.0.id());
     let plot = map.plot();
     let id = ui.scope_id().with("hours");
     let look = Look { on_page: input.on_page, focusable: true, ..Look::tile(id, &[], palette.sun) };
     let (middle, size) = (PlotPoint::new(0.5 * map.days as f64, 12.0), [map.days as f32, 24.0]);
     let shown = plot::show(ui, above, &plot, &look, |plot_ui| {
-        plot_ui.image(PlotImage::new("", picture.0.id(), middle, size).allow_hover(false));
+        if let Some(texture) = texture {
+            plot_ui.image(PlotImage::new("", texture, middle, size).allow_hover(false));
+        }
     });
     if let Some(cell) = input.mark {
         let at = shown.screen(map.middle(cell));
@@ -94,7 +101,7 @@ pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> An
     if clicked.is_some() {
         shown.response.request_focus();
     }
-    let stepped = keys(ui, &shown.response, input, id);
+    let walked = keys(ui, &shown.response, input, id);
     let pointed = shown.pointed().map(of);
     let value = pointed.map(|cell| map.values[cell]).filter(|value| value.is_finite());
     let legend = below.with_min_x(rect.left() + LEFT - 14.0);
@@ -102,7 +109,7 @@ pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> An
         Colours::Scale(scale, unit) => scale.paint_legend(ui.painter(), legend, unit, value, &palette),
         Colours::Names(names) => names_legend(ui, legend.with_min_x(rect.left() + LEFT), names, &palette),
     }
-    Answer { picked: clicked.or(stepped), pointed }
+    Answer { picked: clicked, walked, pointed }
 }
 
 /// `21 Jun, 12:00–13:00: 512 lx`.
@@ -136,15 +143,14 @@ fn keys(ui: &Ui, response: &Response, input: &Input<'_>, id: Id) -> Option<usize
         })
     });
     let [days, rows] = step?;
-    // The first key of a map without a mark begins in the middle of the year; quick ones follow on each other.
-    let kept = id.with("stepped");
-    let last: Option<(Option<usize>, usize)> = ui.data(|data| data.get_temp(kept));
-    let from = last.filter(|(mark, _)| *mark == input.mark).map(|(_, cell)| cell).or(input.mark);
+    // Without a mark the first key begins in the middle of the year; the next ones go on from there.
+    let kept = id.with("walked");
+    let from = input.mark.or_else(|| ui.data(|data| data.get_temp(kept)));
     let next = match from {
         Some(cell) => map.beside(cell, days, rows)?,
         None => map.at(0.5 * map.days as f64, 12.0),
     };
-    ui.data_mut(|data| data.insert_temp(kept, (input.mark, next)));
+    ui.data_mut(|data| data.insert_temp(kept, next));
     Some(next)
 }
 

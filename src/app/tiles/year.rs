@@ -97,7 +97,7 @@ impl Drawn for Drawing {
                 view::Action::Compute => Command::Year(YearAct::Compute),
                 view::Action::Stop => Command::Cancel(Lane::Annual),
                 view::Action::Look(look) => Command::Year(YearAct::Look(look)),
-                view::Action::Show(step) => Command::Year(YearAct::Show(step)),
+                view::Action::Show(step, walking) => Command::Year(YearAct::Show(step, walking)),
                 view::Action::Weather(name) => Command::Year(YearAct::WeatherOfYear(name)),
                 view::Action::Open => Command::Open,
             });

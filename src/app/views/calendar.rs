@@ -27,8 +27,8 @@ pub struct State {
     diffuse: bool,
 }
 
-/// Draws it as wide as there is room; the number of the record that was picked.
-pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<usize> {
+/// Draws it as wide as there is room; the number of the record that was picked, and whether on a walk by keys.
+pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<(usize, bool)> {
     ui.horizontal(|ui| {
         for (diffuse, word) in [(false, say::DIRECT_NORMAL), (true, say::DIFFUSE_HORIZONTAL)] {
             ui.selectable_value(&mut state.diffuse, diffuse, word).on_hover_text(say::CALENDAR_TIP);
@@ -43,5 +43,6 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<usize> 
     let said = answer.pointed.or(mark).map_or_else(|| say::CALENDAR_TIP.into(), |cell| hour_map::spoken(map, cell));
     let colour = Palette::of(ui.visuals()).weak;
     ui.add(Label::new(RichText::new(said).size(13.0).color(colour)).truncate());
-    answer.picked.and_then(|cell| map.from[cell]).map(|from| from as usize)
+    let picked = answer.picked.map(|cell| (cell, false)).or(answer.walked.map(|cell| (cell, true)));
+    picked.and_then(|(cell, walking)| Some((map.from[cell]? as usize, walking)))
 }

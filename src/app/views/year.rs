@@ -3,75 +3,18 @@
 
 mod empty;
 mod figures;
+mod input;
 mod lighting;
+mod parts;
+
+pub use input::{Action, Input, Shown};
 
 use crate::app::paint::hour_map;
-use crate::app::paint::palette::Palette;
 use crate::app::paint::tile::{self, Status, Words};
-use crate::drawing::hour_map::HourMap;
-use crate::study::year::{Day, Look, Page, Row, Shows, Year, choices, error, title};
+use crate::study::year::{Page, Shows, Year, choices, error, title};
 use crate::texts::{fixed, words::MONTHS, year as say};
-use egui::{ComboBox, ProgressBar, Rect, Ui, UiBuilder, vec2};
-use std::path::{Path, PathBuf};
-
-/// What the user did.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Action {
-    /// Compute the year, or compute it anew.
-    Compute,
-    /// Stop computing it.
-    Stop,
-    /// Look at something else of it.
-    Look(Look),
-    /// Show a step everywhere.
-    Show(usize),
-    /// Take another year of weather.
-    Weather(PathBuf),
-    /// Ask for a weather file.
-    Open,
-}
-
-/// A year, as it is drawn.
-#[derive(Debug, Clone, Copy)]
-pub struct Shown<'a> {
-    /// Hour by hour.
-    pub year: &'a Year,
-    /// Its hours as they are looked at.
-    pub map: &'a HourMap,
-    /// Its figures.
-    pub rows: &'a [Row],
-    /// The lamps on the day that is looked at; `None` without lamps.
-    pub day: Option<&'a Day>,
-    /// Energy by month and its error; `None` without lamps. \[kWh/m²\]
-    pub months: Option<&'a [(f64, f64); 12]>,
-    /// The step of the scene's moment.
-    pub now: Option<usize>,
-    /// Remark on the state of that step, or nothing.
-    pub remark: &'a str,
-}
-
-/// What the tile draws.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
-    /// The year; `None` before it was computed.
-    pub shown: Option<Shown<'a>>,
-    /// How it is looked at.
-    pub look: Look,
-    /// The scene's month, 1 … 12.
-    pub month: u8,
-    /// What lights the room.
-    pub name: &'a str,
-    /// The weather that the year is of, or would be of.
-    pub weather: &'a Path,
-    /// Share done of the year that is being computed; `None` while none is.
-    pub running: Option<f32>,
-    /// Why there is no year, or no newer one.
-    pub error: Option<&'a str>,
-    /// Changes with year and map.
-    pub revision: u64,
-    /// How far it is to be trusted.
-    pub status: Status<'a>,
-}
+use egui::{ComboBox, Rect, Ui, UiBuilder};
+use parts::progress;
 
 /// The tile's own pictures.
 #[derive(Debug, Clone, Default)]
@@ -200,17 +143,6 @@ fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Acti
     above
 }
 
-/// How far the computation is, and a button that stops it.
-fn progress(ui: &mut Ui, share: f32, out: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        let width = (ui.available_width() - 80.0).max(40.0);
-        ui.add(ProgressBar::new(share).desired_width(width).show_percentage());
-        if ui.button(say::STOP).on_hover_text(say::STOP_TIP).clicked() {
-            out.push(Action::Stop);
-        }
-    });
-}
-
 /// Why there is no newer year; what is left below.
 fn above_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     let Some(error) = input.error else { return rect };
@@ -240,8 +172,10 @@ fn map(
     let mark = shown.now.and_then(cell_of);
     let drawn = hour_map::Input { map, revision: input.revision, mark, on_page: false };
     let answer = hour_map::show(ui, rect, &drawn, &mut state.map);
-    let step = answer.picked.and_then(|cell| map.from[cell]);
-    out.extend(step.map(|step| Action::Show(step as usize)));
+    for (cell, walking) in [(answer.picked, false), (answer.walked, true)] {
+        let step = cell.and_then(|cell| map.from[cell]);
+        out.extend(step.map(|step| Action::Show(step as usize, walking)));
+    }
     let told = |cell: usize| {
         let step = map.from[cell].map(|step| step as usize);
         let error =
@@ -265,12 +199,6 @@ fn summary(shown: &Shown<'_>) -> String {
     say::summary(&year.steps.station.name, lit, year.light.sets, fixed(seconds, 1))
 }
 
-/// A line of words in the weak colour.
-fn weak(ui: &mut Ui, text: &str) {
-    let colour = Palette::of(ui.visuals()).weak;
-    ui.add(egui::Label::new(egui::RichText::new(text).size(13.0).color(colour)).wrap());
-}
-
 /// The numbers of what is in sight.
 pub fn csv(input: &Input<'_>) -> String {
     let Some(shown) = &input.shown else { return String::new() };
@@ -280,6 +208,3 @@ pub fn csv(input: &Input<'_>) -> String {
         Page::Lighting => lighting::csv(shown),
     }
 }
-
-/// Room between things.
-const GAP: egui::Vec2 = vec2(6.0, 4.0);

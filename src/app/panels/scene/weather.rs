@@ -98,8 +98,11 @@ fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &
         (time.month().unsigned_abs(), time.day().unsigned_abs(), minute)
     });
     let input = calendar::Input { maps: &calendar.maps, moment, revision: shown.revision };
-    let picked = calendar::show(ui, &input, view).and_then(|record| calendar.starts.get(record));
-    commands.extend(picked.map(|time| Command::Year(YearAct::Pick(*time))));
+    if let Some((record, walking)) = calendar::show(ui, &input, view)
+        && let Some(time) = calendar.starts.get(record)
+    {
+        commands.push(Command::Year(YearAct::Pick(*time, walking)));
+    }
 }
 
 /// What a year is asked with; eyes and zones beyond the usual stand in the scene's file.

@@ -1,6 +1,6 @@
 //! Two objectives against each other: what no other is better than in every objective stands out.
 
-use super::{ChooseRow, ChooseRows, Objective};
+use super::input::{ChooseRow, ChooseRows, Objective};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;

@@ -1,7 +1,7 @@
 //! Products in rows: rank, name, worth as a bar with its error, every objective; under them why the chosen one stands where
 //! it does, and the way into the room.
 
-use super::{Action, ChooseRow, ChooseRows, rank_words};
+use super::input::{Action, ChooseRow, ChooseRows, rank_words};
 use crate::app::paint::palette::Palette;
 use crate::drawing::ticks::number;
 use crate::texts::{choose as say, fixed};

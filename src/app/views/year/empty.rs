@@ -1,13 +1,14 @@
 //! The tile before there is a year: of which weather it would be, and the button that computes it.
 
-use super::{Action, Input, progress, weak};
+use super::input::{Action, Input};
+use super::parts::{GAP, progress, weak};
 use crate::study::weather::{YEARS, words};
 use crate::texts::year as say;
 use egui::{Align, Button, ComboBox, Label, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder};
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) {
     let layout = Layout::top_down(Align::Min);
-    ui.scope_builder(UiBuilder::new().max_rect(rect.shrink2(super::GAP)).layout(layout).id_salt("empty"), |ui| {
+    ui.scope_builder(UiBuilder::new().max_rect(rect.shrink2(GAP)).layout(layout).id_salt("empty"), |ui| {
         ScrollArea::vertical().id_salt("empty").auto_shrink([false, false]).show(ui, |ui| {
             if let Some(error) = input.error {
                 let colour = ui.visuals().error_fg_color;

@@ -1,6 +1,6 @@
 //! The figures of a year as a table: value, error, spread over the sensors, what limits say; what each is, in its tip.
 
-use super::GAP;
+use super::parts::GAP;
 use crate::app::paint::palette::Palette;
 use crate::study::year::Row;
 use crate::texts::year as say;

@@ -1,6 +1,7 @@
 //! The lamps over the sunniest day of a month, and by month: IEA SHC Task 31 report (2005), figure 18.
 
-use super::Shown;
+use super::input::Shown;
+use super::parts::weak;
 use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;
@@ -17,7 +18,7 @@ const FIRST: [f64; 13] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &Shown<'_>) -> String {
     let Some(months) = shown.months else {
-        super::weak(ui, say::NO_LAMPS.get());
+        weak(ui, say::NO_LAMPS.get());
         return String::new();
     };
     let Some(day) = shown.day else {
