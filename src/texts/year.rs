@@ -33,7 +33,7 @@ texts! {
     const LOG = "log" | "log";
     const LOG_TIP = "Logarithmic colours, three decades" | "Logarithmische Farben, drei Dekaden";
     const MONTH = "Month of the sunny day" | "Monat des sonnigen Tags";
-    const MONTH_TIP = "The day of the month with most direct light is shown" | "Gezeigt wird der Tag des Monats mit dem meisten direkten Licht";
+    const MONTH_TIP = "The day of the month with most direct light on which somebody is there is shown" | "Gezeigt wird der Tag des Monats mit dem meisten direkten Licht, an dem jemand da ist";
     fn scene_month(month) = "{month} (scene)" | "{month} (Szene)";
 
     // Maps.
@@ -50,7 +50,7 @@ texts! {
     fn day_span(day, month, from, to) = "{day} {month}, {from}–{to}" | "{day}. {month}, {from}–{to}";
     const DARK = "dark" | "dunkel";
     const NOT_COMPUTED = "nothing known" | "nichts bekannt";
-    fn summary(weather, lit, sets, seconds) = "{weather} · {lit} steps with light · {sets} sets of states · {seconds} s" | "{weather} · {lit} helle Schritte · {sets} Sätze von Stellungen · {seconds} s";
+    fn summary(weather, lit, sets, seconds) = "{weather} · {lit} steps with light · sets of states: {sets} · {seconds} s" | "{weather} · {lit} helle Schritte · Sätze von Stellungen: {sets} · {seconds} s";
     fn other_state(year, now) = "the year has state {year} here, the moment alone {now} (hysteresis, dwell time)" | "das Jahr hat hier Stellung {year}, der Augenblick allein {now} (Hysterese, Haltezeit)";
 
     // Figures.
@@ -112,6 +112,7 @@ texts! {
     const NOT_MET = "not met" | "nicht erfüllt";
     const OPEN = "open within the error" | "offen im Rahmen der Unsicherheit";
     const ERROR_TIP = "What the errors of the hours leave open: the same year with all light less, and more, by its error" | "Was die Unsicherheiten der Stunden offen lassen: dasselbe Jahr mit allem Licht um sie verringert und vermehrt";
+    fn between_is(range) = "Lowest and highest of the sensors: {range}" | "Niedrigster und höchster Wert der Sensoren: {range}";
     const BETWEEN_TIP = "Lowest and highest of the sensors" | "Niedrigster und höchster Wert der Sensoren";
 
     // Lamps.

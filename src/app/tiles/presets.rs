@@ -38,8 +38,8 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
             (
                 1.0,
                 Layout::Column(vec![
-                    one(1.3, room::TILE),
-                    (1.0, Layout::tabs(&[sky::TILE, transmittance::TILE, control::TILE, year::TILE])),
+                    (1.3, Layout::tabs(&[room::TILE, year::TILE])),
+                    (1.0, Layout::tabs(&[sky::TILE, transmittance::TILE, control::TILE])),
                 ]),
             ),
         ]),

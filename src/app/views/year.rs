@@ -23,7 +23,7 @@ pub struct State {
 }
 
 /// Width of a tile that shows map and figures side by side. \[points\]
-const BOTH: f32 = 720.0;
+const BOTH: f32 = 1000.0;
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::YEAR_ABOUT.get(),
         empty: None,
-        controls_width: if input.shown.is_some() { 330.0 } else { 0.0 },
+        controls_width: if input.shown.is_some() { 440.0 } else { 0.0 },
     };
     let status = Status { error: None, ..input.status };
     tile::show(
@@ -121,7 +121,7 @@ fn body(
     let rect = above_error(ui, rect, input);
     match input.look.page {
         Page::Map if rect.width() >= BOTH && rect.height() >= 240.0 => {
-            let (left, right) = rect.split_left_right_at_fraction(0.6);
+            let (left, right) = rect.split_left_right_at_fraction(0.5);
             let said = map(ui, left, input, shown, state, out);
             figures::show(ui, right.with_min_x(right.left() + 8.0), shown.rows);
             said

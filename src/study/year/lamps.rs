@@ -20,19 +20,21 @@ pub struct Day {
     pub between: Vec<[f64; 2]>,
 }
 
-/// The day of a month (1 … 12) with most direct normal irradiation, of those that were computed; `None` where none was.
+/// The day of a month (1 … 12) with most direct normal irradiation, of those that were computed and on which somebody is
+/// there; `None` where there is none.
 pub fn sunniest(year: &Year, month: u8) -> Option<Date> {
     let mut best: Option<(f64, Date)> = None;
-    let mut sum = 0.0;
+    let (mut sum, mut occupied) = (0.0, false);
     for (place, &k) in year.chosen.iter().enumerate() {
         let step = &year.steps.list[k];
         let next = year.chosen.get(place + 1).map(|&next| year.steps.list[next].time.date());
         sum += step.hour.direct_normal_irradiance * year.steps.length;
+        occupied |= step.occupied;
         if next != Some(step.time.date()) {
-            if step.month == month && best.is_none_or(|(most, _)| sum > most) {
+            if step.month == month && occupied && best.is_none_or(|(most, _)| sum > most) {
                 best = Some((sum, step.time.date()));
             }
-            sum = 0.0;
+            (sum, occupied) = (0.0, false);
         }
     }
     best.map(|(_, date)| date)

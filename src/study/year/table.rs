@@ -68,14 +68,13 @@ impl Row {
         }
     }
 
-    /// Value and unit.
+    /// Value, error and unit: `80.6 ± 0.2 %`. What is counted has no error.
     pub fn value_words(&self) -> String {
-        format!("{} {}", self.written(self.value), self.unit).trim_end().to_owned()
-    }
-
-    /// The error with its sign; an error that rounds to nothing says so.
-    pub fn error_words(&self) -> String {
-        format!("± {}", self.written(self.error))
+        let value = self.written(self.value);
+        let error = self.written(self.error);
+        let counted = self.section == Section::Control;
+        let words = if counted { value } else { format!("{value} ± {error}") };
+        format!("{words} {}", self.unit).trim_end().to_owned()
     }
 
     /// Lowest and highest of the sensors.

@@ -24,8 +24,11 @@ pub struct Weather<'a> {
 
 /// The section's essence while it is folded.
 pub fn essence(scene: &SceneFile) -> String {
-    let name = weather_of(scene).map(|name| name.file_name().unwrap_or(name.as_os_str()).to_string_lossy());
-    name.map_or_else(|| texts::NO_WEATHER.into(), |name| name.into_owned())
+    let Some(name) = weather_of(scene) else { return texts::NO_WEATHER.into() };
+    let built_in = YEARS.iter().find(|year| *name == *year.name());
+    // The place stands before the first comma.
+    let place = built_in.map(|year| words(year).split(',').next().unwrap_or_default().to_owned());
+    place.unwrap_or_else(|| name.file_name().unwrap_or(name.as_os_str()).to_string_lossy().into_owned())
 }
 
 /// What is wrong with the weather; of a sky's own weather the sky's section says it.

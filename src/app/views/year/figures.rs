@@ -1,18 +1,29 @@
 //! The figures of a year as a table: value, error, spread over the sensors, what limits say; what each is, in its tip.
 
-use super::parts::GAP;
 use crate::app::paint::palette::Palette;
 use crate::study::year::Row;
 use crate::texts::year as say;
-use egui::{Grid, Label, Rect, RichText, ScrollArea, Ui, UiBuilder};
+use egui::{Grid, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2, vec2};
 use std::fmt::Write as _;
+
+/// Width of a table whose rows stand in one line each; in less, what limits say stands under the figure. \[points\]
+const WIDE: f32 = 600.0;
+
+/// Height of a row with the space under it. \[points\]
+const PITCH: f32 = 26.0;
+/// Space between columns, and rows. \[points\]
+const SPACING: Vec2 = vec2(10.0, 4.0);
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
     let palette = Palette::of(ui.visuals());
     let text = |words: String, colour| RichText::new(words).size(13.0).color(colour);
+    let wide = rect.width() >= WIDE;
+    // Whole rows: none is cut before it is scrolled.
+    let rect = rect.with_max_y(rect.top() + ((rect.height() / PITCH).floor() * PITCH).max(PITCH));
     ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("figures"), |ui| {
-        ScrollArea::both().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
-            Grid::new("figures").num_columns(5).striped(true).spacing(GAP * 1.5).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
+            let grid = Grid::new("figures").num_columns(2).striped(true).spacing(SPACING);
+            grid.min_row_height(PITCH - SPACING.y).show(ui, |ui| {
                 let mut section = None;
                 for row in rows {
                     if section != Some(row.section) {
@@ -20,13 +31,20 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
                         ui.label(RichText::new(row.section.words().get()).size(13.0).strong());
                         ui.end_row();
                     }
+                    let between = row.between_words();
+                    let spread = if between.is_empty() { String::new() } else { say::between_is(&between) };
                     ui.add(Label::new(text(row.name.clone(), palette.ink)).extend()).on_hover_text(row.tip);
-                    let value = Label::new(text(row.value_words(), palette.ink).strong()).extend();
-                    ui.add(value).on_hover_text(row.tip);
-                    ui.add(Label::new(text(row.error_words(), palette.weak)).extend()).on_hover_text(say::ERROR_TIP);
-                    let spread = Label::new(text(row.between_words(), palette.weak)).extend();
-                    ui.add(spread).on_hover_text(say::BETWEEN_TIP);
-                    ui.add(Label::new(text(row.said.clone(), palette.ink)).extend());
+                    let value = ui.add(Label::new(text(row.value_words(), palette.ink).strong()).extend());
+                    value.on_hover_text(format!("{}\n{spread}", say::ERROR_TIP).trim_end());
+                    if wide {
+                        let between = Label::new(text(between, palette.weak)).extend();
+                        ui.add(between).on_hover_text(say::BETWEEN_TIP);
+                    } else if !row.said.is_empty() {
+                        ui.end_row();
+                    }
+                    if !row.said.is_empty() {
+                        ui.add(Label::new(text(row.said.clone(), palette.weak)).extend());
+                    }
                     ui.end_row();
                 }
             });

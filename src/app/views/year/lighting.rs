@@ -49,6 +49,8 @@ fn over_day(ui: &mut Ui, rect: Rect, day: &Day, installed: f64) -> Option<String
     let palette = Palette::of(ui.visuals());
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + 18.0);
     tile::caption(ui, head.left_top() + vec2(4.0, 1.0), Align2::LEFT_TOP, &day_words(day));
+    // Half of the last hour's name stands beside the plot.
+    let body = body.with_max_x(body.right() - 8.0);
     let plot = day_plot(day, installed);
     let colours = [palette.first];
     let drawn = plot::show(ui, body, &plot, &Look::tile(ui.scope_id().with("day"), &colours, palette.sun), |_| {});
