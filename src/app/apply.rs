@@ -143,6 +143,7 @@ impl App {
                     Lane::Goniophotometer => shell::STOPPED_STATES.into(),
                     Lane::Builtin => shell::STOPPED_BUILTIN.into(),
                     Lane::Product => shell::STOPPED_PRODUCT.into(),
+                    Lane::Annual => crate::texts::year::STOPPED.into(),
                     Lane::Lid if !self.results.lid.stale => shell::STOPPED_PEAK.into(),
                     Lane::Import | Lane::Arrange | Lane::Mend | Lane::Dialog | Lane::Export => {
                         shell::stopped(lane.word())
@@ -178,6 +179,7 @@ impl App {
                 }
             }
             Command::Scene(scene) => state.document.scene = *scene,
+            Command::Year(act) => self.year_act(act),
             Command::Outside(act) => {
                 if let Err(refused) = outside::act(&mut state.document.scene, act) {
                     self.toasts.info(refused.words());

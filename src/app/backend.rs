@@ -23,6 +23,7 @@ use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::luminaire_set::{LuminaireSet, Wish, make, tile_name};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
+use crate::study::year::{Annual, year};
 use crate::study::{Library, Scene, Session, StudyError};
 use crate::texts::shell;
 use rayon::prelude::*;
@@ -341,6 +342,12 @@ impl Engine for StudyEngine {
         progress: &dyn Progress,
     ) -> Result<Subject, AppError> {
         subject(question, incident, wanted, (&self.session, &*self.files), progress)
+    }
+
+    fn year(&self, question: &Question, progress: &dyn Progress) -> Result<Annual, AppError> {
+        let library = WindowLibrary { files: &self.files, shelf: &*question.shelf, progress };
+        let year = year(&question.scene, &question.base, &library, &self.session, &|_| true, progress)?;
+        Ok(Annual::new(&question.scene, year))
     }
 
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {

@@ -17,6 +17,7 @@ use super::state::{PathUse, Sheet, Tile};
 use super::text_size::TextSize;
 use super::theme::ThemeChoice;
 use super::tour::TourAct;
+use super::year::YearAct;
 use crate::catalogue::Grouping;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Repair;
@@ -112,6 +113,8 @@ pub enum Command {
     Row(i32),
     /// Change the scene.
     Scene(Box<SceneFile>),
+    /// Something about the year, or about the weather.
+    Year(YearAct),
     /// Put a box outside, double one, or take one away.
     Outside(outside::Act),
     /// Search for something else.
@@ -211,6 +214,9 @@ pub enum Command {
 impl Command {
     /// Is what this changes in the document a step of its own for undo? Not what is dragged, or repeated by a key that is held.
     pub const fn is_step(&self) -> bool {
-        matches!(self, Self::ResetScene | Self::Compare(_) | Self::Outside(_))
+        match self {
+            Self::Year(act) => act.is_step(),
+            other => matches!(other, Self::ResetScene | Self::Compare(_) | Self::Outside(_)),
+        }
     }
 }

@@ -10,7 +10,7 @@ use super::jobs::Lane;
 use super::scene::{own_system, rule, selection_of};
 use super::shelf_library::WindowLibrary;
 use super::state::{Document, State};
-use super::tiles::TILES;
+use super::tiles;
 use super::window::{App, end_step};
 use super::work::{Compared, Outcome, Shelved, daylight, take_from_shelf};
 use super::{control, title};
@@ -58,7 +58,7 @@ fn shown_words(state: &State) -> String {
 
 /// The parts that a tile draws.
 pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
-    use TileKind::{Btdf, Control, Lid, Room, Sky, Transmittance};
+    use TileKind::{Btdf, Control, Lid, Room, Sky, Transmittance, Year};
     match (look, tile) {
         (Look::Figures, _) => &[Part::Shelf, Part::Data, Part::Room, Part::Lid, Part::Peaks],
         (_, Some(Btdf | Transmittance)) => &[Part::Shelf],
@@ -69,7 +69,7 @@ pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
         (_, Some(Room)) => &[Part::Shelf, Part::Room],
         (Look::Beside, Some(Control)) => &[Part::Shelf, Part::Year],
         (_, Some(Control)) => &[Part::Shelf],
-        (_, None) => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
+        (_, None | Some(Year)) => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
     }
 }
 
@@ -320,7 +320,7 @@ impl App {
 impl super::compare::View {
     /// The tile that is compared.
     pub fn tile(&self) -> &'static str {
-        let known = TILES.iter().map(|entry| entry.tile.title);
+        let known = tiles::compared().map(|tile| tile.title);
         known.clone().find(|title| *title == self.tile).unwrap_or(TileKind::Room.title())
     }
 }

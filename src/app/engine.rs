@@ -12,6 +12,7 @@ use crate::study::accuracy::Accuracy;
 use crate::study::luminaire_set::{LuminaireSet, Wish};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
+use crate::study::year::Annual;
 use crate::study::{Library, OutsideSeen, Session, SurfaceLight};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -112,6 +113,10 @@ pub trait Engine: Send + Sync {
     /// What interpolation between the directions of data needs.
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         Arc::new(Interpolator::new(Arc::clone(data)))
+    }
+    /// The year of a scene that has one. Engines that compute no light have none.
+    fn year(&self, _: &Question, _: &dyn Progress) -> Result<Annual, AppError> {
+        Err(AppError::NoNumbers)
     }
     /// Error against run time of every method.
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;

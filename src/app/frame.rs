@@ -41,6 +41,7 @@ impl App {
         self.ask_due();
         self.ask_peaks();
         self.ask_data_looks();
+        self.ask_weather();
         self.ask_compared();
         self.ask_preview();
         self.ask_pictures();

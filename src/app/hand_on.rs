@@ -8,6 +8,7 @@ use crate::formats::Format;
 use crate::report::{Size, TileKind, tender};
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene_file::{SceneFile, SystemKeys};
+use crate::study::year::Look;
 use crate::texts::{Language, Text, hand_on as texts};
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
@@ -219,6 +220,8 @@ pub struct Key {
     pub incident: Option<[u64; 3]>,
     /// Which tile of the candidates, and which of them the others are less.
     pub compared: (TileKind, usize),
+    /// Which year was computed, and how it is looked at.
+    pub year: (u64, Look),
     /// In which language.
     pub language: Language,
 }

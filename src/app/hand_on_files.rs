@@ -16,7 +16,7 @@ use crate::formats::write_dataset;
 use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
-use crate::report::{Look, Size, TileKind, pdf, picture};
+use crate::report::{Look as PictureLook, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
 use crate::study::inputs::inputs_of;
 use crate::study::luminaire_file::LidFormat;
@@ -24,6 +24,7 @@ use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish};
 use crate::study::moment;
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::Wanted;
+use crate::study::year::{Annual, Look};
 use crate::texts::hand_on as texts;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -44,6 +45,8 @@ pub struct Order {
     pub compared: (TileKind, usize),
     /// The scene's file, if it has one.
     pub scene_path: Option<PathBuf>,
+    /// The year of the scene, where it was computed, and how it is looked at.
+    pub year: Option<(Arc<Annual>, Look)>,
     /// Numbers of the tile.
     pub numbers: Option<String>,
     /// Computes.
@@ -72,8 +75,12 @@ impl Order {
         let choices = &self.choices;
         // Before anything is computed: settings of another day may hold any number.
         let Size { width, height, unit } = choices.size;
-        let look = Look { size: Size::new(width, height, unit)?, print: choices.print, caption: choices.caption };
-        let subject = self.engine.subject(&self.question, self.incident, choices.tile.needs(), progress)?;
+        let look =
+            PictureLook { size: Size::new(width, height, unit)?, print: choices.print, caption: choices.caption };
+        // The year is the one that the window has: it is not computed anew for a picture.
+        let wanted = Wanted { year: false, ..choices.tile.needs() };
+        let mut subject = self.engine.subject(&self.question, self.incident, wanted, progress)?;
+        subject.year.clone_from(&self.year);
         Ok(picture(&subject, choices.tile, &look)?)
     }
 
@@ -87,7 +94,8 @@ impl Order {
                 let scene = &self.question.scene;
                 let asked = SceneFile { year: None, rank: None, compare: Vec::new(), ..scene.clone() };
                 let scene = if choices.comparison { scene } else { &asked };
-                let wanted = Wanted { lid: true, room: true, control: self.compared.0 == TileKind::Control };
+                let wanted =
+                    Wanted { lid: true, room: true, control: self.compared.0 == TileKind::Control, year: false };
                 let comparison = Comparison::of(scene, self.compared, |scene, name| {
                     check(progress)?;
                     let question = Question { scene: scene.clone(), ..self.question.clone() };

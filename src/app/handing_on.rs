@@ -13,11 +13,11 @@ use super::window::App;
 use super::work::Outcome;
 use crate::report::TileKind;
 use crate::study::luminaire_set::tile_name;
-use crate::texts::language;
+use crate::texts::{language, year as say};
 use std::path::{Path, PathBuf};
 
 /// What a preview hangs on, of the window as it is.
-fn key_of(state: &State) -> Key {
+fn key_of(state: &State, year: u64) -> Key {
     let document = &state.document;
     let bits = |incident: crate::compute::direction::Incident| incident.0.vector().to_array().map(f64::to_bits);
     Key {
@@ -26,6 +26,7 @@ fn key_of(state: &State) -> Key {
         selection: document.selection.clone(),
         incident: state.incident.map(bits),
         compared: compared(state),
+        year: (year, state.settings.year),
         language: language(),
     }
 }
@@ -113,7 +114,7 @@ impl App {
         let state = &self.state;
         let selected = &state.document.selection.product;
         let product = state.product.clone().filter(|product| product.key == *selected)?;
-        let key = key_of(state);
+        let key = key_of(state, self.results.annual.revision);
         let numbers = state.hand_on.numbers.as_ref().filter(|(of, _)| *of == key).map(|(_, text)| text.clone());
         Some(Order {
             choices: state.settings.hand_on.clone(),
@@ -123,6 +124,7 @@ impl App {
             dataset: state.dataset.value.clone().filter(|_| !state.dataset.stale),
             compared: compared(state),
             scene_path: state.scene_path.clone(),
+            year: self.present_year().map(|annual| (annual, state.settings.year)),
             numbers,
             engine: self.services.engine.clone(),
         })
@@ -153,7 +155,7 @@ impl App {
             return;
         }
         self.follow_name();
-        let key = key_of(&self.state);
+        let key = key_of(&self.state, self.results.annual.revision);
         let lanes = [Lane::Catalogue, Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Year];
         let moving = self.ctx.input(|input| input.pointer.any_down());
         let known = self.state.hand_on.asked.as_ref() == Some(&key);
@@ -161,6 +163,13 @@ impl App {
             return;
         }
         let Some(order) = self.order() else { return };
+        let of_year = matches!(order.choices.what, What::Table | What::Picture) && order.choices.tile == TileKind::Year;
+        if of_year && order.year.is_none() {
+            // Its tile has nothing to give, however often it is asked.
+            self.state.hand_on.asked = Some(key);
+            self.state.hand_on.shown = Some(Err(say::NO_YEAR.into()));
+            return;
+        }
         if order.choices.what == What::Table && order.numbers.is_none() {
             // The next frame's drawing gives them.
             if let Some(tile) = tile_of(order.choices.tile) {
@@ -178,7 +187,7 @@ impl App {
     /// Numbers that a tile gave for the dialog.
     pub(super) fn take_numbers(&mut self) {
         if let Some(text) = self.export.handed_on() {
-            self.state.hand_on.numbers = Some((key_of(&self.state), text));
+            self.state.hand_on.numbers = Some((key_of(&self.state, self.results.annual.revision), text));
         }
     }
 }

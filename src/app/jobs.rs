@@ -238,6 +238,11 @@ impl<M: Send + 'static> Jobs<M> {
         self.running.contains_key(&lane)
     }
 
+    /// Share done of the present stage of a lane's job; `None` without one, and before it says so.
+    pub fn fraction(&self, lane: Lane) -> Option<f32> {
+        self.running.get(&lane)?.state.fraction()
+    }
+
     /// All jobs under way.
     pub fn views(&self) -> Vec<JobView> {
         self.running.iter().map(|(&lane, job)| JobView { lane, state: job.state.clone() }).collect()

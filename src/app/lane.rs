@@ -1,6 +1,6 @@
 //! What jobs work on, and who goes first.
 
-use crate::texts::{Text, catalogue as products, shell};
+use crate::texts::{Text, catalogue as products, shell, year};
 
 /// What a job works on. Later requests of a lane replace earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -35,6 +35,10 @@ pub enum Lane {
     Surfaces,
     /// What control chooses over the year.
     Year,
+    /// A year of weather in the room.
+    Annual,
+    /// Reading the weather that hours are picked from.
+    Weather,
     /// The data of one incidence in another form.
     DataForm,
     /// How light is interpolated between the directions of the data.
@@ -76,6 +80,8 @@ impl Lane {
             Self::Room => shell::LANE_ROOM,
             Self::Surfaces => shell::LANE_SURFACES,
             Self::Year => shell::LANE_YEAR,
+            Self::Annual => year::LANE_ANNUAL,
+            Self::Weather => year::LANE_WEATHER,
             Self::DataForm => shell::LANE_DATA_FORM,
             Self::Schemes => shell::LANE_SCHEMES,
             Self::Accuracy => shell::LANE_ACCURACY,

@@ -3,6 +3,7 @@
 //! Drawing ([`panels`], [`tiles`], [`views`]) reads [`state::State`] and returns [`command::Command`]s; [`apply`] acts on
 //! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
 
+mod annual;
 pub mod apply;
 pub mod arrange;
 mod asking;
@@ -85,6 +86,7 @@ pub mod views;
 pub mod window;
 pub mod work;
 pub mod writing;
+pub mod year;
 
 pub use frame::run;
 pub use window::{App, Services};

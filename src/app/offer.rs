@@ -16,11 +16,12 @@ use super::theme::ThemeChoice;
 use super::tiles::TILES;
 use super::tour::TourAct;
 use super::views::btdf::form_words;
+use super::year::YearAct;
 use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
 use crate::texts::tiles as tiles_say;
-use crate::texts::{self, Language::English, Text, catalogue, language, scene, shell, speak};
+use crate::texts::{self, Language::English, Text, catalogue, language, scene, shell, speak, year};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
@@ -82,7 +83,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const PLAIN: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 // What is offered says their number.
-const _: () = assert!(TILES.len() == 6);
+const _: () = assert!(TILES.len() == 7);
 
 /// A word as it stands behind a colon: English ones begin small there, German ones as they are.
 fn behind_colon(word: impl std::fmt::Display) -> String {
@@ -266,6 +267,7 @@ fn table() -> Vec<Offer> {
         offer(ResetScene, words::RESET_SCENE, words::RESET_SCENE_TIP).menu(EDIT, 2),
         offer(sheet(state::Sheet::Findings), words::FINDINGS, words::FINDINGS_TIP).menu(HELP, 2),
         offer(sheet(state::Sheet::Accuracy), words::ACCURACY, words::ACCURACY_TIP).keys(PLAIN, Key::A).menu(VIEW, 11),
+        offer(Year(YearAct::Compute), year::COMPUTE, year::COMPUTE_OFFER_TIP).keys(PLAIN, Key::Y).menu(VIEW, 11),
         offer(MeasureAccuracy, words::MEASURE, words::MEASURE_TIP),
         offer(sheet(state::Sheet::Goniophotometer), words::GONIOPHOTOMETER, words::GONIOPHOTOMETER_TIP)
             .keys(PLAIN, Key::G)

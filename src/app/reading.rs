@@ -48,6 +48,8 @@ fn read_single(single: Single, path: &Path) -> Outcome {
             let parse = |text: String| SceneFile::parse(&text).map(Box::new).map_err(|error| about(error.into()));
             Outcome::ReadScene(path.to_owned(), text_of(path, "a scene").and_then(parse))
         }
+        // Read when it is the scene's: what is wrong with it is said there.
+        Single::Weather => Outcome::OpenedWeather(path.to_owned()),
         Single::Curve => Outcome::ReadCurve(
             read_bytes(path).and_then(|bytes| read_control_curve(&bytes).map_err(|error| about(error.into()))),
         ),

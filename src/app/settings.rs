@@ -4,6 +4,7 @@ use super::hand_on::Choices;
 use super::language::LanguageChoice;
 use super::room_look::RoomLook;
 use super::theme::ThemeChoice;
+use crate::study::year::Look;
 use std::path::PathBuf;
 
 /// Kept from one start to the next.
@@ -28,6 +29,8 @@ pub struct Settings {
     pub layout: Option<String>,
     /// How the room is drawn.
     pub room: RoomLook,
+    /// How the year is looked at.
+    pub year: Look,
     /// How large text is, as a share of what the desktop wants.
     pub text_size: f32,
     /// Steps of the tour that were done.
@@ -50,6 +53,7 @@ impl Default for Settings {
             hand_on: Choices::default(),
             layout: None,
             room: RoomLook::default(),
+            year: Look::default(),
             text_size: 1.0,
             tour: 0,
             gallery: false,

@@ -13,6 +13,7 @@ use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 pub use super::settings::Settings;
 use super::shelf::{Addition, Found, Hit, Query, Sets, Shelf};
 use super::tour::Tour;
+use super::year::Calendar;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
@@ -25,6 +26,7 @@ use crate::study::control::year::CONTROLLED;
 use crate::study::inputs::inputs_of;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::SkyKeyError;
+use crate::study::year::Annual;
 use crate::texts::{Text, catalogue as subscribing, shell};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -137,6 +139,10 @@ pub struct Results {
     pub surfaces: Shown<SurfaceFigures>,
     /// What control does over the year.
     pub year: Shown<Year>,
+    /// A year of weather in the room, of the scene that it was asked for.
+    pub annual: Shown<Annual>,
+    /// The weather that hours are picked from.
+    pub weather: Shown<Calendar>,
     /// The data of one incidence in another form than as measured.
     pub form: Shown<FormResult>,
     /// How light is interpolated between the directions of the data.

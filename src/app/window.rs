@@ -19,8 +19,9 @@ use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, Sheet, State};
 use super::steps::{Faults, Steps};
 use super::tiles::Bench;
-use super::views::{accuracy, section, states};
+use super::views::{accuracy, calendar, section, states};
 use super::work::{Outcome, ReadDataset};
+use super::year::CalendarKey;
 use crate::catalogue::{Grouping, SourceFile};
 use crate::study::Library;
 use crate::texts::{Language, Speaking, speak};
@@ -71,6 +72,7 @@ pub struct App {
     /// What was asked for last, and in which language.
     pub(super) asked: Option<(Document, Language)>,
     pub(super) asked_year: Option<YearKey>,
+    pub(super) asked_weather: Option<CalendarKey>,
     pub(super) asked_form: Option<FormKey>,
     pub(super) asked_schemes: Option<SchemesKey>,
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
@@ -93,6 +95,7 @@ pub struct App {
     pub(super) accuracy_view: accuracy::State,
     pub(super) section_view: section::State,
     pub(super) states_view: states::State,
+    pub(super) weather_view: calendar::State,
     /// What the checks said, by content.
     pub(super) examined: Examined,
     /// Pictures of products.
@@ -170,6 +173,7 @@ impl App {
             adding: BTreeSet::new(),
             asked: None,
             asked_year: None,
+            asked_weather: None,
             asked_form: None,
             asked_schemes: None,
             asked_peaks: None,
@@ -186,6 +190,7 @@ impl App {
             accuracy_view: accuracy::State::default(),
             section_view: section::State::default(),
             states_view: states::State::default(),
+            weather_view: calendar::State::default(),
             examined: Examined::default(),
             gallery: Gallery::default(),
             ctx: egui::Context::default(),

@@ -16,6 +16,7 @@ use super::jobs::JobState;
 use super::scene::{Selection, rule};
 use super::shelf::{Found, Sets, Shelf};
 use super::state::{Daylight, PathUse, Tile};
+use super::year::Calendar;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
@@ -34,6 +35,7 @@ use crate::study::scene::seen_by_first_aperture;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use crate::study::subscriptions::Report;
+use crate::study::year::Annual;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -59,6 +61,12 @@ pub enum Outcome {
     Scene(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
     /// What control does over the year.
     Year(Result<Year, StudyError>),
+    /// A year of weather in the room.
+    Annual(Result<Box<Annual>, AppError>),
+    /// The weather that hours are picked from.
+    Weather(Result<Box<Calendar>, StudyError>),
+    /// A weather file was opened.
+    OpenedWeather(PathBuf),
     /// The LID.
     Lid(Result<LidFigures, AppError>),
     /// The largest intensities of a LID.

@@ -121,7 +121,7 @@ fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result
     }
     let base = path.parent().unwrap_or(Path::new("."));
     let (session, progress) = (Session::new(), TerminalProgress::new());
-    let wanted = Wanted { lid: true, room: true, control: args.compared == TileKind::Control };
+    let wanted = Wanted { lid: true, room: true, control: args.compared == TileKind::Control, year: false };
     Comparison::of(&scene, (args.compared, args.base.saturating_sub(1)), |file, name| {
         let asked = Asked { file, base, incident: None, wanted };
         Subject::of(&asked, &session, library, &|key| library.product(key), &progress)

@@ -10,6 +10,7 @@ pub mod contour;
 pub mod flux_split;
 pub mod font;
 pub mod hemisphere;
+pub mod hour_map;
 pub mod legend;
 pub mod lid_curves;
 mod paper;

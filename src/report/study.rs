@@ -141,6 +141,7 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
         TileKind::Room => subject.room.is_some() && subject.scene.grid.is_some(),
         TileKind::Lid => subject.lid.is_some(),
         TileKind::Control => subject.control.is_some(),
+        TileKind::Year => subject.year.is_some(),
         _ => true,
     };
     let figure = |tile: TileKind, size: [f64; 2]| -> Result<Figure, ReportError> {

@@ -7,6 +7,7 @@ use crate::compute::estimate::Progress;
 use crate::compute::limits;
 use crate::formats::luminaire::Luminaire;
 use crate::formats::system_toml::is_system_file;
+use crate::formats::weather::is_weather_file;
 use crate::formats::{Format, FormatError, archive, eulumdat, ies};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -32,6 +33,8 @@ pub enum Single {
     Scene,
     /// A control curve.
     Curve,
+    /// A year of weather.
+    Weather,
 }
 
 impl Single {
@@ -41,6 +44,7 @@ impl Single {
             Self::System => "a system",
             Self::Scene => "a scene",
             Self::Curve => "a control curve",
+            Self::Weather => "a weather file",
         }
     }
 }
@@ -95,6 +99,8 @@ impl Kind {
             Self::Single(Single::Scene)
         } else if ends(".csv") {
             Self::Single(Single::Curve)
+        } else if is_weather_file(name) {
+            Self::Single(Single::Weather)
         } else if ends(".cfsp") {
             Self::Package
         } else if ends(".zip") {

@@ -4,12 +4,13 @@ use super::error::StudyError;
 use super::facing::{sun_incident, surface};
 use super::incidence::Incidence;
 use super::product_control::{
-    TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year,
+    TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year as year_of_control,
 };
 use super::scene::Scene;
 use super::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
 use super::session::{LidResult, RoomResult, Session};
 use super::system::SystemLibrary;
+use super::year::{self, Annual, Look};
 use crate::catalogue::Product;
 use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::direction::Incident;
@@ -17,6 +18,7 @@ use crate::compute::estimate::Progress;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::compute::profile_angle::profile_angle;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What is asked about.
 pub struct Asked<'a> {
@@ -39,13 +41,15 @@ pub struct Wanted {
     pub room: bool,
     /// What control does over day and year.
     pub control: bool,
+    /// The room through a year of weather: it takes longer than all else.
+    pub year: bool,
 }
 
 impl Wanted {
-    /// Everything.
-    pub const ALL: Self = Self { lid: true, room: true, control: true };
+    /// Everything but a year of weather.
+    pub const ALL: Self = Self { lid: true, room: true, control: true, year: false };
     /// Sky and system alone.
-    pub const NOTHING: Self = Self { lid: false, room: false, control: false };
+    pub const NOTHING: Self = Self { lid: false, room: false, control: false, year: false };
 }
 
 /// What control does with the first aperture's product.
@@ -91,6 +95,8 @@ pub struct Subject {
     pub room: Option<RoomResult>,
     /// `None` where nothing moves, and where it was not wanted.
     pub control: Option<Controlled>,
+    /// A year of weather, and how it is looked at; `None` where it was not wanted.
+    pub year: Option<(Arc<Annual>, Look)>,
 }
 
 impl Subject {
@@ -141,8 +147,14 @@ impl Subject {
             }
             _ => None,
         };
+        let year = if asked.wanted.year {
+            let year = year::year(file, asked.base, library, session, &|_| true, progress)?;
+            Some((Arc::new(Annual::new(file, year)), Look::default()))
+        } else {
+            None
+        };
         let (incidence, sun) = (Incidence::shown(asked.incident, file), sun_incident(file));
-        Ok(Self { file: file.clone(), product, name, state, incidence, sun, lid, room, control, scene })
+        Ok(Self { file: file.clone(), product, name, state, incidence, sun, lid, room, control, year, scene })
     }
 
     /// Data of the first aperture's system.
@@ -182,7 +194,7 @@ fn controlled(
         Some(key) => today(product, key, file)?,
         None => Vec::new(),
     };
-    let year = key.map(|key| year(product, key, progress)).transpose()?;
+    let year = key.map(|key| year_of_control(product, key, progress)).transpose()?;
     Ok(Controlled {
         mode,
         current: states.iter().position(|(key, _)| key == state).unwrap_or(0),

@@ -5,7 +5,8 @@ use super::files;
 use crate::compute::limits;
 use crate::compute::weather::Weather;
 use crate::formats::weather;
-use std::path::Path;
+use crate::texts::year as say;
+use std::path::{Path, PathBuf};
 
 /// What the name of a year that comes with the program begins with.
 pub const BUILTIN: &str = "builtin:";
@@ -40,6 +41,50 @@ pub const YEARS: [BuiltinYear; 3] = [
     },
 ];
 
+impl BuiltinYear {
+    /// Its name in scenes, e.g. `builtin:renton`.
+    pub fn name(&self) -> PathBuf {
+        PathBuf::from(format!("{BUILTIN}{}", self.key))
+    }
+
+    /// Latitude (north positive) and longitude (east positive), as the head of its table has them. \[°\]
+    pub fn place(&self) -> Option<[f64; 2]> {
+        let of = |key: &str| {
+            let head = self.table.lines().take_while(|line| !line.is_empty());
+            let mut values = head.filter_map(|line| line.split_once('='));
+            values.find(|(name, _)| name.trim() == key).and_then(|(_, value)| value.trim().parse().ok())
+        };
+        Some([of("latitude")?, of("longitude")?])
+    }
+}
+
+/// A year that comes with the program in words of the language that is spoken: place, kind of year.
+pub fn words(year: &BuiltinYear) -> &'static str {
+    match year.key {
+        "new-york" => say::NEW_YORK.get(),
+        "piedmont" => say::PIEDMONT.get(),
+        "renton" => say::RENTON.get(),
+        _ => year.words,
+    }
+}
+
+/// The year that comes with the program from nearest to a place \[latitude and longitude in °\], along the earth's surface.
+pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
+    let upright = |[latitude, longitude]: [f64; 2]| {
+        let (latitude, longitude) = (latitude.to_radians(), longitude.to_radians());
+        let flat = latitude.cos();
+        [flat * longitude.cos(), flat * longitude.sin(), latitude.sin()]
+    };
+    let here = upright(place);
+    let near = |year: &BuiltinYear| {
+        let there = upright(year.place().unwrap_or([f64::NAN; 2]));
+        here.iter().zip(there).map(|(a, b)| a * b).sum::<f64>()
+    };
+    // What lies nowhere is never the nearest.
+    let better = |a: f64, b: f64| a > b || b.is_nan();
+    YEARS.iter().fold(&YEARS[0], |best, year| if better(near(year), near(best)) { year } else { best })
+}
+
 /// Reads a weather file, or a year that comes with the program (`builtin:new-york`). A name that is not absolute starts
 /// from `base`.
 ///
@@ -64,4 +109,30 @@ pub fn load(name: &Path, base: &Path) -> Result<Weather, StudyError> {
     let bytes = files::read(&path)?;
     weather::read(&path.to_string_lossy(), &bytes)
         .map_err(|error| StudyError::File { path, message: error.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_year_is_that_of_the_same_coast() {
+        for (place, key) in [
+            ([48.78, 9.18], "piedmont"),
+            ([42.36, -71.06], "new-york"),
+            ([37.77, -122.42], "renton"),
+            // Over the pole and across the date line.
+            ([64.5, 177.5], "renton"),
+        ] {
+            assert_eq!(nearest(place).key, key, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn heads_of_tables_say_the_place_that_their_readers_find() {
+        for year in &YEARS {
+            let station = load(&year.name(), Path::new("")).unwrap().station;
+            assert_eq!(year.place(), Some([station.latitude, station.longitude]), "{}", year.key);
+        }
+    }
 }

@@ -82,7 +82,7 @@ texts! {
     const PALETTE = "Command palette" | "Befehlspalette";
     const PALETTE_TIP = "Find a command by its words" | "Einen Befehl nach seinen Wörtern finden";
     fn maximise(tile) = "Maximise {tile}" | "{tile} maximieren";
-    const ALL_TILES = "All six tiles" | "Alle sechs Kacheln";
+    const ALL_TILES = "All tiles" | "Alle Kacheln";
     const ALL_TILES_TIP = "Back from one tile to all" | "Von einer Kachel zurück zu allen";
 
     const HOUR_LATER = "One hour later" | "Eine Stunde später";

@@ -44,6 +44,7 @@ macro_rules! text {
 use text;
 
 pub mod catalogue;
+pub mod choose;
 pub mod commands;
 pub mod compare;
 pub mod goniophotometer;
@@ -54,11 +55,13 @@ pub mod stages;
 pub mod take_in;
 pub mod tiles;
 pub mod words;
+pub mod year;
 
 /// Every text in English and in German, with the names of what is filled in, by the file that says it.
 pub fn pairs() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-    let files: [(&str, &[(&str, &str)]); 11] = [
+    let files: [(&str, &[(&str, &str)]); 13] = [
         ("catalogue", catalogue::PAIRS),
+        ("choose", choose::PAIRS),
         ("commands", commands::PAIRS),
         ("compare", compare::PAIRS),
         ("goniophotometer", goniophotometer::PAIRS),
@@ -69,6 +72,7 @@ pub fn pairs() -> impl Iterator<Item = (&'static str, &'static str, &'static str
         ("take_in", take_in::PAIRS),
         ("tiles", tiles::PAIRS),
         ("words", words::PAIRS),
+        ("year", year::PAIRS),
     ];
     files.into_iter().flat_map(|(file, pairs)| pairs.iter().map(move |(english, german)| (file, *english, *german)))
 }

@@ -7,7 +7,7 @@ use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures
 use cfs::app::error::AppError;
 use cfs::app::state::Sheet;
 use cfs::app::theme::ThemeChoice;
-use cfs::app::tiles::TILES;
+use cfs::app::tiles::compared;
 use cfs::compute::estimate::{Cancelled, Estimate, Progress};
 use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
@@ -91,7 +91,7 @@ fn title(harness: &Harness<'_, App>) -> String {
 #[test]
 fn a_first_start_shows_six_tiles_of_a_product_at_a_place_and_time() {
     let (harness, _) = window();
-    for title in TILES.iter().map(|entry| entry.tile.title) {
+    for title in compared().map(|tile| tile.title) {
         assert!(harness.query_by_label(&format!("Tile {title}")).is_some(), "{title}");
     }
     let title = title(&harness);

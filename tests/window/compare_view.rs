@@ -12,7 +12,7 @@ use cfs::app::language::LanguageChoice;
 use cfs::app::room_look::{RoomLook, RoomView};
 use cfs::app::session::{Kept, Snapshot};
 use cfs::app::state::{Settings, State};
-use cfs::app::tiles::TILES;
+use cfs::app::tiles::{TILES, compared};
 use cfs::compute::estimate::{Estimate, Progress};
 use cfs::study::SceneFile;
 use cfs::study::accuracy::Accuracy;
@@ -221,7 +221,7 @@ fn all_looks_draw_all_tiles_and_the_table_marks_what_is_better_by_more_than_the_
     }
     for look in Look::ALL {
         act(&mut harness, Act::Look(look));
-        for tile in TILES.iter().map(|entry| entry.tile.title) {
+        for tile in compared().map(|tile| tile.title) {
             act(&mut harness, Act::Tile(tile));
             harness.run_steps(2);
             if look == Look::Difference && tile == "Room" {

@@ -30,3 +30,4 @@ mod tour_view;
 mod truth;
 mod undo;
 mod views;
+mod year_view;

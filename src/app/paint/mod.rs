@@ -6,6 +6,7 @@ pub mod camera;
 pub mod colour_scale;
 pub mod frozen;
 pub mod hemisphere;
+pub mod hour_map;
 pub mod palette;
 pub mod plot;
 pub mod polar;

@@ -173,6 +173,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
         state,
         results,
         busy: &|lane| app.jobs.busy(lane),
+        done: &|lane| app.jobs.fraction(lane),
         // The other one is drawn on the scales of the first: equal colours stay equal values.
         held: app.state.compare.swapped.is_some() || ui.input(|input| input.pointer.any_down()),
         numbers,

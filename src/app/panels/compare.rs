@@ -10,7 +10,7 @@ use crate::app::command::Command;
 use crate::app::compare::{Act, Look};
 use crate::app::state::State;
 use crate::app::theme;
-use crate::app::tiles::TILES;
+use crate::app::tiles;
 use crate::app::window::App;
 use crate::study::comparison::label;
 use crate::texts::{Text, compare as texts};
@@ -142,7 +142,7 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     if view.look != Look::Figures {
         let combo = egui::ComboBox::from_id_salt("compared tile").width(110.0).selected_text(tile_words(view.tile()));
         let combo = combo.show_ui(ui, |ui| {
-            for tile in TILES.iter().map(|entry| entry.tile.title) {
+            for tile in tiles::compared().map(|tile| tile.title) {
                 if ui.selectable_label(view.tile() == tile, tile_words(tile)).clicked() {
                     act(Act::Tile(tile));
                 }

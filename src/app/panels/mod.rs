@@ -73,11 +73,10 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         app.state.sheet.is_none() || (app.state.sheet == Some(Sheet::Goniophotometer) && ui.available_width() > 900.0);
     // A sheet takes the scene's place: beside both the tiles would be too narrow to read.
     if app.state.settings.scene_open && room_for_scene {
-        egui::Panel::right("scene")
-            .frame(side)
-            .default_size(250.0)
-            .size_range(widths(ui, 250.0))
-            .show(ui, |ui| scene::show(ui, &app.state, &mut commands));
+        egui::Panel::right("scene").frame(side).default_size(250.0).size_range(widths(ui, 250.0)).show(ui, |ui| {
+            let weather = scene::Weather { calendar: &app.results.weather, view: &mut app.weather_view };
+            scene::show(ui, &app.state, weather, &mut commands);
+        });
     }
     if let Some(sheet) = app.state.sheet.filter(|_| wide.is_none()) {
         egui::Panel::right("sheet")

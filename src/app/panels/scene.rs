@@ -6,7 +6,10 @@ mod place;
 mod sky;
 mod skyline;
 mod summer_time;
+mod weather;
 mod when;
+
+pub use weather::Weather;
 
 use super::fields::number;
 use crate::app::command::Command;
@@ -15,16 +18,16 @@ use crate::app::state::State;
 use crate::app::theme;
 use crate::app::title;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
-use crate::texts::{Text, fixed, scene as texts};
+use crate::texts::{Text, fixed, scene as texts, year as year_texts};
 use egui::{CollapsingHeader, DragValue, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
 
 /// Draws the panel.
-pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+pub fn show(ui: &mut Ui, state: &State, weather: Weather<'_>, commands: &mut Vec<Command>) {
     ui.heading(texts::SCENE);
     // A copy is edited; the panel changes nothing itself, and a command is given only where something differs.
     let mut scene = state.document.scene.clone();
     ScrollArea::vertical().id_salt("scene").auto_shrink([false, false]).show(ui, |ui| {
-        sections(ui, state, &mut scene, commands);
+        sections(ui, state, &mut scene, weather, commands);
     });
     if scene != state.document.scene {
         commands.push(Command::Scene(Box::new(scene)));
@@ -32,7 +35,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 }
 
 /// The sections in the order in which a study is thought of: where, when, what sky, what stands before it, then the room.
-fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, commands: &mut Vec<Command>) {
+fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather<'_>, commands: &mut Vec<Command>) {
     let perez = scene.sky.model == SkyModelKey::Perez;
     let wrong = |title: Text| {
         let error = state.scene_error.as_ref().filter(|error| section_of(error.key, perez) == title)?;
@@ -48,6 +51,10 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, commands: &mut Ve
     let low_sun = sky::low_sun(scene);
     let wrong_sky = wrong(texts::SKY).filter(|_| low_sun.is_none());
     section(ui, texts::SKY, &title::sky(scene), wrong_sky, true, |ui| sky::show(ui, scene, low_sun));
+    let essence = weather::essence(scene);
+    section(ui, year_texts::WEATHER_AND_YEAR, &essence, weather::problem(scene, &calendar), false, |ui| {
+        weather::show(ui, scene, calendar, commands);
+    });
     let ground = format!("ρ {}", fixed(scene.site.ground_reflectance, 2));
     section(ui, texts::GROUND_AND_SKYLINE, &ground, wrong(texts::GROUND_AND_SKYLINE), false, |ui| {
         number(ui, texts::GROUND_REFLECTANCE, "", &mut scene.site.ground_reflectance, 0.0..=1.0, 2);

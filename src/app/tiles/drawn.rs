@@ -16,6 +16,8 @@ pub struct TileInput<'a> {
     pub results: &'a Results,
     /// Is something being computed in a lane?
     pub busy: &'a dyn Fn(Lane) -> bool,
+    /// Share done of what is being computed in a lane; `None` before it says so.
+    pub done: &'a dyn Fn(Lane) -> Option<f32>,
     /// Something is being dragged: scales stand still.
     pub held: bool,
     /// Are the tile's numbers asked for?

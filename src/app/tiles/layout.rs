@@ -132,6 +132,11 @@ impl Layout {
         Ok(if left.is_empty() { layout } else { layout.with(&left) })
     }
 
+    /// A tile that is not there yet becomes a tab behind another.
+    pub fn behind(self, front: Tile, tile: Tile) -> Self {
+        self.replaced(front, &mut |own| Self::tabs(&[own, tile]))
+    }
+
     /// With more tiles, as tabs of the last one.
     fn with(self, more: &[Tile]) -> Self {
         let last = self.tiles().last().copied();

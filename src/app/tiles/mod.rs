@@ -11,6 +11,7 @@ mod presets;
 mod room;
 mod sky;
 mod transmittance;
+mod year;
 
 pub use btdf::TILE as BTDF;
 pub use drawn::{Drawn, TileInput};
@@ -19,6 +20,7 @@ pub use lid::TILE as LID;
 pub use presets::layout as preset;
 pub use room::TILE as ROOM;
 pub use sky::TILE as SKY;
+pub use year::TILE as YEAR;
 
 use super::command::Command;
 use super::jobs::Lane;
@@ -47,6 +49,7 @@ pub const TILES: &[Entry] = &[
     entry::<lid::Drawing>(lid::TILE),
     entry::<room::Drawing>(room::TILE),
     entry::<control::Drawing>(control::TILE),
+    entry::<year::Drawing>(year::TILE),
 ];
 
 /// The tiles of one window, and where they stand.
@@ -71,10 +74,20 @@ pub fn all() -> Vec<Tile> {
     TILES.iter().map(|entry| entry.tile).collect()
 }
 
+/// Where tiles stand at a first start: six side by side, the year behind the control.
+fn first() -> Layout {
+    presets::layout(super::arrange::Preset::All, &all())
+}
+
+/// Tiles that can be drawn of what is compared: a year is computed of the scene alone.
+pub fn compared() -> impl Iterator<Item = Tile> + Clone {
+    TILES.iter().map(|entry| entry.tile).filter(|tile| *tile != year::TILE)
+}
+
 impl Default for Bench {
     fn default() -> Self {
         Self {
-            tree: Layout::even(&all()).tree(),
+            tree: first().tree(),
             text: None,
             places: Vec::new(),
             in_hand: TILES[0].tile,
@@ -88,7 +101,7 @@ impl Default for Bench {
 impl Bench {
     /// The arrangement as it stands.
     pub fn layout(&self) -> Layout {
-        Layout::of(&self.tree).unwrap_or_else(|| Layout::even(&all()))
+        Layout::of(&self.tree).unwrap_or_else(|| first())
     }
 
     /// Arranges the tiles as a text says, where it is another than that of the present arrangement.
@@ -100,8 +113,8 @@ impl Bench {
             return Ok(());
         }
         self.text = text.cloned();
-        let read = text.map_or_else(|| Ok(Layout::even(&all())), |text| Layout::read(text, &all()));
-        self.tree = read.as_ref().cloned().unwrap_or_else(|_| Layout::even(&all())).tree();
+        let read = text.map_or_else(|| Ok(first()), |text| Layout::read(text, &all()));
+        self.tree = read.as_ref().cloned().unwrap_or_else(|_| first()).tree();
         read.map(drop)
     }
 
@@ -125,6 +138,7 @@ impl Bench {
             Lane::Surfaces => results.surfaces.stale,
             // What does not move has none.
             Lane::Year => results.year.value.is_some() && results.year.stale,
+            Lane::Annual => results.annual.value.as_ref().is_none_or(|annual| !annual.is_of(&state.document.scene)),
             _ => false,
         };
         state.dataset.stale || state.daylight.stale || lanes.iter().any(old)
@@ -180,7 +194,7 @@ mod tests {
         bench.follow(Some(&maker)).unwrap();
         assert!(bench.shows(Lane::Room, None) && !bench.shows(Lane::Year, None));
         assert!(bench.follow(Some(&"{".to_owned())).is_err());
-        assert_eq!(bench.layout().in_sight(), all());
+        assert_eq!(bench.layout().in_sight(), compared().collect::<Vec<_>>());
         // Said once.
         assert!(bench.follow(Some(&"{".to_owned())).is_ok());
     }

@@ -1,7 +1,7 @@
 //! Ready arrangements.
 
 use super::layout::Layout;
-use super::{btdf, control, lid, room, sky, transmittance};
+use super::{btdf, control, lid, room, sky, transmittance, year};
 use crate::app::arrange::Preset;
 use crate::app::state::Tile;
 
@@ -9,9 +9,12 @@ use crate::app::state::Tile;
 pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
     let one = |share: f32, tile: Tile| (share, Layout::Tile(tile));
     match preset {
-        Preset::All => Layout::even(all),
+        Preset::All => {
+            let others: Vec<Tile> = all.iter().copied().filter(|tile| *tile != year::TILE).collect();
+            Layout::even(&others).behind(control::TILE, year::TILE)
+        }
         Preset::Designer => Layout::Row(vec![
-            (1.6, Layout::tabs(&[room::TILE, btdf::TILE])),
+            (1.6, Layout::tabs(&[room::TILE, btdf::TILE, year::TILE])),
             (
                 1.0,
                 Layout::Column(vec![
@@ -22,14 +25,20 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
         ]),
         Preset::Maker => Layout::Column(vec![
             (1.2, Layout::Row(vec![one(1.3, btdf::TILE), one(1.0, transmittance::TILE)])),
-            (1.0, Layout::Row(vec![one(1.0, lid::TILE), (1.3, Layout::tabs(&[room::TILE, sky::TILE, control::TILE]))])),
+            (
+                1.0,
+                Layout::Row(vec![
+                    one(1.0, lid::TILE),
+                    (1.3, Layout::tabs(&[room::TILE, sky::TILE, control::TILE, year::TILE])),
+                ]),
+            ),
         ]),
         Preset::Science => Layout::Row(vec![
             (1.2, Layout::Column(vec![one(1.0, btdf::TILE), one(1.0, lid::TILE)])),
             (
                 1.0,
                 Layout::Column(vec![
-                    one(1.3, room::TILE),
+                    (1.3, Layout::tabs(&[room::TILE, year::TILE])),
                     (1.0, Layout::tabs(&[sky::TILE, transmittance::TILE, control::TILE])),
                 ]),
             ),

@@ -9,6 +9,7 @@ use crate::app::views::sky;
 use crate::app::{moment, title};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, Surface};
+use crate::study::scene_file::SkyModelKey;
 use crate::texts::tiles as say;
 use egui::Ui;
 
@@ -49,7 +50,14 @@ impl Drawn for Drawing {
         let input = sky::Input {
             luminance: luminance.as_ref().map(|function| function as &dyn Fn(f64, f64) -> f64),
             name: &name,
-            sun: moment::sun(scene).map(place),
+            // A weather has its own place and clock.
+            sun: match daylight.filter(|_| scene.sky.model == SkyModelKey::Weather) {
+                Some(daylight) => daylight.sun.map(|sun| sky::Place {
+                    altitude: sun.direction.altitude(),
+                    bearing: sun.direction.bearing().radians(),
+                }),
+                None => moment::sun(scene).map(place),
+            },
             behind_boxes: daylight.is_some_and(|daylight| daylight.seen.is_some()),
             facade_bearing: scene.site.azimuth.to_radians(),
             skyline: daylight.map_or(0.0, |daylight| daylight.outside.skyline_altitude()),

@@ -4,6 +4,8 @@
 
 pub mod accuracy;
 pub mod btdf;
+pub mod calendar;
+pub mod choose;
 pub mod control;
 pub mod difference;
 pub mod lid;
@@ -12,6 +14,7 @@ pub mod section;
 pub mod sky;
 pub mod states;
 pub mod transmittance;
+pub mod year;
 
 use crate::drawing::hemisphere::{incident_cells, listed};
 

@@ -6,6 +6,7 @@ mod lid;
 pub(super) mod room;
 mod section;
 mod sky;
+mod year;
 
 pub use hemispheres::indicatrix;
 pub use section::section;
@@ -33,11 +34,14 @@ pub enum TileKind {
     Room,
     /// States over profile angle and year.
     Control,
+    /// The hours of a year.
+    Year,
 }
 
 impl TileKind {
     /// All, in the order of the bench.
-    pub const ALL: [Self; 6] = [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control];
+    pub const ALL: [Self; 7] =
+        [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control, Self::Year];
 
     /// The title of the tile in the window's own books.
     pub const fn title(self) -> &'static str {
@@ -53,6 +57,7 @@ impl TileKind {
             Self::Lid => texts::TILE_LID,
             Self::Room => texts::TILE_ROOM,
             Self::Control => texts::TILE_CONTROL,
+            Self::Year => crate::texts::year::YEAR,
         }
     }
 
@@ -65,6 +70,7 @@ impl TileKind {
             Self::Lid => "lid",
             Self::Room => "room",
             Self::Control => "control",
+            Self::Year => "year",
         }
     }
 
@@ -79,6 +85,7 @@ impl TileKind {
             lid: matches!(self, Self::Lid | Self::Sky),
             room: matches!(self, Self::Room),
             control: matches!(self, Self::Control),
+            year: matches!(self, Self::Year),
         }
     }
 }
@@ -119,6 +126,7 @@ pub(super) fn draw_on(
         TileKind::Lid => lid::lid(drawing, frame, subject, range, inks),
         TileKind::Room => room::room(drawing, frame, subject, range, inks),
         TileKind::Control => control::control(drawing, frame, subject, inks),
+        TileKind::Year => year::year(drawing, frame, subject, inks),
     }
     .map_err(|why| ReportError::Nothing(tile.words(), why))
 }
@@ -134,6 +142,6 @@ pub(super) fn scale_of<'a>(tile: TileKind, subjects: impl Iterator<Item = &'a Su
             let sensors = subjects.filter_map(|one| one.room.as_ref()).flat_map(|room| &room.sensors);
             scales::of_illuminances(sensors.map(|sensor| sensor.total().value))
         }
-        TileKind::Control => None,
+        TileKind::Control | TileKind::Year => None,
     }
 }

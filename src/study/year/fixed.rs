@@ -3,6 +3,7 @@
 use super::steps::Steps;
 use crate::study::control::year::Moving;
 use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, SunKeys, SystemKeys, TimeKey};
+use crate::study::year_keys::YearKeys;
 
 /// The scene with the states of its moving apertures fixed, and no year.
 pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
@@ -44,6 +45,30 @@ fn bare(scene: &SceneFile, model: SkyModelKey) -> SkyKeys {
         diffuse_horizontal_irradiance: None,
         file: None,
         ..scene.sky.clone()
+    }
+}
+
+/// Sky and ground of a step: where the step is a whole interval of the weather, as that hour of the weather; else as
+/// [`put_at`] has them.
+pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys) {
+    let index = |k: usize| steps.list.get(k).map(|step| step.hour.index);
+    let parted = index(at + 1) == index(at) || at > 0 && index(at - 1) == index(at);
+    let ground = scene.site.ground_reflectance;
+    if parted {
+        put_at(scene, steps, at);
+    } else {
+        scene.sky = SkyKeys {
+            weather: Some(keys.weather.clone()),
+            light: keys.light,
+            sun_offset_minutes: keys.sun_offset_minutes,
+            time: Some(TimeKey::Text(steps.list[at].time.strftime("%Y-%m-%dT%H:%M").to_string())),
+            ..bare(scene, SkyModelKey::Weather)
+        };
+        scene.site.ground_reflectance = steps.ground(at);
+    }
+    // The scene's own holds where no months are given: it may have been typed since.
+    if keys.ground.is_empty() {
+        scene.site.ground_reflectance = ground;
     }
 }
 

@@ -15,17 +15,26 @@
 //! | `opening` | exposure to sunlight and view out, without light |
 //! | `figures` | what the year comes to, with errors |
 //! | `metrics` | figures by their keys |
+//! | `annual` | a year with its figures, and what it hangs on |
+//! | `look` | what of it is looked at |
+//! | `maps` | its hours as a map |
+//! | `table` | its figures as rows with words |
+//! | `lamps` | the lamps over a day and by month |
 //!
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
 
 mod dgp;
 mod eye_light;
+mod annual;
 mod figures;
 mod fixed;
+mod lamps;
 mod light;
 pub mod metrics;
 mod opening;
+mod look;
+mod maps;
 mod settings;
 mod solar;
 mod states;
@@ -36,9 +45,16 @@ pub use dgp::Dgp;
 pub use figures::{Figures, SolarFigures, figures};
 pub use light::{Light, Way};
 pub use opening::{NOT_JUDGED, Opening, opening};
+mod table;
+
+pub use annual::{Annual, at_step, question};
+pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
+pub use look::{Look, Page, Shows};
+pub use maps::{choices, error, map, title, weather_map};
 pub use settings::{Settings, settings};
 pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};
+pub use table::{Row, Section, table};
 
 use super::error::StudyError;
 use super::scene_file::SceneFile;

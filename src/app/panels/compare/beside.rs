@@ -126,7 +126,7 @@ fn one(
         return;
     }
     let Column { state, results, bench, .. } = column;
-    let seen = TileInput { state, results, busy: &busy, held, numbers: false, scale };
+    let seen = TileInput { state, results, busy: &busy, done: &|_| None, held, numbers: false, scale };
     bench.show(ui, tile, &seen, commands);
 }
 
@@ -148,6 +148,6 @@ fn scale(columns: &[Column], kind: Option<TileKind>) -> Option<[f64; 2]> {
         TileKind::Sky => {
             scales::of_skies(columns.iter().filter_map(|column| Some(&column.state.daylight.value.as_ref()?.outside)))
         }
-        TileKind::Control => None,
+        TileKind::Control | TileKind::Year => None,
     }
 }

@@ -1,0 +1,115 @@
+//! The year tile: a year of weather in the room, computed when it is asked for.
+
+use super::drawn::{Drawn, TileInput};
+use crate::app::command::Command;
+use crate::app::jobs::Lane;
+use crate::app::paint::tile::Status;
+use crate::app::state::Tile;
+use crate::app::views::{Cache, year as view};
+use crate::app::year::{YearAct, weather_of_year};
+use crate::app::{moment, title};
+use crate::drawing::hour_map::HourMap;
+use crate::study::year::{Annual, Day, Look, Row, day, map, months, sunniest, table};
+use crate::texts::{Language, language, year as say};
+use egui::Ui;
+
+/// The tile.
+pub const TILE: Tile = Tile { title: say::YEAR.english(), name: say::YEAR, help: say::YEAR_HELP };
+
+/// Its drawing.
+#[derive(Default)]
+pub struct Drawing {
+    view: view::State,
+    map: Cache<(u64, Look, Language), HourMap>,
+    rows: Cache<(u64, Language), Vec<Row>>,
+    day: Cache<(u64, u8), Option<Day>>,
+    months: Cache<u64, Option<[(f64, f64); 12]>>,
+}
+
+/// Is the state of the scene's moment another than the year has at that step? In words, or nothing.
+fn remark(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
+    let state = seen.state;
+    let aperture = state.control_aperture() + 1;
+    let moving = annual.year.moving.iter().position(|one| one.aperture == aperture);
+    let Some((m, step)) = moving.zip(now) else { return String::new() };
+    let own = &annual.year.moving[m].device.keys[annual.year.states[step][m]];
+    let there = &state.shown_state;
+    let known = !there.is_empty() && !state.dataset.stale && annual.year.steps.list[step].hour.is_lit();
+    if known && own != there { say::other_state(own, there) } else { String::new() }
+}
+
+impl Drawn for Drawing {
+    fn lanes(&self) -> &'static [Lane] {
+        &[Lane::Annual]
+    }
+
+    fn ready(&self, seen: &TileInput<'_>) -> bool {
+        seen.results.annual.value.is_some() || seen.state.shelf().is_some()
+    }
+
+    fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
+        let state = seen.state;
+        let scene = &state.document.scene;
+        let result = &seen.results.annual;
+        let annual = result.value.as_deref();
+        let look = state.settings.year;
+        let of = result.revision;
+        let month = moment::of(scene).map_or(6, |time| time.month().unsigned_abs());
+        let now = annual.and_then(|annual| annual.now(scene));
+        let remark = annual.map_or_else(String::new, |annual| remark(seen, annual, now));
+        let shown = match annual {
+            Some(annual) => {
+                let of_day = look.month.unwrap_or(month);
+                Some(view::Shown {
+                    year: &annual.year,
+                    map: self.map.get((of, Look { page: Default::default(), month: None, ..look }, language()), || {
+                        map(&annual.year, &look)
+                    }),
+                    rows: self.rows.get((of, language()), || table(annual)),
+                    day: self
+                        .day
+                        .get((of, of_day), || sunniest(&annual.year, of_day).and_then(|date| day(&annual.year, date)))
+                        .as_ref(),
+                    months: self.months.get(of, || months(annual)).as_ref(),
+                    now,
+                    remark: &remark,
+                })
+            }
+            None => None,
+        };
+        let busy = (seen.busy)(Lane::Annual);
+        let name = title::in_room(state);
+        let weather = weather_of_year(scene);
+        let stale = annual.is_some_and(|annual| !annual.is_of(scene));
+        let input = view::Input {
+            shown,
+            look,
+            month,
+            name: &name,
+            weather: &weather,
+            running: busy.then(|| (seen.done)(Lane::Annual).unwrap_or(0.0)),
+            error: result.error.as_deref().filter(|_| !busy),
+            revision: hash(of, &look),
+            status: Status { idle: !busy, ..seen.status(stale, None) },
+        };
+        for action in view::show(ui, &input, &mut self.view) {
+            commands.push(match action {
+                view::Action::Compute => Command::Year(YearAct::Compute),
+                view::Action::Stop => Command::Cancel(Lane::Annual),
+                view::Action::Look(look) => Command::Year(YearAct::Look(look)),
+                view::Action::Show(step, walking) => Command::Year(YearAct::Show(step, walking)),
+                view::Action::Weather(name) => Command::Year(YearAct::WeatherOfYear(name)),
+                view::Action::Open => Command::Open,
+            });
+        }
+        (seen.numbers && input.shown.is_some()).then(|| view::csv(&input))
+    }
+}
+
+/// Another number for every map.
+fn hash(revision: u64, look: &Look) -> u64 {
+    use std::hash::{DefaultHasher, Hash, Hasher};
+    let mut hasher = DefaultHasher::new();
+    (revision, look.shows, look.log, language()).hash(&mut hasher);
+    hasher.finish()
+}

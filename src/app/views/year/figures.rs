@@ -1,0 +1,74 @@
+//! The figures of a year as a table: value, error, spread over the sensors, what limits say; what each is, in its tip.
+
+use crate::app::paint::palette::Palette;
+use crate::study::year::Row;
+use crate::texts::year as say;
+use egui::{Grid, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2, vec2};
+use std::fmt::Write as _;
+
+/// Width of a table whose rows stand in one line each; in less, what limits say stands under the figure. \[points\]
+const WIDE: f32 = 600.0;
+
+/// Height of a row with the space under it. \[points\]
+const PITCH: f32 = 26.0;
+/// Space between columns, and rows. \[points\]
+const SPACING: Vec2 = vec2(10.0, 4.0);
+
+pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
+    let palette = Palette::of(ui.visuals());
+    let text = |words: String, colour| RichText::new(words).size(13.0).color(colour);
+    let wide = rect.width() >= WIDE;
+    // Whole rows: none is cut before it is scrolled.
+    let rect = rect.with_max_y(rect.top() + ((rect.height() / PITCH).floor() * PITCH).max(PITCH));
+    ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("figures"), |ui| {
+        ScrollArea::vertical().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
+            let grid = Grid::new("figures").num_columns(2).striped(true).spacing(SPACING);
+            grid.min_row_height(PITCH - SPACING.y).show(ui, |ui| {
+                let mut section = None;
+                for row in rows {
+                    if section != Some(row.section) {
+                        section = Some(row.section);
+                        ui.label(RichText::new(row.section.words().get()).size(13.0).strong());
+                        ui.end_row();
+                    }
+                    let between = row.between_words();
+                    let spread = if between.is_empty() { String::new() } else { say::between_is(&between) };
+                    ui.add(Label::new(text(row.name.clone(), palette.ink)).extend()).on_hover_text(row.tip);
+                    let value = ui.add(Label::new(text(row.value_words(), palette.ink).strong()).extend());
+                    value.on_hover_text(format!("{}\n{spread}", say::ERROR_TIP).trim_end());
+                    if wide {
+                        let between = Label::new(text(between, palette.weak)).extend();
+                        ui.add(between).on_hover_text(say::BETWEEN_TIP);
+                    } else if !row.said.is_empty() {
+                        ui.end_row();
+                    }
+                    if !row.said.is_empty() {
+                        ui.add(Label::new(text(row.said.clone(), palette.weak)).extend());
+                    }
+                    ui.end_row();
+                }
+            });
+        });
+    });
+}
+
+/// Section, name, value, error, lowest and highest of the sensors, unit, what limits say. Shares are 0 … 1.
+pub(super) fn csv(rows: &[Row]) -> String {
+    let quoted = crate::app::paint::tile::csv_field;
+    let mut out = String::from("section,figure,value,error,lowest,highest,unit,said\n");
+    for row in rows {
+        let [low, high] = row.between.map_or_else(Default::default, |ends| ends.map(|end| end.to_string()));
+        let unit = if row.unit == "%" { "" } else { row.unit };
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            out,
+            "{},{},{},{},{low},{high},{unit},{}",
+            quoted(row.section.words().get()),
+            quoted(&row.name),
+            row.value,
+            row.error,
+            quoted(&row.said)
+        );
+    }
+    out
+}

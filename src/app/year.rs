@@ -1,0 +1,208 @@
+//! What is asked about a year and its weather, the weather as hours are picked from it, and the year that a scene without
+//! one is given.
+
+use crate::compute::weather::{Closure, Station, Weather};
+use crate::drawing::hour_map::HourMap;
+use crate::study::scene_file::{SceneFile, SkyKeys, SkyModelKey, TimeKey};
+use crate::study::weather::{YEARS, load, nearest};
+use crate::study::weather_keys::{LightKey, OffsetKey, reading};
+use crate::study::year::{Look, weather_map};
+use crate::study::year_keys::{DaysKey, EyeKeys, HoursKeys, LampControlKey, LightingKeys, YearKeys};
+use crate::study::{StudyError, example::first_scene};
+use crate::texts::{fixed, year as say};
+use jiff::civil::{DateTime, date};
+use std::path::{Path, PathBuf};
+
+/// What is asked about a year.
+#[derive(Debug, Clone, PartialEq)]
+pub enum YearAct {
+    /// Compute the year of the present scene; a scene without one is given one first.
+    Compute,
+    /// Look at something else of it.
+    Look(Look),
+    /// Show a step of the year that is shown in every tile; `true`: on a walk by keys.
+    Show(usize, bool),
+    /// Take a year of weather: for the scene's year, where it has one or the tile is asked, else as its sky.
+    Weather(PathBuf),
+    /// The same for the year alone.
+    WeatherOfYear(PathBuf),
+    /// The sky of a record of the weather; `true`: on a walk by keys.
+    Pick(DateTime, bool),
+}
+
+impl YearAct {
+    /// Is what it changes in the document a step of its own for undo? Not every hour that is walked over.
+    pub const fn is_step(&self) -> bool {
+        !matches!(self, Self::Look(_) | Self::Show(_, true) | Self::Pick(_, true))
+    }
+}
+
+/// A weather file as hours are picked from it.
+#[derive(Debug, Clone)]
+pub struct Calendar {
+    /// As scenes name it, and what relative names start from.
+    pub key: CalendarKey,
+    /// Where it is from.
+    pub station: Station,
+    /// Test of its clock, where there is one.
+    pub closure: Option<Closure>,
+    /// Direct normal, and diffuse horizontal.
+    pub maps: [HourMap; 2],
+    /// Begin of every record, in the file's order.
+    pub starts: Vec<DateTime>,
+}
+
+/// What a calendar hangs on: the weather's name, the folder that it starts from, and how it is read.
+pub type CalendarKey = (PathBuf, PathBuf, LightKey, OffsetKey);
+
+impl Calendar {
+    /// Reads it.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a clock that cannot be tested.
+    pub fn read(key: CalendarKey) -> Result<Self, StudyError> {
+        let weather = load(&key.0, &key.1)?;
+        let reading = reading(key.2, key.3);
+        let told = |message: String| StudyError::File { path: key.0.clone(), message };
+        weather.hours(reading).map_err(|error| told(error.to_string()))?;
+        let closure = weather.closure().map_err(|error| told(error.to_string()))?;
+        let maps = [true, false].map(|direct| weather_map(&weather, reading, direct));
+        let starts = starts(&weather);
+        Ok(Self { station: weather.station, closure, maps, starts, key })
+    }
+}
+
+fn starts(weather: &Weather) -> Vec<DateTime> {
+    let of = |record: &crate::compute::weather::Record| {
+        let day = record.day;
+        let at = |number: u8| jiff::civil::Date::new(day.year, day.month.cast_signed(), number.cast_signed()).ok();
+        // A 29th of February in a common year is no date.
+        let date = at(day.day).or_else(|| at(28)).unwrap_or(date(2001, 1, 1));
+        let (hour, minute) = ((record.start / 60) as i8, (record.start % 60) as i8);
+        date.at(hour.min(23), minute, 0, 0)
+    };
+    weather.records.iter().map(of).collect()
+}
+
+/// The weather that the scene speaks of: of its sky, else of its year.
+pub fn weather_of(scene: &SceneFile) -> Option<&Path> {
+    scene.sky.weather.as_deref().or_else(|| scene.year.as_ref().map(|year| &*year.weather))
+}
+
+/// The weather of the scene's year; of one that it would be given, that of the nearest place.
+pub fn weather_of_year(scene: &SceneFile) -> PathBuf {
+    if let Some(keys) = &scene.year {
+        return keys.weather.clone();
+    }
+    scene.sky.weather.clone().unwrap_or_else(|| {
+        let site = &scene.site;
+        let place = site.latitude.zip(site.longitude).map(|(latitude, longitude)| [latitude, longitude]);
+        place.map_or(&YEARS[0], nearest).name()
+    })
+}
+
+/// A year for a scene without one: its weather, an eye in the middle of the room that looks at the façade, and usual lamps.
+pub fn usual_year(scene: &SceneFile) -> YearKeys {
+    YearKeys {
+        weather: weather_of_year(scene),
+        light: scene.sky.light,
+        sun_offset_minutes: scene.sky.sun_offset_minutes,
+        steps_per_hour: 1,
+        hours: HoursKeys { days: DaysKey::Weekdays, ..HoursKeys::default() },
+        ground: Vec::new(),
+        eyes: vec![usual_eye(scene)],
+        lighting: Some(usual_lamps()),
+    }
+}
+
+/// Half way into the room, at the height of who sits, looking at the façade.
+pub fn usual_eye(scene: &SceneFile) -> EyeKeys {
+    let room = &scene.room;
+    EyeKeys { point: [0.5 * room.width, 0.5 * room.depth, 1.2_f64.min(room.height)], direction: [0.0, -1.0, 0.0] }
+}
+
+/// Lamps as they are usual over desks.
+pub const fn usual_lamps() -> LightingKeys {
+    LightingKeys {
+        power: 8.0,
+        target: 500.0,
+        control: LampControlKey::Dimming,
+        steps: 3,
+        min_light: 0.0,
+        min_power: 0.0,
+        off: true,
+        standby: 0.0,
+        zones: Vec::new(),
+    }
+}
+
+/// The sky of a record of a weather; what stands before it stays.
+pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
+    let year = scene.year.as_ref().filter(|year| year.weather == weather);
+    let same = scene.sky.weather.as_deref() == Some(weather);
+    let (light, offset) = match year {
+        Some(year) => (year.light, year.sun_offset_minutes),
+        None if same => (scene.sky.light, scene.sky.sun_offset_minutes),
+        None => Default::default(),
+    };
+    let plain = first_scene().sky;
+    scene.sky = SkyKeys {
+        model: SkyModelKey::Weather,
+        weather: Some(weather.to_owned()),
+        light,
+        sun_offset_minutes: offset,
+        cie_type: None,
+        illuminance: Default::default(),
+        time: Some(TimeKey::Text(time.strftime("%Y-%m-%dT%H:%M").to_string())),
+        turbidity: scene.sky.turbidity,
+        obstruction: scene.sky.obstruction.clone(),
+        skyline: scene.sky.skyline.clone(),
+        ..plain
+    };
+}
+
+/// Place and clock of a station in words.
+pub fn station_words(station: &Station) -> String {
+    let place = crate::study::scene_words::coordinates(station.latitude, station.longitude);
+    let name = if station.name.is_empty() { fixed(station.elevation, 0) } else { station.name.clone() };
+    say::weather_is(crate::texts::one_line(&name), place, crate::texts::one_line(&station.source))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::year::settings;
+
+    #[test]
+    fn a_scene_without_a_year_gets_one_that_holds() {
+        let mut scene = first_scene();
+        scene.room.height = 1.1;
+        scene.year = Some(usual_year(&scene));
+        assert_eq!(weather_of_year(&scene), PathBuf::from("builtin:piedmont"));
+        let settings = settings(&scene).unwrap();
+        assert_eq!((settings.eyes.len(), settings.sensors), (1, 16 * 24));
+        assert!(settings.lamps.is_some());
+        // The weather that the sky is of already comes first.
+        let mut scene = first_scene();
+        scene.sky.weather = Some("a.epw".into());
+        assert_eq!(usual_year(&scene).weather, PathBuf::from("a.epw"));
+    }
+
+    #[test]
+    fn a_record_is_a_sky_that_the_study_reads() {
+        let mut scene = first_scene();
+        let name = YEARS[1].name();
+        let calendar =
+            Calendar::read((name.clone(), PathBuf::new(), LightKey::default(), OffsetKey::default())).unwrap();
+        let map = &calendar.maps[0];
+        let cell = map.cell(7, 1, 12 * 60).unwrap();
+        let time = calendar.starts[map.from[cell].unwrap() as usize];
+        put_record(&mut scene, &name, time);
+        let text = toml::to_string(&scene).unwrap();
+        let back = SceneFile::parse(&text).unwrap();
+        assert_eq!(back.sky, scene.sky);
+        let hour = crate::study::sky::hour_of_weather(&scene.sky, &scene.site, Path::new("")).unwrap().unwrap();
+        assert_eq!(hour.hour.direct_normal_irradiance, map.values[cell]);
+        assert!(hour.interval.ends_with("12:00–13:00"), "{}", hour.interval);
+    }
+}

@@ -1,0 +1,191 @@
+//! The hours of a year, or of its weather, as a map.
+
+use super::look::{Look, Shows};
+use super::steps::Step;
+use super::{Light, Year};
+use crate::compute::weather::{Quantity, Reading, Weather};
+use crate::compute::year::glare::dgps;
+use crate::drawing::colours::{ColourMap, ColourScale};
+use crate::drawing::hour_map::{Colours, HourMap, Interval};
+use crate::study::control::Device;
+use crate::texts::year as say;
+
+/// Lowest and highest DGPs of the scale: no light, and what nobody bears.
+const DGPS: [f64; 2] = [0.184, 0.6];
+/// Decades of a logarithmic scale.
+const DECADES: i32 = 3;
+
+/// What a map of a year can show.
+pub fn choices(year: &Year) -> Vec<Shows> {
+    let mut list = vec![Shows::Mean];
+    list.extend((0..year.moving.len()).map(Shows::State));
+    list.extend((0..year.settings.eyes.len()).map(Shows::Dgps));
+    list.extend(year.settings.lamps.as_ref().map(|_| Shows::Lighting));
+    list.extend([Shows::DirectNormal, Shows::DiffuseHorizontal]);
+    list.extend((0..year.settings.sensors).map(Shows::Sensor));
+    list
+}
+
+/// What a map shows, in words.
+pub fn title(shows: Shows) -> String {
+    match shows {
+        Shows::Mean => say::MEAN.into(),
+        Shows::Sensor(place) => say::sensor(place + 1),
+        Shows::State(_) => say::STATE.into(),
+        Shows::Dgps(eye) => say::dgps(eye + 1),
+        Shows::Lighting => say::LIGHTING_POWER.into(),
+        Shows::DirectNormal => say::DIRECT_NORMAL.into(),
+        Shows::DiffuseHorizontal => say::DIFFUSE_HORIZONTAL.into(),
+    }
+}
+
+/// Places of a device's states by rising number, and their keys in that order; as they come where they have none.
+pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
+    let mut order: Vec<usize> = (0..device.keys.len()).collect();
+    if let Some(values) = &device.values {
+        order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    }
+    let mut ranks = vec![0; order.len()];
+    for (rank, state) in order.iter().enumerate() {
+        ranks[*state] = rank;
+    }
+    (ranks, order.iter().map(|state| device.keys[*state].clone()).collect())
+}
+
+/// Value of a step that was computed: `row` among the chosen ones; `ranks`: of the states that are shown.
+fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f64 {
+    let Light { places, values, .. } = &year.light;
+    let own = &values[row * places..(row + 1) * places];
+    let (sensors, step) = (year.settings.sensors, &year.steps.list[k]);
+    match shows {
+        Shows::Mean => own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64,
+        Shows::Sensor(place) => own.get(place).copied().unwrap_or(f64::NAN),
+        Shows::State(moving) => {
+            let place = year.states[k].get(moving).and_then(|state| ranks.get(*state));
+            place.map_or(f64::NAN, |place| *place as f64)
+        }
+        Shows::Dgps(eye) => own.get(sensors + eye).map_or(f64::NAN, |vertical| dgps(*vertical)),
+        Shows::Lighting => {
+            year.settings.lamps.as_ref().map_or(f64::NAN, |lamps| lamps.watts(step.occupied, &own[..sensors]))
+        }
+        Shows::DirectNormal => step.hour.direct_normal,
+        Shows::DiffuseHorizontal => step.hour.diffuse_horizontal,
+    }
+}
+
+/// How far a value of a map may be off; `None` for what has no error of its own. `step`: of the year.
+pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
+    let row = year.chosen.binary_search(&step).ok()?;
+    let Light { places, errors, .. } = &year.light;
+    let own = &errors[row * places..(row + 1) * places];
+    let sensors = year.settings.sensors;
+    match shows {
+        // Errors of neighbours are much the same: they are taken to add up.
+        Shows::Mean => Some(own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64),
+        Shows::Sensor(place) => own.get(place).copied(),
+        Shows::Dgps(eye) => own.get(sensors + eye).map(|error| dgps(*error) - dgps(0.0)),
+        Shows::State(_) | Shows::Lighting | Shows::DirectNormal | Shows::DiffuseHorizontal => None,
+    }
+}
+
+fn interval(step: &Step, value: f64) -> Interval {
+    let (time, month) = (step.time, step.month);
+    // A nominal middle: whole minutes but for intervals of a minute.
+    let minute = 60 * u16::from(time.hour().unsigned_abs()) + u16::from(time.minute().unsigned_abs());
+    Interval { month, day: time.day().unsigned_abs(), minute, value }
+}
+
+/// The scale of a map's values.
+fn scale(values: impl Iterator<Item = f64>, log: bool) -> ColourScale {
+    let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    ColourScale::up_to(if most > 0.0 { most } else { 1.0 }, log, DECADES, ColourMap::Sequential)
+}
+
+/// The hours of a year. What is dark has no value, nor has what was not computed; lamps have one at night too. What the
+/// year does not hold any more is shown as the mean.
+pub fn map(year: &Year, look: &Look) -> HourMap {
+    let shows = if choices(year).contains(&look.shows) { look.shows } else { Shows::Mean };
+    let mut rows = vec![None; year.steps.list.len()];
+    for (row, &k) in year.chosen.iter().enumerate() {
+        rows[k] = Some(row);
+    }
+    let ranks = match shows {
+        Shows::State(moving) => states(&year.moving[moving].device).0,
+        _ => Vec::new(),
+    };
+    let at_night = shows == Shows::Lighting;
+    let shown = |k: usize, step: &Step| match rows[k] {
+        Some(row) if at_night || step.hour.is_lit() => value(year, shows, &ranks, k, row),
+        _ => f64::NAN,
+    };
+    let list: Vec<Interval> =
+        year.steps.list.iter().enumerate().map(|(k, step)| interval(step, shown(k, step))).collect();
+    let values = || list.iter().map(|one| one.value);
+    let colours = match shows {
+        Shows::State(moving) => Colours::Names(states(&year.moving[moving].device).1),
+        Shows::Dgps(_) => {
+            let [lo, hi] = DGPS;
+            Colours::Scale(ColourScale { lo, hi, log: false, map: ColourMap::Sequential }, "DGPs")
+        }
+        Shows::Lighting => Colours::Scale(scale(values(), false), "W/m²"),
+        _ => Colours::Scale(scale(values(), look.log), "lx"),
+    };
+    HourMap::of(title(shows), colours, 60.0 * year.steps.length, &list)
+}
+
+/// Direct normal (`direct`) or diffuse horizontal light of a weather file as the file has it, in W/m² or lx. Intervals
+/// whose figure is missing or that are dark have no value.
+pub fn weather_map(weather: &Weather, reading: Reading, direct: bool) -> HourMap {
+    let lux = weather.quantity == Quantity::NormalIlluminance;
+    let mut hours = weather.hours(reading).ok();
+    let list: Vec<Interval> = weather
+        .records
+        .iter()
+        .enumerate()
+        .map(|(index, record)| {
+            let hour = hours.as_mut().and_then(|hours| hours.at(index).ok()).filter(|hour| hour.is_lit());
+            let value = hour.map_or(f64::NAN, |hour| match (direct, lux) {
+                (true, true) => hour.direct_normal,
+                (true, false) => hour.direct_normal_irradiance,
+                (false, true) => hour.diffuse_horizontal,
+                (false, false) => hour.diffuse_horizontal_irradiance,
+            });
+            let minute = record.middle_minutes(weather.interval, 0.0) as u16;
+            Interval { month: record.day.month, day: record.day.day, minute, value }
+        })
+        .collect();
+    let scale = scale(list.iter().map(|one| one.value), false);
+    let name = if direct { say::DIRECT_NORMAL } else { say::DIFFUSE_HORIZONTAL };
+    let unit = if lux { "lx" } else { "W/m²" };
+    HourMap::of(name.into(), Colours::Scale(scale, unit), f64::from(weather.interval), &list)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::weather::{YEARS, load};
+    use std::path::Path;
+
+    #[test]
+    fn a_calendar_holds_what_the_weather_holds() {
+        for year in &YEARS {
+            let weather = load(&year.name(), Path::new("")).unwrap();
+            for direct in [true, false] {
+                let map = weather_map(&weather, Reading::default(), direct);
+                let sum: f64 = map.values.iter().filter(|value| !value.is_nan()).sum();
+                let of = |record: &crate::compute::weather::Record| {
+                    (if direct { record.direct } else { record.diffuse }).unwrap_or(0.0)
+                };
+                let own: f64 = weather.records.iter().map(of).sum();
+                // A sun that is down gives nothing, whatever the row says.
+                assert!((sum / own - 1.0).abs() < 2e-3, "{}: {sum} {own}", year.key);
+                assert_eq!((map.days, map.rows), (365, 24));
+                assert!(map.from.iter().all(Option::is_some));
+            }
+            // Noon of midsummer has light, its midnight none.
+            let map = weather_map(&weather, Reading::default(), false);
+            let [noon, midnight] = [720, 30].map(|minute| map.values[map.cell(6, 21, minute).unwrap()]);
+            assert!(noon > 0.0 && midnight.is_nan());
+        }
+    }
+}
