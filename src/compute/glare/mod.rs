@@ -12,7 +12,7 @@
 //! | `evaluate` | all of it for one eye, with its error |
 //!
 //! Sources are found as Radiance's `evalglare` (3.0x) finds them in a fisheye picture: all above a threshold, what stands
-//! within 5.7° of each other as one, peaks above 50,000 cd/m² apart. Walls and sky patches on them are no sources: their
+//! within 5.7° of each other as one, peaks above 50,000 cd/m² apart. Walls and patches of sun on them are no sources: their
 //! light counts by the illuminance at the eye. Eyes have no blind spots: all in front of the plane of the eye is seen.
 
 mod discs;
