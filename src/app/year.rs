@@ -7,7 +7,7 @@ use crate::study::scene_file::{SceneFile, SkyKeys, SkyModelKey, TimeKey};
 use crate::study::weather::{YEARS, load, nearest};
 use crate::study::weather_keys::{LightKey, OffsetKey, reading};
 use crate::study::year::{Look, weather_map};
-use crate::study::year_keys::{DaysKey, EyeKeys, HoursKeys, LampControlKey, LightingKeys, YearKeys};
+use crate::study::year_keys::{DaysKey, EyeKeys, HoursKeys, LampControlKey, LightingKeys, SunlightKeys, YearKeys};
 use crate::study::{StudyError, example::first_scene};
 use crate::texts::{fixed, year as say};
 use jiff::civil::{DateTime, date};
@@ -111,6 +111,9 @@ pub fn usual_year(scene: &SceneFile) -> YearKeys {
         hours: HoursKeys { days: DaysKey::Weekdays, ..HoursKeys::default() },
         ground: Vec::new(),
         eyes: vec![usual_eye(scene)],
+        solar: false,
+        dgp: true,
+        sunlight: SunlightKeys::default(),
         lighting: Some(usual_lamps()),
     }
 }

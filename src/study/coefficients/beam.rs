@@ -84,11 +84,8 @@ impl Coefficients {
                     let reflected = column.light[sensors + s].abs() * illuminance;
                     let doubt = column.light[2 * sensors + s] * illuminance;
                     // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
-                    let simpler =
-                        column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
-                    doubt.hypot(self.rest() * reflected)
-                        + simpler.abs()
-                        + part.transport.relative_error() * own[s]
+                    let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
+                    doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s]
                 });
                 *sum += Estimate::new(own[s], error);
             }

@@ -81,7 +81,8 @@ impl SunWay {
 
 fn described(very: &VerySystem, views: &DescribedViews, facing: &Facing<'_>, sensors: usize) -> SunLight {
     let through = SunThrough::new(very.0.as_ref(), facing);
-    let mut sum = SunLight { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
+    let mut sum =
+        SunLight { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
     let mut add = |part: Vec<f64>, relative: f64| {
         sum.errors.iter_mut().zip(&part).for_each(|(error, e)| *error += relative * e);
         sum.light.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e);

@@ -4,7 +4,7 @@ use super::candidate::with_product;
 use super::parts::{Grouping, Parts};
 use super::question::Group;
 use crate::catalogue::{Origin, Product};
-use crate::compute::btdf::Severity;
+use crate::compute::btdf::{Severity, SolarSource};
 use crate::compute::estimate::{Estimate, Progress};
 use crate::study::error::StudyError;
 use crate::study::session::Session;
@@ -131,6 +131,8 @@ fn dark(climate: &Climate) -> Year {
             sets: 0,
             dark: steps,
         },
+        solar: None,
+        dgp: None,
         notes: Vec::new(),
         spent: Vec::new(),
     }
@@ -201,6 +203,13 @@ fn days(year: &Year, day: i8) -> Year {
     part.light.values = of(&year.light.values);
     part.light.errors = of(&year.light.errors);
     part.light.sun = year.light.sun.as_deref().map(of);
+    if let Some(solar) = &mut part.solar {
+        solar.watts = rows.iter().map(|&row| solar.watts[row]).collect();
+        solar.errors = rows.iter().map(|&row| solar.errors[row]).collect();
+    }
+    if let Some(dgp) = &mut part.dgp {
+        dgp.values = rows.iter().flat_map(|&row| dgp.row(row).iter().copied()).collect();
+    }
     part
 }
 
@@ -220,6 +229,11 @@ fn doubts(product: &Product, year: &Year) -> Vec<String> {
     codes.dedup();
     if !codes.is_empty() {
         list.push(format!("data: {}", codes.join(", ")));
+    }
+    if let Some(solar) = &year.solar
+        && solar.source() != SolarSource::Own
+    {
+        list.push(format!("solar: {}", solar.source().words()));
     }
     let (light, errors): (f64, f64) = (year.light.values.iter().sum(), year.light.errors.iter().sum());
     if errors > DOUBTFUL * light {

@@ -62,7 +62,11 @@ pub fn run(
             }
             let group = &groups[item.group];
             progress.advance("weather", ready.len(), groups.len());
-            let climate = climate(&group.file, &group.base)?;
+            let mut climate = climate(&group.file, &group.base)?;
+            // What no objective asks for is not computed.
+            let asks = |word: &str| group.figures.iter().any(|figure| figure.contains(word));
+            climate.settings.keys.solar = asks("solar.");
+            climate.settings.keys.dgp &= asks("DGP_");
             let grouping = Grouping::of(&group.file, &climate)?;
             ready.insert(item.group, Ready { climate, grouping });
         }

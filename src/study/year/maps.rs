@@ -3,8 +3,8 @@
 use super::look::{Look, Shows};
 use super::steps::Step;
 use super::{Light, Year};
+use crate::compute::glare::dgps;
 use crate::compute::weather::{Quantity, Reading, Weather};
-use crate::compute::year::glare::dgps;
 use crate::drawing::colours::{ColourMap, ColourScale};
 use crate::drawing::hour_map::{Colours, HourMap, Interval};
 use crate::study::control::Device;

@@ -24,33 +24,32 @@
 //! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
 //! dark steps, and nothing for states that no step picks.
 
+mod annual;
 mod dgp;
 mod eye_light;
-mod annual;
 mod figures;
 mod fixed;
 mod lamps;
 mod light;
-pub mod metrics;
-mod opening;
 mod look;
 mod maps;
+pub mod metrics;
+mod opening;
 mod settings;
 mod solar;
 mod states;
 mod steps;
+mod table;
 mod through;
 
+pub use annual::{Annual, at_step, question};
 pub use dgp::Dgp;
 pub use figures::{Figures, SolarFigures, figures};
-pub use light::{Light, Way};
-pub use opening::{NOT_JUDGED, Opening, opening};
-mod table;
-
-pub use annual::{Annual, at_step, question};
 pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
+pub use light::{Light, Way};
 pub use look::{Look, Page, Shows};
 pub use maps::{choices, error, map, title, weather_map};
+pub use opening::{NOT_JUDGED, Opening, opening};
 pub use settings::{Settings, settings};
 pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};
