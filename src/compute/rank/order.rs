@@ -94,7 +94,7 @@ mod tests {
                 values.iter().zip(&at).map(|(one, t)| one.value + (2.0 * t - 1.0) * one.error).collect();
             for (k, range) in ranges(&values).iter().enumerate() {
                 let above = truth.iter().filter(|other| **other > truth[k]).count();
-                prop_assert!(range.first <= 1 + above && 1 + above <= range.last);
+                prop_assert!((range.first..=range.last).contains(&(1 + above)));
             }
         }
     }

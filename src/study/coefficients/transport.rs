@@ -20,8 +20,10 @@ use std::sync::Arc;
 
 /// Patches where the system has none of its own. \[rad\]
 const PATCH: f64 = 7.5 * PI / 180.0;
-/// Patches for trees. \[rad\]
-const TREE_PATCH: f64 = 5.0 * PI / 180.0;
+/// Trees of more incident cells are asked by sub-patches instead of their own cells, ...
+const TREE_CELLS: usize = 4096;
+/// ... and those of more than this at the middle of each alone.
+const TREE_SAMPLED: usize = 1024;
 /// Sub-patches where the light of lobes is interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 /// Directions in cells that are as wide as a dataset's. \[rad\]
@@ -75,7 +77,10 @@ pub(in crate::study) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (R
             (data.lattice().cloned().unwrap_or_else(|| RingBasis::equal_area(40)), SPACING)
         }
         Some(Scattered::Directions(_)) => (sub_patches(SUB_PATCH), SUB_PATCH),
-        Some(Scattered::Tree(_)) => (sub_patches(TREE_PATCH), SPACING),
+        Some(Scattered::Tree(tree)) => {
+            let grid = tree.incident_grid();
+            (if grid.len() <= TREE_CELLS { grid.rings() } else { sub_patches(SUB_PATCH) }, SPACING)
+        }
     }
 }
 
@@ -130,7 +135,7 @@ impl Transport {
                 let fine = if sun == own { None } else { Some(views(sun, Want::Sum)?) };
                 Self::Lobes(Box::new(Lobes { interpolator, bases, views: views_of_data, fine }))
             }
-            // Trees have too many incident cells for a row each: theirs are made when a direction is asked for.
+            // Trees have too many cells for a row each to be kept: theirs are made when a direction is asked for.
             Some(Scattered::Tree(tree)) => Self::Tree(tree.clone(), views(&tree.incident_grid().rings(), Want::All)?),
         })
     }
@@ -155,11 +160,13 @@ impl Transport {
             Self::Described(described) => Column::scaled(&described.columns[index], 1.0),
             Self::Tree(tree, views) => {
                 let mut column = Column::dark(sensors);
-                for (s, t) in [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)] {
+                let four = [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)];
+                let points = if tree.incident_grid().len() > TREE_SAMPLED { &[(0.5, 0.0)][..] } else { &four };
+                for &(s, t) in points {
                     let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
                     let d = Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width);
                     let mut q = tree.indicatrix(Incident(d)).q;
-                    q.iter_mut().for_each(|q| *q *= 0.25);
+                    q.iter_mut().for_each(|q| *q /= points.len() as f64);
                     views.add_all(&q, &mut column.light);
                 }
                 column
