@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 pub struct PictureArgs {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// Which: btdf, transmittance, sky, lid, room, control or year (of a scene with [year])
+    /// Which: btdf, transmittance, sky, lid, room, control or year (of a scene with `[year]`)
     #[arg(long)]
     pub tile: TileKind,
     /// Width and height in pixels, or in millimetres with mm

@@ -29,7 +29,7 @@ rank_last (what errors cannot tell apart shares ranks), front (of Pareto; grey: 
 excluded (why; all else is empty then), why (against the best and the mean).
 A piece that is there already is not computed again; one that is killed leaves nothing. Pieces hold further columns.")]
 pub struct RankArgs {
-    /// Scene files (TOML) with [rank] and [year]
+    /// Scene files (TOML) with `[rank]` and `[year]`
     #[arg(required_unless_present = "merge", value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
     /// Words as in the window's search, instead of rank.products

@@ -38,7 +38,7 @@ fn weather() -> String {
     );
     for (month, day, direct) in [(1, 15, 500), (4, 20, 0), (7, 8, 700), (10, 22, 400)] {
         for hour in 8..18 {
-            let noon = f64::from(6 - (12 - hour).abs()) / 6.0;
+            let noon = f64::from(6 - (12_i32 - hour).abs()) / 6.0;
             let _ = writeln!(text, "{month} {day} {hour}.500 {} {}", f64::from(direct) * noon, 60.0 + 120.0 * noon);
         }
     }
