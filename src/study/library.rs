@@ -38,6 +38,9 @@ type VeryDescribed = VecDeque<((String, String), Option<VerySystem>)>;
 /// Described systems that are kept: two moving products of 21 states.
 const MOST_DESCRIBED: usize = 42;
 
+/// Words that no product has, each with the one that it was read as.
+pub type ReadAs = Vec<(String, String)>;
+
 /// A file's systems, valid as long as its time and length stay.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
 
@@ -65,7 +68,7 @@ impl Library {
     ///
     /// # Errors
     /// Of the catalogue.
-    pub fn search(&self, words: &str) -> Result<(Vec<Product>, Vec<(String, String)>), StudyError> {
+    pub fn search(&self, words: &str) -> Result<(Vec<Product>, ReadAs), StudyError> {
         self.in_catalogue(|catalogue| {
             let found = catalogue.find(&Query { text: words.to_owned(), ..Query::default() })?;
             let products = found.entries.iter().map(|row| catalogue.product(&row.key)).collect::<Result<_, _>>()?;
