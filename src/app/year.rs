@@ -155,7 +155,7 @@ pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
         illuminance: Default::default(),
         time: Some(TimeKey::Text(time.strftime("%Y-%m-%dT%H:%M").to_string())),
         turbidity: scene.sky.turbidity,
-        obstruction: scene.sky.obstruction.clone(),
+        obstruction: scene.sky.obstruction,
         skyline: scene.sky.skyline.clone(),
         ..plain
     };

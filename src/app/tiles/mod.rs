@@ -101,7 +101,7 @@ impl Default for Bench {
 impl Bench {
     /// The arrangement as it stands.
     pub fn layout(&self) -> Layout {
-        Layout::of(&self.tree).unwrap_or_else(|| first())
+        Layout::of(&self.tree).unwrap_or_else(first)
     }
 
     /// Arranges the tiles as a text says, where it is another than that of the present arrangement.
