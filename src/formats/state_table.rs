@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn rows_are_read_with_their_lines() {
-        let text = "\u{feff}sensor,time,state\r\nx,2005-01-01T00:30:00,0\r\nx,1998-01-01 10:30, \"a, b\" \r\n,2024-02-29T00:00,45\r\n";
+        let text = "\u{feff}sensor,time,state\r\nx,2005-01-01T00:30:00,0\r\nx,1998-01-01 10:30,\"a, b\"\r\n,2024-02-29T00:00,45\r\n";
         let rows = read_states(text.as_bytes()).unwrap();
         let of = |row: &StateRow| (row.line, row.of_year - 86_400.0, row.state.clone());
         assert_eq!(of(&rows[0]), (2, 1800.0, "0".to_owned()));

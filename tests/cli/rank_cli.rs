@@ -319,7 +319,9 @@ fn rankings_that_cannot_be_are_refused_in_one_line() {
         let error = refused(folder, &["rank", "wrong.toml", "--out", "x.csv"]);
         assert!(error.contains("wrong.toml") && error.contains(words), "{words}: {error}");
     }
-    for command in [["room", "scene.toml"], ["year", "scene.toml"], ["control", "scene.toml"], ["compare", "scene.toml"]] {
+    for command in
+        [["room", "scene.toml"], ["year", "scene.toml"], ["control", "scene.toml"], ["compare", "scene.toml"]]
+    {
         let error = refused(folder, &command);
         assert!(error.contains("aperture[1].system") && error.contains("use `cfs rank`"), "{command:?}: {error}");
     }
