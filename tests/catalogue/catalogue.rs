@@ -336,7 +336,14 @@ proptest! {
     fn damaged_blobs_give_an_error_or_a_dataset(dataset in dataset(), at in any::<prop::sample::Index>(), to in any::<u8>()) {
         let mut blob = encode(&dataset);
         let at = at.index(blob.len());
-        prop_assert!(decode(&blob[..at]).is_err());
+        match decode(&blob[..at]) {
+            Err(_) => {}
+            // Its last number was added later and may be absent: blobs without it keep the bytes they always had.
+            Ok(read) => {
+                prop_assert_eq!(at + size_of::<f64>(), blob.len());
+                prop_assert_eq!(read, Dataset { structure: None, ..dataset });
+            }
+        }
         blob[at] = to;
         let _ = decode(&blob);
     }

@@ -13,6 +13,7 @@ mod method;
 mod near_field;
 mod outside;
 mod plan;
+mod rank;
 mod reference_kit;
 mod rooms;
 mod sharp_sun;

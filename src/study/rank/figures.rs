@@ -35,7 +35,7 @@ pub enum Stage {
     Full,
 }
 
-/// Days of every month that stand for it while results are coarse; each alone gives figures too.
+/// Days of every month that stand for it while results are coarse; what they differ by tells how well they do.
 const TYPICAL: [i8; 2] = [8, 22];
 /// What a figure that a year does not have is told under.
 const NO_FIGURE: &str = "rank.objective";
@@ -68,16 +68,13 @@ impl Setting<'_> {
         let year = year_in(self.climate, &file, &group.base, self.library, self.session, &wanted, progress)?;
         let area = group.file.room.width * group.file.room.depth;
         let all = three(&year, area);
-        let halves: Vec<[Value; 3]> = match stage {
-            Stage::Full => Vec::new(),
-            Stage::Coarse => TYPICAL.iter().map(|day| three(&days(&year, *day), area)).collect(),
-        };
+        let pairs = if stage == Stage::Coarse { pairs(&year, area) } else { Vec::new() };
         let mut found = Found { approximate: doubts(product, &year), ..Found::default() };
         for (key, objective) in group.figures.iter().zip(&group.objectives) {
             let figure = match stage {
                 Stage::Full => figure(&year, &all, key)?,
                 // What typical days do not tell may be anything between the anchors.
-                Stage::Coarse => coarse(&year, &all, &halves, key).unwrap_or_else(|| {
+                Stage::Coarse => coarse(&year, &all, &pairs, key).unwrap_or_else(|| {
                     let (a, b) = (objective.worst, objective.best);
                     Estimate { value: 0.5 * (a + b), error: 0.5 * (b - a).abs() }
                 }),
@@ -168,49 +165,72 @@ fn read(three: &[Value; 3], key: &str) -> Option<Estimate> {
     Some(Estimate { value: own, error: (less - own).abs().max((more - own).abs()) })
 }
 
-/// A figure of the year by typical days, and half of what the days of each kind differ by as a further error; `None` where
-/// days do not tell it.
-fn coarse(year: &Year, three: &[Value; 3], halves: &[[Value; 3]], key: &str) -> Option<Estimate> {
+/// A figure of the year by typical days; `None` where days do not tell it. Its error has twice the standard error of a mean
+/// over months of each two days added: (Σ (a − b)²/4)^½ / number of months.
+fn coarse(year: &Year, three: &[Value; 3], pairs: &[[Value; 2]], key: &str) -> Option<Estimate> {
     // Sums are of a year, whatever was computed of it.
     let (key, sum) = match key {
         "lighting.LENI_kWh_m2" => ("lighting.kWh_m2", true),
         "lighting.kWh_m2" | "lighting.kWh" => (key, true),
         key => (key, false),
     };
-    let all = year.steps.list.len() as f64;
-    let scale = |steps: f64| if sum { all / steps } else { 1.0 };
-    let own = read(three, key)? * scale(year.chosen.len() as f64);
-    let each: Option<Vec<f64>> = halves
-        .iter()
-        .map(|half| Some(read(half, key)?.value * scale(metrics::number(&half[0], "hours")? / year.steps.length)))
-        .collect();
-    let each = each?;
-    let spread =
-        each.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)) - each.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-    Some(Estimate { value: own.value, error: own.error + 0.5 * spread })
+    let all = year.steps.list.len() as f64 * year.steps.length;
+    let scale = |metrics: &Value| Some(if sum { all / metrics::number(metrics, "hours")? } else { 1.0 });
+    let own = read(three, key)? * scale(&three[0])?;
+    let at = |metrics: &Value| Some(metrics::number(metrics, key)? * scale(metrics)?);
+    let squares: Option<f64> = pairs.iter().map(|[a, b]| Some((at(a)? - at(b)?).powi(2) / 4.0)).sum();
+    let spread = squares?.sqrt() / pairs.len().max(1) as f64;
+    Some(Estimate { value: own.value, error: own.error + 2.0 * spread })
 }
 
-/// The part of a year that falls on one day of every month.
-fn days(year: &Year, day: i8) -> Year {
+/// Metrics of the typical days alone, in pairs by month, of the months that have both.
+fn pairs(year: &Year, area: f64) -> Vec<[Value; 2]> {
+    let day = |month: u8, day: i8| {
+        let on = |row: &usize| {
+            let step = &year.steps.list[year.chosen[*row]];
+            step.month == month && step.time.day() == day
+        };
+        let rows: Vec<usize> = (0..year.chosen.len()).filter(on).collect();
+        let part = part(year, &rows);
+        (!rows.is_empty()).then(|| metrics::metrics(&part, &figures(&part)[0], area))
+    };
+    (1..=12).filter_map(|month| Some([day(month, TYPICAL[0])?, day(month, TYPICAL[1])?])).collect()
+}
+
+/// Some rows of a year, with what figures ask of it.
+fn part(year: &Year, rows: &[usize]) -> Year {
     let places = year.light.places;
-    let rows: Vec<usize> =
-        (0..year.chosen.len()).filter(|&row| year.steps.list[year.chosen[row]].time.day() == day).collect();
     let of = |values: &[f64]| -> Vec<f64> {
         rows.iter().flat_map(|row| values[row * places..][..places].iter().copied()).collect()
     };
-    let mut part = year.clone();
-    part.chosen = rows.iter().map(|&row| year.chosen[row]).collect();
-    part.light.values = of(&year.light.values);
-    part.light.errors = of(&year.light.errors);
-    part.light.sun = year.light.sun.as_deref().map(of);
-    if let Some(solar) = &mut part.solar {
-        solar.watts = rows.iter().map(|&row| solar.watts[row]).collect();
-        solar.errors = rows.iter().map(|&row| solar.errors[row]).collect();
+    Year {
+        settings: year.settings.clone(),
+        steps: year.steps.clone(),
+        moving: year.moving.clone(),
+        states: Vec::new(),
+        movements: year.movements.clone(),
+        chosen: rows.iter().map(|&row| year.chosen[row]).collect(),
+        light: Light {
+            places,
+            values: of(&year.light.values),
+            errors: of(&year.light.errors),
+            sun: year.light.sun.as_deref().map(of),
+            way: year.light.way,
+            sets: year.light.sets,
+            dark: year.light.dark,
+        },
+        solar: year.solar.clone().map(|mut solar| {
+            solar.watts = rows.iter().map(|&row| solar.watts[row]).collect();
+            solar.errors = rows.iter().map(|&row| solar.errors[row]).collect();
+            solar
+        }),
+        dgp: year.dgp.clone().map(|mut dgp| {
+            dgp.values = rows.iter().flat_map(|&row| dgp.row(row).to_vec()).collect();
+            dgp
+        }),
+        notes: Vec::new(),
+        spent: Vec::new(),
     }
-    if let Some(dgp) = &mut part.dgp {
-        dgp.values = rows.iter().flat_map(|&row| dgp.row(row).iter().copied()).collect();
-    }
-    part
 }
 
 /// Why figures are approximate beyond their errors.

@@ -1,0 +1,191 @@
+//! Rankings as the library makes them: coarse results before full ones, cancelling, weights that cost nothing.
+
+use cfs::catalogue::{Catalogue, NewProduct};
+use cfs::compute::btdf::{Btdf, Dataset};
+use cfs::compute::estimate::{Estimate, Progress, Silent};
+use cfs::compute::rank::{Better, Objective};
+use cfs::study::rank::{Found, Group, Item, List, Parts, Row, Shard, Stage, groups, keys, lists_of, run};
+use cfs::study::{Library, SceneFile, Session, StudyError};
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+const SCENE: &str = r#"
+[room]
+width = 4.0
+depth = 5.0
+height = 3.0
+reflectance = { floor = 0.2, walls = 0.5, ceiling = 0.7 }
+[[aperture]]
+surface = "facade"
+origin = [0.5, 1.0]
+size = [3.0, 1.8]
+reflectance = 0.0
+system = "ranked"
+[site]
+latitude = 47.48
+longitude = -122.22
+utc_offset = -8.0
+ground_reflectance = 0.2
+[sky]
+model = "uniform"
+diffuse_horizontal = 1.0
+[sensors]
+plane = { z = 0.85, nx = 1, ny = 2 }
+[year]
+weather = "builtin:renton"
+[year.lighting]
+power = 10.0
+target = 500.0
+[rank]
+[[rank.objective]]
+figure = "lighting.LENI_kWh_m2"
+better = "less"
+worst = 36.5
+best = 0.0
+[[rank.objective]]
+figure = "cDA300"
+better = "more"
+worst = 0.0
+best = 1.0
+[[rank.objective]]
+figure = "EN17037.minimum.target.time_by_hour"
+better = "more"
+worst = 0.0
+best = 1.0
+[[rank.objective]]
+figure = "ASE1000_250"
+better = "less"
+worst = 1.0
+best = 0.0
+"#;
+
+/// A catalogue with diffusers of these transmittances, and the list that the scene asks for.
+fn prepared(folder: &Path, taus: &[f64]) -> (Library, Vec<Group>) {
+    let path = folder.join("catalogue.cfsdb");
+    let mut catalogue = Catalogue::open(&path).unwrap();
+    for tau in taus {
+        let mut dataset = Dataset { name: format!("Rankling {tau}"), ..Dataset::default() };
+        dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(*tau));
+        catalogue.import(&[dataset], NewProduct::default()).unwrap();
+    }
+    drop(catalogue);
+    let library = Library::with_catalogue(Some(&path));
+    let find = |words: &str| library.search(words).map(|(products, _)| products);
+    let groups = groups("scene", &SceneFile::parse(SCENE).unwrap(), folder, Some("rankling"), &find).unwrap();
+    (library, groups)
+}
+
+fn all(groups: &[Group]) -> Vec<Item> {
+    Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>())
+}
+
+#[test]
+fn typical_days_come_first_and_their_errors_hold_the_year() {
+    let folder = tempfile::tempdir().unwrap();
+    let (library, groups) = prepared(folder.path(), &[0.2, 0.4, 0.6]);
+    let items = all(&groups);
+    let heard: Mutex<Vec<(Stage, Item, Found)>> = Mutex::new(Vec::new());
+    let told = |answer: cfs::study::rank::Answer<'_>| {
+        heard.lock().unwrap().push((answer.stage, answer.item, answer.outcome.clone().unwrap()));
+    };
+    let outcomes = run(&groups, &items, &library, &Session::new(), true, &told, &Silent).unwrap();
+    let heard = heard.into_inner().unwrap();
+    assert_eq!(heard.len(), 6);
+    assert!(heard[..3].iter().all(|(stage, ..)| *stage == Stage::Coarse), "all of them before any whole year");
+    for (_, item, coarse) in &heard[..3] {
+        let full = outcomes[item.product].as_ref().unwrap();
+        for (k, (coarse, full)) in coarse.figures.iter().zip(&full.figures).enumerate() {
+            assert!(coarse.error > full.error || k == 3, "{k}: {coarse:?} {full:?}");
+            // An estimate of twice the standard error is missed by one in twenty, twice it by none in thousands.
+            assert!((coarse.value - full.value).abs() <= 2.0 * coarse.error, "{k}: {coarse:?} {full:?}");
+        }
+        // Typical days do not tell how the half of a year is lit: anything between the anchors.
+        assert_eq!(coarse.figures[2], Estimate::new(0.5, 0.5));
+        assert_eq!(full.figures[3], Estimate::exact(0.0), "no sun comes through a diffuser");
+        // Sums over hours, zones and sensors: what is left are digits.
+        for k in [0, 1] {
+            let sum: f64 = full.parts[k].values.iter().sum();
+            assert!((sum - full.figures[k].value).abs() < 1e-7 * sum, "{k}");
+        }
+        assert!(full.parts[2].values.is_empty());
+    }
+    // The same by pieces of one, whatever was computed before.
+    let keys = keys(&groups, &items);
+    assert!(keys[0] != keys[1] && keys[1] != keys[2]);
+    for (item, outcome) in items.iter().zip(&outcomes) {
+        let alone = run(&groups, &[*item], &library, &Session::new(), false, &|_| (), &Silent).unwrap();
+        assert_eq!(&alone[0], outcome);
+    }
+    let lists = lists_of(&groups, &items, outcomes, &keys);
+    let ranking = lists[0].ranking(&lists[0].objectives);
+    let names: Vec<&str> = ranking.order.iter().map(|&k| lists[0].ranked()[k].0.product.as_str()).collect();
+    assert_eq!(
+        names,
+        ["rankling-0-6", "rankling-0-4", "rankling-0-2"],
+        "the more light the better, as nothing is too much here"
+    );
+}
+
+/// Withdrawn when the first product is finished.
+#[derive(Default)]
+struct Impatient(AtomicUsize);
+
+impl Progress for Impatient {
+    fn advance(&self, stage: &'static str, _: usize, _: usize) {
+        if stage == "products" {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed) > 0
+    }
+}
+
+#[test]
+fn a_ranking_can_be_withdrawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let (library, groups) = prepared(folder.path(), &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    let answer = run(&groups, &all(&groups), &library, &Session::new(), false, &|_| (), &Impatient::default());
+    assert!(matches!(answer, Err(StudyError::Cancelled(_))), "{answer:?}");
+}
+
+#[test]
+fn other_weights_cost_no_year() {
+    let objective = |better, worst, best| Objective { better, worst, best, weight: 1.0 };
+    let objectives = vec![objective(Better::Less, 12.0, 2.0), objective(Better::More, 0.0, 1.0)];
+    // Figures of a hundred products, spread evenly.
+    let row = |k: usize| {
+        let [a, b] = [0.618_034, 0.754_878].map(|step: f64| (step * k as f64).fract());
+        let parts =
+            Parts { zones: vec!["front".to_owned(), "rear".to_owned()], values: vec![(2.0 + 10.0 * a) / 16.0; 16] };
+        let figures = vec![Estimate::new(2.0 + 10.0 * a, 0.1), Estimate::new(b, 0.02)];
+        let found = Found { figures, parts: vec![parts, Parts::default()], approximate: Vec::new() };
+        Row { product: format!("p{k:03}"), key: String::new(), outcome: Ok(found) }
+    };
+    let list = List {
+        number: 0,
+        scene: String::new(),
+        climate: String::new(),
+        azimuth: 180.0,
+        figures: vec!["a".to_owned(), "b".to_owned()],
+        objectives: objectives.clone(),
+        rows: (0..100).map(row).collect(),
+    };
+    let first = |weight: f64| {
+        let mut other = objectives.clone();
+        other[0].weight = weight;
+        let clock = Instant::now();
+        let ranking = list.ranking(&other);
+        // A tenth of this where the program is compiled for use.
+        assert!(clock.elapsed() < Duration::from_millis(500), "{:?}", clock.elapsed());
+        assert_eq!(ranking.list.len(), 100);
+        ranking.order[0]
+    };
+    let least = |of: &dyn Fn(usize) -> f64| (0..100).min_by(|&a, &b| of(a).total_cmp(&of(b))).unwrap();
+    let figures = |k: usize| list.rows[k].outcome.as_ref().unwrap().figures.clone();
+    assert_eq!(first(1e6), least(&|k| figures(k)[0].value));
+    assert_eq!(first(1e-6), least(&|k| -figures(k)[1].value));
+}
