@@ -6,6 +6,7 @@ mod creases;
 mod emission;
 pub mod glare;
 pub(super) mod interreflected;
+pub(super) mod landed;
 mod lights;
 mod outside_seen;
 mod part;
@@ -36,6 +37,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
+use landed::Landed;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
@@ -150,6 +152,7 @@ pub struct Session {
     reception: Cache<Vec<Reception>>,
     patches: Cache<PatchWeights>,
     responses: Cache<Vec<Response>>,
+    landed: Cache<Landed>,
     by_cells: Cache<ByCells>,
     sides: Cache<RoomSide>,
     falling: Cache<Vec<Vec<f64>>>,
@@ -176,6 +179,7 @@ impl Session {
             reception: Cache::new(16),
             patches: Cache::new(24),
             responses: Cache::new(4),
+            landed: Cache::new(4),
             by_cells: Cache::new(12),
             sides: Cache::new(12),
             falling: Cache::new(24),

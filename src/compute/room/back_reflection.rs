@@ -114,8 +114,6 @@ pub fn settled_light(
 /// The room as an aperture's side that reflects by cells sees it, whatever it reflects: rows by cell that light falls in
 /// through. Geometry and the room's own reflectances only: shared by all systems and states on the same cells.
 pub struct RoomSide {
-    /// Weights of the patches' exitance.
-    falling: Vec<Vec<f64>>,
     /// Weights of what the patches receive before they reflect, with all reflections but those of mirrors.
     returned: Vec<Vec<f64>>,
 }
@@ -125,17 +123,16 @@ impl RoomSide {
     pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
         let falling = weights.falling(&radiosity.nested.fine, aperture);
         let returned = falling.par_iter().map(|weights| radiosity.adjoint_fine(weights)).collect();
-        Self { falling, returned }
+        Self { returned }
     }
 
-    /// What falls in through every cell by way of the room: of what the patches receive (`first`), and of what they
-    /// throw on the aperture before all else (`lit`, as illuminance), which is counted elsewhere where it goes elsewhere.
-    pub fn incident(&self, mesh: &Mesh, first: &[f64], lit: Option<&[f64]>) -> Vec<f64> {
-        let exitance: Option<Vec<f64>> =
-            lit.map(|lit| lit.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.reflectance).collect());
-        let rows = self.returned.iter().zip(&self.falling);
-        rows.map(|(returned, falling)| dot(returned, first) + exitance.as_ref().map_or(0.0, |b| dot(falling, b)))
-            .collect()
+    /// What falls in through every cell by way of the room, of what the patches receive before they reflect.
+    pub fn incident(&self, first: &[f64]) -> Vec<f64> {
+        let lit: Vec<usize> = (0..first.len()).filter(|&k| first[k] != 0.0).collect();
+        if 2 * lit.len() > first.len() {
+            return self.returned.iter().map(|returned| dot(returned, first)).collect();
+        }
+        self.returned.iter().map(|returned| lit.iter().map(|&k| returned[k] * first[k]).sum()).collect()
     }
 
     /// What falls in per luminance of every cell of emergent light: a row for each cell that light falls in through.

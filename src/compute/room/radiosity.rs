@@ -117,6 +117,22 @@ impl Radiosity {
         self.level.spread(&self.nested.fine, &self.coarser.adjoint(&self.nested.coarse, gather))
     }
 
+    /// What [`Self::adjoint_fine`] has of light that is reflected but once.
+    pub fn once_fine(&self, gather: &[f64]) -> Vec<f64> {
+        once(&self.nested.fine, gather)
+    }
+
+    /// What [`Self::adjoint_coarse`] has of it.
+    pub fn once_coarse(&self, gather: &[f64]) -> Vec<f64> {
+        self.level.spread(&self.nested.fine, &once(&self.nested.coarse, gather))
+    }
+
+    /// Means over the coarse patches, handed back to the fine ones.
+    pub fn blurred(&self, values: &[f64]) -> Vec<f64> {
+        let means = self.level.means(&self.nested.fine, values);
+        self.level.holder.iter().map(|&holder| means[holder]).collect()
+    }
+
     /// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection.
     pub fn illuminance_from_aperture(&self, aperture: usize) -> Vec<f64> {
         let mut first = vec![0.0; self.nested.fine.patches.len()];
@@ -132,6 +148,10 @@ impl Radiosity {
         }
         first
     }
+}
+
+fn once(mesh: &Mesh, gather: &[f64]) -> Vec<f64> {
+    mesh.patches.iter().zip(gather).map(|(patch, g)| patch.reflectance * g).collect()
 }
 
 impl MeshBalance {

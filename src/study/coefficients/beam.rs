@@ -4,11 +4,17 @@ use super::Coefficients;
 use super::sun_way::SunLight;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
+use crate::compute::room::beam::{Beam, merged};
 use crate::compute::room::direct::beams_through;
-use crate::compute::room::first_bounce::{BeamLanding, FirstLight};
+use crate::compute::room::first_bounce::FirstLight;
+use crate::compute::room::outline::Outline;
 use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
+use crate::study::session::landed::Landed;
 use crate::study::session::responses::Responses;
+
+/// Beams that are seen as sharp as they are, the strongest of a fan.
+const OUTLINED: usize = 4;
 
 impl Coefficients {
     /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
@@ -25,7 +31,7 @@ impl Coefficients {
     fn of_sun(&self, sun: &Sun, doubts: bool) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
         let mut sums = vec![Estimate::default(); sensors];
-        let mut first = self.room.as_ref().map(|room| FirstLight::dark(room.radiosity.nested.fine.patches.len()));
+        let mut first = FirstLight::dark(0);
         for index in 0..self.parts.len() {
             let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
             if facing.sun_illuminance() <= 0.0 {
@@ -40,24 +46,46 @@ impl Coefficients {
                 let seen = beams_through(sensor, aperture, &beams, &facing);
                 *sum += seen.all + Estimate::new(0.0, seen.data_error);
             }
-            if let Some(first) = &mut first {
+            if self.room.is_some() {
                 beams.iter().for_each(|beam| first.add_beam(aperture, beam, &facing));
             }
         }
-        if let Some((room, landing)) = self.landing(first) {
-            let rest = self.rest().hypot(landing.gap);
-            let mesh = &room.radiosity.nested.fine;
-            for ((sum, reflected), sensor) in
-                sums.iter_mut().zip(room.of_beams(&landing, doubts)).zip(&self.scene.sensors)
-            {
-                // The outlines are seen in closed form.
-                let outlines = landing.light_at(mesh, sensor.position, sensor.normal);
-                let error = (DIFFERENCE_ALONE * reflected.difference).hypot(rest * reflected.value);
-                *sum += Estimate::new(reflected.value + outlines, error + UNEVEN * reflected.thrown_back);
-            }
+        if let (Some(room), Some(landed)) = (&self.room, &self.landed) {
+            self.add_landed(room, landed, first.beams, &mut sums);
         }
         let whole = |e: Estimate| Estimate::new(e.value.max(0.0), e.error + 1e-6 * e.value.abs());
         sums.into_iter().map(whole).collect()
+    }
+
+    /// Adds what the room makes of beams.
+    fn add_landed(&self, room: &Responses, landed: &Landed, mut beams: Vec<Beam>, sums: &mut [Estimate]) {
+        if beams.is_empty() {
+            return;
+        }
+        let mesh = &room.radiosity.nested.fine;
+        let direct = |beams: &[Beam]| {
+            let mut direct = vec![0.0; mesh.patches.len()];
+            merged(beams).iter().for_each(|beam| beam.add_to(mesh, &mut direct));
+            direct
+        };
+        let (later, mut seen) = room.of_landed(landed, &direct(&beams));
+        // The strongest are seen as the outlines that they are; what patches tell of these tells how well they tell of
+        // the others.
+        beams.sort_by(|a, b| b.flux.total_cmp(&a.flux));
+        let few = &beams[..beams.len().min(OUTLINED)];
+        let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
+        let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
+        let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
+        let by_patch = if rest > 0.0 { room.of_landed(landed, &direct(few)).1 } else { std::mem::take(&mut seen) };
+        for (s, (sum, sensor)) in sums.iter_mut().zip(&self.scene.sensors).enumerate() {
+            let sharp: f64 =
+                outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum();
+            let others = seen.get(s).map_or(0.0, |all| all - by_patch[s]);
+            let placed = if rest > 0.0 { share * (sharp - by_patch[s]).abs() } else { 0.0 };
+            let reflected = later[s];
+            let error = (DIFFERENCE_ALONE * reflected.difference).hypot(self.rest() * reflected.value).hypot(placed);
+            *sum += Estimate::new(reflected.value + sharp + others, error + UNEVEN * reflected.thrown_back);
+        }
     }
 
     /// Adds light found for this very sun, and gives its beams.
@@ -91,11 +119,5 @@ impl Coefficients {
             }
         }
         BeamLight::regular(part.regular.as_ref(), facing).map(|beam| beam.scaled(part.clear)).into_iter().collect()
-    }
-
-    /// Where the beams land in a room that reflects them.
-    fn landing(&self, first: Option<FirstLight>) -> Option<(&Responses, BeamLanding)> {
-        let room = self.room.as_ref()?;
-        Some((room, first?.landing(&room.radiosity.nested.fine)?))
     }
 }

@@ -29,6 +29,7 @@ mod views;
 use super::error::StudyError;
 use super::scene::Scene;
 use super::session::interreflected::{PATCHES, REST};
+use super::session::landed::Landed;
 use super::session::responses::Responses;
 use super::session::{ORDINARY_TARGET, Session};
 use crate::compute::angle::Bearing;
@@ -45,6 +46,8 @@ pub struct Coefficients {
     scene: Scene,
     parts: Vec<AperturePart>,
     room: Option<Responses>,
+    /// What the room makes of beams, where there may be any.
+    landed: Option<Arc<Landed>>,
     directions: f64,
 }
 
@@ -107,8 +110,12 @@ impl Coefficients {
                 let btdf = btdf.expect("a resolved scene has only systems with transmission data");
                 AperturePart::new(session, scene, index, btdf, room.as_ref(), progress)
             })
-            .collect::<Result<_, _>>()?;
-        let mut coefficients = Self { scene: scene.clone(), parts, room, directions: 0.0 };
+            .collect::<Result<Vec<_>, _>>()?;
+        let landed = match &room {
+            Some(room) if parts.iter().any(AperturePart::sends_beams) => Some(session.landed(scene, room)?),
+            _ => None,
+        };
+        let mut coefficients = Self { scene: scene.clone(), parts, room, landed, directions: 0.0 };
         coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions();
         Ok(coefficients)
     }

@@ -189,6 +189,11 @@ impl AperturePart {
         })
     }
 
+    /// May the sun come on as beams?
+    pub fn sends_beams(&self) -> bool {
+        self.regular.is_some() || !matches!(self.sun, SunWay::Data)
+    }
+
     /// Number of luminances that a new sky costs.
     pub fn evaluations(&self) -> usize {
         self.samples.len() + self.seen.iter().map(|seen| seen.directions.len()).sum::<usize>()

@@ -3,6 +3,7 @@
 //! comes in by cells, see [`super::thrown_back`].
 
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key, spans};
+use super::landed::Landed;
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
@@ -10,13 +11,13 @@ use super::weights::Response;
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
-use crate::compute::room::first_bounce::BeamLanding;
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::{Radiosity, dot};
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Weights of all sensors.
@@ -26,6 +27,8 @@ pub(in crate::study) struct Responses {
     room: ThroughRoom,
     /// What apertures throw back that reflect by direction.
     mirrors: Option<ThrownBack>,
+    /// The number of patches that was asked for.
+    count: usize,
 }
 
 /// Interreflected light at a sensor, or weights that make it.
@@ -75,25 +78,24 @@ impl Session {
         let geometry = scene.apertures.iter().map(|a| a.aperture).collect();
         let room = ThroughRoom { radiosity: Arc::clone(&radiosity), sensors, key, geometry, sensor_key };
         let mirrors = ThrownBack::new(self, scene, &room, progress)?;
-        Ok(Responses { radiosity, room, mirrors })
+        Ok(Responses { radiosity, room, mirrors, count })
+    }
+
+    /// What the sensors of [`Self::responses`] get of beams.
+    pub(in crate::study) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<Landed>, StudyError> {
+        let key = [&room.room.key[..], &room.room.sensor_key].concat();
+        self.landed.get(key, || {
+            let gather = self.gathering(scene, room.count, &room.radiosity)?;
+            Ok(Landed::new(&room.radiosity, &gather, &room.room.sensors))
+        })
     }
 }
 
 /// Of one sensor, from what it sees of the patches of both densities.
 fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
-    let (mesh, coarser) = (&radiosity.nested.fine, &radiosity.nested.coarse);
     let mut response = Response { value: vec![0.0; fine.len()], walls: Vec::with_capacity(6) };
-    for (a, b) in spans(mesh).into_iter().zip(spans(coarser)) {
-        if fine[a.clone()].iter().chain(&coarse[b.clone()]).all(|w| *w == 0.0) {
-            continue;
-        }
-        let only = |weights: &[f64], range: std::ops::Range<usize>| -> Vec<f64> {
-            let mut own = vec![0.0; weights.len()];
-            own[range.clone()].copy_from_slice(&weights[range]);
-            own
-        };
-        let by_fine = radiosity.adjoint_fine(&only(fine, a));
-        let by_coarse = radiosity.adjoint_coarse(&only(coarse, b));
+    for [fine, coarse] in by_walls(radiosity, fine, coarse) {
+        let (by_fine, by_coarse) = (radiosity.adjoint_fine(&fine), radiosity.adjoint_coarse(&coarse));
         // As the extrapolation of the two densities: fine + (fine − coarse)/3.
         let difference: Vec<f64> = by_fine.iter().zip(&by_coarse).map(|(f, c)| f - c).collect();
         for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
@@ -102,6 +104,21 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
         response.walls.push(difference);
     }
     response
+}
+
+/// The weights of the walls that a sensor sees, one by one.
+pub(super) fn by_walls(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Vec<[Vec<f64>; 2]> {
+    let only = |weights: &[f64], range: Range<usize>| -> Vec<f64> {
+        let mut own = vec![0.0; weights.len()];
+        own[range.clone()].copy_from_slice(&weights[range]);
+        own
+    };
+    spans(&radiosity.nested.fine)
+        .into_iter()
+        .zip(spans(&radiosity.nested.coarse))
+        .filter(|(a, b)| fine[a.clone()].iter().chain(&coarse[b.clone()]).any(|w| *w != 0.0))
+        .map(|(a, b)| [only(fine, a), only(coarse, b)])
+        .collect()
 }
 
 impl Responses {
@@ -137,25 +154,30 @@ impl Responses {
 
     /// What every sensor gets of a first illuminance of the patches.
     pub fn of(&self, first: &[f64]) -> Vec<Reflected> {
-        self.reflected(first, None, true)
-    }
-
-    /// What every sensor gets of beams after they were reflected, but what the outlines that they light send to it
-    /// straight. Without `doubts` values only.
-    pub fn of_beams(&self, landing: &BeamLanding, doubts: bool) -> Vec<Reflected> {
-        self.reflected(&landing.thrown, Some(&landing.direct), doubts)
-    }
-
-    fn reflected(&self, first: &[f64], lit: Option<&[f64]>, doubts: bool) -> Vec<Reflected> {
-        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(&self.radiosity.nested.fine, first, lit));
+        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(first));
         let one = |(s, sensor): (usize, &Response)| {
             let added = mirrored.as_ref().map(|all| &all[s]);
             let value = dot(&sensor.value, first) + added.map_or(0.0, |added| added.value);
             let gap = |(w, wall): (usize, &Vec<f64>)| dot(wall, first) + added.map_or(0.0, |added| added.walls[w]);
-            let walls = if doubts { &sensor.walls[..] } else { &[] };
-            let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
+            let squares: f64 = sensor.walls.iter().enumerate().map(gap).map(|x| x * x).sum();
             Reflected { value, difference: squares.sqrt(), thrown_back: added.map_or(0.0, |added| added.straight) }
         };
         self.room.sensors.iter().enumerate().map(one).collect()
+    }
+
+    /// What every sensor gets of the light of beams on the patches after they were reflected twice or by a mirror; and of
+    /// the first reflection, were it even over each patch. \[lx\]
+    pub fn of_landed(&self, landed: &Landed, direct: &[f64]) -> (Vec<Reflected>, Vec<f64>) {
+        let sums = landed.of(&self.radiosity, direct);
+        let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(direct));
+        let one = |s: usize| {
+            let added = mirrored.as_ref().map(|all| &all[s]);
+            let value = sums.values[s] + added.map_or(0.0, |added| added.value);
+            let gap = |(w, wall): (usize, &f64)| wall + added.map_or(0.0, |added| added.walls[w]);
+            let squares: f64 = sums.walls(s).iter().enumerate().map(gap).map(|x| x * x).sum();
+            let difference = squares.sqrt().hypot(sums.blur[s]);
+            Reflected { value, difference, thrown_back: added.map_or(0.0, |added| added.straight) }
+        };
+        ((0..self.room.sensors.len()).map(one).collect(), sums.seen)
     }
 }

@@ -9,7 +9,6 @@ use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
 use crate::compute::room::back_reflection::{RoomSide, settled};
 use crate::compute::room::direct::Reception;
-use crate::compute::room::mesh::Mesh;
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -118,9 +117,9 @@ impl ThrownBack {
         self.added(|row| (0..basis.len()).map(|cell| all[(row, cell)]).collect())
     }
 
-    /// Of one light: what the patches receive, and what they throw on the apertures before all else; sensor by sensor.
-    pub fn of(&self, mesh: &Mesh, first: &[f64], lit: Option<&[f64]>) -> Vec<Added<f64>> {
-        let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(mesh, first, lit)).collect();
+    /// Of what the patches receive before they reflect, sensor by sensor.
+    pub fn of(&self, first: &[f64]) -> Vec<Added<f64>> {
+        let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(first)).collect();
         let all = self.thrown(&Mat::from_fn(incident.len(), 1, |i, _| incident[i]));
         self.added(|row| all[(row, 0)])
     }

@@ -1,0 +1,87 @@
+//! Beams by the patches that they light. Sensors see the outlines of what beams light in closed form; what comes later,
+//! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches.
+
+use super::responses::by_walls;
+use super::weights::Response;
+use crate::compute::room::gather::Reconstruction;
+use crate::compute::room::radiosity::Radiosity;
+
+/// What all sensors get per illuminance of a patch by beams.
+pub(in crate::study) struct Landed {
+    sensors: usize,
+    /// Where the columns of a sensor's walls begin, and where the last ones end.
+    walls: Vec<usize>,
+    /// Patch by patch: values of the light after two reflections or more, its differences of the two densities by wall,
+    /// and the light after one.
+    rows: Vec<f32>,
+}
+
+/// The light of one or more beams.
+pub(in crate::study) struct LandedLight {
+    /// Twice reflected or more, sensor by sensor. \[lx\]
+    pub values: Vec<f64>,
+    /// How far these hang on where in a patch the beams lie.
+    pub blur: Vec<f64>,
+    /// Once reflected, were it even over each patch.
+    pub seen: Vec<f64>,
+    columns: Vec<f64>,
+    walls: Vec<usize>,
+}
+
+impl LandedLight {
+    /// What the two densities differ by at a sensor, wall by wall.
+    pub fn walls(&self, sensor: usize) -> &[f64] {
+        &self.columns[self.walls[sensor]..self.walls[sensor + 1]]
+    }
+}
+
+impl Landed {
+    /// `gather`: what the sensors see of the patches of both densities; `sensors`: their weights.
+    pub fn new(radiosity: &Radiosity, gather: &[[Reconstruction; 2]], sensors: &[Response]) -> Self {
+        let count = sensors.len();
+        let mut walls = vec![count];
+        walls.extend(sensors.iter().scan(count, |end, sensor| {
+            *end += sensor.walls.len();
+            Some(*end)
+        }));
+        let width = walls[count] + count;
+        let mut rows = vec![0.0_f32; width * radiosity.nested.fine.patches.len()];
+        for (s, ([fine, coarse], sensor)) in gather.iter().zip(sensors).enumerate() {
+            let mut put = |column: usize, k: usize, value: f64| rows[k * width + column] = value as f32;
+            let mut later = sensor.value.clone();
+            let mut seen = vec![0.0; later.len()];
+            for (w, [fine, coarse]) in by_walls(radiosity, &fine.weights, &coarse.weights).into_iter().enumerate() {
+                let (once, by_coarse) = (radiosity.once_fine(&fine), radiosity.once_coarse(&coarse));
+                for (k, (f, c)) in once.iter().zip(&by_coarse).enumerate() {
+                    later[k] -= f + (f - c) / 3.0;
+                    seen[k] += f;
+                    put(walls[s] + w, k, sensor.walls[w][k] - (f - c));
+                }
+            }
+            for (k, (later, seen)) in later.iter().zip(&seen).enumerate() {
+                put(s, k, *later);
+                put(walls[count] + s, k, *seen);
+            }
+        }
+        Self { sensors: count, walls, rows }
+    }
+
+    /// Of illuminances of the patches by beams.
+    pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> LandedLight {
+        let (count, width) = (self.sensors, self.walls[self.sensors] + self.sensors);
+        let sum = |light: &[f64], columns: usize| {
+            let mut sums = vec![0.0; columns];
+            for (row, e) in self.rows.chunks_exact(width).zip(light).filter(|(_, e)| **e != 0.0) {
+                sums.iter_mut().zip(row).for_each(|(sum, weight)| *sum += e * f64::from(*weight));
+            }
+            sums
+        };
+        let mut columns = sum(direct, width);
+        // Patches of twice the size place the beams four times as badly.
+        let blurred = sum(&radiosity.blurred(direct), count);
+        let blur: Vec<f64> = columns.iter().zip(blurred).map(|(fine, coarse)| (fine - coarse) / 3.0).collect();
+        let values = columns[..count].iter().zip(&blur).map(|(e, gap)| e + gap).collect();
+        let seen = columns.split_off(self.walls[count]);
+        LandedLight { values, blur, seen, columns, walls: self.walls.clone() }
+    }
+}
