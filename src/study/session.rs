@@ -12,6 +12,7 @@ mod outside_seen;
 mod part;
 pub(super) mod responses;
 mod seen;
+pub(super) mod sky_year;
 mod split;
 mod surfaces;
 mod through_room;
@@ -41,6 +42,7 @@ use landed::Landed;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
+use sky_year::SkyYear;
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -153,6 +155,8 @@ pub struct Session {
     patches: Cache<PatchWeights>,
     responses: Cache<Vec<Response>>,
     landed: Cache<Landed>,
+    sky_years: Cache<SkyYear>,
+    exact_skies: Cache<Vec<f64>>,
     by_cells: Cache<ByCells>,
     sides: Cache<RoomSide>,
     falling: Cache<Vec<Vec<f64>>>,
@@ -180,6 +184,8 @@ impl Session {
             patches: Cache::new(24),
             responses: Cache::new(4),
             landed: Cache::new(4),
+            sky_years: Cache::new(6),
+            exact_skies: Cache::new(18),
             by_cells: Cache::new(12),
             sides: Cache::new(12),
             falling: Cache::new(24),

@@ -13,6 +13,7 @@ use crate::app::paint::tile::{self, Words};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{number, tick};
 use crate::texts::tiles as say;
+use egui::text::LayoutJob;
 use egui::{
     Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
@@ -53,6 +54,8 @@ pub struct State {
 }
 
 const DAYS: usize = 365;
+/// Height that a curve with its axes needs at least.
+const LEAST_CURVE: f32 = 120.0;
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
@@ -87,16 +90,24 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     })
 }
 
-/// Says what is to be said of the year, as high as it is; what is left above it.
+/// Says what is to be said of the year, as high as it is, or in a small tile in one line with the whole of it under the
+/// pointer; what is left above it.
 fn remark(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     if input.remark.is_empty() {
         return rect;
     }
     let colour = Palette::of(ui.visuals()).weak;
     let font = FontId::proportional(13.0);
-    let galley = ui.painter().layout(input.remark.to_owned(), font, colour, rect.width() - 8.0);
+    let mut job = LayoutJob::simple(input.remark.to_owned(), font, colour, rect.width() - 8.0);
+    let mut galley = ui.painter().layout_job(job.clone());
+    let short = rect.height() - galley.size().y < LEAST_CURVE;
+    if short {
+        job.wrap.max_rows = 1;
+        galley = ui.painter().layout_job(job);
+    }
     let (above, below) = rect.split_top_bottom_at_y((rect.bottom() - galley.size().y - 4.0).max(rect.top()));
     let response = ui.interact(below, ui.scope_id().with("remark"), egui::Sense::hover());
+    let response = if short { response.on_hover_text(input.remark) } else { response };
     tile::name(ui, &response, say::YEAR_REMARK, input.remark);
     ui.painter().galley(below.min + vec2(4.0, 2.0), galley, colour);
     above

@@ -12,6 +12,7 @@ mod mixed;
 pub mod peaks;
 pub mod sky_columns;
 mod sky_through;
+mod structure;
 mod sun_through;
 pub mod tiling;
 
@@ -22,7 +23,8 @@ pub use intensities::Intensities;
 pub use interpolated::Interpolator;
 pub use lamp::{Lamp, Lamps};
 pub use sky_through::SkyThrough;
-pub use sun_through::{SunThrough, sun_cells};
+pub use structure::{direction, structure_angles};
+pub use sun_through::{SunThrough, scattered_of, sun_cells};
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};

@@ -2,10 +2,12 @@
 //! thousands.
 
 use super::SkyThrough;
-use super::sky_through::{BIN_ERROR, CELL_ERROR, POINTS, Scattered, Turned, angles, band_of, name_of};
+use super::sky_through::{BIN_ERROR, CELL_ERROR, POINTS, Scattered, Turned, band_of};
+use super::structure::{angles, name_of};
 use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::ProfileLight;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 /// What an illuminance of 1 lx through one patch becomes.
@@ -26,6 +28,14 @@ pub enum ScatteredRows<'a> {
     Bands(&'a [ProfileLight]),
     /// On the cells of [`SkyThrough::basis`].
     Cells(&'a [Vec<f64>]),
+}
+
+/// Between which rows by profile angle light of a name lies, and how near it is to the second, 0 … 1. `rows`: how many.
+pub fn between_rows(upright: bool, name: Dir<Facade>, rows: usize) -> (usize, f64) {
+    let last = rows.max(2) - 2;
+    let at = (angles(upright, name).1 + FRAC_PI_2) / PI * (rows.max(2) - 1) as f64;
+    let row = (at.max(0.0) as usize).min(last);
+    (row, (at - row as f64).clamp(0.0, 1.0))
 }
 
 impl SkyThrough {

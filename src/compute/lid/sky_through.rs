@@ -6,13 +6,14 @@
 //! | turned beams | backwards: a cell's luminance is that of the outside where its light comes from, times the share (reciprocity) |
 //! | scattered | by profile angle where it depends on that alone; else on cells, an answer an incident cell |
 
+use super::structure::{angles, name_of};
 use super::sun_through::sun_cells;
 use super::{BandLight, CellLight, Emission, Facing};
 use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Estimate;
 use crate::compute::sky::{Frame, incident_illuminances_within};
-use crate::compute::system::measure::{Beam, ProfileLight, Side, Specimen, front_basis};
+use crate::compute::system::measure::{Beam, ProfileLight, Side, Specimen, Structure, front_basis};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -22,6 +23,8 @@ use std::sync::Arc;
 pub(super) const POINTS: usize = 3;
 /// Bands of the profile angle of incidence: 1°.
 const BANDS: usize = 181;
+/// Steps of the angle along a structure, to 90°.
+const ALONG: usize = 16;
 /// Turned light is gathered in bins of this width. \[rad\]
 const BIN: f64 = PI / 180.0;
 /// Shares below this are not worth a luminance.
@@ -68,23 +71,6 @@ pub(super) enum Scattered {
     ByCells { incident: RingBasis, rows: Vec<Vec<f64>>, error: f64 },
 }
 
-/// The name of a profile angle with the direction cosine `along` the structure.
-pub(super) fn name_of(upright: bool, along: f64, psi: f64) -> Dir<Facade> {
-    let across = (1.0 - along * along).max(0.0).sqrt();
-    let (sin, cos) = psi.sin_cos();
-    Dir::from_unit(if upright {
-        DVec3::new(across * sin, along, across * cos)
-    } else {
-        DVec3::new(along, across * sin, across * cos)
-    })
-}
-
-/// Direction cosine along the structure, and profile angle.
-pub(super) fn angles(upright: bool, name: Dir<Facade>) -> (f64, f64) {
-    let v = name.vector();
-    if upright { (v.y, v.x.atan2(v.z)) } else { (v.x, v.y.atan2(v.z)) }
-}
-
 /// Middle of a band. \[rad\]
 fn middle(band: usize) -> f64 {
     // The outermost bands end at ±90°, where nothing comes from.
@@ -107,6 +93,45 @@ fn centre(beam: &Beam) -> DVec3 {
     beam.names[0].vector() + beam.names[1].vector()
 }
 
+/// The straight share of systems whose structure is endless along an axis, in layers that are the same to both sides:
+/// sharp in the profile angle, even along the structure.
+struct StraightLattice {
+    upright: bool,
+    /// By angle along the structure and band of the profile angle.
+    rows: Vec<Vec<f64>>,
+}
+
+impl StraightLattice {
+    /// `None` where it does not suit, or single directions are told by the profile angle alone, which is quick.
+    fn new(specimen: &dyn Specimen) -> Option<Self> {
+        let Structure::Along { upright } = specimen.structure() else { return None };
+        if specimen.by_profile_alone().is_some() {
+            return None;
+        }
+        let rows = (0..=ALONG)
+            .into_par_iter()
+            .map(|row| {
+                let along = (0.99 * FRAC_PI_2 * row as f64 / ALONG as f64).sin();
+                (0..BANDS).map(|band| specimen.straight(name_of(upright, along, middle(band)), Side::Front)).collect()
+            })
+            .collect();
+        Some(Self { upright, rows })
+    }
+
+    fn share(&self, name: Dir<Facade>) -> f64 {
+        let (along, psi) = angles(self.upright, name);
+        let at = |value: f64, last: usize| {
+            let value = value.clamp(0.0, last as f64);
+            let first = (value as usize).min(last - 1);
+            (first, value - first as f64)
+        };
+        let (row, s) = at(along.abs().min(1.0).asin() / (0.99 * FRAC_PI_2) * ALONG as f64, ALONG);
+        let (band, t) = at((psi + FRAC_PI_2) / PI * (BANDS - 1) as f64, BANDS - 1);
+        let in_row = |row: &[f64]| (1.0 - t) * row[band] + t * row[band + 1];
+        (1.0 - s) * in_row(&self.rows[row]) + s * in_row(&self.rows[row + 1])
+    }
+}
+
 impl SkyThrough {
     /// Asks a system, in parallel; its light is put on [`sun_cells`].
     pub fn new(specimen: &dyn Specimen) -> Self {
@@ -116,12 +141,13 @@ impl SkyThrough {
     /// On other cells.
     fn on(specimen: &dyn Specimen, cells: Arc<RingBasis>) -> Self {
         let list: Vec<_> = cells.cells().collect();
+        let lattice = StraightLattice::new(specimen);
+        let share = |name: Dir<Facade>| {
+            lattice.as_ref().map_or_else(|| specimen.straight(name, Side::Front), |lattice| lattice.share(name))
+        };
         let straight = list
             .par_iter()
-            .map(|cell| {
-                let shares = sub_directions(cell, POINTS).map(|name| specimen.straight(name, Side::Front));
-                shares.sum::<f64>() / (POINTS * POINTS) as f64
-            })
+            .map(|cell| sub_directions(cell, POINTS).map(share).sum::<f64>() / (POINTS * POINTS) as f64)
             .collect();
         let (turned, scattered) = (Turned::new(specimen, &cells), Scattered::new(specimen, &cells));
         Self { cells, straight, turned, scattered }

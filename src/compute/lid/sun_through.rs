@@ -6,7 +6,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::incidence::superpose::sub_patches;
 use crate::compute::sky::SUN_HALF_ANGLE;
-use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen};
+use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen, Structure};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -23,14 +23,21 @@ const SAME: f64 = 1e-9;
 const PIECE: f64 = 0.15 * PI / 180.0;
 /// Pieces of fans that fall together within this are one. \[rad\]
 const TOGETHER: f64 = 0.1 * PI / 180.0;
-/// Pairs of directions over the disc for the straight beam, one number after the other until its share stands ...
+/// Pairs of directions over the disc for the straight beam through what is no structure along an axis, one number after
+/// the other until its share stands ...
 const SEEDS: [usize; 4] = [16, 64, 256, 1024];
 /// ... to this, relative.
 const STANDS: f64 = 1e-5;
 /// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
 const PARTS: [usize; 2] = [3, 64];
+/// Where all hangs on a profile angle, so many strips of the disc, of so many pairs of directions.
+const STRIPS: usize = 24;
+/// See [`STRIPS`].
+const IN_STRIPS: usize = 192;
 /// Shares that are as near as this to linear over the disc are.
 const LINEAR: f64 = 2e-5;
+/// Directions as near as this may share what mirrors make of them: a tenth of the disc. \[rad\]
+const ABOUT: f64 = 0.025 * PI / 180.0;
 /// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
 const GRAZING: f64 = 0.3;
 
@@ -60,80 +67,165 @@ fn cosine(name: Dir<Facade>) -> f64 {
     name.vector().z.max(0.0)
 }
 
-/// The straight beam as a mean over the disc, by more and more directions until it stands.
-fn straight(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
-    let (incident, normal) = (facing.sun_illuminance(), facing.sun?.direct_normal);
-    let mut found: Option<BeamLight> = None;
-    for seeds in SEEDS {
-        let names = disc(facing, sun, seeds);
-        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
-        if cosines <= 0.0 {
-            continue;
-        }
-        let shares: Vec<f64> = names.iter().map(|name| specimen.straight(*name, Side::Front)).collect();
-        let [flux, mean] = [
-            names.iter().zip(&shares).map(|(name, share)| share * cosine(*name)).sum::<f64>() / cosines,
-            shares.iter().sum::<f64>() / shares.len() as f64,
-        ];
-        // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is
-        // hidden in part is cut by what hides it, later.
-        let centre: DVec3 = names.iter().zip(&shares).map(|(name, share)| *share * name.vector()).sum();
-        let to = if names.len() == 2 * seeds { Dir::new(centre).unwrap_or(sun) } else { sun };
-        let change = found.map_or(f64::INFINITY, |before| (flux * incident - before.exitance).abs());
-        let error = if flux > 0.0 { change / (flux * incident) } else { 0.0 };
-        found =
-            Some(BeamLight { to, exitance: flux * incident, normal: mean * normal, straight: true, error, doubt: 0.0 });
-        if change <= STANDS * incident * flux.max(STANDS) {
-            break;
-        }
-    }
-    found.filter(|beam| beam.exitance > 0.0)
+/// A part of the disc: where, its share of the disc as seen, and its cosine times that.
+struct Part {
+    name: Dir<Facade>,
+    weight: f64,
+    flux: f64,
+    /// What goes straight on of it.
+    straight: f64,
+    turned: Vec<Beam>,
 }
 
-/// The beams that do not go straight on: by the disc's middle where the shares of its parts are as good as linear, else
-/// by many parts.
-fn turned(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<BeamLight> {
-    let incident = facing.sun_illuminance();
-    let ask = |name: Dir<Facade>| -> Vec<Beam> {
-        let turned = |beam: &Beam| beam.names.iter().any(|other| other.vector().distance(name.vector()) > SAME);
-        specimen.beams(name, Side::Front).into_iter().filter(|beam| beam.transmitted && turned(beam)).collect()
-    };
-    let share = |beams: &[Beam]| beams.iter().map(|beam| beam.share).sum::<f64>();
-    let laid = |names: &[Dir<Facade>], of: &[Vec<Beam>]| {
-        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
-        let mut pieces = Pieces::default();
-        for (name, beams) in names.iter().zip(of) {
-            let weight = incident * cosine(*name) / cosines.max(f64::MIN_POSITIVE);
-            beams.iter().for_each(|beam| pieces.add(beam, weight));
+impl Part {
+    fn new(specimen: &dyn Specimen, name: Dir<Facade>, weight: f64, flux: f64) -> Self {
+        let mut part = Self { name, weight, flux, straight: 0.0, turned: Vec::new() };
+        for beam in specimen.beams_about(name, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
+            if beam.names.iter().all(|other| other.vector().distance(name.vector()) <= SAME) {
+                part.straight += beam.share;
+            } else {
+                part.turned.push(beam);
+            }
         }
-        pieces
-    };
-    let few = disc(facing, sun, PARTS[0]);
-    let of: Vec<Vec<Beam>> = few.iter().map(|name| ask(*name)).collect();
-    let middle = ask(sun);
-    let own = share(&middle);
-    let opposite = of.chunks_exact(2).all(|pair| (0.5 * (share(&pair[0]) + share(&pair[1])) - own).abs() < LINEAR);
-    if few.len() == 2 * PARTS[0] && opposite {
-        return laid(&[sun], &[middle]).beams(0.0);
+        part
     }
-    let many = disc(facing, sun, PARTS[1]);
-    let parts: Vec<Vec<Beam>> = many.iter().map(|name| ask(*name)).collect();
+
+    fn shares(&self) -> [f64; 2] {
+        [self.straight, self.turned.iter().map(|beam| beam.share).sum()]
+    }
+}
+
+/// The disc by strips of about the same profile angle, each by its middle: x and y exchanged where `upright`.
+fn strips(names: &[Dir<Facade>], upright: bool) -> Vec<(Dir<Facade>, f64, f64)> {
+    let angle = |name: &Dir<Facade>| {
+        let v = name.vector();
+        (if upright { v.x } else { v.y }).atan2(v.z)
+    };
+    let (low, high) = names
+        .iter()
+        .map(angle)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| (low.min(angle), high.max(angle)));
+    let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); STRIPS];
+    for name in names {
+        let at = (STRIPS as f64 * (angle(name) - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
+        let sum = &mut sums[at.min(STRIPS - 1)];
+        *sum = (sum.0 + name.vector(), sum.1 + 1.0, sum.2 + cosine(*name));
+    }
+    sums.into_iter().filter_map(|(sum, count, cosines)| Some((Dir::new(sum)?, count, cosines))).collect()
+}
+
+/// The sun's beams behind a system, as means over the disc.
+fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
+    let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
+    let whole = |names: &[Dir<Facade>], seeds: usize| names.len() == 2 * seeds;
+    let asked = |name: Dir<Facade>| Part::new(specimen, name, 1.0, cosine(name));
+    // The disc's middle where shares are as good as linear over it.
+    let few = disc(facing, sun, PARTS[0]);
+    let of: Vec<Part> = few.iter().map(|name| asked(*name)).collect();
+    if whole(&few, PARTS[0]) {
+        let middle = asked(sun);
+        let own = middle.shares();
+        let linear = of.chunks_exact(2).all(|pair| {
+            let [a, b] = [0, 1].map(|k| pair[k].shares());
+            (0..2).all(|k| (0.5 * (a[k] + b[k]) - own[k]).abs() < LINEAR)
+        });
+        if linear {
+            let mut beams: Vec<BeamLight> = straight(facing, sun, &of, true, LINEAR).into_iter().collect();
+            beams.extend(turned(facing, &[middle], 0.0));
+            return beams;
+        }
+    }
+    if let Structure::Along { upright } = specimen.structure() {
+        let names = disc(facing, sun, IN_STRIPS);
+        let parts: Vec<Part> = strips(&names, upright)
+            .into_iter()
+            .map(|(name, weight, flux)| Part::new(specimen, name, weight, flux))
+            .collect();
+        // Of the middle of a strip for all of it.
+        let off = |k: usize| {
+            let bent = |three: &[Part]| {
+                three[1].flux * (three[0].shares()[k] + three[2].shares()[k] - 2.0 * three[1].shares()[k]).abs()
+            };
+            let flux: f64 = parts.iter().map(|part| part.flux).sum();
+            parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
+        };
+        let mut beams: Vec<BeamLight> =
+            straight(facing, sun, &parts, whole(&names, IN_STRIPS), off(0)).into_iter().collect();
+        let share: f64 = mean(&parts, |part| part.shares()[1]);
+        beams.extend(turned(facing, &parts, off(1) / share.max(f64::MIN_POSITIVE)));
+        return beams;
+    }
+    let mut beams: Vec<BeamLight> = straight_by_seeds(specimen, facing, sun).into_iter().collect();
+    let parts: Vec<Part> = disc(facing, sun, PARTS[1]).iter().map(|name| asked(*name)).collect();
     // Every other pair of directions against all of them.
     let mean = |pairs: usize| {
         let some = parts.chunks(2).step_by(pairs).flatten();
         let count = some.clone().count().max(1);
-        some.map(|beams| share(beams)).sum::<f64>() / count as f64
+        some.map(|part| part.shares()[1]).sum::<f64>() / count as f64
     };
     let error = (mean(1) - mean(2)).abs() / mean(1).max(f64::MIN_POSITIVE);
-    laid(&many, &parts).beams(error)
+    beams.extend(turned(facing, &parts, error));
+    beams
 }
 
-/// The sun's beams behind a system.
-fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
-    let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
-    let mut beams: Vec<BeamLight> = straight(specimen, facing, sun).into_iter().collect();
-    beams.extend(turned(specimen, facing, sun));
-    beams
+fn mean(parts: &[Part], of: impl Fn(&Part) -> f64) -> f64 {
+    let flux: f64 = parts.iter().map(|part| part.flux).sum();
+    parts.iter().map(|part| part.flux * of(part)).sum::<f64>() / flux.max(f64::MIN_POSITIVE)
+}
+
+/// The straight beam of a disc by its parts; `whole`: nothing hides any; `off`: error of the share.
+fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, off: f64) -> Option<BeamLight> {
+    let normal = facing.sun?.direct_normal;
+    let share = mean(parts, |part| part.straight);
+    let weight: f64 = parts.iter().map(|part| part.weight).sum();
+    let seen = parts.iter().map(|part| part.weight * part.straight).sum::<f64>() / weight;
+    // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is hidden in
+    // part is cut by what hides it, later.
+    let centre: DVec3 = parts.iter().map(|part| part.weight * part.straight * part.name.vector()).sum();
+    (share > 0.0).then(|| BeamLight {
+        to: if whole { Dir::new(centre).unwrap_or(sun) } else { sun },
+        exitance: share * facing.sun_illuminance(),
+        normal: seen * normal,
+        straight: true,
+        error: off / share.max(off),
+        doubt: 0.0,
+    })
+}
+
+/// The same by more and more directions until it stands.
+fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
+    let mut found: Option<BeamLight> = None;
+    for seeds in SEEDS {
+        let names = disc(facing, sun, seeds);
+        let part = |name: &Dir<Facade>| Part {
+            name: *name,
+            weight: 1.0,
+            flux: cosine(*name),
+            straight: specimen.straight(*name, Side::Front),
+            turned: Vec::new(),
+        };
+        let parts: Vec<Part> = names.iter().map(part).collect();
+        let before = found.map_or(f64::INFINITY, |before| before.exitance);
+        found = straight(facing, sun, &parts, names.len() == 2 * seeds, 0.0);
+        let Some(beam) = &mut found else { continue };
+        let change = (beam.exitance - before).abs();
+        beam.error = (change / beam.exitance).min(1.0);
+        if change <= STANDS * beam.exitance.max(STANDS * facing.sun_illuminance()) {
+            break;
+        }
+    }
+    found
+}
+
+/// The beams that do not go straight on.
+fn turned(facing: &Facing<'_>, parts: &[Part], error: f64) -> Vec<BeamLight> {
+    let flux: f64 = parts.iter().map(|part| part.flux).sum();
+    let mut pieces = Pieces::default();
+    for part in parts {
+        let incident = facing.sun_illuminance() * part.flux / flux.max(f64::MIN_POSITIVE);
+        part.turned.iter().for_each(|beam| pieces.add(beam, incident));
+    }
+    pieces.beams(error)
 }
 
 /// Turned beams, those that fall together as one.
@@ -194,6 +286,14 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
     Some(BandLight { light, illuminance })
 }
 
+/// q on [`sun_cells`] of what a system scatters of light of a name, and its error, relative.
+pub fn scattered_of(specimen: &dyn Specimen, name: Dir<Facade>) -> (Vec<f64>, f64) {
+    let light = specimen.scattered(name, Side::Front, sun_cells());
+    let share: f64 = light.transmitted.iter().zip(sun_cells().projected_solid_angles()).map(|(q, w)| q * w).sum();
+    let relative = if share > 0.0 { light.error / share } else { 0.0 };
+    (light.transmitted, relative + CELL_ERROR)
+}
+
 /// What a system scatters of the sun, on [`sun_cells`]; `None` where it scatters nothing.
 fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> {
     let incident = facing.sun_illuminance();
@@ -234,6 +334,20 @@ impl SunThrough {
         let bands = by_profile(specimen, facing);
         let cells = if bands.is_none() { scattered(specimen, facing) } else { None };
         Self { illuminance: facing.sun_illuminance(), beams: sun_beams(specimen, facing), bands, cells }
+    }
+
+    /// What it makes of beams alone.
+    pub fn beams_alone(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
+        let beams = sun_beams(specimen, facing);
+        Self { illuminance: facing.sun_illuminance(), beams, bands: None, cells: None }
+    }
+
+    /// Directions of the disc that what is scattered is a mean over, with their shares of the illuminance.
+    pub fn standing_for(facing: &Facing<'_>) -> Vec<(Dir<Facade>, f64)> {
+        let Some(sun) = facing.sun_direction() else { return Vec::new() };
+        let names = standing_for(facing, sun);
+        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
+        names.into_iter().map(|name| (name, cosine(name) / cosines.max(f64::MIN_POSITIVE))).collect()
     }
 
     /// What goes on as beams.

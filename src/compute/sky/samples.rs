@@ -10,6 +10,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::quadrature::gauss_legendre;
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Directions and weights for the cells of one basis.
 #[derive(Debug, Clone)]
@@ -115,6 +116,16 @@ impl SkySamples {
     /// Number of directions.
     pub fn len(&self) -> usize {
         self.directions.len()
+    }
+
+    /// Numbers that only the same directions with the same weights have.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.first.hash(&mut hasher);
+        for (d, weight) in self.directions.iter().zip(&self.weights) {
+            [d.x, d.y, d.z, *weight].map(f64::to_bits).hash(&mut hasher);
+        }
+        hasher.finish()
     }
 
     /// No direction at all: the aperture sees no sky.

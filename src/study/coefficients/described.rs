@@ -2,16 +2,18 @@
 
 use super::views::{SensorRows, Views, Want};
 use crate::compute::basis::RingBasis;
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Progress;
-use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows};
-use crate::compute::lid::{BandLight, SkyThrough, sun_cells};
-use crate::compute::system::measure::ProfileLight;
+use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows, between_rows};
+use crate::compute::lid::{BandLight, SkyThrough, direction, scattered_of, structure_angles, sun_cells};
+use crate::compute::system::measure::{ProfileLight, Specimen, Structure};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::responses::Responses;
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The light of a described system's patches at the sensors.
 pub(super) struct Described {
@@ -21,6 +23,105 @@ pub(super) struct Described {
     pub columns: Vec<SensorRows>,
     /// Error of all of it, relative.
     pub error: f64,
+    /// What is scattered, where that depends on the profile angle alone.
+    pub by_angle: Option<Arc<ByAngle>>,
+}
+
+/// What is scattered of light of an illuminance of 1 lx, by the profile angle that it comes from.
+pub(super) struct ByAngle {
+    upright: bool,
+    rows: Vec<SensorRows>,
+    /// Relative.
+    errors: Vec<f64>,
+}
+
+impl ByAngle {
+    /// Adds light from a name, between two angles in a straight line; `errors`: those of the data, and how far light may
+    /// be from that line.
+    pub fn add(&self, name: Dir<Facade>, illuminance: f64, light: &mut [f64], errors: &mut [f64]) {
+        let (row, near) = between_rows(self.upright, name, self.rows.len());
+        let (a, b) = (&self.rows[row], &self.rows[row + 1]);
+        let before = &self.rows[row.saturating_sub(1)];
+        let after = &self.rows[(row + 2).min(self.rows.len() - 1)];
+        let relative = self.errors[row].max(self.errors[row + 1]);
+        for (s, error) in errors.iter_mut().enumerate() {
+            let bent = (before[s] + b[s] - 2.0 * a[s]).abs().max((a[s] + after[s] - 2.0 * b[s]).abs());
+            let own = (1.0 - near) * a[s] + near * b[s];
+            *error += illuminance * (relative * own.abs() + 0.5 * near * (1.0 - near) * bent);
+        }
+        for (sum, (a, b)) in light.iter_mut().zip(a.iter().zip(b)) {
+            *sum += illuminance * ((1.0 - near) * a + near * b);
+        }
+    }
+}
+
+/// What a system of an endless structure scatters, by angles along and across it: nodes are asked for when the sun is near.
+pub(super) struct Lattice {
+    upright: bool,
+    /// Light at the sensors of 1 lx, and the error of it, relative.
+    nodes: Mutex<HashMap<[i64; 2], Arc<(SensorRows, f64)>>>,
+}
+
+/// Steps of the angle along the structure and of the profile angle. \[°\]
+const STEPS: [f64; 2] = [5.0, 1.0];
+/// Of what the nodes around a direction differ by, how far light may be from the plane between them.
+const UNEVEN: f64 = 0.05;
+
+impl Lattice {
+    /// `None` where light is told by other angles.
+    pub fn of(specimen: &dyn Specimen) -> Option<Self> {
+        match specimen.structure() {
+            Structure::Along { upright } => Some(Self { upright, nodes: Mutex::default() }),
+            Structure::Even | Structure::Any => None,
+        }
+    }
+
+    fn node(&self, specimen: &dyn Specimen, views: &Views, at: [i64; 2]) -> Arc<(SensorRows, f64)> {
+        // What is kept is whole even if another thread has failed while it held the lock.
+        let nodes = || self.nodes.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = nodes().get(&at) {
+            return Arc::clone(known);
+        }
+        let angles = [0, 1].map(|k| (at[k] as f64 * STEPS[k]).clamp(-89.5, 89.5).to_radians());
+        let (light, error) = scattered_of(specimen, direction(self.upright, angles));
+        let mut row = vec![0.0; views.width()];
+        views.add_all(&light, &mut row);
+        let found = Arc::new((row, error));
+        nodes().insert(at, Arc::clone(&found));
+        found
+    }
+
+    /// Adds light from a name.
+    pub fn add(
+        &self,
+        specimen: &dyn Specimen,
+        views: &Views,
+        name: Dir<Facade>,
+        illuminance: f64,
+        light: &mut [f64],
+        errors: &mut [f64],
+    ) {
+        let angles = structure_angles(self.upright, name);
+        let at = [0, 1].map(|k| angles[k].to_degrees() / STEPS[k]);
+        let first = at.map(|at| at.floor() as i64);
+        let near = [0, 1].map(|k| at[k] - first[k] as f64);
+        let corners = [[0, 0], [0, 1], [1, 0], [1, 1]];
+        let nodes = corners.map(|[i, j]| self.node(specimen, views, [first[0] + i, first[1] + j]));
+        let shares = corners.map(|[i, j]| {
+            let side = |k: usize, far: i64| if far == 1 { near[k] } else { 1.0 - near[k] };
+            illuminance * side(0, i) * side(1, j)
+        });
+        for (node, share) in nodes.iter().zip(shares) {
+            light.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += share * e);
+        }
+        for (s, error) in errors.iter_mut().enumerate() {
+            let values = nodes.each_ref().map(|node| node.0[s]);
+            let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let own: f64 = nodes.iter().zip(shares).map(|(node, share)| share * node.1 * node.0[s].abs()).sum();
+            *error += own + illuminance * UNEVEN * (most - least);
+        }
+    }
 }
 
 /// What the sensors see of a described system's light.
@@ -89,6 +190,20 @@ impl Described {
             light
         };
         let columns = through.by_patch().into_par_iter().map(column).collect();
-        Self { basis: Arc::clone(through.basis()), columns, error: through.relative_error() }
+        let by_angle = match through.rows() {
+            ScatteredRows::Bands(own) if own.len() > 1 => Some(Arc::new(ByAngle {
+                upright: own[0].upright,
+                errors: own.iter().map(relative_error).collect(),
+                rows,
+            })),
+            _ => None,
+        };
+        Self { basis: Arc::clone(through.basis()), columns, error: through.relative_error(), by_angle }
     }
+}
+
+/// Error of what is scattered, relative.
+pub(super) fn relative_error(light: &ProfileLight) -> f64 {
+    let share = light.share();
+    if share > 0.0 { light.error / share } else { 0.0 }
 }

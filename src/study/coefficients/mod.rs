@@ -37,7 +37,7 @@ use crate::compute::direction::Dir;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
 use crate::compute::sky::{Distribution, Outside};
-use part::{AperturePart, Sums};
+use part::{AperturePart, Sums, Way};
 use std::sync::Arc;
 pub(super) use transport::patches as incident_patches;
 
@@ -116,12 +116,12 @@ impl Coefficients {
             _ => None,
         };
         let mut coefficients = Self { scene: scene.clone(), parts, room, landed, directions: 0.0 };
-        coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions();
+        coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions(session);
         Ok(coefficients)
     }
 
     /// Largest relative difference between the fixed directions and integrals, on the scene's sky and two clear ones.
-    fn gap_of_directions(&self) -> f64 {
+    fn gap_of_directions(&self, session: &Session) -> f64 {
         let facade = self.scene.facade.radians();
         let clear = |sky_type: u8, altitude: f64, turn: f64| {
             let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade + turn));
@@ -134,7 +134,8 @@ impl Coefficients {
         let skies = [Some(self.scene.outside.clone()), clear(12, 0.5, 0.4), clear(2, 0.9, -0.7)];
         let mut largest: f64 = 0.0;
         for outside in skies.into_iter().flatten().filter(|outside| self.is_smooth(outside)) {
-            let (fixed, exact) = (self.diffuse(&outside, true), self.diffuse(&outside, false));
+            let (fixed, exact) =
+                (self.diffuse(&outside, Way::Fixed), self.diffuse(&outside, Way::Exact(Some(session))));
             let mean = exact.iter().sum::<f64>() / exact.len().max(1) as f64;
             if mean > 0.0 {
                 let gap = fixed.iter().zip(&exact).map(|(a, b)| (a - b).abs() / b.max(0.05 * mean));
@@ -149,10 +150,20 @@ impl Coefficients {
         !outside.is_piecewise_constant() && far::same(outside, &self.scene.outside)
     }
 
-    fn diffuse(&self, outside: &Outside, smooth: bool) -> Vec<f64> {
+    /// Keeps in `session`, for all systems, what the hours of a year are on the patches of this one; `year`: a number that
+    /// no other year has, and how many hours there are. They are asked by [`Self::hour_estimate`].
+    pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
+        self.parts.iter_mut().for_each(|part| part.keep_year(session, year));
+    }
+
+    fn way(&self, outside: &Outside) -> Way<'static> {
+        if self.is_smooth(outside) { Way::Fixed } else { Way::Exact(None) }
+    }
+
+    fn diffuse(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
         let mut sums = vec![0.0; self.scene.sensors.len()];
         for (index, part) in self.parts.iter().enumerate() {
-            part.add(&self.scene, index, outside, smooth, &mut sums);
+            part.add(&self.scene, index, outside, way, &mut sums);
         }
         sums.iter_mut().for_each(|e| *e = e.max(0.0));
         sums
@@ -160,18 +171,28 @@ impl Coefficients {
 
     /// Diffuse light at every sensor from sky, ground and skyline. \[lx\]
     pub fn sky(&self, outside: &Outside) -> Vec<f64> {
-        self.diffuse(outside, self.is_smooth(outside))
+        self.diffuse(outside, self.way(outside))
     }
 
     /// The same with its error.
     pub fn sky_estimate(&self, outside: &Outside) -> Vec<Estimate> {
+        self.estimated(outside, self.way(outside))
+    }
+
+    /// The same of an hour of the year of [`Self::keep_year`], whose outside this is.
+    pub fn hour_estimate(&self, hour: usize, outside: &Outside) -> Vec<Estimate> {
+        let way = if self.is_smooth(outside) { Way::Hour(hour) } else { Way::Exact(None) };
+        self.estimated(outside, way)
+    }
+
+    fn estimated(&self, outside: &Outside, way: Way<'_>) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
-        let smooth = self.is_smooth(outside);
+        let smooth = !matches!(way, Way::Exact(_));
         let mut estimates = vec![Estimate::default(); sensors];
         for (index, part) in self.parts.iter().enumerate() {
             let dark = || vec![0.0; sensors];
             let mut sums = Sums { total: dark(), reflected: dark(), doubtful: dark(), interpolated: dark() };
-            part.add_sums(&self.scene, index, outside, smooth, &mut sums);
+            part.add_sums(&self.scene, index, outside, way, &mut sums);
             let rest = self.rest().hypot(0.5 * part.gap);
             for (s, sum) in estimates.iter_mut().enumerate() {
                 let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());

@@ -20,9 +20,11 @@ use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::responses::Responses;
+use crate::study::session::sky_year::SkyYear;
 use crate::study::system::VerySystem;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Accuracy of the constant columns.
 const RELATIVE: f64 = 1e-7;
@@ -32,6 +34,10 @@ pub(super) struct AperturePart {
     patches: RingBasis,
     frame: Frame,
     samples: SkySamples,
+    /// Of the samples.
+    fingerprint: u64,
+    /// What they are in the hours of a year, where that is kept.
+    year: Option<Arc<SkyYear>>,
     /// Illuminance through every patch of `samples` by a ground of luminance 1.
     by_ground: Vec<f64>,
     /// Sensor by sensor, a column for every patch of `samples`, one for the ground and one for the skyline: all
@@ -59,6 +65,17 @@ struct SensorView {
     directions: Vec<(Dir<World>, f64)>,
     ground: f64,
     skyline: f64,
+}
+
+/// How the light of a sky is found.
+#[derive(Clone, Copy)]
+pub(super) enum Way<'a> {
+    /// By the fixed directions.
+    Fixed,
+    /// The same for an hour of the year that is kept.
+    Hour(usize),
+    /// By integrals; with a session they are kept.
+    Exact(Option<&'a Session>),
 }
 
 /// What one sky gives, sensor by sensor.
@@ -112,12 +129,16 @@ impl AperturePart {
             let open: Vec<f64> = samples.cells().iter().map(|&cell| open[cell]).collect();
             samples.without(|d| skyline.covers(d), &open);
         }
-        let very = very.cloned().zip(described);
+        let by_angle = match &transport {
+            Transport::Described(own) => own.by_angle.clone(),
+            _ => None,
+        };
+        let very = very.cloned().zip(described).map(|(very, views)| (very, views, by_angle));
         let sun = SunWay::new(session, scene, index, btdf, very, room, progress)?;
         // What goes straight to the sensors is left to `seen`: here is what the room makes of that light.
         let straight = match (&btdf.regular, room) {
             (Some(tau), Some(room)) => {
-                let basis = std::sync::Arc::new(patches.clone());
+                let basis = Arc::new(patches.clone());
                 let views = Views::new(session, scene, index, basis, Some(room), Want::Reflected, progress)?;
                 Some((tau, views))
             }
@@ -175,6 +196,8 @@ impl AperturePart {
             by_ground: open.iter().map(|&p| ground[p]).collect(),
             patches,
             frame,
+            fingerprint: samples.fingerprint(),
+            year: None,
             samples,
             total,
             reflected,
@@ -199,16 +222,32 @@ impl AperturePart {
         self.samples.len() + self.seen.iter().map(|seen| seen.directions.len()).sum::<usize>()
     }
 
-    /// Illuminance through every patch, then the luminances of ground and skyline. `smooth`: by the fixed directions.
-    fn light(&self, outside: &Outside, smooth: bool) -> Vec<f64> {
+    /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
+    pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
+        self.year = session.sky_year(year, self.fingerprint, self.samples.cells().len());
+    }
+
+    /// Illuminance through every patch, then the luminances of ground and skyline.
+    fn light(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
         let mut e = Vec::with_capacity(self.samples.cells().len() + 2);
-        if smooth {
-            self.samples.illuminances(outside, &mut e);
-        } else {
-            let all = illuminances(outside, &self.patches, &self.frame, EXACT);
-            let ground = outside.ground_luminance();
-            e.extend(self.samples.cells().iter().zip(&self.by_ground).map(|(&p, g)| all[p] - ground * g));
+        match (way, &self.year) {
+            (Way::Hour(hour), Some(year)) => {
+                let find = || {
+                    let mut e = Vec::new();
+                    self.samples.illuminances(outside, &mut e);
+                    e
+                };
+                e.extend_from_slice(year.hour(hour, find));
+            }
+            (Way::Fixed | Way::Hour(_), _) => self.samples.illuminances(outside, &mut e),
+            (Way::Exact(session), _) => {
+                let find = || illuminances(outside, &self.patches, &self.frame, EXACT);
+                let all = session.map_or_else(|| Arc::new(find()), |s| s.exact_sky(outside, self.fingerprint, find));
+                let ground = outside.ground_luminance();
+                e.extend(self.samples.cells().iter().zip(&self.by_ground).map(|(&p, g)| all[p] - ground * g));
+            }
         }
+        let smooth = !matches!(way, Way::Exact(_));
         e.push(outside.ground_luminance());
         e.push(if smooth { far::luminance(outside) } else { 0.0 });
         e.iter_mut().for_each(|e| *e *= self.clear);
@@ -216,12 +255,12 @@ impl AperturePart {
     }
 
     /// Adds the diffuse light to what every sensor has.
-    pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, out: &mut [f64]) {
-        let light = self.light(outside, smooth);
+    pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
+        let light = self.light(outside, way);
         for (sum, row) in out.iter_mut().zip(self.total.chunks_exact(light.len())) {
             *sum += dot(row, &light);
         }
-        self.add_seen(scene, index, outside, smooth, out);
+        self.add_seen(scene, index, outside, !matches!(way, Way::Exact(_)), out);
     }
 
     fn add_seen(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, out: &mut [f64]) {
@@ -243,8 +282,8 @@ impl AperturePart {
     }
 
     /// The same with all that its error needs.
-    pub fn add_sums(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, sums: &mut Sums) {
-        let light = self.light(outside, smooth);
+    pub fn add_sums(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, sums: &mut Sums) {
+        let light = self.light(outside, way);
         for (to, table) in [
             (&mut sums.total, &self.total),
             (&mut sums.reflected, &self.reflected),
@@ -253,7 +292,7 @@ impl AperturePart {
         ] {
             to.iter_mut().zip(table.chunks_exact(light.len())).for_each(|(sum, row)| *sum += dot(row, &light));
         }
-        self.add_seen(scene, index, outside, smooth, &mut sums.total);
+        self.add_seen(scene, index, outside, !matches!(way, Way::Exact(_)), &mut sums.total);
     }
 }
 

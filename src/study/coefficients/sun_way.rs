@@ -1,12 +1,12 @@
 //! How the very sun comes through a system: by the description, by beams taken out of the data's cells, or as the data's
 //! own cells and directions have it.
 
-use super::described::DescribedViews;
+use super::described::{ByAngle, DescribedViews, Lattice, relative_error};
 use super::views::{Views, Want};
 use crate::compute::btdf::{Btdf, CellMatrix, Scattered};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::peaks::{MOST_CELLS, Peaks};
-use crate::compute::lid::{BandLight, BeamLight, Facing, SunThrough};
+use crate::compute::lid::{BeamLight, Facing, SunThrough};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
@@ -20,10 +20,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) enum SunWay {
     /// By the data's own cells or directions, and what they keep apart as regular.
     Data,
-    /// By the description.
-    Described(VerySystem, DescribedViews),
+    /// By the description; what it scatters.
+    Described(VerySystem, DescribedViews, ScatteredBy),
     /// By beams taken out of the data's cells, what is left on these.
     Peaks(Box<InCells>),
+}
+
+/// How what a description scatters is found.
+pub(super) enum ScatteredBy {
+    /// By the profile angle alone.
+    Angle(Arc<ByAngle>),
+    /// Between directions of an endless structure.
+    Lattice(Lattice),
+    /// For every sun anew.
+    Sun,
 }
 
 /// Data on cells with beams in them.
@@ -51,12 +61,14 @@ impl SunWay {
         scene: &Scene,
         index: usize,
         btdf: &Btdf,
-        described: Option<(VerySystem, DescribedViews)>,
+        described: Option<(VerySystem, DescribedViews, Option<Arc<ByAngle>>)>,
         room: Option<&Responses>,
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
-        if let Some((very, views)) = described {
-            return Ok(Self::Described(very, views));
+        if let Some((very, views, by_angle)) = described {
+            let by_lattice = || Lattice::of(very.0.as_ref()).map_or(ScatteredBy::Sun, ScatteredBy::Lattice);
+            let scattered = by_angle.map_or_else(by_lattice, ScatteredBy::Angle);
+            return Ok(Self::Described(very, views, scattered));
         }
         match &btdf.scattered {
             Some(Scattered::Cells(matrix)) if scene.beams && scene.interpolation != Interpolation::Patch => {
@@ -73,7 +85,8 @@ impl SunWay {
     pub fn light(&self, facing: &Facing<'_>, sensors: usize) -> Option<SunLight> {
         match self {
             Self::Data => None,
-            Self::Described(very, views) => Some(described(very, views, facing, sensors)),
+            Self::Described(very, views, ScatteredBy::Sun) => Some(described(very, views, facing, sensors)),
+            Self::Described(very, views, scattered) => Some(interpolated(very, views, scattered, facing, sensors)),
             Self::Peaks(cells) => Some(cells.light(facing, sensors)),
         }
     }
@@ -90,7 +103,7 @@ fn described(very: &VerySystem, views: &DescribedViews, facing: &Facing<'_>, sen
     if let Some(bands) = through.bands() {
         let mut part = vec![0.0; 3 * sensors];
         views.add_bands(bands, 1.0, &mut part);
-        add(part, relative_error(bands));
+        add(part, relative_error(&bands.light));
     }
     if let Some(cells) = through.cells() {
         let mut part = vec![0.0; 3 * sensors];
@@ -100,9 +113,28 @@ fn described(very: &VerySystem, views: &DescribedViews, facing: &Facing<'_>, sen
     sum
 }
 
-fn relative_error(bands: &BandLight) -> f64 {
-    let share = bands.light.share();
-    if share > 0.0 { bands.light.error / share } else { 0.0 }
+/// Beams of this very sun; what is scattered, between known directions.
+fn interpolated(
+    very: &VerySystem,
+    views: &DescribedViews,
+    scattered: &ScatteredBy,
+    facing: &Facing<'_>,
+    sensors: usize,
+) -> SunLight {
+    let through = SunThrough::beams_alone(very.0.as_ref(), facing);
+    let mut sum =
+        SunLight { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
+    for (name, share) in SunThrough::standing_for(facing) {
+        let e = share * facing.sun_illuminance();
+        match scattered {
+            ScatteredBy::Angle(by_angle) => by_angle.add(name, e, &mut sum.light, &mut sum.errors),
+            ScatteredBy::Lattice(lattice) => {
+                lattice.add(very.0.as_ref(), &views.cells, name, e, &mut sum.light, &mut sum.errors);
+            }
+            ScatteredBy::Sun => {}
+        }
+    }
+    sum
 }
 
 impl InCells {

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Patches where the system has none of its own. \[rad\]
-const PATCH: f64 = 7.5 * PI / 180.0;
+const PATCH: f64 = 4.5 * PI / 180.0;
 /// Trees of more incident cells are asked by sub-patches instead of their own cells, ...
 const TREE_CELLS: usize = 4096;
 /// ... and those of more than this at the middle of each alone.

@@ -1,8 +1,7 @@
 //! Beams by the patches that they light. Sensors see the outlines of what beams light in closed form; what comes later,
 //! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches.
 
-use super::responses::by_walls;
-use super::weights::Response;
+use super::weights::{Response, by_walls};
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 

@@ -2,12 +2,12 @@
 //! balance read backwards. One set serves every sky, sun and system of a room; what apertures throw back by direction
 //! comes in by cells, see [`super::thrown_back`].
 
-use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key, spans};
+use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key};
 use super::landed::Landed;
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
-use super::weights::Response;
+use super::weights::{Response, by_walls};
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Progress;
@@ -17,7 +17,6 @@ use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// Weights of all sensors.
@@ -104,21 +103,6 @@ fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
         response.walls.push(difference);
     }
     response
-}
-
-/// The weights of the walls that a sensor sees, one by one.
-pub(super) fn by_walls(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Vec<[Vec<f64>; 2]> {
-    let only = |weights: &[f64], range: Range<usize>| -> Vec<f64> {
-        let mut own = vec![0.0; weights.len()];
-        own[range.clone()].copy_from_slice(&weights[range]);
-        own
-    };
-    spans(&radiosity.nested.fine)
-        .into_iter()
-        .zip(spans(&radiosity.nested.coarse))
-        .filter(|(a, b)| fine[a.clone()].iter().chain(&coarse[b.clone()]).any(|w| *w != 0.0))
-        .map(|(a, b)| [only(fine, a), only(coarse, b)])
-        .collect()
 }
 
 impl Responses {

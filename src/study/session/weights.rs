@@ -1,5 +1,9 @@
 //! Weights that a session keeps.
 
+use super::interreflected::spans;
+use crate::compute::room::radiosity::Radiosity;
+use std::ops::Range;
+
 /// Weights of one sensor, by fine patch.
 pub(in crate::study) struct Response {
     /// Of all first illuminance. \[lx per lx\]
@@ -13,4 +17,19 @@ pub(in crate::study) struct ByCells {
     pub value: Vec<Vec<f64>>,
     /// Wall by wall; empty where not asked for.
     pub walls: Vec<Vec<Vec<f64>>>,
+}
+
+/// The weights of the walls that a sensor sees, one by one.
+pub(super) fn by_walls(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Vec<[Vec<f64>; 2]> {
+    let only = |weights: &[f64], range: Range<usize>| -> Vec<f64> {
+        let mut own = vec![0.0; weights.len()];
+        own[range.clone()].copy_from_slice(&weights[range]);
+        own
+    };
+    spans(&radiosity.nested.fine)
+        .into_iter()
+        .zip(spans(&radiosity.nested.coarse))
+        .filter(|(a, b)| fine[a.clone()].iter().chain(&coarse[b.clone()]).any(|w| *w != 0.0))
+        .map(|(a, b)| [only(fine, a), only(coarse, b)])
+        .collect()
 }

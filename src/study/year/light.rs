@@ -104,7 +104,7 @@ pub(super) fn light(
                 if progress.cancelled() {
                     return Err(StudyError::from(Cancelled));
                 }
-                let found = engine.at(question.session, question.steps.outside(chosen[row])?)?;
+                let found = engine.at(question.session, chosen[row], question.steps.outside(chosen[row])?)?;
                 progress.advance("hours", done.fetch_add(1, Ordering::Relaxed) + 1, lit);
                 Ok((row, found))
             })
@@ -161,16 +161,17 @@ impl Engine {
             &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
         )?;
         if before.is_empty() {
-            let coefficients = Coefficients::new(question.session, &scene, progress)?;
+            let mut coefficients = Coefficients::new(question.session, &scene, progress)?;
+            coefficients.keep_year(question.session, (question.steps.number(), question.steps.list.len()));
             return Ok(Self::Coefficients(Box::new(scene), Box::new(coefficients)));
         }
         Ok(Self::Rooms(Box::new(scene), before))
     }
 
-    fn at(&self, session: &Session, (outside, sun): (Outside, Option<Sun>)) -> Result<Found, StudyError> {
+    fn at(&self, session: &Session, hour: usize, (outside, sun): (Outside, Option<Sun>)) -> Result<Found, StudyError> {
         match self {
             Self::Coefficients(scene, coefficients) => {
-                let mut light = coefficients.sky_estimate(&outside);
+                let mut light = coefficients.hour_estimate(hour, &outside);
                 if let Some(sun) = &sun {
                     light.iter_mut().zip(coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
                 }

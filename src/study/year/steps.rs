@@ -11,6 +11,8 @@ use crate::study::weather_keys::reading;
 use crate::study::year_keys::{DaysKey, YearKeys};
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Hours of a common year.
 const HOURS_OF_A_YEAR: f64 = 8760.0;
@@ -51,6 +53,28 @@ pub struct Steps {
     sky: SkyKeys,
     site: SiteKeys,
     ground: Vec<f64>,
+    found: Found,
+}
+
+/// What has been found of the steps: kept for all that ask again, and no part of what the steps are.
+#[derive(Debug, Clone)]
+struct Found {
+    number: u64,
+    skies: Arc<Vec<OnceLock<(Outside, Option<Sun>)>>>,
+}
+
+impl Found {
+    fn nothing(steps: usize) -> Self {
+        static NUMBERS: AtomicU64 = AtomicU64::new(0);
+        let number = NUMBERS.fetch_add(1, Ordering::Relaxed);
+        Self { number, skies: Arc::new((0..steps).map(|_| OnceLock::new()).collect()) }
+    }
+}
+
+impl PartialEq for Found {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Reads the weather of a scene's year.
@@ -83,6 +107,7 @@ pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps
     let length = f64::from(weather.interval) / 60.0 / f64::from(parts);
     Ok(Steps {
         whole: list.len() as f64 * length >= HOURS_OF_A_YEAR - 1e-6,
+        found: Found::nothing(list.len()),
         list,
         length,
         station: weather.station,
@@ -146,9 +171,18 @@ impl Steps {
     /// # Errors
     /// Keys of sky or site that are out of range.
     pub fn outside(&self, step: usize) -> Result<(Outside, Option<Sun>), StudyError> {
+        if let Some(found) = self.found.skies[step].get() {
+            return Ok(found.clone());
+        }
         let site = SiteKeys { ground_reflectance: self.ground(step), ..self.site };
-        outside_of_hour(&self.list[step].hour, &self.sky, &site)
-            .map_err(|SkyKeyError { key, message }| StudyError::key(key, message))
+        let found = outside_of_hour(&self.list[step].hour, &self.sky, &site)
+            .map_err(|SkyKeyError { key, message }| StudyError::key(key, message))?;
+        Ok(self.found.skies[step].get_or_init(|| found).clone())
+    }
+
+    /// A number that no other steps have, but copies of these: for what is kept of them elsewhere.
+    pub fn number(&self) -> u64 {
+        self.found.number
     }
 
     /// The same in W/m²: sky, ground and sun by the hour's irradiances, in the same shape. `per_lux`: what a fixed luminance of

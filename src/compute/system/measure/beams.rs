@@ -8,7 +8,7 @@
 
 use super::cells::CellFinder;
 use super::merged::{merged, without_faint};
-use super::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen};
+use super::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen, Structure};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -137,6 +137,10 @@ impl<B: Beams> Specimen for SharpBeams<B> {
             Beam { names: [to, to], share: beam.share, transmitted: beam.transmitted }
         });
         without_faint(merged(beams), FAINT)
+    }
+
+    fn structure(&self) -> Structure {
+        Structure::Along { upright: false }
     }
 
     fn is_quick(&self) -> bool {

@@ -89,6 +89,40 @@ pub struct Measured {
     pub back: OneSide,
 }
 
+/// Which way the structure runs that light of neighbouring directions meets or misses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Structure {
+    /// There is none: neighbouring directions fare alike.
+    Even,
+    /// Endless along one axis: whether neighbours fare unlike is a matter of the profile angle alone. `upright`: along y.
+    Along {
+        /// Along y, not along x.
+        upright: bool,
+    },
+    /// Any other.
+    Any,
+}
+
+impl Structure {
+    /// Of two layers together.
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Even, other) => other,
+            (own, Self::Even) => own,
+            (own, other) if own == other => own,
+            _ => Self::Any,
+        }
+    }
+
+    /// Turned by 90°.
+    pub const fn turned(self) -> Self {
+        match self {
+            Self::Along { upright } => Self::Along { upright: !upright },
+            same => same,
+        }
+    }
+}
+
 /// Names of directions nearer than this are the same. \[rad\]
 const SAME_NAME: f64 = 1e-9;
 
@@ -125,6 +159,16 @@ pub trait Specimen: Send + Sync {
     /// inside: of the angle to the right, for a structure along y.
     fn by_profile_alone(&self) -> Option<bool> {
         None
+    }
+
+    /// The same of a direction no farther than `within` \[rad\] from the name, so that neighbours may share an answer.
+    fn beams_about(&self, name: Dir<Facade>, side: Side, _within: f64) -> Vec<Beam> {
+        self.beams(name, side)
+    }
+
+    /// What light of neighbouring directions meets or misses.
+    fn structure(&self) -> Structure {
+        Structure::Any
     }
 
     /// Are single directions answered in microseconds to a millisecond, so that thousands may be asked?

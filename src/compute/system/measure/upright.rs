@@ -1,6 +1,6 @@
 //! A system turned by 90° about the normal: vertical louvres from a description of horizontal ones.
 
-use super::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
+use super::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen, Structure};
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -20,6 +20,15 @@ impl Specimen for Upright {
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let back = |beam: Beam| Beam { names: beam.names.map(from_described), ..beam };
         self.0.beams(to_described(name), side).into_iter().map(back).collect()
+    }
+
+    fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+        let back = |beam: Beam| Beam { names: beam.names.map(from_described), ..beam };
+        self.0.beams_about(to_described(name), side, within).into_iter().map(back).collect()
+    }
+
+    fn structure(&self) -> Structure {
+        self.0.structure().turned()
     }
 
     fn by_profile_alone(&self) -> Option<bool> {

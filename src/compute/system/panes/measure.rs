@@ -9,7 +9,7 @@ use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen, Structure};
 use std::f64::consts::PI;
 
 /// Panes one behind the other, outside first, air between.
@@ -46,6 +46,10 @@ impl Specimen for Panes {
         let shares = self.shares(name.theta());
         let reflected = if side == Side::Front { shares.reflected_front } else { shares.reflected_back };
         vec![Beam::through(name, shares.transmitted), Beam::back(name, reflected)]
+    }
+
+    fn structure(&self) -> Structure {
+        Structure::Even
     }
 
     /// Nothing: panes are clear.

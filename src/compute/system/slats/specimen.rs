@@ -16,12 +16,16 @@ use super::transport::{Node, beam};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress, Silent};
+use crate::compute::room::radiosity::dot;
 use crate::compute::sequence::recurrence;
 use crate::compute::system::measure::kept::{Kept, Once};
-use crate::compute::system::measure::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::measure::{
+    Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen, Structure,
+};
 use glam::DVec3;
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_1_PI, PI};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Slats with what has been solved of them.
 pub struct SlatSpecimen {
@@ -32,6 +36,14 @@ pub struct SlatSpecimen {
     section: OnceLock<SlatSection>,
     solved: Once<Solved>,
     weights: Kept<ProfileWeights>,
+    known: Mutex<HashMap<(Side, i64, u64), Arc<Vec<Thrown>>>>,
+}
+
+/// A beam of mirrors, by its profile angles.
+struct Thrown {
+    psi: [f64; 2],
+    share: f64,
+    transmitted: bool,
 }
 
 /// Transport and balance of the section.
@@ -44,6 +56,8 @@ struct Solved {
 const FANS: usize = 128;
 /// Step of the profile angle where matt light leaves. \[rad\]
 const STEP: f64 = 0.25 * PI / 180.0;
+/// Answers of mirrors that are kept: those of all profile angles at steps of 0.1°.
+const MOST_KNOWN: usize = 2000;
 /// Rays are drawn by this seed: the same light gives the same beams.
 const SEED: u64 = 1;
 /// Beams closer than this are one. \[rad\]
@@ -62,6 +76,7 @@ impl SlatSpecimen {
             section: OnceLock::new(),
             solved: Once::default(),
             weights: Kept::default(),
+            known: Mutex::default(),
         }
     }
 
@@ -120,32 +135,31 @@ impl Specimen for SlatSpecimen {
     }
 
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        let (x, psi) = section_angles(name);
-        let mut beams = Vec::new();
-        let open = self.direct.share(psi);
-        if open > 0.0 {
-            beams.push(Beam::through(name, open));
-        }
-        if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
-            return beams;
-        }
-        let node = beam(self.mirrors(), psi, SEED);
-        let thrown = &node.thrown[index(side)];
-        for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
-            let from = beams.len();
-            for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
-                let share = lobe.width / psi.cos();
-                let alike = |other: &&mut Beam| {
-                    let own = lobe.psi.map(|psi| name_of(x, psi).vector());
-                    other.names.iter().zip(own).all(|(a, b)| a.vector().distance(b) < SAME)
-                };
-                match beams[from..].iter_mut().find(alike) {
-                    Some(known) => known.share += share,
-                    None => beams.push(Beam { names: lobe.psi.map(|psi| name_of(x, psi)), share, transmitted }),
-                }
+        self.beams_by(name, |psi| Arc::new(self.thrown(psi, side)))
+    }
+
+    /// Mirrors are asked on a lattice of profile angles as close as that.
+    fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+        self.beams_by(name, |psi| {
+            let place = (psi / (2.0 * within)).round();
+            let key = (side, place as i64, within.to_bits());
+            // What is kept is whole even if another thread has failed while it held the lock.
+            let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(thrown) = known().get(&key) {
+                return Arc::clone(thrown);
             }
-        }
-        beams
+            let thrown = Arc::new(self.thrown(place * 2.0 * within, side));
+            let mut known = known();
+            if known.len() >= MOST_KNOWN {
+                known.clear();
+            }
+            known.insert(key, Arc::clone(&thrown));
+            thrown
+        })
+    }
+
+    fn structure(&self) -> Structure {
+        Structure::Along { upright: false }
     }
 
     fn by_profile_alone(&self) -> Option<bool> {
@@ -193,13 +207,55 @@ impl Specimen for SlatSpecimen {
 }
 
 impl SlatSpecimen {
+    /// What mirrors throw of parallel light of a profile angle from a side, alike as one.
+    fn thrown(&self, psi: f64, side: Side) -> Vec<Thrown> {
+        let node = beam(self.mirrors(), psi, SEED);
+        let thrown = &node.thrown[index(side)];
+        let mut all: Vec<Thrown> = Vec::new();
+        for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
+            let from = all.len();
+            for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
+                let share = lobe.width / psi.cos();
+                let alike = |other: &&mut Thrown| other.psi.iter().zip(lobe.psi).all(|(a, b)| (a - b).abs() < SAME);
+                match all[from..].iter_mut().find(alike) {
+                    Some(known) => known.share += share,
+                    None => all.push(Thrown { psi: lobe.psi, share, transmitted }),
+                }
+            }
+        }
+        all
+    }
+
+    fn beams_by(&self, name: Dir<Facade>, thrown: impl FnOnce(f64) -> Arc<Vec<Thrown>>) -> Vec<Beam> {
+        let (x, psi) = section_angles(name);
+        let mut beams = Vec::new();
+        let open = self.direct.share(psi);
+        if open > 0.0 {
+            beams.push(Beam::through(name, open));
+        }
+        if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
+            return beams;
+        }
+        let named = |one: &Thrown| Beam {
+            names: one.psi.map(|psi| name_of(x, psi)),
+            share: one.share,
+            transmitted: one.transmitted,
+        };
+        beams.extend(thrown(psi).iter().map(named));
+        beams
+    }
+
     /// What faces send out of parallel light that has landed on them, per illuminance: M g/π as over cells.
     fn sent(&self, node: &Node, psi: f64, side: Side) -> Vec<f64> {
         let landed = &node.landed[index(side)];
         let response = &self.solved().balance.response;
-        let n = landed.len();
         let scale = FRAC_1_PI / psi.cos();
-        (0..n).map(|i| scale * (0..n).map(|j| response[(i, j)] * landed[j]).sum::<f64>()).collect()
+        let mut sent = vec![0.0; landed.len()];
+        for (j, landed) in landed.iter().enumerate().filter(|(_, landed)| **landed != 0.0) {
+            // Columns lie in one piece.
+            sent.iter_mut().zip(response.col(j).iter()).for_each(|(sum, value)| *sum += scale * landed * value);
+        }
+        sent
     }
 
     /// Error of the shares that leave so.
@@ -215,7 +271,7 @@ impl SlatSpecimen {
         let at = |(node, row): (usize, &Vec<f64>)| {
             // Along the slats the pitch is seen foreshortened; at ±90° nothing of it is seen.
             let cosine = ProfileGrid::new(STEP).psi(node).cos();
-            let width: f64 = row.iter().zip(sent).map(|(h, s)| h * s).sum();
+            let width = dot(row, sent);
             // The extrapolation to endless strips may fall below 0 where nothing arrives.
             if cosine > 1e-9 { (width / cosine).max(0.0) } else { 0.0 }
         };
@@ -227,8 +283,7 @@ impl SlatSpecimen {
         let sent = self.sent(node, psi, side);
         let weights = self.weights(emergent);
         let by_cell = |rows: &[Vec<f64>], turned: bool| -> Vec<f64> {
-            let width = |row: &Vec<f64>| row.iter().zip(&sent).map(|(h, s)| h * s).sum::<f64>();
-            let mut widths: Vec<f64> = rows.iter().map(width).collect();
+            let mut widths: Vec<f64> = rows.iter().map(|row| dot(row, &sent)).collect();
             if turned {
                 widths.reverse();
             }

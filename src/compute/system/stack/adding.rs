@@ -12,7 +12,9 @@ use crate::compute::btdf::{CellMatrix, resample_matrix};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
-use crate::compute::system::measure::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen, zeros};
+use crate::compute::system::measure::{
+    Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen, Structure, zeros,
+};
 use std::f64::consts::PI;
 
 /// Layers from outside to inside.
@@ -89,6 +91,10 @@ impl Specimen for Stack {
 
     fn is_quick(&self) -> bool {
         self.layers.iter().all(|layer| layer.is_quick())
+    }
+
+    fn structure(&self) -> Structure {
+        self.layers.iter().map(|layer| layer.structure()).fold(Structure::Even, Structure::and)
     }
 
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {

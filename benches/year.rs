@@ -1,0 +1,104 @@
+//! Run time of a year and of a ranking beside their errors: 96 sensors, a year of weather, one system in a session that
+//! knows the room; and all products of a search.
+//!
+//! `cargo bench --bench year`. Before the times the largest deviation of hours from the ordinary computation of their
+//! moments is printed, with what was stated.
+
+use cfs::compute::estimate::Silent;
+use cfs::study::year::{Climate, climate, scene_at, year_in};
+use cfs::study::{Library, Scene, SceneFile, Session};
+use divan::Bencher;
+use std::path::Path;
+use std::sync::LazyLock;
+
+fn main() {
+    errors();
+    divan::main();
+}
+
+/// By name: what stands in the aperture.
+const SYSTEMS: [(&str, &str); 4] = [
+    ("Lambert", "{ ideal = \"diffuse\", transmittance = 0.6 }"),
+    ("clear glass", "{ catalogue = \"clear-double\" }"),
+    ("slats", "{ catalogue = \"venetian-80-72\", state = \"30\" }"),
+    ("laser-cut panel", "{ catalogue = \"laser-cut-panel\" }"),
+];
+
+fn file(system: &str) -> SceneFile {
+    let keys = SYSTEMS.iter().find(|(name, _)| *name == system).expect("one of the list").1;
+    let text = format!(
+        "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\n\
+         reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
+         [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\nsystem = {keys}\n\
+         [site]\nazimuth = 180.0\nlatitude = 40.78\nlongitude = -73.97\nutc_offset = -5.0\nground_reflectance = 0.2\n\
+         [sky]\nmodel = \"cie\"\ndiffuse_horizontal = 10000.0\n\
+         [sensors]\nplane = {{ z = 0.85, nx = 8, ny = 12 }}\n\
+         [year]\nweather = \"builtin:new-york\"\n"
+    );
+    SceneFile::parse(&text).expect("the text above is a scene")
+}
+
+static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
+    let file = std::env::temp_dir().join(format!("cfs-bench-year-{}.cfsdb", std::process::id()));
+    Library::with_catalogue(Some(&file))
+});
+static WEATHER: LazyLock<Climate> =
+    LazyLock::new(|| climate(&file("Lambert"), Path::new(".")).expect("built-in weather can be read"));
+static SESSION: Session = Session::new();
+
+/// The hours of one day in ten.
+fn errors() {
+    for (system, _) in SYSTEMS {
+        let file = file(system);
+        let base = Path::new(".");
+        let year = year_in(&WEATHER, &file, base, &*LIBRARY, &SESSION, &|_| true, &Silent).expect("a year");
+        let (mut worst, mut stated, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+        for row in (0..year.chosen.len()).step_by(487) {
+            let step = &year.steps.list[year.chosen[row]];
+            if !step.hour.is_lit() {
+                continue;
+            }
+            let moment = scene_at(&file, base, &*LIBRARY, step.time, &Silent).expect("a moment of the year");
+            let scene = Scene::resolve(&moment, base, &*LIBRARY).expect("the moment can be resolved");
+            let room = SESSION.room(&scene, &Silent).expect("a room");
+            let places = year.light.places;
+            let mean = year.light.values[row * places..][..places].iter().sum::<f64>() / places as f64;
+            for (s, sensor) in room.sensors.iter().enumerate() {
+                let scale = sensor.total().value.max(0.05 * mean).max(1e-9);
+                let off = (year.light.values[row * places + s] - sensor.total().value) / scale;
+                worst = worst.max(off.abs());
+                stated = stated.max(year.light.errors[row * places + s] / scale);
+                squares += off * off;
+                count += 1.0;
+            }
+        }
+        println!(
+            "{system}: {:.2} % rms, {:.2} % at worst; stated up to {:.2} %",
+            100.0 * f64::sqrt(squares / f64::max(count, 1.0)),
+            100.0 * worst,
+            100.0 * stated
+        );
+    }
+}
+
+/// A year of a system in a room and a climate that are known.
+#[divan::bench(args = SYSTEMS.map(|(name, _)| name), sample_count = 5, sample_size = 1)]
+fn warm(bencher: Bencher<'_, '_>, system: &str) {
+    let file = file(system);
+    bencher.bench(|| {
+        year_in(&WEATHER, &file, Path::new("."), &*LIBRARY, &SESSION, &|_| true, &Silent).expect("a year").light.values
+            [0]
+    });
+}
+
+/// The same with nothing known but the weather's file.
+#[divan::bench(args = SYSTEMS.map(|(name, _)| name), sample_count = 3, sample_size = 1)]
+fn cold(bencher: Bencher<'_, '_>, system: &str) {
+    let file = file(system);
+    bencher.bench(|| {
+        let weather = climate(&file, Path::new(".")).expect("weather can be read");
+        let session = Session::new();
+        year_in(&weather, &file, Path::new("."), &*LIBRARY, &session, &|_| true, &Silent).expect("a year").light.values
+            [0]
+    });
+}
