@@ -122,6 +122,9 @@ impl App {
                 if lane == Lane::Arrange {
                     self.stop_arranging();
                 }
+                if lane == Lane::Rank {
+                    self.keep_ranking();
+                }
                 if lane == Lane::Compare {
                     self.compare.stop();
                 }
@@ -144,6 +147,7 @@ impl App {
                     Lane::Builtin => shell::STOPPED_BUILTIN.into(),
                     Lane::Product => shell::STOPPED_PRODUCT.into(),
                     Lane::Annual => crate::texts::year::STOPPED.into(),
+                    Lane::Rank => crate::texts::choose::STOPPED.into(),
                     Lane::Lid if !self.results.lid.stale => shell::STOPPED_PEAK.into(),
                     Lane::Import | Lane::Arrange | Lane::Mend | Lane::Dialog | Lane::Export => {
                         shell::stopped(lane.word())
@@ -180,6 +184,7 @@ impl App {
             }
             Command::Scene(scene) => state.document.scene = *scene,
             Command::Year(act) => self.year_act(act),
+            Command::Choose(act) => self.choose_act(act),
             Command::Outside(act) => {
                 if let Err(refused) = outside::act(&mut state.document.scene, act) {
                     self.toasts.info(refused.words());

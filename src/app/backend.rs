@@ -21,6 +21,7 @@ use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::luminaire_set::{LuminaireSet, Wish, make, tile_name};
+use crate::study::rank::{Answer, Group, Item, run as rank};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
 use crate::study::year::{Annual, year};
@@ -348,6 +349,19 @@ impl Engine for StudyEngine {
         let library = WindowLibrary { files: &self.files, shelf: &*question.shelf, progress };
         let year = year(&question.scene, &question.base, &library, &self.session, &|_| true, progress)?;
         Ok(Annual::new(&question.scene, year))
+    }
+
+    fn rank(
+        &self,
+        groups: &[Group],
+        items: &[Item],
+        shelf: &dyn Shelf,
+        told: &(dyn Fn(Answer<'_>) + Sync),
+        progress: &dyn Progress,
+    ) -> Result<(), AppError> {
+        let library = WindowLibrary { files: &self.files, shelf, progress };
+        rank(groups, items, &library, &self.session, true, told, progress)?;
+        Ok(())
     }
 
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {

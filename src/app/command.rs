@@ -2,6 +2,7 @@
 //! and [`super::offer`] says which of it menu, palette and keys offer.
 
 use super::arrange::Arrange;
+use super::choose::ChooseAct;
 use super::compare::Act;
 use super::goniophotometer::Setup;
 use super::hand_on::Choices;
@@ -115,6 +116,8 @@ pub enum Command {
     Scene(Box<SceneFile>),
     /// Something about the year, or about the weather.
     Year(YearAct),
+    /// Something about which system to choose.
+    Choose(ChooseAct),
     /// Put a box outside, double one, or take one away.
     Outside(outside::Act),
     /// Search for something else.
@@ -216,6 +219,7 @@ impl Command {
     pub const fn is_step(&self) -> bool {
         match self {
             Self::Year(act) => act.is_step(),
+            Self::Choose(act) => act.is_step(),
             other => matches!(other, Self::ResetScene | Self::Compare(_) | Self::Outside(_)),
         }
     }

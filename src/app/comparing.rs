@@ -58,7 +58,7 @@ fn shown_words(state: &State) -> String {
 
 /// The parts that a tile draws.
 pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
-    use TileKind::{Btdf, Control, Lid, Room, Sky, Transmittance, Year};
+    use TileKind::{Btdf, Choose, Control, Lid, Room, Sky, Transmittance, Year};
     match (look, tile) {
         (Look::Figures, _) => &[Part::Shelf, Part::Data, Part::Room, Part::Lid, Part::Peaks],
         (_, Some(Btdf | Transmittance)) => &[Part::Shelf],
@@ -69,7 +69,7 @@ pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
         (_, Some(Room)) => &[Part::Shelf, Part::Room],
         (Look::Beside, Some(Control)) => &[Part::Shelf, Part::Year],
         (_, Some(Control)) => &[Part::Shelf],
-        (_, None | Some(Year)) => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
+        (_, None | Some(Year | Choose)) => &[Part::Shelf, Part::Room, Part::Lid, Part::Peaks],
     }
 }
 

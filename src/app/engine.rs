@@ -10,6 +10,7 @@ use crate::compute::lid::{Interpolator, Lid};
 use crate::formats::luminaire::Description;
 use crate::study::accuracy::Accuracy;
 use crate::study::luminaire_set::{LuminaireSet, Wish};
+use crate::study::rank::{Answer, Group, Item};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
 use crate::study::year::Annual;
@@ -116,6 +117,18 @@ pub trait Engine: Send + Sync {
     }
     /// The year of a scene that has one. Engines that compute no light have none.
     fn year(&self, _: &Question, _: &dyn Progress) -> Result<Annual, AppError> {
+        Err(AppError::NoNumbers)
+    }
+    /// Years of the products of lists, coarse ones first; `told` hears of every result when it is there, from any thread.
+    /// Engines that compute no light have none.
+    fn rank(
+        &self,
+        _groups: &[Group],
+        _items: &[Item],
+        _shelf: &dyn Shelf,
+        _told: &(dyn Fn(Answer<'_>) + Sync),
+        _: &dyn Progress,
+    ) -> Result<(), AppError> {
         Err(AppError::NoNumbers)
     }
     /// Error against run time of every method.

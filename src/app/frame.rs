@@ -42,6 +42,7 @@ impl App {
         self.ask_peaks();
         self.ask_data_looks();
         self.ask_weather();
+        self.follow_ranking();
         self.ask_compared();
         self.ask_preview();
         self.ask_pictures();

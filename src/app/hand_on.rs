@@ -7,6 +7,7 @@ use crate::catalogue::Product;
 use crate::formats::Format;
 use crate::report::{Size, TileKind, tender};
 use crate::study::control::year::CONTROLLED;
+use crate::study::rank::Look as Choosing;
 use crate::study::scene_file::{SceneFile, SystemKeys};
 use crate::study::year::Look;
 use crate::texts::{Language, Text, hand_on as texts};
@@ -222,6 +223,8 @@ pub struct Key {
     pub compared: (TileKind, usize),
     /// Which year was computed, and how it is looked at.
     pub year: (u64, Look),
+    /// Which ranking is known, and how it is looked at.
+    pub ranking: (u64, Choosing),
     /// In which language.
     pub language: Language,
 }

@@ -22,6 +22,7 @@ use crate::study::inputs::inputs_of;
 use crate::study::luminaire_file::LidFormat;
 use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish};
 use crate::study::moment;
+use crate::study::rank::{Look as Choosing, Shortlist};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::Wanted;
 use crate::study::year::{Annual, Look};
@@ -47,6 +48,8 @@ pub struct Order {
     pub scene_path: Option<PathBuf>,
     /// The year of the scene, where it was computed, and how it is looked at.
     pub year: Option<(Arc<Annual>, Look)>,
+    /// The ranking of the scene, where there is one, and how it is looked at.
+    pub ranking: Option<(Arc<Shortlist>, Choosing)>,
     /// Numbers of the tile.
     pub numbers: Option<String>,
     /// Computes.
@@ -81,6 +84,7 @@ impl Order {
         let wanted = Wanted { year: false, ..choices.tile.needs() };
         let mut subject = self.engine.subject(&self.question, self.incident, wanted, progress)?;
         subject.year.clone_from(&self.year);
+        subject.ranking.clone_from(&self.ranking);
         Ok(picture(&subject, choices.tile, &look)?)
     }
 

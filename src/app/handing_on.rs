@@ -7,17 +7,17 @@ use super::hand_on_files::{Order, index_of};
 use super::jobs::Lane;
 use super::naming::file_name;
 use super::naming::start_path;
-use super::state::{PathUse, Sheet, State, Tile};
+use super::state::{PathUse, Results, Sheet, State, Tile};
 use super::tiles::TILES;
 use super::window::App;
 use super::work::Outcome;
 use crate::report::TileKind;
 use crate::study::luminaire_set::tile_name;
-use crate::texts::{language, year as say};
+use crate::texts::{choose, language, year as say};
 use std::path::{Path, PathBuf};
 
 /// What a preview hangs on, of the window as it is.
-fn key_of(state: &State, year: u64) -> Key {
+fn key_of(state: &State, results: &Results) -> Key {
     let document = &state.document;
     let bits = |incident: crate::compute::direction::Incident| incident.0.vector().to_array().map(f64::to_bits);
     Key {
@@ -26,7 +26,8 @@ fn key_of(state: &State, year: u64) -> Key {
         selection: document.selection.clone(),
         incident: state.incident.map(bits),
         compared: compared(state),
-        year: (year, state.settings.year),
+        year: (results.annual.revision, state.settings.year),
+        ranking: (results.rank.revision, state.settings.choose.clone()),
         language: language(),
     }
 }
@@ -114,7 +115,7 @@ impl App {
         let state = &self.state;
         let selected = &state.document.selection.product;
         let product = state.product.clone().filter(|product| product.key == *selected)?;
-        let key = key_of(state, self.results.annual.revision);
+        let key = key_of(state, &self.results);
         let numbers = state.hand_on.numbers.as_ref().filter(|(of, _)| *of == key).map(|(_, text)| text.clone());
         Some(Order {
             choices: state.settings.hand_on.clone(),
@@ -125,6 +126,7 @@ impl App {
             compared: compared(state),
             scene_path: state.scene_path.clone(),
             year: self.present_year().map(|annual| (annual, state.settings.year)),
+            ranking: self.present_ranking().map(|list| (list, state.settings.choose.clone())),
             numbers,
             engine: self.services.engine.clone(),
         })
@@ -155,19 +157,24 @@ impl App {
             return;
         }
         self.follow_name();
-        let key = key_of(&self.state, self.results.annual.revision);
-        let lanes = [Lane::Catalogue, Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Year];
+        let key = key_of(&self.state, &self.results);
+        let lanes = [Lane::Catalogue, Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Year, Lane::Rank];
         let moving = self.ctx.input(|input| input.pointer.any_down());
         let known = self.state.hand_on.asked.as_ref() == Some(&key);
         if known || moving || lanes.into_iter().any(|lane| self.jobs.busy(lane)) {
             return;
         }
         let Some(order) = self.order() else { return };
-        let of_year = matches!(order.choices.what, What::Table | What::Picture) && order.choices.tile == TileKind::Year;
-        if of_year && order.year.is_none() {
+        let of_tile = |tile| matches!(order.choices.what, What::Table | What::Picture) && order.choices.tile == tile;
+        let lacks = match order.choices.tile {
+            TileKind::Year if of_tile(TileKind::Year) && order.year.is_none() => Some(say::NO_YEAR),
+            TileKind::Choose if of_tile(TileKind::Choose) && order.ranking.is_none() => Some(choose::NO_RANKING),
+            _ => None,
+        };
+        if let Some(lacks) = lacks {
             // Its tile has nothing to give, however often it is asked.
             self.state.hand_on.asked = Some(key);
-            self.state.hand_on.shown = Some(Err(say::NO_YEAR.into()));
+            self.state.hand_on.shown = Some(Err(lacks.into()));
             return;
         }
         if order.choices.what == What::Table && order.numbers.is_none() {
@@ -187,7 +194,7 @@ impl App {
     /// Numbers that a tile gave for the dialog.
     pub(super) fn take_numbers(&mut self) {
         if let Some(text) = self.export.handed_on() {
-            self.state.hand_on.numbers = Some((key_of(&self.state, self.results.annual.revision), text));
+            self.state.hand_on.numbers = Some((key_of(&self.state, &self.results), text));
         }
     }
 }

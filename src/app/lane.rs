@@ -1,6 +1,6 @@
 //! What jobs work on, and who goes first.
 
-use crate::texts::{Text, catalogue as products, shell, year};
+use crate::texts::{Text, catalogue as products, choose, shell, year};
 
 /// What a job works on. Later requests of a lane replace earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -37,6 +37,8 @@ pub enum Lane {
     Year,
     /// A year of weather in the room.
     Annual,
+    /// Products through a year, put in order.
+    Rank,
     /// Reading the weather that hours are picked from.
     Weather,
     /// The data of one incidence in another form.
@@ -81,6 +83,7 @@ impl Lane {
             Self::Surfaces => shell::LANE_SURFACES,
             Self::Year => shell::LANE_YEAR,
             Self::Annual => year::LANE_ANNUAL,
+            Self::Rank => choose::LANE_RANK,
             Self::Weather => year::LANE_WEATHER,
             Self::DataForm => shell::LANE_DATA_FORM,
             Self::Schemes => shell::LANE_SCHEMES,

@@ -11,6 +11,8 @@ pub mod at_work;
 pub mod autosave;
 pub mod backend;
 pub mod changes;
+pub mod choose;
+mod choosing;
 pub mod clock;
 pub mod collecting;
 pub mod command;

@@ -2,6 +2,7 @@
 //! and places. A new one is an entry here and its effect in [`super::apply`].
 
 use super::arrange::{self, Way};
+use super::choose::ChooseAct;
 use super::command::{Command, SYSTEM_EDITOR};
 use super::compare::{Act, Look};
 use super::control;
@@ -21,7 +22,7 @@ use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
 use crate::texts::tiles as tiles_say;
-use crate::texts::{self, Language::English, Text, catalogue, language, scene, shell, speak, year};
+use crate::texts::{self, Language::English, Text, catalogue, choose, language, scene, shell, speak, year};
 use egui::{Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
@@ -83,7 +84,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const PLAIN: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 // What is offered says their number.
-const _: () = assert!(TILES.len() == 7);
+const _: () = assert!(TILES.len() == 8);
 
 /// A word as it stands behind a colon: English ones begin small there, German ones as they are.
 fn behind_colon(word: impl std::fmt::Display) -> String {
@@ -268,6 +269,7 @@ fn table() -> Vec<Offer> {
         offer(sheet(state::Sheet::Findings), words::FINDINGS, words::FINDINGS_TIP).menu(HELP, 2),
         offer(sheet(state::Sheet::Accuracy), words::ACCURACY, words::ACCURACY_TIP).keys(PLAIN, Key::A).menu(VIEW, 11),
         offer(Year(YearAct::Compute), year::COMPUTE, year::COMPUTE_OFFER_TIP).keys(PLAIN, Key::Y).menu(VIEW, 11),
+        offer(Choose(ChooseAct::Rank), choose::RANK_CATALOGUE, choose::RANK_TIP).menu(VIEW, 11),
         offer(MeasureAccuracy, words::MEASURE, words::MEASURE_TIP),
         offer(sheet(state::Sheet::Goniophotometer), words::GONIOPHOTOMETER, words::GONIOPHOTOMETER_TIP)
             .keys(PLAIN, Key::G)

@@ -176,6 +176,7 @@ impl App {
             Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
             Outcome::Year(result) => self.results.year.take(result),
             Outcome::Annual(result) => self.results.annual.take(result.map(|annual| *annual)),
+            Outcome::Ranked(result) => self.take_ranked(result),
             Outcome::Weather(result) => self.results.weather.take(result.map(|calendar| *calendar)),
             Outcome::OpenedWeather(path) => self.take_weather_file(&path),
             Outcome::DataForm(made) => self.results.form.put(Arc::new(made)),

@@ -4,6 +4,7 @@ use super::hand_on::Choices;
 use super::language::LanguageChoice;
 use super::room_look::RoomLook;
 use super::theme::ThemeChoice;
+use crate::study::rank::Look as Choosing;
 use crate::study::year::Look;
 use std::path::PathBuf;
 
@@ -31,6 +32,8 @@ pub struct Settings {
     pub room: RoomLook,
     /// How the year is looked at.
     pub year: Look,
+    /// How the ranking is looked at.
+    pub choose: Choosing,
     /// How large text is, as a share of what the desktop wants.
     pub text_size: f32,
     /// Steps of the tour that were done.
@@ -54,6 +57,7 @@ impl Default for Settings {
             layout: None,
             room: RoomLook::default(),
             year: Look::default(),
+            choose: Choosing::default(),
             text_size: 1.0,
             tour: 0,
             gallery: false,

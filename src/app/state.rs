@@ -1,6 +1,7 @@
 //! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
 
 use super::changes::{Change, Editing};
+use super::choose::{Figures, Pace};
 use super::compare::View;
 use super::control::{Year, YearKey};
 use super::data_looks::{DataLook, FormResult, SchemesResult};
@@ -141,6 +142,10 @@ pub struct Results {
     pub year: Shown<Year>,
     /// A year of weather in the room, of the scene that it was asked for.
     pub annual: Shown<Annual>,
+    /// What is known of the products that are ranked.
+    pub rank: Shown<Figures>,
+    /// How far a ranking is that is under way.
+    pub rank_pace: Option<Pace>,
     /// The weather that hours are picked from.
     pub weather: Shown<Calendar>,
     /// The data of one incidence in another form than as measured.

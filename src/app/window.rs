@@ -2,6 +2,7 @@
 
 use super::autosave::Autosave;
 use super::backend;
+use super::choosing::Choosing;
 use super::compare_columns::Columns;
 use super::control::YearKey;
 use super::data_looks::{FormKey, SchemesKey};
@@ -76,6 +77,7 @@ pub struct App {
     pub(super) asked_form: Option<FormKey>,
     pub(super) asked_schemes: Option<SchemesKey>,
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
+    pub(super) choosing: Choosing,
     pub(super) due: Due,
     pub(super) export: Exports,
     /// What was computed of the candidates in the tray.
@@ -177,6 +179,7 @@ impl App {
             asked_form: None,
             asked_schemes: None,
             asked_peaks: None,
+            choosing: Choosing::default(),
             due: Due::default(),
             export: Exports::default(),
             compare: Columns::default(),

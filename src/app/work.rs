@@ -63,6 +63,8 @@ pub enum Outcome {
     Year(Result<Year, StudyError>),
     /// A year of weather in the room.
     Annual(Result<Box<Annual>, AppError>),
+    /// A ranking has come to its end; what it found was shown as it came.
+    Ranked(Result<(), AppError>),
     /// The weather that hours are picked from.
     Weather(Result<Box<Calendar>, StudyError>),
     /// A weather file was opened.

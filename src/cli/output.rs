@@ -1,5 +1,6 @@
 //! Results to standard output, and how numbers read.
 
+pub(super) use crate::drawing::ticks::nine_digits as number;
 use crate::texts::{message, short_numbers, visible};
 use anyhow::Context as _;
 use std::io::Write as _;
@@ -35,20 +36,6 @@ pub(super) fn sentence(error: &anyhow::Error) -> String {
         }
     }
     message(&said)
-}
-
-/// A number with nine significant digits and no trailing zeros.
-pub(super) fn number(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}").replace("-0", "0");
-    }
-    // Nobody counts the zeros of a number that is beyond all light.
-    if value.abs() >= 1e16 {
-        return format!("{value:.8e}").replace(".00000000e", "e");
-    }
-    let digits = (8 - value.abs().log10().floor() as i32).clamp(0, 17) as usize;
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]

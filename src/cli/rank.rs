@@ -2,14 +2,14 @@
 
 use super::output::{print, print_text};
 use super::progress::TerminalProgress;
-use super::rank_csv::{Shape, ranked_csv, shard_csv, shard_of};
+use super::rank_csv::{Shape, shard_csv, shard_of};
 use super::rank_json::to_json;
 use super::rank_merge::merged;
 use super::writing::Over;
 use crate::compute::rank::Place;
 use crate::drawing::ticks;
 use crate::formats::FileKind;
-use crate::study::rank::{Group, List, Shard, groups, keys, lists_of, run as compute, run_key};
+use crate::study::rank::{Group, List, Shard, csv_text, groups, keys, lists_of, ranked_table, run as compute, run_key};
 use crate::study::{Library, Session, StudyError, read_scene_file};
 use anyhow::{anyhow, bail};
 use std::fmt::Write as _;
@@ -83,7 +83,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     lists.iter_mut().for_each(List::sort);
     match (&shape, &args.out) {
         (Some(shape), Some(out)) => {
-            let text = shard_csv(&lists, &figures, shape)?;
+            let text = shard_csv(&lists, &figures, shape);
             args.over.write(out, FileKind::Csv, text.as_bytes())?;
             Ok(())
         }
@@ -145,7 +145,7 @@ fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<b
 /// Writes and prints whole lists.
 fn tell(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<()> {
     if let Some(out) = &args.out {
-        args.over.write(out, FileKind::Csv, ranked_csv(lists, figures)?.as_bytes())?;
+        args.over.write(out, FileKind::Csv, csv_text(&ranked_table(lists, figures)).as_bytes())?;
     }
     if args.json { print(&format!("{:#}\n", to_json(lists))) } else { print_text(&table(lists)) }
 }

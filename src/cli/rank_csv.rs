@@ -6,8 +6,7 @@
 
 use super::output::number;
 use crate::compute::rank::{Better, Objective, utility};
-use crate::study::rank::{List, Parts, Row, Shard, why};
-use anyhow::Context as _;
+use crate::study::rank::{BETWEEN, List, Parts, Shard, begin, csv_text, exact, excluded, header};
 use std::path::Path;
 
 /// Which piece a table is.
@@ -43,72 +42,8 @@ pub(super) fn shard_of(path: &Path) -> Option<Shape> {
     (rows == shape.rows).then_some(shape)
 }
 
-/// Columns before the figures.
-pub(super) const WHERE: [&str; 4] = ["scene", "climate", "azimuth", "product"];
-/// Columns behind them.
-pub(super) const RESULT: [&str; 8] =
-    ["utility", "utility_error", "rank_first", "rank_last", "front", "approximate", "excluded", "why"];
-/// Between the reasons why figures are approximate.
-pub(super) const BETWEEN: &str = "; ";
-
-fn header(figures: &[String]) -> Vec<String> {
-    let pairs = figures.iter().flat_map(|figure| [figure.clone(), format!("{figure}_error")]);
-    WHERE.map(str::to_owned).into_iter().chain(pairs).chain(RESULT.map(str::to_owned)).collect()
-}
-
-/// All its digits: figures have nine, and come back as they went.
-fn exact(value: f64) -> String {
-    // No sign of nought.
-    format!("{}", value + 0.0)
-}
-
-/// The columns of place and figures; empty ones for figures that are not this list's.
-fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
-    let mut fields = vec![list.scene.clone(), list.climate.clone(), exact(list.azimuth), row.product.clone()];
-    for figure in figures {
-        let own = list.figures.iter().position(|one| one == figure);
-        let found = own.zip(row.outcome.as_ref().ok()).map(|(k, found)| found.figures[k]);
-        fields.push(found.map(|found| exact(found.value)).unwrap_or_default());
-        fields.push(found.map(|found| exact(found.error)).unwrap_or_default());
-    }
-    fields
-}
-
-fn text_of(rows: Vec<Vec<String>>) -> anyhow::Result<String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(&row).context("the table")?;
-    }
-    let bytes = writer.into_inner().context("the table")?;
-    String::from_utf8(bytes).context("the table")
-}
-
-/// A whole ranking: lists in their order, best first, those that are left out last.
-pub(super) fn ranked_csv(lists: &[List], figures: &[String]) -> anyhow::Result<String> {
-    let mut table = vec![header(figures)];
-    for list in lists {
-        let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));
-        let names: Vec<_> = ranked.iter().map(|(row, found)| (row.product.as_str(), *found)).collect();
-        for &k in &ranking.order {
-            let ((row, found), one) = (ranked[k], &ranking.list[k]);
-            let mut fields = begin(list, row, figures);
-            fields.extend([number(one.utility.value), number(one.utility.error)]);
-            fields.extend([one.ranks.first.to_string(), one.ranks.last.to_string(), one.place.word().to_owned()]);
-            fields.extend([found.approximate.join(BETWEEN), String::new(), why(list, &ranking.list, &names, k)]);
-            table.push(fields);
-        }
-        table.extend(list.excluded().into_iter().map(|(row, reason)| excluded(begin(list, row, figures), reason)));
-    }
-    text_of(table)
-}
-
-fn excluded(mut fields: Vec<String>, reason: &str) -> Vec<String> {
-    fields.extend(RESULT.map(|name| if name == "excluded" { reason.to_owned() } else { String::new() }));
-    fields
-}
-
 /// A piece of a ranking.
-pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> anyhow::Result<String> {
+pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> String {
     let mut head = header(figures);
     head.extend(["list".to_owned(), "objectives".to_owned()]);
     head.extend(figures.iter().map(|figure| format!("{figure}_parts")));
@@ -136,7 +71,7 @@ pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> an
             table.push(fields);
         }
     }
-    text_of(table)
+    csv_text(&table)
 }
 
 /// `figure less worst best weight`, one behind the other.

@@ -1,9 +1,9 @@
 //! Pieces of a ranking put together: a union by keys, in any order.
 
-use super::rank_csv::{BETWEEN, RESULT, Shape, WHERE, objectives_of, parts_of};
+use super::rank_csv::{Shape, objectives_of, parts_of};
 use crate::compute::estimate::Estimate;
 use crate::study::files;
-use crate::study::rank::{Found, List, Row};
+use crate::study::rank::{BETWEEN, Found, List, RESULT, Row, WHERE};
 use anyhow::{anyhow, bail};
 use csv::StringRecord;
 use std::collections::BTreeMap;

@@ -57,6 +57,20 @@ pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     chosen.into_iter().step_by(stride).collect()
 }
 
+/// A number with nine significant digits and no trailing zeros.
+pub fn nine_digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}").replace("-0", "0");
+    }
+    // Nobody counts the zeros of a number that is beyond all light.
+    if value.abs() >= 1e16 {
+        return format!("{value:.8e}").replace(".00000000e", "e");
+    }
+    let digits = (8 - value.abs().log10().floor() as i32).clamp(0, 17) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 /// A number to `digits` significant digits, without needless zeros: "0.0123", "412", "12 300".
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {

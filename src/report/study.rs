@@ -142,6 +142,7 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
         TileKind::Lid => subject.lid.is_some(),
         TileKind::Control => subject.control.is_some(),
         TileKind::Year => subject.year.is_some(),
+        TileKind::Choose => subject.ranking.is_some(),
         _ => true,
     };
     let figure = |tile: TileKind, size: [f64; 2]| -> Result<Figure, ReportError> {

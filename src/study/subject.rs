@@ -6,6 +6,7 @@ use super::incidence::Incidence;
 use super::product_control::{
     TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year as year_of_control,
 };
+use super::rank::{Look as RankLook, Shortlist};
 use super::scene::Scene;
 use super::scene_file::{ControlKeys, ControlMode, SceneFile, SystemKeys};
 use super::session::{LidResult, RoomResult, Session};
@@ -97,6 +98,8 @@ pub struct Subject {
     pub control: Option<Controlled>,
     /// A year of weather, and how it is looked at; `None` where it was not wanted.
     pub year: Option<(Arc<Annual>, Look)>,
+    /// A ranking, and how it is looked at: never computed here.
+    pub ranking: Option<(Arc<Shortlist>, RankLook)>,
 }
 
 impl Subject {
@@ -154,7 +157,20 @@ impl Subject {
             None
         };
         let (incidence, sun) = (Incidence::shown(asked.incident, file), sun_incident(file));
-        Ok(Self { file: file.clone(), product, name, state, incidence, sun, lid, room, control, year, scene })
+        Ok(Self {
+            file: file.clone(),
+            product,
+            name,
+            state,
+            incidence,
+            sun,
+            lid,
+            room,
+            control,
+            year,
+            ranking: None,
+            scene,
+        })
     }
 
     /// Data of the first aperture's system.

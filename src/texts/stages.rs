@@ -19,10 +19,13 @@ texts! {
     const MOMENTS = "moments" | "Zeitpunkte";
     const OUTSIDE = "outside" | "außen";
     const PACKAGES = "packages" | "Pakete";
+    const PRODUCTS = "products" | "Produkte";
+    const TYPICAL_DAYS = "products, typical days" | "Produkte, typische Tage";
     const ROOM = "room" | "Raum";
     const SCENE = "scene" | "Szene";
     const STATES = "states" | "Stellungen";
     const SURFACES = "surfaces" | "Flächen";
+    const WEATHER = "weather" | "Wetter";
     const WAITING = "waiting for the product's data" | "auf Produktdaten warten";
 }
 

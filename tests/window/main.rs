@@ -6,6 +6,8 @@ mod app_engine;
 mod arranging;
 mod bodies;
 mod catalogue_panel;
+mod choose_engine;
+mod choose_view;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare_view;

@@ -132,9 +132,9 @@ impl Layout {
         Ok(if left.is_empty() { layout } else { layout.with(&left) })
     }
 
-    /// A tile that is not there yet becomes a tab behind another.
-    pub fn behind(self, front: Tile, tile: Tile) -> Self {
-        self.replaced(front, &mut |own| Self::tabs(&[own, tile]))
+    /// Tiles that are not there yet become tabs behind another.
+    pub fn behind(self, front: Tile, tiles: &[Tile]) -> Self {
+        self.replaced(front, &mut |own| Self::tabs(&[&[own], tiles].concat()))
     }
 
     /// With more tiles, as tabs of the last one.

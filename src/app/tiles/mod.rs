@@ -3,6 +3,7 @@
 //! palette, layout and exports read that list.
 
 mod btdf;
+mod choose;
 mod control;
 mod drawn;
 mod layout;
@@ -14,6 +15,7 @@ mod transmittance;
 mod year;
 
 pub use btdf::TILE as BTDF;
+pub use choose::{TILE as CHOOSE, scene_name};
 pub use drawn::{Drawn, TileInput};
 pub use layout::Layout;
 pub use lid::TILE as LID;
@@ -50,6 +52,7 @@ pub const TILES: &[Entry] = &[
     entry::<room::Drawing>(room::TILE),
     entry::<control::Drawing>(control::TILE),
     entry::<year::Drawing>(year::TILE),
+    entry::<choose::Drawing>(choose::TILE),
 ];
 
 /// The tiles of one window, and where they stand.
@@ -74,14 +77,14 @@ pub fn all() -> Vec<Tile> {
     TILES.iter().map(|entry| entry.tile).collect()
 }
 
-/// Where tiles stand at a first start: six side by side, the year behind the control.
+/// Where tiles stand at a first start: six side by side, the year and the choice behind the control.
 fn first() -> Layout {
     presets::layout(super::arrange::Preset::All, &all())
 }
 
-/// Tiles that can be drawn of what is compared: a year is computed of the scene alone.
+/// Tiles that can be drawn of what is compared: a year is computed of the scene alone, and so is a ranking.
 pub fn compared() -> impl Iterator<Item = Tile> + Clone {
-    TILES.iter().map(|entry| entry.tile).filter(|tile| *tile != year::TILE)
+    TILES.iter().map(|entry| entry.tile).filter(|tile| ![year::TILE, choose::TILE].contains(tile))
 }
 
 impl Default for Bench {
@@ -139,6 +142,7 @@ impl Bench {
             // What does not move has none.
             Lane::Year => results.year.value.is_some() && results.year.stale,
             Lane::Annual => results.annual.value.as_ref().is_none_or(|annual| !annual.is_of(&state.document.scene)),
+            Lane::Rank => results.rank.stale,
             _ => false,
         };
         state.dataset.stale || state.daylight.stale || lanes.iter().any(old)

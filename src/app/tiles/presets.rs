@@ -1,7 +1,7 @@
 //! Ready arrangements.
 
 use super::layout::Layout;
-use super::{btdf, control, lid, room, sky, transmittance, year};
+use super::{btdf, choose, control, lid, room, sky, transmittance, year};
 use crate::app::arrange::Preset;
 use crate::app::state::Tile;
 
@@ -10,11 +10,12 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
     let one = |share: f32, tile: Tile| (share, Layout::Tile(tile));
     match preset {
         Preset::All => {
-            let others: Vec<Tile> = all.iter().copied().filter(|tile| *tile != year::TILE).collect();
-            Layout::even(&others).behind(control::TILE, year::TILE)
+            let behind = [year::TILE, choose::TILE];
+            let others: Vec<Tile> = all.iter().copied().filter(|tile| !behind.contains(tile)).collect();
+            Layout::even(&others).behind(control::TILE, &behind)
         }
         Preset::Designer => Layout::Row(vec![
-            (1.6, Layout::tabs(&[room::TILE, btdf::TILE, year::TILE])),
+            (1.6, Layout::tabs(&[room::TILE, btdf::TILE, year::TILE, choose::TILE])),
             (
                 1.0,
                 Layout::Column(vec![
@@ -29,7 +30,7 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
                 1.0,
                 Layout::Row(vec![
                     one(1.0, lid::TILE),
-                    (1.3, Layout::tabs(&[room::TILE, sky::TILE, control::TILE, year::TILE])),
+                    (1.3, Layout::tabs(&[room::TILE, sky::TILE, control::TILE, year::TILE, choose::TILE])),
                 ]),
             ),
         ]),
@@ -38,7 +39,7 @@ pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
             (
                 1.0,
                 Layout::Column(vec![
-                    (1.3, Layout::tabs(&[room::TILE, year::TILE])),
+                    (1.3, Layout::tabs(&[room::TILE, year::TILE, choose::TILE])),
                     (1.0, Layout::tabs(&[sky::TILE, transmittance::TILE, control::TILE])),
                 ]),
             ),

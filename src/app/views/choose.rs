@@ -1,190 +1,162 @@
 //! Which system for this façade: products with their objectives and what they are worth, as a table with bars and as a plot
-//! of two objectives against each other; in words why one is before another.
+//! of two objectives against each other; what counts and how much; in parts that add up why one is before another.
 //!
 //! A view of figures that others find: it ranks nothing itself.
 
+mod empty;
 mod input;
+mod objectives;
 mod plot;
 mod table;
+mod why;
+mod words;
 
-pub use input::{Action, ChooseRow, ChooseRows, Input, Objective, rank_words};
+pub use input::{Action, Due, Input, Offer, Running, rank_words};
 
-use crate::app::paint::tile::{self, Words};
+use crate::app::paint::tile::{self, Status, Words};
+use crate::study::rank::{Look, Page, Shortlist, figure_words};
 use crate::texts::choose as say;
-use egui::{Checkbox, ComboBox, Slider, TextEdit, Ui};
-use std::ops::RangeInclusive;
+use egui::{Checkbox, ComboBox, Rect, RichText, TextEdit, Ui, UiBuilder};
 
-/// What the tile itself remembers.
-#[derive(Debug, Clone, Default)]
-pub struct State {
-    /// Words that names have to hold.
-    pub words: String,
-    /// Show only what no other is better than in every objective?
-    pub front_only: bool,
-    /// Show what is excluded too?
-    pub excluded: bool,
-    /// The plot instead of the table?
-    pub plot: bool,
-    /// The two objectives of the plot.
-    pub axes: [usize; 2],
-    /// Key of the product whose why is told.
-    pub chosen: Option<String>,
-}
-
-/// A weight is at most so much.
-const WEIGHTS: RangeInclusive<f64> = 0.0..=5.0;
-
-impl State {
-    /// Does a row pass the filters?
-    pub fn shows(&self, row: &ChooseRow) -> bool {
-        let words = self.words.to_lowercase();
-        let label = row.label.to_lowercase();
-        (row.excluded.is_none() || self.excluded)
-            && (row.front || !self.front_only)
-            && words.split_whitespace().all(|word| label.contains(word))
-    }
-}
+/// Width of a tile that shows the products and what counts side by side. \[points\]
+const BOTH: f32 = 980.0;
+/// Width of what counts there. \[points\]
+const SIDE: f32 = 330.0;
+/// Height of what is told of the chosen product; less in a low tile. \[points\]
+const WHY: f32 = 132.0;
 
 /// Draws the tile into all the space of `ui`.
-pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
+pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
-    let mut weights = Vec::new();
-    let rows = input.rows;
-    let subtitle = say::done(rows.done.0, rows.done.1);
+    let mut asked = Vec::new();
     let words = Words {
         title: say::CHOOSE.get(),
-        subtitle: &subtitle,
+        subtitle: input.name,
         help: say::CHOOSE_ABOUT.get(),
-        empty: rows.rows.is_empty().then_some(say::NOTHING_YET.get()),
-        controls_width: 420.0,
+        empty: None,
+        controls_width: if input.list.is_some() { 470.0 } else { 0.0 },
     };
-    let last = rows.objectives.len().saturating_sub(1);
-    state.axes = state.axes.map(|axis| axis.min(last));
-    if state.axes[0] == state.axes[1] && last > 0 {
-        state.axes[1] = if state.axes[0] == 0 { 1 } else { 0 };
-    }
-    let axes = state.axes;
-    let State { words: typed, front_only, excluded, plot: as_plot, axes: chosen_axes, .. } = state;
-    let mut look = (typed.clone(), *front_only, *excluded, *as_plot, axes);
+    let status = Status { error: None, ..input.status };
     tile::show(
         ui,
         &words,
-        &input.status,
+        &status,
         |ui| {
-            ui.add(TextEdit::singleline(&mut look.0).hint_text(say::FILTER.get()).desired_width(90.0));
-            ui.add(Checkbox::new(&mut look.1, say::FRONT_ONLY.get())).on_hover_text(say::FRONT_TIP);
-            ui.add(Checkbox::new(&mut look.2, say::EXCLUDED_TOO.get())).on_hover_text(say::EXCLUDED_TIP);
-            ui.toggle_value(&mut look.3, say::PLOT).on_hover_text(say::PLOT_TIP);
-            ui.menu_button(say::WEIGHTS.get(), |ui| {
-                for (k, one) in rows.objectives.iter().enumerate() {
-                    let mut weight = one.weight;
-                    if ui.add(Slider::new(&mut weight, WEIGHTS).text(&one.name).max_decimals(1)).changed() {
-                        weights.push(Action::Weight(k, weight));
-                    }
-                }
-            });
-            if look.3 {
-                axis(ui, rows, say::ACROSS, &mut look.4[0]);
-                axis(ui, rows, say::UP, &mut look.4[1]);
+            if let Some(list) = input.list {
+                controls(ui, input, list, &mut asked);
             }
         },
-        |ui, rect| {
-            let filter =
-                State { words: typed.clone(), front_only: *front_only, excluded: *excluded, ..State::default() };
-            let shown: Vec<&ChooseRow> = rows.rows.iter().filter(|row| filter.shows(row)).collect();
-            let place = (rect, &mut state.chosen);
-            if *as_plot {
-                plot::show(ui, place, rows, &shown, axes, input.in_room)
-            } else {
-                table::show(ui, place, rows, &shown, input.in_room, &mut actions)
+        |ui, rect| match input.list {
+            Some(list) => body(ui, rect, input, list, &mut actions),
+            None => {
+                empty::show(ui, rect, input, &mut actions);
+                String::new()
             }
         },
     );
-    (*typed, *front_only, *excluded, *as_plot, *chosen_axes) = look;
-    actions.extend(weights);
+    actions.extend(asked);
     actions
 }
 
-fn axis(ui: &mut Ui, rows: &ChooseRows, name: crate::texts::Text, chosen: &mut usize) {
-    let text = rows.objectives.get(*chosen).map_or("", |one| one.name.as_str());
-    let combo = ComboBox::from_id_salt(name.english()).width(80.0).truncate().selected_text(text);
+fn controls(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
+    let mut look = Look::clone(input.look);
+    for (page, word, tip) in [
+        (Page::Table, say::TABLE, say::TABLE_TIP),
+        (Page::Plot, say::PLOT, say::PLOT_TIP),
+        (Page::Objectives, say::OBJECTIVES, say::OBJECTIVES_TIP),
+    ] {
+        ui.selectable_value(&mut look.page, page, word).on_hover_text(tip);
+    }
+    match look.page {
+        Page::Table => {
+            let field = TextEdit::singleline(&mut look.words).hint_text(say::FILTER.get()).desired_width(80.0);
+            ui.add(field).on_hover_text(say::FILTER_TIP).accessible_name(say::FILTER_TIP.get());
+            ui.add(Checkbox::new(&mut look.front_only, say::FRONT_ONLY.get())).on_hover_text(say::FRONT_TIP);
+            let left_out = list.entries.iter().filter(|entry| entry.excluded.is_some()).count();
+            if left_out > 0 || look.excluded {
+                let words = say::excluded_too(left_out);
+                ui.add(Checkbox::new(&mut look.excluded, words)).on_hover_text(say::EXCLUDED_TIP);
+            }
+        }
+        Page::Plot => {
+            let axes = list.axes(&look);
+            for (k, name) in [say::ACROSS, say::UP].into_iter().enumerate() {
+                axis(ui, list, name, (axes[k], &mut look.axes[k]));
+            }
+        }
+        Page::Objectives => {}
+    }
+    if let Some((word, tip)) = words::due(input.due).filter(|_| input.running.is_none())
+        && ui.button(word).on_hover_text(tip).clicked()
+    {
+        out.push(Action::Rank);
+    }
+    if look != *input.look {
+        out.push(Action::Look(Box::new(look)));
+    }
+}
+
+fn axis(ui: &mut Ui, list: &Shortlist, name: crate::texts::Text, (own, key): (usize, &mut String)) {
+    let text = list.list.figures.get(own).map_or_else(String::new, |key| figure_words(key).0);
+    let combo = ComboBox::from_id_salt(name.english()).width(110.0).truncate().selected_text(text);
     let combo = combo.show_ui(ui, |ui| {
-        for (k, one) in rows.objectives.iter().enumerate() {
-            ui.selectable_value(chosen, k, &one.name);
+        for figure in &list.list.figures {
+            ui.selectable_value(key, figure.clone(), figure_words(figure).0);
         }
     });
     combo.response.on_hover_text(name).accessible_name(name.get());
 }
 
-/// The table as numbers, in the order of ranks.
-pub fn csv(rows: &ChooseRows) -> String {
-    use std::fmt::Write as _;
-    let quoted = tile::csv_field;
-    let mut out = String::from("product,name");
-    // Writing to a String cannot fail.
-    for one in &rows.objectives {
-        let _ = write!(out, ",{},{}", quoted(&one.name), quoted(&format!("{} error", one.name)));
+fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> String {
+    let rect = above_progress(ui, rect, input, out);
+    let rect = above_error(ui, rect, input);
+    let page = input.look.page;
+    let mut left = rect;
+    if page != Page::Objectives && rect.width() >= BOTH && rect.height() >= 240.0 {
+        let (own, right) = rect.split_left_right_at_x(rect.right() - SIDE);
+        objectives::show(ui, right.with_min_x(right.left() + 12.0), input, out);
+        left = own;
     }
-    out.push_str(",utility,utility_error,rank_first,rank_last,front,approximate,excluded,why\n");
-    for row in &rows.rows {
-        let _ = write!(out, "{},{}", quoted(&row.product), quoted(&row.label));
-        for k in 0..rows.objectives.len() {
-            match row.values.get(k) {
-                Some((value, error)) => {
-                    let _ = write!(out, ",{value},{error}");
-                }
-                None => out.push_str(",,"),
-            }
-        }
-        let excluded = row.excluded.as_deref().unwrap_or("");
-        let _ = if excluded.is_empty() {
-            let ((utility, error), (first, last)) = (row.utility, row.ranks);
-            write!(out, ",{utility},{error},{first},{last},{},{}", row.front, row.approximate)
-        } else {
-            write!(out, ",,,,,,")
-        };
-        let _ = writeln!(out, ",{},{}", quoted(excluded), quoted(&row.why));
+    if page == Page::Objectives {
+        objectives::show(ui, rect, input, out);
+        return summary(input, list);
     }
-    out
+    let why = if left.height() > 2.2 * WHY { WHY } else { (0.4 * left.height()).max(30.0) };
+    let (upper, lower) = left.split_top_bottom_at_y(left.bottom() - why);
+    let said = if page == Page::Plot {
+        plot::show(ui, upper, input, list, out)
+    } else {
+        table::show(ui, upper, input, list, out);
+        summary(input, list)
+    };
+    why::show(ui, lower.with_min_y(lower.top() + 4.0), input, list, out);
+    said
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// How many of them are shown, of which weather.
+fn summary(input: &Input<'_>, list: &Shortlist) -> String {
+    let shown = list.shown(input.look).len();
+    format!("{} · {}", say::shown(shown, list.entries.len()), input.weather.display())
+}
 
-    fn row(label: &str, front: bool, excluded: Option<&str>) -> ChooseRow {
-        let excluded = excluded.map(str::to_owned);
-        ChooseRow { label: label.to_owned(), product: label.to_owned(), front, excluded, ..ChooseRow::default() }
+/// A bar at the lower edge while products are computed; what is left above it.
+fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
+    if input.running.is_none() {
+        return rect;
     }
+    let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - 26.0);
+    ui.scope_builder(UiBuilder::new().max_rect(below).id_salt("progress"), |ui| empty::progress(ui, input, out));
+    above
+}
 
-    #[test]
-    fn filters_are_all_to_be_passed() {
-        let rows = [
-            row("Clear glass", false, None),
-            row("Laser cut panel", true, None),
-            row("Broken", false, Some("no data")),
-        ];
-        let passing = |state: &State| rows.iter().filter(|row| state.shows(row)).count();
-        let plain = State::default();
-        assert_eq!(passing(&plain), 2);
-        assert_eq!(passing(&State { excluded: true, ..plain.clone() }), 3);
-        assert_eq!(passing(&State { front_only: true, ..plain.clone() }), 1);
-        assert_eq!(passing(&State { words: "PANEL laser".to_owned(), ..plain.clone() }), 1);
-        assert_eq!(passing(&State { words: "glass panel".to_owned(), ..plain }), 0);
-        assert_eq!((rank_words((3, 3)), rank_words((2, 5))), ("3".to_owned(), "2–5".to_owned()));
-    }
-
-    #[test]
-    fn the_table_has_as_many_fields_in_every_row() {
-        let objectives =
-            vec![Objective { name: "Lamps, all".to_owned(), unit: "kWh/m²", less_is_better: true, weight: 1.0 }];
-        let mut first = row("A", true, None);
-        (first.values, first.utility, first.ranks) = (vec![(3.5, 0.1)], (0.8, 0.01), (1, 2));
-        let rows = ChooseRows { objectives, rows: vec![first, row("B", false, Some("no data"))], done: (2, 2) };
-        let csv = csv(&rows);
-        let lines: Vec<&str> = csv.lines().collect();
-        assert_eq!(lines[0].matches(',').count(), 13, "two of them in quoted names");
-        assert_eq!(lines[1], "A,A,3.5,0.1,0.8,0.01,1,2,true,false,,");
-        assert_eq!(lines[2], "B,B,,,,,,,,,no data,");
-    }
+/// Why there is nothing newer; what is left below.
+fn above_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
+    let Some(error) = input.error else { return rect };
+    let (above, below) = rect.split_top_bottom_at_y(rect.top() + 20.0);
+    let colour = ui.visuals().error_fg_color;
+    ui.scope_builder(UiBuilder::new().max_rect(above).id_salt("error"), |ui| {
+        let text = RichText::new(error).size(13.0).color(colour);
+        ui.add(egui::Label::new(text).truncate()).on_hover_text(error);
+    });
+    below
 }

@@ -1,5 +1,6 @@
 //! The tiles of the bench on paper, each drawn into a frame.
 
+mod choose;
 mod control;
 mod hemispheres;
 mod lid;
@@ -36,12 +37,14 @@ pub enum TileKind {
     Control,
     /// The hours of a year.
     Year,
+    /// Products in order.
+    Choose,
 }
 
 impl TileKind {
     /// All, in the order of the bench.
-    pub const ALL: [Self; 7] =
-        [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control, Self::Year];
+    pub const ALL: [Self; 8] =
+        [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control, Self::Year, Self::Choose];
 
     /// The title of the tile in the window's own books.
     pub const fn title(self) -> &'static str {
@@ -58,6 +61,7 @@ impl TileKind {
             Self::Room => texts::TILE_ROOM,
             Self::Control => texts::TILE_CONTROL,
             Self::Year => crate::texts::year::YEAR,
+            Self::Choose => crate::texts::choose::CHOOSE,
         }
     }
 
@@ -71,6 +75,7 @@ impl TileKind {
             Self::Room => "room",
             Self::Control => "control",
             Self::Year => "year",
+            Self::Choose => "choose",
         }
     }
 
@@ -94,8 +99,10 @@ impl FromStr for TileKind {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let words = || Self::ALL.map(Self::word).join(", ");
-        let found = Self::ALL.into_iter().find(|kind| kind.word() == text);
+        // A ranking is no picture of a scene: `cfs rank` makes it.
+        let all: Vec<Self> = Self::ALL.into_iter().filter(|kind| *kind != Self::Choose).collect();
+        let words = || all.iter().map(|kind| kind.word()).collect::<Vec<_>>().join(", ");
+        let found = all.iter().copied().find(|kind| kind.word() == text);
         found.ok_or_else(|| texts::no_tile(words()))
     }
 }
@@ -127,6 +134,7 @@ pub(super) fn draw_on(
         TileKind::Room => room::room(drawing, frame, subject, range, inks),
         TileKind::Control => control::control(drawing, frame, subject, inks),
         TileKind::Year => year::year(drawing, frame, subject, inks),
+        TileKind::Choose => choose::choose(drawing, frame, subject, inks),
     }
     .map_err(|why| ReportError::Nothing(tile.words(), why))
 }
@@ -142,6 +150,6 @@ pub(super) fn scale_of<'a>(tile: TileKind, subjects: impl Iterator<Item = &'a Su
             let sensors = subjects.filter_map(|one| one.room.as_ref()).flat_map(|room| &room.sensors);
             scales::of_illuminances(sensors.map(|sensor| sensor.total().value))
         }
-        TileKind::Control | TileKind::Year => None,
+        TileKind::Control | TileKind::Year | TileKind::Choose => None,
     }
 }

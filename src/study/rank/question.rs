@@ -99,7 +99,11 @@ fn twice(key: &str, list: &[String]) -> Result<(), StudyError> {
     }
 }
 
-fn objectives(keys: &RankKeys) -> Result<Vec<Objective>, StudyError> {
+/// What counts by `[rank]`.
+///
+/// # Errors
+/// The key that is wrong.
+pub fn objectives(keys: &RankKeys) -> Result<Vec<Objective>, StudyError> {
     if keys.objective.is_empty() {
         return Err(StudyError::key("rank.objective", "missing: name one figure at least, as [[rank.objective]]"));
     }

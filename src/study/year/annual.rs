@@ -36,9 +36,9 @@ impl Annual {
     }
 }
 
-/// A scene without what its year does not hang on: moment, sky and what is compared.
+/// A scene without what its year does not hang on: moment, sky, what is compared and what counts in a ranking.
 pub fn question(file: &SceneFile) -> SceneFile {
-    let mut asked = SceneFile { compare: Vec::new(), ..file.clone() };
+    let mut asked = SceneFile { rank: None, compare: Vec::new(), ..file.clone() };
     put_ordinary(&mut asked);
     if asked.year.as_ref().is_some_and(|keys| !keys.ground.is_empty()) {
         asked.site.ground_reflectance = 0.0;

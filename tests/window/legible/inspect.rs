@@ -171,8 +171,14 @@ fn cut_with_a_tip(harness: &Harness<'_, App>) -> Vec<String> {
     let state = &harness.state().state;
     let sun_behind = "the sun is not before the façade".to_owned();
     let selection = title::title(state).replace("cfs – ", "");
-    vec![title::selection(state), title::sky(&state.document.scene), selection, sun_behind]
+    // Names in the rows of a ranking, with their marks.
+    let ranked = harness.state().results.rank.value.as_ref();
+    let ranked = ranked.into_iter().flat_map(|figures| figures.products.iter());
+    let ranked =
+        ranked.flat_map(|product| ["", "◆ ", "≈ ", "⌂ ", "◆ ≈ ", "◆ ⌂ "].map(|mark| format!("{mark}{}", product.name)));
+    [title::selection(state), title::sky(&state.document.scene), selection, sun_behind]
         .into_iter()
+        .chain(ranked)
         .filter(|start| !start.is_empty())
         .collect()
 }

@@ -148,6 +148,6 @@ fn scale(columns: &[Column], kind: Option<TileKind>) -> Option<[f64; 2]> {
         TileKind::Sky => {
             scales::of_skies(columns.iter().filter_map(|column| Some(&column.state.daylight.value.as_ref()?.outside)))
         }
-        TileKind::Control | TileKind::Year => None,
+        TileKind::Control | TileKind::Year | TileKind::Choose => None,
     }
 }

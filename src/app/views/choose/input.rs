@@ -1,72 +1,101 @@
 //! What the tile draws, and what it is asked for.
 
 use crate::app::paint::tile::Status;
-
-/// An objective.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Objective {
-    /// What it is called.
-    pub name: String,
-    /// Unit of its values; `%` for shares, which are 0 … 1.
-    pub unit: &'static str,
-    /// Is less better?
-    pub less_is_better: bool,
-    /// How much it counts.
-    pub weight: f64,
-}
-
-/// A product that was ranked, or excluded.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ChooseRow {
-    /// Its key in the catalogue.
-    pub product: String,
-    /// What it is called.
-    pub label: String,
-    /// Value and error of every objective; empty for what is excluded.
-    pub values: Vec<(f64, f64)>,
-    /// What it is worth and its error, 0 … 1.
-    pub utility: (f64, f64),
-    /// First and last rank that the errors leave it, from 1.
-    pub ranks: (usize, usize),
-    /// Is no other better in every objective?
-    pub front: bool,
-    /// Are its figures coarse, or partly taken over from other data?
-    pub approximate: bool,
-    /// Why it takes no part; `None` where it does.
-    pub excluded: Option<String>,
-    /// Why it stands where it does, in words whose figures add up.
-    pub why: String,
-}
-
-/// What there is to choose from.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ChooseRows {
-    /// In the order of weights.
-    pub objectives: Vec<Objective>,
-    /// In the order of ranks, what is excluded last.
-    pub rows: Vec<ChooseRow>,
-    /// How many of all were computed.
-    pub done: (usize, usize),
-}
+use crate::study::rank::{Look, Reason, Shortlist};
+use crate::study::rank_keys::ObjectiveKeys;
+use std::path::Path;
 
 /// What the user did.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
+    /// Rank, or go on, or rank anew.
+    Rank,
+    /// Stop it.
+    Stop,
+    /// Look at something else of it.
+    Look(Box<Look>),
+    /// Other objectives; `true`: one more or one less, not only other numbers.
+    Objectives(Vec<ObjectiveKeys>, bool),
     /// This product (by its key) into the room.
     IntoRoom(String),
     /// This product (by its key) into the comparison's tray.
     Compare(String),
-    /// An objective's weight.
-    Weight(usize, f64),
+}
+
+/// A figure that may become an objective.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Offer {
+    /// The objective as it begins.
+    pub keys: ObjectiveKeys,
+    /// What it is called.
+    pub name: String,
+    /// Is it known of all products already?
+    pub known: bool,
+}
+
+/// Products that are being computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Running {
+    /// By typical days, not yet the whole year?
+    pub coarse: bool,
+    /// How many are done.
+    pub done: usize,
+    /// Of how many.
+    pub all: usize,
+    /// Time that the others will take, as far as can be told. \[s\]
+    pub left: Option<f64>,
+}
+
+impl Running {
+    /// Share done.
+    pub fn share(&self) -> f32 {
+        self.done as f32 / self.all.max(1) as f32
+    }
+}
+
+/// Why there is something to compute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Due {
+    /// There is nothing.
+    #[default]
+    Nothing,
+    /// Room, weather, catalogue or search are others than those of the figures.
+    Changed,
+    /// So many products were not reached.
+    Unfinished(usize),
+    /// An objective's figure is not known.
+    Figure,
 }
 
 /// What the tile draws.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// What there is.
-    pub rows: &'a ChooseRows,
+    /// The products in order; `None` before there are any.
+    pub list: Option<&'a Shortlist>,
+    /// Why the chosen product stands where it does.
+    pub reason: Option<&'a Reason>,
+    /// How it is looked at.
+    pub look: &'a Look,
+    /// What counts.
+    pub objectives: &'a [ObjectiveKeys],
+    /// What else may.
+    pub offers: &'a [Offer],
+    /// The weather that the years are of.
+    pub weather: &'a Path,
+    /// The scene in a few words.
+    pub name: &'a str,
     /// Key of the product that is in the room.
     pub in_room: &'a str,
+    /// How many products the catalogue's search finds, where it is one.
+    pub search: Option<usize>,
+    /// How many apertures the scene has.
+    pub apertures: usize,
+    /// What is being computed.
+    pub running: Option<Running>,
+    /// What there is to compute.
+    pub due: Due,
+    /// Why there is nothing, or nothing newer.
+    pub error: Option<&'a str>,
     /// How far it is to be trusted.
     pub status: Status<'a>,
 }

@@ -1,71 +1,76 @@
 //! Two objectives against each other: what no other is better than in every objective stands out.
 
-use super::input::{ChooseRow, ChooseRows, Objective};
+use super::input::{Action, Input};
 use crate::app::paint::palette::Palette;
-use crate::app::paint::plot::{self, Look};
+use crate::app::paint::plot::{self, Look as PlotLook};
 use crate::app::paint::tile;
-use crate::drawing::plot::{Axis, Plot, Unit};
+use crate::compute::rank::Place;
+use crate::study::rank::{Entry, Look, Shortlist};
 use crate::texts::choose as say;
-use egui::{Rect, Stroke, Ui};
+use egui::{Align2, FontId, Rect, Stroke, Ui, vec2};
 
 /// Nearest that the pointer has to come to a point. \[points\]
-const NEAR: f32 = 10.0;
+const NEAR: f32 = 12.0;
 
-fn axis(objective: Option<&Objective>, values: &[f64]) -> Axis {
-    let (lo, hi) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
-    let (lo, hi) = if lo <= hi { (lo, hi) } else { (0.0, 1.0) };
-    let margin = 0.08 * (hi - lo).max(1e-6);
-    let name = objective.map_or("", |one| one.name.as_str());
-    let unit = match objective.map_or("", |one| one.unit) {
-        "%" => Unit::Share,
-        unit => Unit::Named(unit),
-    };
-    Axis::linear([lo - margin, hi + margin], name, unit)
-}
-
-pub(super) fn show(
-    ui: &mut Ui,
-    (rect, chosen): (Rect, &mut Option<String>),
-    rows: &ChooseRows,
-    shown: &[&ChooseRow],
-    axes: [usize; 2],
-    in_room: &str,
-) -> String {
+/// Draws the plot; what is told under it.
+pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> String {
+    let axes = list.axes(input.look);
     let palette = Palette::of(ui.visuals());
-    let known: Vec<(&ChooseRow, [(f64, f64); 2])> = shown
+    let shown = list.shown(input.look);
+    let known: Vec<(&Entry, [[f64; 2]; 2])> = shown
         .iter()
-        .filter(|row| row.excluded.is_none())
-        .filter_map(|row| Some((*row, [*row.values.get(axes[0])?, *row.values.get(axes[1])?])))
-        .filter(|(_, ends)| ends.iter().all(|(value, _)| value.is_finite()))
+        .filter(|entry| entry.excluded.is_none())
+        .filter_map(|entry| Some((*entry, axes.map(|k| entry.figures.get(k).copied()))))
+        .filter_map(|(entry, [x, y])| Some((entry, [x?, y?].map(|figure| [figure.value, figure.error]))))
+        .filter(|(_, ends)| ends.iter().all(|[value, _]| value.is_finite()))
         .collect();
-    let of = |k: usize| axis(rows.objectives.get(axes[k]), &known.iter().map(|(_, at)| at[k].0).collect::<Vec<_>>());
-    let plot = Plot { x: of(0), y: of(1), series: Vec::new(), guides: Vec::new() };
-    let look = Look { focusable: true, ..Look::tile(ui.scope_id().with(("choose", axes)), &[], palette.sun) };
+    let plot = list.plot(input.look);
+    let id = ui.scope_id().with(("choose", axes));
+    let look = PlotLook { focusable: true, ..PlotLook::tile(id, &[], palette.sun) };
     let drawn = plot::show(ui, rect, &plot, &look, |_| {});
     let painter = ui.painter().with_clip_rect(drawn.area().expand(6.0).intersect(ui.clip_rect()));
-    let at = |ends: &[(f64, f64); 2]| drawn.screen([ends[0].0, ends[1].0]);
-    for (row, ends) in &known {
-        let place = at(ends);
-        let [(x, dx), (y, dy)] = *ends;
-        for (from, to) in [([x - dx, y], [x + dx, y]), ([x, y - dy], [x, y + dy])] {
+    for (entry, [[x, dx], [y, dy]]) in &known {
+        for (from, to) in [([x - dx, *y], [x + dx, *y]), ([*x, y - dy], [*x, y + dy])] {
             painter.line_segment([drawn.screen(from), drawn.screen(to)], Stroke::new(1.0, palette.weak));
         }
-        let fill = if row.front { palette.second } else { palette.first };
-        let edge = if chosen.as_ref() == Some(&row.product) { palette.ink } else { palette.face };
-        painter.circle(place, if row.front { 6.0 } else { 4.0 }, fill, Stroke::new(1.5, edge));
-        if row.product == in_room {
-            painter.circle_stroke(place, 9.0, Stroke::new(2.0, palette.sun));
+        let front = entry.place == Some(Place::Front);
+        let fill = if front { palette.second } else { palette.first };
+        let fill = if entry.coarse { fill.gamma_multiply(0.5) } else { fill };
+        let chosen = Some(&entry.product) == input.look.product.as_ref();
+        let place = drawn.screen([*x, *y]);
+        let edge = Stroke::new(if chosen { 2.5 } else { 1.0 }, if chosen { palette.ink } else { palette.face });
+        painter.circle(place, if front { 6.0 } else { 4.0 }, fill, edge);
+        if entry.product == input.in_room {
+            painter.circle_stroke(place, 9.5, Stroke::new(2.0, palette.sun));
         }
     }
-    tile::name(ui, &drawn.response, say::PLOT_NAME, &say::shown(known.len(), rows.rows.len()));
+    tile::name(ui, &drawn.response, say::PLOT_NAME, &say::shown(known.len(), list.entries.len()));
+    let at = |ends: &[[f64; 2]; 2]| drawn.screen([ends[0][0], ends[1][0]]);
     let nearest = drawn.response.hover_pos().and_then(|pointer| {
-        let distance = |ends: &[(f64, f64); 2]| at(ends).distance(pointer);
+        let distance = |ends: &[[f64; 2]; 2]| at(ends).distance(pointer);
         let best = known.iter().min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)))?;
-        (distance(&best.1) <= NEAR).then_some(best.0)
+        (distance(&best.1) <= NEAR).then_some(best)
     });
-    if let Some(row) = nearest.filter(|_| drawn.response.clicked()) {
-        *chosen = Some(row.product.clone());
+    if let Some((entry, ends)) = nearest {
+        label(ui, &entry.name, at(ends), drawn.area(), &palette);
+        if drawn.response.clicked() {
+            let look = Look { product: Some(entry.product.clone()), ..input.look.clone() };
+            out.push(Action::Look(Box::new(look)));
+        }
+        return super::words::entry(list, entry);
     }
-    let told = nearest.or_else(|| shown.iter().find(|row| Some(&row.product) == chosen.as_ref()).copied());
-    told.map_or_else(|| say::PLOT_FOOT.into(), |row| format!("{}: {}", row.label, row.why))
+    let chosen = input.look.product.as_ref().and_then(|product| list.entry(product));
+    chosen.map_or_else(|| say::PLOT_FOOT.into(), |entry| super::words::entry(list, entry))
+}
+
+/// The name of a point beside it, within the plot.
+fn label(ui: &Ui, name: &str, at: egui::Pos2, area: Rect, palette: &Palette) {
+    let painter = ui.painter();
+    let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(13.0), palette.ink);
+    let right = at.x + 12.0 + galley.size().x <= area.right();
+    let anchor = if right { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+    let offset = vec2(if right { 12.0 } else { -12.0 }, 0.0);
+    let place = anchor.anchor_size(at + offset, galley.size());
+    painter.rect_filled(place.expand2(vec2(4.0, 2.0)), 3, ui.visuals().extreme_bg_color);
+    painter.galley(place.min, galley, palette.ink);
 }

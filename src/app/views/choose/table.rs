@@ -1,122 +1,280 @@
-//! Products in rows: rank, name, worth as a bar with its error, every objective; under them why the chosen one stands where
-//! it does, and the way into the room.
+//! Products in rows: rank, name, worth as a bar with its error, every objective with a bar of what it is worth.
 
-use super::input::{Action, ChooseRow, ChooseRows, rank_words};
+use super::input::{Action, Input, rank_words};
+use super::words;
 use crate::app::paint::palette::Palette;
-use crate::drawing::ticks::number;
-use crate::texts::{choose as say, fixed};
-use egui::{Button, Color32, Grid, Label, Rect, RichText, ScrollArea, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
+use crate::compute::rank::Place;
+use crate::study::rank::{Entry, Look, Shortlist, Sort, figure_words};
+use crate::texts::choose as say;
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{
+    Align2, Color32, EventFilter, FontId, Galley, Id, Key, Modifiers, Rect, Response, ScrollArea, Sense, Stroke, Ui,
+    UiBuilder, WidgetInfo, accesskit::Role, pos2, vec2,
+};
+use std::sync::Arc;
 
 /// Height of a row. \[points\]
-const ROW: f32 = 22.0;
-/// Width of the bar of what a product is worth. \[points\]
-const BAR: f32 = 110.0;
-/// Height of what is told of the chosen one. \[points\]
-const WHY: f32 = 84.0;
+const ROW: f32 = 24.0;
+/// Width of the rank, of the bar of worth, of an objective; the least of a name. \[points\]
+const RANK: f32 = 48.0;
+const WORTH: f32 = 96.0;
+const FIGURE: f32 = 112.0;
+const NAME: f32 = 130.0;
+/// Space between columns. \[points\]
+const GAP: f32 = 8.0;
 
-fn value_words(unit: &str, (value, error): (f64, f64)) -> String {
-    if unit == "%" {
-        format!("{} ± {} %", fixed(100.0 * value, 1), fixed(100.0 * error, 1))
-    } else {
-        format!("{} ± {} {unit}", number(value, 3), number(error, 1)).trim_end().to_owned()
+/// Where columns stand: as many objectives as there is room for.
+struct Columns {
+    rank: f32,
+    name: [f32; 2],
+    worth: [f32; 2],
+    figures: Vec<[f32; 2]>,
+}
+
+impl Columns {
+    fn of(rect: Rect, objectives: usize) -> Self {
+        let right = rect.right() - 12.0;
+        let room = right - rect.left() - RANK - WORTH - NAME - 2.0 * GAP;
+        let count = ((room / (FIGURE + GAP)).floor().max(0.0) as usize).min(objectives);
+        let first = right - count as f32 * (FIGURE + GAP);
+        let figure = |k: usize| {
+            let left = first + GAP + k as f32 * (FIGURE + GAP);
+            [left, left + FIGURE]
+        };
+        let worth = [first - WORTH, first];
+        let rank = rect.left() + 2.0;
+        Self { rank, name: [rank + RANK, worth[0] - GAP], worth, figures: (0..count).map(figure).collect() }
     }
 }
 
-pub(super) fn show(
-    ui: &mut Ui,
-    (rect, chosen): (Rect, &mut Option<String>),
-    rows: &ChooseRows,
-    shown: &[&ChooseRow],
-    in_room: &str,
-    out: &mut Vec<Action>,
-) -> String {
-    let (upper, lower) = rect.split_top_bottom_at_y((rect.bottom() - WHY).max(rect.top() + 2.0 * ROW));
-    ui.scope_builder(UiBuilder::new().max_rect(upper).id_salt("table"), |ui| {
-        ScrollArea::both()
-            .id_salt("ranks")
-            .auto_shrink([false, false])
-            .show(ui, |ui| table(ui, chosen, rows, shown, in_room, out));
+/// Text in at most so many lines, which end in … where there is more.
+fn text(ui: &Ui, words: &str, colour: Color32, width: f32, rows: usize) -> Arc<Galley> {
+    let mut job = LayoutJob::simple(words.to_owned(), FontId::proportional(13.0), colour, width);
+    job.wrap = TextWrapping { max_width: width.max(1.0), max_rows: rows, ..TextWrapping::default() };
+    ui.painter().layout_job(job)
+}
+
+/// Draws the rows that pass the filters.
+pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
+    let shown = list.shown(input.look);
+    let columns = Columns::of(rect, list.list.figures.len());
+    let below = head(ui, rect, &columns, input, list, out);
+    // Whole rows: none is cut before it is scrolled.
+    let high = ((rect.bottom() - below) / ROW).floor().max(1.0) * ROW;
+    let body = Rect::from_min_max(pos2(rect.left(), below), pos2(rect.right(), below + high));
+    let id = ui.scope_id().with("ranked products");
+    let focus = ui.interact(body, id, Sense::click());
+    focus.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, say::LIST_NAME.get()));
+    let chosen = shown.iter().position(|entry| Some(&entry.product) == input.look.product.as_ref());
+    let walked = keys(ui, &focus, &shown, chosen, out);
+    let choose = |entry: &Entry, against: bool, out: &mut Vec<Action>| {
+        let look = if against {
+            Look { against: Some(entry.product.clone()), ..input.look.clone() }
+        } else {
+            let against = input.look.against.clone().filter(|other| *other != entry.product);
+            Look { product: Some(entry.product.clone()), against, ..input.look.clone() }
+        };
+        out.push(Action::Look(Box::new(look)));
+    };
+    if let Some(entry) = walked.and_then(|k| shown.get(k)) {
+        choose(entry, false, out);
+    }
+    ui.scope_builder(UiBuilder::new().max_rect(body).id_salt("rows"), |ui| {
+        ScrollArea::vertical().id_salt("rows").auto_shrink([false, false]).show_viewport(ui, |ui, seen| {
+            ui.set_height(shown.len() as f32 * ROW);
+            let origin = ui.max_rect().left_top();
+            let place = |k: usize| {
+                let top = origin.y + k as f32 * ROW;
+                Rect::from_min_max(pos2(body.left(), top), pos2(body.right() - 8.0, top + ROW))
+            };
+            if let Some(k) = walked {
+                ui.scroll_to_rect(place(k), None);
+            }
+            let first = (seen.top() / ROW).floor().max(0.0) as usize;
+            let last = ((seen.bottom() / ROW).ceil().max(0.0) as usize).min(shown.len());
+            for (k, entry) in shown.iter().enumerate().take(last).skip(first) {
+                let response = row(ui, id, (k, place(k)), &columns, entry, input, list);
+                if response.clicked() {
+                    focus.request_focus();
+                    choose(entry, ui.input(|i| i.modifiers.shift), out);
+                }
+                if response.double_clicked() && entry.excluded.is_none() {
+                    out.push(Action::IntoRoom(entry.product.clone()));
+                }
+            }
+        });
     });
-    let told = shown.iter().find(|row| Some(&row.product) == chosen.as_ref()).or(shown.first());
-    if let Some(row) = told {
-        ui.scope_builder(UiBuilder::new().max_rect(lower).id_salt("why"), |ui| why(ui, row, out));
+    if focus.has_focus() {
+        let stroke = Stroke::new(1.5, Palette::of(ui.visuals()).first);
+        ui.painter().rect_stroke(body, 2, stroke, egui::StrokeKind::Inside);
     }
-    say::shown(shown.len(), rows.rows.len())
 }
 
-fn table(
-    ui: &mut Ui,
-    chosen: &mut Option<String>,
-    rows: &ChooseRows,
-    shown: &[&ChooseRow],
-    in_room: &str,
-    out: &mut Vec<Action>,
-) {
+/// Names of the columns, each of which orders the rows; where they end.
+fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> f32 {
     let palette = Palette::of(ui.visuals());
-    let text = |words: String, colour: Color32| Label::new(RichText::new(words).size(13.0).color(colour)).extend();
-    Grid::new("ranks").striped(true).min_row_height(ROW).spacing(vec2(10.0, 2.0)).show(ui, |ui| {
-        for word in [say::RANK, say::PRODUCT, say::WORTH] {
-            ui.add(text(word.to_string(), palette.weak)).on_hover_text(say::WORTH_TIP);
-        }
-        for one in &rows.objectives {
-            let tip = if one.less_is_better { say::LESS_IS_BETTER } else { say::MORE_IS_BETTER };
-            ui.add(text(one.name.clone(), palette.weak)).on_hover_text(tip);
-        }
-        ui.end_row();
-        for row in shown {
-            let colour = if row.excluded.is_some() { palette.weak } else { palette.ink };
-            let rank = if row.excluded.is_some() { "–".to_owned() } else { rank_words(row.ranks) };
-            ui.add(text(rank, colour));
-            let marks = [(row.front, "◆ "), (row.approximate, "≈ "), (row.product == in_room, "⌂ ")];
-            let marks: String = marks.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect();
-            let name = RichText::new(format!("{marks}{}", row.label)).size(13.0).color(colour);
-            let name = ui.selectable_label(Some(&row.product) == chosen.as_ref(), name).on_hover_text(say::MARKS_TIP);
-            if name.clicked() {
-                *chosen = Some(row.product.clone());
-            }
-            if name.double_clicked() && row.excluded.is_none() {
-                out.push(Action::IntoRoom(row.product.clone()));
-            }
-            bar(ui, row, &palette);
-            for (k, one) in rows.objectives.iter().enumerate() {
-                let words = row.values.get(k).map_or_else(String::new, |value| value_words(one.unit, *value));
-                ui.add(text(words, colour));
-            }
-            ui.end_row();
-        }
-    });
-}
-
-/// What a product is worth as a bar, its error as a line at the end.
-fn bar(ui: &mut Ui, row: &ChooseRow, palette: &Palette) {
-    let (rect, response) = ui.allocate_exact_size(vec2(BAR, ROW - 6.0), Sense::hover());
-    if row.excluded.is_some() {
-        return;
+    let mut heads = vec![
+        (columns.rank, RANK - GAP, say::RANK.get().to_owned(), Some(Sort::Worth), say::RANK_TIP_HEAD.get().to_owned()),
+        (
+            columns.name[0],
+            columns.name[1] - columns.name[0],
+            say::PRODUCT.get().to_owned(),
+            Some(Sort::Name),
+            say::MARKS_TIP.get().to_owned(),
+        ),
+        (columns.worth[0], WORTH, say::WORTH.get().to_owned(), Some(Sort::Worth), say::WORTH_TIP.get().to_owned()),
+    ];
+    for (place, key) in columns.figures.iter().zip(&list.list.figures) {
+        let (name, unit) = figure_words(key);
+        let less = list.list.objectives.get(heads.len() - 3).is_some_and(|one| one.best < one.worst);
+        let better = if less { say::LESS_IS_BETTER } else { say::MORE_IS_BETTER };
+        let name = if matches!(unit, "" | "%") { name } else { format!("{name} / {unit}") };
+        heads.push((place[0], FIGURE, name, Some(Sort::Figure(key.clone())), format!("{key}: {better}")));
     }
-    let (utility, error) = row.utility;
-    let x = |share: f64| egui::lerp(rect.x_range(), share.clamp(0.0, 1.0) as f32);
-    let y = rect.center().y;
-    ui.painter().rect_filled(rect.with_max_x(x(utility)), 2, palette.first.gamma_multiply(0.6));
-    let ends = [pos2(x(utility - error), y), pos2(x(utility + error), y)];
-    ui.painter().line_segment(ends, Stroke::new(2.0, palette.ink));
-    let words = say::worth(fixed(utility, 3), fixed(error, 3));
-    crate::app::paint::tile::name(ui, &response, say::WORTH, &words);
-    response.on_hover_text(words);
+    let galleys: Vec<Arc<Galley>> = heads
+        .iter()
+        .map(|(_, width, name, sort, _)| {
+            let own = sort.as_ref() == Some(&input.look.sort);
+            text(ui, name, if own { palette.ink } else { palette.weak }, *width, 3)
+        })
+        .collect();
+    let height = galleys.iter().map(|galley| galley.size().y).fold(0.0, f32::max) + 4.0;
+    for ((left, width, name, sort, tip), galley) in heads.into_iter().zip(galleys) {
+        let cell = Rect::from_min_size(pos2(left, rect.top()), vec2(width, height));
+        // Rank and worth order alike: one of them takes the click.
+        let id = ui.scope_id().with(("head", left as i32));
+        let response = ui.interact(cell, id, Sense::click()).on_hover_text(tip);
+        response.widget_info(|| WidgetInfo::labeled(Role::ColumnHeader, true, say::order_by(&name)));
+        let at = pos2(left, cell.bottom() - 2.0 - galley.size().y);
+        ui.painter().galley(at, galley, palette.weak);
+        if let Some(sort) = sort.filter(|_| response.clicked()) {
+            out.push(Action::Look(Box::new(Look { sort, ..input.look.clone() })));
+        }
+    }
+    let below = rect.top() + height;
+    ui.painter().hline(rect.x_range(), below, Stroke::new(1.0, palette.outline));
+    below + 2.0
 }
 
-fn why(ui: &mut Ui, row: &ChooseRow, out: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        let enabled = row.excluded.is_none();
-        if ui.add_enabled(enabled, Button::new(say::INTO_ROOM.get())).on_hover_text(say::INTO_ROOM_TIP).clicked() {
-            out.push(Action::IntoRoom(row.product.clone()));
+/// Arrow keys walk, Enter takes: the row to go to.
+fn keys(ui: &Ui, focus: &Response, shown: &[&Entry], chosen: Option<usize>, out: &mut Vec<Action>) -> Option<usize> {
+    if !focus.has_focus() || shown.is_empty() {
+        return None;
+    }
+    let arrows = EventFilter { vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(focus.id, arrows));
+    let [step, enter] = ui.input_mut(|input| {
+        let mut step = 0;
+        for (key, by) in [(Key::ArrowDown, 1), (Key::ArrowUp, -1), (Key::PageDown, 10), (Key::PageUp, -10)] {
+            step += by * input.count_and_consume_key(Modifiers::NONE, key) as i32;
         }
-        if ui.add_enabled(enabled, Button::new(say::INTO_TRAY.get())).on_hover_text(say::INTO_TRAY_TIP).clicked() {
-            out.push(Action::Compare(row.product.clone()));
+        [step, i32::from(input.consume_key(Modifiers::NONE, Key::Enter))]
+    });
+    if let Some(entry) = chosen.and_then(|k| shown.get(k)).filter(|entry| enter > 0 && entry.excluded.is_none()) {
+        out.push(Action::IntoRoom(entry.product.clone()));
+    }
+    (step != 0).then(|| match chosen {
+        Some(k) => k.saturating_add_signed(step as isize).min(shown.len() - 1),
+        None => 0,
+    })
+}
+
+/// What stands before a name.
+fn marks(entry: &Entry, in_room: &str) -> String {
+    let list = [
+        (entry.place == Some(Place::Front), "◆ "),
+        (!entry.approximate.is_empty(), "≈ "),
+        (entry.product == in_room, "⌂ "),
+    ];
+    list.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect()
+}
+
+/// All of a row in words.
+fn spoken(entry: &Entry) -> String {
+    match &entry.excluded {
+        Some(reason) => format!("{}: {}", entry.name, say::excluded_because(reason)),
+        None => format!("{} {}: {}", rank_words(entry.ranks), entry.name, words::worth(entry)),
+    }
+}
+
+fn row(
+    ui: &mut Ui,
+    id: Id,
+    (k, rect): (usize, Rect),
+    columns: &Columns,
+    entry: &Entry,
+    input: &Input<'_>,
+    list: &Shortlist,
+) -> Response {
+    let palette = Palette::of(ui.visuals());
+    let response = ui.interact(rect, id.with(&entry.product), Sense::CLICK);
+    let chosen = Some(&entry.product) == input.look.product.as_ref();
+    let spoken = spoken(entry);
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, chosen, &spoken));
+    let painter = ui.painter();
+    if chosen {
+        painter.rect_filled(rect, 2, ui.visuals().selection.bg_fill);
+    } else if response.hovered() {
+        painter.rect_filled(rect, 2, ui.visuals().widgets.hovered.weak_bg_fill);
+    } else if k % 2 == 1 {
+        painter.rect_filled(rect, 0, ui.visuals().faint_bg_color);
+    }
+    if Some(&entry.product) == input.look.against.as_ref() {
+        painter.rect_stroke(rect.shrink(1.0), 2, Stroke::new(1.0, palette.second), egui::StrokeKind::Inside);
+    }
+    // What stands for the whole year only so far is paler.
+    let pale = entry.coarse || entry.excluded.is_some();
+    let colour = match (chosen, pale) {
+        (true, _) => ui.visuals().selection.stroke.color,
+        (_, true) => palette.weak,
+        _ => palette.ink,
+    };
+    let middle = rect.center().y;
+    let rank = if entry.excluded.is_some() { "–".to_owned() } else { rank_words(entry.ranks) };
+    painter.text(pos2(columns.rank, middle), Align2::LEFT_CENTER, rank, FontId::proportional(13.0), colour);
+    let name = format!("{}{}", marks(entry, input.in_room), entry.name);
+    let name = text(ui, &name, colour, columns.name[1] - columns.name[0], 1);
+    painter.galley(pos2(columns.name[0], middle - 0.5 * name.size().y), name, colour);
+    let mut tip = spoken.clone();
+    if entry.excluded.is_none() {
+        bar(ui, rect, columns.worth, entry, pale, &palette);
+        for (k, (place, figure)) in columns.figures.iter().zip(&entry.figures).enumerate() {
+            let worth = list.list.objectives.get(k).map_or(0.0, |one| one.utility(figure.value));
+            let x = place[0]..=place[1];
+            let under = Rect::from_x_y_ranges(x, rect.bottom() - 4.0..=rect.bottom() - 2.0);
+            ui.painter().rect_filled(under, 0, palette.grid);
+            let full = under.with_max_x(egui::lerp(under.x_range(), worth as f32));
+            ui.painter().rect_filled(full, 0, palette.first.gamma_multiply(if pale { 0.4 } else { 0.8 }));
+            let words = words::value(figure_words(&list.list.figures[k]).1, *figure);
+            let words = text(ui, &words, colour, FIGURE, 1);
+            ui.painter().galley(pos2(place[0], middle - 2.0 - 0.5 * words.size().y), words, colour);
         }
-        ui.add(Label::new(RichText::new(&row.label).size(13.0).strong()).truncate());
-    });
-    let words = row.excluded.as_ref().map_or_else(|| row.why.clone(), say::excluded_because);
-    ScrollArea::vertical().id_salt("why").auto_shrink([false, false]).show(ui, |ui| {
-        ui.add(Label::new(RichText::new(words).size(13.0)).wrap());
-    });
+        for (k, key) in list.list.figures.iter().enumerate().skip(columns.figures.len()) {
+            let (name, unit) = figure_words(key);
+            tip.push_str(&format!("\n{name}: {}", words::value(unit, entry.figures[k])));
+        }
+        if entry.coarse {
+            tip.push_str(&format!("\n{}", say::COARSE_TIP));
+        }
+        if !entry.approximate.is_empty() {
+            tip.push_str(&format!("\n{}", say::approximate_since(entry.approximate.join("; "))));
+        }
+    }
+    response.on_hover_text(tip)
+}
+
+/// What a product is worth as a bar, its error as a whisker.
+fn bar(ui: &Ui, rect: Rect, [left, right]: [f32; 2], entry: &Entry, pale: bool, palette: &Palette) {
+    let x = |share: f64| left + (right - left - 6.0) * share.clamp(0.0, 1.0) as f32;
+    let place = Rect::from_x_y_ranges(left..=x(1.0), rect.top() + 6.0..=rect.bottom() - 6.0);
+    let (worth, error) = (entry.worth.value, entry.worth.error);
+    let painter = ui.painter();
+    painter.rect_filled(place, 2, palette.grid.gamma_multiply(0.6));
+    painter.rect_filled(place.with_max_x(x(worth)), 2, palette.first.gamma_multiply(if pale { 0.4 } else { 0.8 }));
+    let y = rect.center().y;
+    let ends = [x(worth - error), x(worth + error)];
+    painter.line_segment(ends.map(|x| pos2(x, y)), Stroke::new(1.5, palette.ink));
+    for x in ends {
+        painter.line_segment([pos2(x, y - 3.0), pos2(x, y + 3.0)], Stroke::new(1.5, palette.ink));
+    }
 }

@@ -1,0 +1,239 @@
+//! Choosing at work: products are ranked in a job, what it finds is shown as it comes, the chosen one goes into the room.
+
+use super::apply::first_choice;
+use super::choose::{Asked, Asking, Board, ChooseAct, Figures, figures_of, objectives_of, ranked_apertures};
+use super::engine::Engine;
+use super::error::AppError;
+use super::jobs::{JobState, Lane};
+use super::scene::{Selection, fill, selection_of};
+use super::shelf::Shelf;
+use super::state::{Sheet, State};
+use super::tiles;
+use super::window::App;
+use super::work::Outcome;
+use super::year::usual_year;
+use crate::catalogue::Product;
+use crate::compute::estimate::Progress;
+use crate::study::StudyError;
+use crate::study::control::year::CONTROLLED;
+use crate::study::rank::{Answer, Item, Known, Shard, Shortlist, Stage, Store, keys, with_product};
+use crate::study::rank_keys::{ObjectiveKeys, RankControlKey, RankKeys};
+use crate::study::scene_file::SystemKeys;
+use crate::texts::{choose as say, shell, year as of_year};
+use std::sync::Arc;
+
+/// Rankings that are kept to go back to.
+const KEPT: usize = 8;
+
+/// What the window knows of rankings beside the one that is shown.
+#[derive(Default)]
+pub(super) struct Choosing {
+    /// The one that is under way, or was last, and what of it was seen.
+    board: Option<(Arc<Board>, u64)>,
+    /// Those of other questions.
+    kept: Vec<Arc<Figures>>,
+    /// Products whose years are known.
+    store: Arc<Store>,
+}
+
+/// What the window as it is asks; `None` for a room without an aperture.
+fn asked_by(state: &State) -> Option<Asked> {
+    let (document, settings) = (&state.document, &state.settings);
+    let asking = Asking {
+        look: &settings.choose,
+        query: &state.query,
+        recent: &settings.recent,
+        catalogue: [&document.additions, &document.changes],
+    };
+    Asked::of(&document.scene, state.base(), &asking)
+}
+
+impl App {
+    /// Does what was asked about choosing.
+    pub(super) fn choose_act(&mut self, act: ChooseAct) {
+        match act {
+            ChooseAct::Rank => self.rank(),
+            ChooseAct::Look(look) => self.state.settings.choose = *look,
+            ChooseAct::Objectives(objective, _) => {
+                let rank = self.state.document.scene.rank.get_or_insert_default();
+                rank.objective = objective;
+            }
+            ChooseAct::IntoRoom(product) => self.ranked_into_room(&product),
+        }
+    }
+
+    fn rank(&mut self) {
+        let Some(shelf) = self.state.shelf() else {
+            self.toasts.info(shell::CATALOGUE_NOT_OPEN);
+            return;
+        };
+        let scene = &mut self.state.document.scene;
+        if scene.year.is_none() {
+            scene.year = Some(usual_year(scene));
+            self.toasts.info(of_year::ADDED_EYE);
+        }
+        if scene.rank.as_ref().is_none_or(|rank| rank.objective.is_empty()) {
+            let objective = objectives_of(scene);
+            scene.rank = Some(RankKeys { objective, ..scene.rank.take().unwrap_or_default() });
+            self.toasts.info(say::ADDED_OBJECTIVES);
+        }
+        let figures = figures_of(scene);
+        let Some(asked) = asked_by(&self.state) else {
+            self.toasts.info(say::NO_APERTURE);
+            return;
+        };
+        let (engine, board, store) =
+            (self.services.engine.clone(), Arc::<Board>::default(), self.choosing.store.clone());
+        self.choosing.board = Some((board.clone(), 0));
+        self.results.rank.error = None;
+        self.bring_up(tiles::CHOOSE);
+        self.start(Lane::Rank, move |job| {
+            Outcome::Ranked(ranked(asked, &figures, (&*shelf, &*engine), (&board, &store), job))
+        });
+    }
+
+    /// Takes in what a ranking has found since the last frame, and shows what is known of the present question.
+    pub(super) fn follow_ranking(&mut self) {
+        if let Some((board, seen)) = &mut self.choosing.board {
+            self.results.rank_pace = board.pace().filter(|_| self.jobs.busy(Lane::Rank));
+            if let Some((number, figures)) = board.newer(*seen) {
+                *seen = number;
+                self.results.rank.put(Arc::new(figures));
+            }
+        }
+        let looked_at = self.bench.in_sight(self.state.maximised).contains(&tiles::CHOOSE)
+            || self.state.sheet == Some(Sheet::HandOn);
+        if !looked_at || self.jobs.busy(Lane::Rank) && self.results.rank.value.is_none() {
+            return;
+        }
+        let asked = asked_by(&self.state);
+        let is_of = |figures: &Arc<Figures>| asked.as_ref() == Some(&figures.asked);
+        let shown = self.results.rank.value.as_ref().is_some_and(is_of);
+        let other = self.choosing.kept.iter().find(|figures| is_of(figures)).cloned();
+        match other.filter(|_| !shown && !self.jobs.busy(Lane::Rank)) {
+            Some(other) => self.results.rank.put(other),
+            None => self.results.rank.stale = !shown,
+        }
+    }
+
+    /// A ranking has come to its end.
+    pub(super) fn take_ranked(&mut self, result: Result<(), AppError>) {
+        self.follow_ranking();
+        self.results.rank_pace = None;
+        if let Err(error) = result {
+            self.results.rank.error = Some(error.to_string());
+        }
+        self.keep_ranking();
+    }
+
+    /// Keeps what is known, to go back to it.
+    pub(super) fn keep_ranking(&mut self) {
+        let Some(figures) = self.results.rank.value.clone() else { return };
+        let kept = &mut self.choosing.kept;
+        kept.retain(|other| other.asked != figures.asked);
+        kept.push(figures);
+        if kept.len() > KEPT {
+            kept.remove(0);
+        }
+    }
+
+    /// The products in order, where they are of the present scene.
+    pub(super) fn present_ranking(&self) -> Option<Arc<Shortlist>> {
+        let figures = self.results.rank.value.as_ref().filter(|_| !self.results.rank.stale)?;
+        let list = figures.shortlist(&tiles::scene_name(&self.state), &objectives_of(&self.state.document.scene));
+        list.ok().map(Arc::new)
+    }
+
+    /// A product goes into the room as it was ranked: by its own rule or the scene's, into the same apertures.
+    fn ranked_into_room(&mut self, key: &str) {
+        let Some(figures) = self.results.rank.value.clone() else { return };
+        let Some(product) = figures.products.iter().find(|one| one.key == key) else { return };
+        let document = &mut self.state.document;
+        let chosen = self.state.settings.choose.aperture.filter(|place| *place < document.scene.aperture.len());
+        if let Some(place) = chosen.filter(|_| document.scene.aperture.len() > 1) {
+            let filled = with_product(&figures.asked.scene, product, figures.asked.control);
+            match filled.map(|scene| scene.aperture.get(place).cloned()) {
+                Ok(Some(filled)) => {
+                    let aperture = &mut document.scene.aperture[place];
+                    (aperture.system, aperture.control) = (filled.system, filled.control);
+                }
+                Ok(None) => {}
+                Err(error) => self.toasts.error(error.to_string()),
+            }
+            if let Some(selection) = selection_of(&document.scene) {
+                document.selection = selection;
+            }
+        } else {
+            for place in ranked_apertures(&document.scene, None) {
+                let system = &mut document.scene.aperture[place].system;
+                if *system == SystemKeys::Ranked {
+                    *system = SystemKeys::Catalogue { key: String::new(), state: None };
+                }
+            }
+            let by_scene = figures.asked.control == RankControlKey::Scene && product.states.len() > 1;
+            let told = document.scene.control.clone().filter(|_| by_scene);
+            let (rule, stands) = product.representative();
+            let state = product.states.get(stands).filter(|_| product.states.len() > 1);
+            first_choice(document, product.key.clone(), rule, state.map(|state| state.key.as_str()));
+            if let Some(told) = told {
+                document.selection = Selection { product: product.key.clone(), state: CONTROLLED.to_owned() };
+                fill(&mut document.scene, &document.selection);
+                document.scene.control = Some(told);
+            }
+        }
+        self.state.control_of = None;
+    }
+}
+
+/// Finds the products of a question and computes those that are not known.
+fn ranked(
+    asked: Asked,
+    figures: &[ObjectiveKeys],
+    (shelf, engine): (&dyn Shelf, &dyn Engine),
+    (board, store): (&Board, &Store),
+    job: &JobState,
+) -> Result<(), AppError> {
+    job.advance("products", 0, 1);
+    let found = shelf.search(&asked.query)?;
+    let mut products = Vec::with_capacity(found.entries.len());
+    for entry in &found.entries {
+        products.push(Product::clone(&*shelf.product(&entry.key)?));
+    }
+    if products.is_empty() {
+        return Err(StudyError::key("rank.products", say::NO_PRODUCTS.get()).into());
+    }
+    products.sort_by(|a, b| a.key.cmp(&b.key));
+    let group = asked.group(figures, products.into())?;
+    let groups = [group];
+    let [group] = &groups;
+    let items = Shard::WHOLE.items(&[group.products.len()]);
+    let keys: Vec<String> = keys(&groups, &items).into_iter().map(|key| format!("{key} {:?}", asked.control)).collect();
+    let mut figures = Figures::of(asked, group);
+    let mut missing = Vec::new();
+    for (item, key) in items.iter().zip(&keys) {
+        match store.find(key, &group.figures) {
+            Some(known) => drop(figures.known.insert(known.product.clone(), known)),
+            None => missing.push(*item),
+        }
+    }
+    board.begin(figures, missing.len());
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let names: Arc<[String]> = group.figures.clone().into();
+    let told = |answer: Answer<'_>| {
+        let Item { product, .. } = answer.item;
+        let known = Arc::new(Known {
+            product: group.products[product].key.clone(),
+            key: keys[product].clone(),
+            stage: answer.stage,
+            figures: Arc::clone(&names),
+            outcome: answer.outcome.clone(),
+        });
+        if answer.stage == Stage::Full {
+            store.keep(Arc::clone(&known));
+        }
+        board.put(known);
+    };
+    engine.rank(&groups, &missing, shelf, &told, job)
+}

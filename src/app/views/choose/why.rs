@@ -1,0 +1,76 @@
+//! Of the chosen product: the ways into room and tray, and why it stands where it does, in parts that add up.
+
+use super::input::{Action, Input};
+use super::words;
+use crate::app::paint::palette::Palette;
+use crate::study::rank::{Entry, Look, Shortlist};
+use crate::texts::choose as say;
+use egui::{Button, ComboBox, Label, Rect, RichText, ScrollArea, Ui, UiBuilder};
+
+pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
+    let chosen = input.look.product.as_ref().and_then(|product| list.entry(product));
+    let palette = Palette::of(ui.visuals());
+    ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("why"), |ui| {
+        let Some(entry) = chosen else {
+            ui.add(Label::new(RichText::new(say::CHOOSE_ONE.get()).size(13.0).color(palette.weak)).wrap());
+            return;
+        };
+        ui.horizontal(|ui| buttons(ui, input, list, entry, out));
+        ScrollArea::vertical().id_salt("why").auto_shrink([false, false]).show(ui, |ui| {
+            let line = |ui: &mut Ui, words: String, weak: bool| {
+                let colour = if weak { palette.weak } else { palette.ink };
+                ui.add(Label::new(RichText::new(words).size(13.0).color(colour)).wrap());
+            };
+            if let Some(reason) = &entry.excluded {
+                line(ui, say::excluded_because(reason), false);
+                return;
+            }
+            let Some(reason) = input.reason else {
+                line(ui, say::ONLY_ONE.into(), true);
+                return;
+            };
+            line(ui, format!("{}: {}", entry.name, words::head(list, reason)), false);
+            for term in &reason.terms {
+                line(ui, words::term(list, term), false);
+            }
+            if entry.coarse {
+                line(ui, say::COARSE_TIP.into(), true);
+            }
+            if !entry.approximate.is_empty() {
+                line(ui, say::approximate_since(entry.approximate.join("; ")), true);
+            }
+        });
+    });
+}
+
+fn buttons(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, entry: &Entry, out: &mut Vec<Action>) {
+    let enabled = entry.excluded.is_none();
+    let product = || entry.product.clone();
+    if ui.add_enabled(enabled, Button::new(say::INTO_ROOM.get())).on_hover_text(say::INTO_ROOM_TIP).clicked() {
+        out.push(Action::IntoRoom(product()));
+    }
+    if ui.add_enabled(enabled, Button::new(say::INTO_TRAY.get())).on_hover_text(say::INTO_TRAY_TIP).clicked() {
+        out.push(Action::Compare(product()));
+    }
+    if !enabled || ui.available_width() < 150.0 {
+        return;
+    }
+    let mut against = input.look.against.clone().filter(|other| list.entry(other).is_some());
+    let name = |key: &Option<String>| match key.as_ref().and_then(|key| list.entry(key)) {
+        Some(other) => other.name.clone(),
+        None => say::THE_BEST.into(),
+    };
+    ui.label(RichText::new(say::AGAINST.get()).size(13.0));
+    let width = (ui.available_width() - 30.0).clamp(60.0, 220.0);
+    let combo = ComboBox::from_id_salt("against").width(width).truncate().selected_text(name(&against));
+    let combo = combo.show_ui(ui, |ui| {
+        ui.selectable_value(&mut against, None, say::THE_BEST.get());
+        for other in list.entries.iter().filter(|one| one.excluded.is_none() && one.product != entry.product) {
+            ui.selectable_value(&mut against, Some(other.product.clone()), &other.name);
+        }
+    });
+    combo.response.on_hover_text(say::AGAINST_TIP).accessible_name(say::AGAINST.get());
+    if against != input.look.against {
+        out.push(Action::Look(Box::new(Look { against, ..input.look.clone() })));
+    }
+}

@@ -1,0 +1,91 @@
+//! Figures of products in words.
+
+use super::input::{Due, Running, rank_words};
+use crate::compute::estimate::Estimate;
+use crate::drawing::ticks::number;
+use crate::study::rank::{Entry, Reason, Shortlist, Term, figure_words};
+use crate::texts::{choose as say, fixed};
+
+/// Value and error, in % where it is a share; without the unit, which stands in the column's head.
+pub(super) fn value(unit: &str, figure: Estimate) -> String {
+    if unit == "%" {
+        format!("{} ± {} %", fixed(100.0 * figure.value, 1), fixed(100.0 * figure.error, 1))
+    } else {
+        format!("{} ± {}", number(figure.value, 3), number(figure.error, 1))
+    }
+}
+
+/// A bare value with its unit.
+fn bare(unit: &str, value: f64) -> String {
+    if unit == "%" {
+        format!("{} %", fixed(100.0 * value, 1))
+    } else {
+        format!("{} {unit}", number(value, 3)).trim_end().to_owned()
+    }
+}
+
+fn signed(text: String, value: f64) -> String {
+    if value > 0.0 { format!("+{text}") } else { text }
+}
+
+/// What a product is worth.
+pub(super) fn worth(entry: &Entry) -> String {
+    say::worth(fixed(entry.worth.value, 3), fixed(entry.worth.error, 3))
+}
+
+/// The sentence over the terms.
+pub(super) fn head(list: &Shortlist, reason: &Reason) -> String {
+    let other = &list.entries[reason.other].name;
+    let worth = fixed(reason.worth.abs(), 3);
+    match (reason.open, reason.worth < 0.0) {
+        (true, false) => say::open_above(worth, other),
+        (true, true) => say::open_below(worth, other),
+        (false, false) => say::surely_above(worth, other),
+        (false, true) => say::surely_below(worth, other),
+    }
+}
+
+/// `+0.120 by Lighting energy: 4.1 against 9.3 kWh/m² (of it −3.2 in winter, no sun, rear)`.
+pub(super) fn term(list: &Shortlist, term: &Term) -> String {
+    let (name, unit) = figure_words(&list.list.figures[term.objective]);
+    let worth = signed(fixed(term.worth, 3), term.worth);
+    let [own, other] = term.figures.map(|figure| bare(unit, figure));
+    let text = say::by_objective(worth, name, own, other);
+    let part = |(part, [season, sun, zone]): &(f64, [String; 3])| {
+        let words = [season, sun, zone].map(|word| say::part_word(word)).join(", ");
+        say::part_is(signed(bare(unit, *part), *part), words)
+    };
+    let parts: Vec<String> = term.parts.iter().map(part).collect();
+    if parts.is_empty() { text } else { format!("{text} ({})", parts.join("; ")) }
+}
+
+/// How far it is: `34 of 113 products, 12 s left`.
+pub(super) fn running(running: &Running) -> String {
+    let all =
+        if running.coarse { say::typical(running.done, running.all) } else { say::done(running.done, running.all) };
+    match running.left {
+        Some(left) => say::left(all, fixed(left.max(1.0), 0)),
+        None => all,
+    }
+}
+
+/// The button that computes what is due, and why.
+pub(super) fn due(due: Due) -> Option<(&'static str, String)> {
+    match due {
+        Due::Nothing => None,
+        Due::Changed => Some((say::AGAIN.get(), say::AGAIN_TIP.into())),
+        Due::Unfinished(left) => Some((say::GO_ON.get(), say::unfinished(left))),
+        Due::Figure => Some((say::FIND_FIGURE.get(), say::FIND_FIGURE_TIP.into())),
+    }
+}
+
+/// A product with rank, worth and all its figures in a line.
+pub(super) fn entry(list: &Shortlist, entry: &Entry) -> String {
+    let mut text = format!("{} · {} · {}", entry.name, say::rank_is(rank_words(entry.ranks)), worth(entry));
+    for (key, figure) in list.list.figures.iter().zip(&entry.figures) {
+        let (name, unit) = figure_words(key);
+        let unit = if unit == "%" { "" } else { unit };
+        text.push_str(format!(" · {name} {} {unit}", value(figure_words(key).1, *figure)).trim_end());
+    }
+    text
+}

@@ -1,0 +1,341 @@
+//! A list put in order, with all that a table, a plot and words show of it.
+
+use super::list::List;
+use super::table::{csv_text, ranked_table};
+use crate::compute::estimate::Estimate;
+use crate::compute::rank::{Place, Profile, difference, surely_above};
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is shown of a ranking.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Page {
+    /// Products in rows.
+    #[default]
+    Table,
+    /// Two objectives against each other.
+    Plot,
+    /// What counts, and how much.
+    Objectives,
+}
+
+/// By what rows are ordered.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Sort {
+    /// By worth, the best first.
+    #[default]
+    Worth,
+    /// By name.
+    Name,
+    /// By the figure of this key, the best first.
+    Figure(String),
+}
+
+/// How a ranking is looked at. Products go by their keys, figures by theirs.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Look {
+    /// What of it.
+    pub page: Page,
+    /// Words that names have to hold.
+    pub words: String,
+    /// Only what no other is better than in every objective.
+    pub front_only: bool,
+    /// Show what is left out too.
+    pub excluded: bool,
+    /// Order of the rows.
+    pub sort: Sort,
+    /// The plot's figures, to the right and up; the first objectives where these are none.
+    pub axes: [String; 2],
+    /// The product whose reasons are told.
+    pub product: Option<String>,
+    /// The one that it is told against; `None`: the best.
+    pub against: Option<String>,
+    /// Only products that the catalogue's search finds.
+    pub in_search: bool,
+    /// The aperture that products go into, from 0; `None`: all that are filled from the catalogue.
+    pub aperture: Option<usize>,
+}
+
+impl Look {
+    /// Does a product pass words and front?
+    pub fn shows(&self, entry: &Entry) -> bool {
+        let (words, name) = (self.words.to_lowercase(), entry.name.to_lowercase());
+        (entry.excluded.is_none() || self.excluded)
+            && (entry.place == Some(Place::Front) || !self.front_only)
+            && words.split_whitespace().all(|word| name.contains(word) || entry.product.contains(word))
+    }
+}
+
+/// A product of the list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Its key in the catalogue.
+    pub product: String,
+    /// What it is called.
+    pub name: String,
+    /// In the order of the objectives; empty for what is left out.
+    pub figures: Vec<Estimate>,
+    /// What it is worth, 0 … 1.
+    pub worth: Estimate,
+    /// First and last rank that the errors leave it, from 1.
+    pub ranks: (usize, usize),
+    /// Against the front; `None` for what is left out.
+    pub place: Option<Place>,
+    /// Why its figures are approximate beyond their errors; empty where they are not.
+    pub approximate: Vec<String>,
+    /// Of typical days alone so far.
+    pub coarse: bool,
+    /// Why it is left out.
+    pub excluded: Option<String>,
+}
+
+/// What an objective has in a difference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Term {
+    /// Which objective.
+    pub objective: usize,
+    /// Its part of the difference; the terms' add up to the whole.
+    pub worth: f64,
+    /// The figures of both.
+    pub figures: [f64; 2],
+    /// The largest parts of the figures' difference, each with season, sun and zone.
+    pub parts: Vec<(f64, [String; 3])>,
+}
+
+/// Why one stands where it does, against another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reason {
+    /// The other's place in [`Shortlist::entries`].
+    pub other: usize,
+    /// Do the errors leave open which of them is better?
+    pub open: bool,
+    /// Difference of what they are worth.
+    pub worth: f64,
+    /// The largest first.
+    pub terms: Vec<Term>,
+}
+
+/// A list in order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shortlist {
+    /// What it is made of.
+    pub list: List,
+    /// By falling worth, what is left out last.
+    pub entries: Vec<Entry>,
+}
+
+/// Parts of a figure that are told at most, and the share of the difference that each must make.
+const PARTS: (usize, f64) = (2, 0.15);
+
+impl Shortlist {
+    /// Puts a list in order by its own objectives. `names` of products; `coarse`: those of typical days so far.
+    pub fn of(list: List, names: &BTreeMap<String, String>, coarse: &BTreeSet<String>) -> Self {
+        let name = |product: &str| names.get(product).cloned().unwrap_or_else(|| product.to_owned());
+        let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));
+        let mut entries: Vec<Entry> = ranking
+            .order
+            .iter()
+            .map(|&k| {
+                let ((row, found), one) = (ranked[k], &ranking.list[k]);
+                Entry {
+                    product: row.product.clone(),
+                    name: name(&row.product),
+                    figures: found.figures.clone(),
+                    worth: one.utility,
+                    ranks: (one.ranks.first, one.ranks.last),
+                    place: Some(one.place),
+                    approximate: found.approximate.clone(),
+                    coarse: coarse.contains(&row.product),
+                    excluded: None,
+                }
+            })
+            .collect();
+        entries.extend(list.excluded().into_iter().map(|(row, reason)| Entry {
+            product: row.product.clone(),
+            name: name(&row.product),
+            figures: Vec::new(),
+            worth: Estimate::exact(0.0),
+            ranks: (0, 0),
+            place: None,
+            approximate: Vec::new(),
+            coarse: false,
+            excluded: Some(reason.to_owned()),
+        }));
+        Self { list, entries }
+    }
+
+    /// A product by its key.
+    pub fn entry(&self, product: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.product == product)
+    }
+
+    /// Rows as they are looked at, in their order.
+    pub fn shown(&self, look: &Look) -> Vec<&Entry> {
+        let mut rows: Vec<&Entry> = self.entries.iter().filter(|entry| look.shows(entry)).collect();
+        match &look.sort {
+            Sort::Worth => {}
+            Sort::Name => rows.sort_by_cached_key(|entry| (entry.excluded.is_some(), entry.name.to_lowercase())),
+            Sort::Figure(key) => {
+                let place = self.list.figures.iter().position(|figure| figure == key);
+                if let Some((k, objective)) = place.and_then(|k| Some((k, self.list.objectives.get(k)?))) {
+                    rows.sort_by(|a, b| match (a.figures.get(k), b.figures.get(k)) {
+                        (Some(a), Some(b)) if objective.prefers(a.value, b.value) => Ordering::Less,
+                        (Some(a), Some(b)) if objective.prefers(b.value, a.value) => Ordering::Greater,
+                        (a, b) => a.is_none().cmp(&b.is_none()),
+                    });
+                }
+            }
+        }
+        rows
+    }
+
+    /// Why a product stands where it does: against another, else against the best, the best itself against the second.
+    pub fn reason(&self, product: &str, against: Option<&str>) -> Option<Reason> {
+        let place = |key: &str| self.entries.iter().position(|one| one.product == key && one.excluded.is_none());
+        let own = place(product)?;
+        let best = || (0..self.entries.len()).find(|&k| k != own && self.entries[k].excluded.is_none());
+        let other = against.and_then(place).filter(|&k| k != own).or_else(best)?;
+        let found = |k: usize| {
+            let ranked = self.list.rows.iter().find(|row| row.product == self.entries[k].product);
+            ranked.and_then(|row| row.outcome.as_ref().ok())
+        };
+        let (a, b) = (found(own)?, found(other)?);
+        let objectives = &self.list.objectives;
+        let profile = |found: &super::figures::Found| Profile {
+            utilities: objectives.iter().zip(&found.figures).map(|(one, figure)| one.utility(figure.value)).collect(),
+            figures: found.figures.iter().map(|figure| figure.value).collect(),
+            parts: found.parts.iter().map(|parts| parts.values.clone()).collect(),
+        };
+        let why = difference(objectives, &profile(a), &profile(b));
+        let mut terms: Vec<Term> = why
+            .shares
+            .iter()
+            .enumerate()
+            .map(|(objective, share)| {
+                let figures = [a.figures[objective].value, b.figures[objective].value];
+                let mut parts: Vec<(f64, [String; 3])> = share
+                    .parts
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, part)| **part * share.figure > 0.0 && part.abs() >= PARTS.1 * share.figure.abs())
+                    .map(|(k, part)| (*part, a.parts[objective].name(k).map(str::to_owned)))
+                    .collect();
+                parts.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+                parts.truncate(PARTS.0);
+                Term { objective, worth: share.utility, figures, parts }
+            })
+            .collect();
+        terms.sort_by(|a, b| b.worth.abs().total_cmp(&a.worth.abs()));
+        let [x, y] = [own, other].map(|k| self.entries[k].worth);
+        Some(Reason { other, open: !surely_above(x, y) && !surely_above(y, x), worth: why.utility, terms })
+    }
+
+    /// The table, as `cfs rank --out` writes it.
+    pub fn csv(&self) -> String {
+        csv_text(&ranked_table(std::slice::from_ref(&self.list), &self.list.figures))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::rank::{Better, Objective};
+    use crate::study::rank::{Found, Parts, Row};
+
+    /// Products with energy (less is better, 0 to 10) and light (more is better, 0 to 1), in seasons of one zone.
+    fn shortlist(weights: [f64; 2]) -> Shortlist {
+        let parts = |sum: f64| {
+            let mut values = vec![0.0; 8];
+            (values[0], values[5]) = (0.75 * sum, 0.25 * sum);
+            Parts { zones: vec!["room".to_owned()], values }
+        };
+        let row = |key: &str, energy: f64, light: f64| Row {
+            product: key.to_owned(),
+            key: key.to_owned(),
+            outcome: Ok(Found {
+                figures: vec![Estimate::new(energy, 0.1), Estimate::new(light, 0.01)],
+                parts: vec![parts(energy), Parts::default()],
+                approximate: Vec::new(),
+            }),
+        };
+        let objective = |better, worst, best, weight| Objective { better, worst, best, weight };
+        let broken = Row { product: "x".to_owned(), key: String::new(), outcome: Err("no data".to_owned()) };
+        let list = List {
+            number: 0,
+            scene: "s".to_owned(),
+            climate: "c".to_owned(),
+            azimuth: 180.0,
+            figures: vec!["energy".to_owned(), "light".to_owned()],
+            objectives: vec![
+                objective(Better::Less, 10.0, 0.0, weights[0]),
+                objective(Better::More, 0.0, 1.0, weights[1]),
+            ],
+            rows: vec![row("a", 2.0, 0.3), row("b", 6.0, 0.9), row("c", 6.0, 0.25), broken],
+        };
+        let names = [("a", "Slats, white"), ("b", "Pane"), ("c", "Screen")];
+        let names = names.map(|(key, name)| (key.to_owned(), name.to_owned())).into();
+        Shortlist::of(list, &names, &BTreeSet::from(["c".to_owned()]))
+    }
+
+    fn order(list: &Shortlist, look: &Look) -> String {
+        list.shown(look).iter().map(|entry| entry.product.as_str()).collect()
+    }
+
+    #[test]
+    fn weights_order_and_looks_filter_and_sort() {
+        let plain = Look::default();
+        assert_eq!(
+            (order(&shortlist([1.0, 1.0]), &plain), order(&shortlist([4.0, 1.0]), &plain)),
+            ("bac".into(), "abc".into())
+        );
+        let list = shortlist([1.0, 1.0]);
+        let with = |change: fn(&mut Look)| {
+            let mut look = Look::default();
+            change(&mut look);
+            order(&list, &look)
+        };
+        assert_eq!(with(|look| look.excluded = true), "bacx");
+        assert_eq!(with(|look| look.front_only = true), "ba");
+        assert_eq!(with(|look| look.words = "white SLATS".to_owned()), "a");
+        assert_eq!(with(|look| look.sort = Sort::Name), "bca");
+        assert_eq!(with(|look| look.sort = Sort::Figure("energy".to_owned())), "abc");
+        assert!(list.entries[2].coarse && !list.entries[0].coarse);
+    }
+
+    #[test]
+    fn terms_add_up_and_go_against_any_other() {
+        let list = shortlist([1.0, 1.0]);
+        let against_best = list.reason("c", None).unwrap();
+        assert_eq!((against_best.other, against_best.open), (0, false));
+        let two = list.reason("a", Some("c")).unwrap();
+        assert_eq!(list.entries[two.other].product, "c");
+        let sum: f64 = two.terms.iter().map(|term| term.worth).sum();
+        // (10 − 2)/10 − (10 − 6)/10 by energy, 0.05 by light, each counts a half.
+        assert!((sum - two.worth).abs() < 1e-12 && (two.worth - 0.225).abs() < 1e-12, "{two:?}");
+        let energy = &two.terms[0];
+        assert_eq!((energy.objective, energy.figures), (0, [2.0, 6.0]));
+        // Of −4 three quarters are in winter with sun.
+        assert!(
+            (energy.parts[0].0 + 3.0).abs() < 1e-12 && energy.parts[0].1 == ["winter", "sun", "room"],
+            "{energy:?}"
+        );
+        assert_eq!(energy.parts.len(), 2);
+        // The best against the second; what is left out against nothing.
+        assert_eq!(list.reason("b", None).unwrap().other, 1);
+        assert_eq!((list.reason("x", None), list.reason("a", Some("x")).unwrap().other), (None, 0));
+    }
+
+    #[test]
+    fn the_table_has_every_product_and_as_many_fields_in_every_row() {
+        let csv = shortlist([1.0, 1.0]).csv();
+        let mut reader = csv::Reader::from_reader(csv.as_bytes());
+        let head = reader.headers().unwrap().clone();
+        assert_eq!((&head[0], &head[4], &head[5], head.len()), ("scene", "energy", "energy_error", 4 + 4 + 8));
+        let rows: Vec<csv::StringRecord> = reader.records().collect::<Result<_, _>>().unwrap();
+        let products: Vec<&str> = rows.iter().map(|row| &row[3]).collect();
+        assert_eq!(products, ["b", "a", "c", "x"]);
+        assert_eq!((&rows[3][14], &rows[0][10]), ("no data", "1"));
+    }
+}

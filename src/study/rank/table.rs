@@ -1,0 +1,72 @@
+//! The table of a ranking, as files hold it.
+
+use super::list::{List, Row};
+use super::words::why;
+use crate::drawing::ticks::nine_digits;
+
+/// Columns before the figures.
+pub const WHERE: [&str; 4] = ["scene", "climate", "azimuth", "product"];
+/// Columns behind them.
+pub const RESULT: [&str; 8] =
+    ["utility", "utility_error", "rank_first", "rank_last", "front", "approximate", "excluded", "why"];
+/// Between the reasons why figures are approximate.
+pub const BETWEEN: &str = "; ";
+
+/// Names of the columns.
+pub fn header(figures: &[String]) -> Vec<String> {
+    let pairs = figures.iter().flat_map(|figure| [figure.clone(), format!("{figure}_error")]);
+    WHERE.map(str::to_owned).into_iter().chain(pairs).chain(RESULT.map(str::to_owned)).collect()
+}
+
+/// All its digits: figures have nine, and come back as they went.
+pub fn exact(value: f64) -> String {
+    // No sign of nought.
+    format!("{}", value + 0.0)
+}
+
+/// The columns of place and figures; empty ones for figures that are not this list's.
+pub fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
+    let mut fields = vec![list.scene.clone(), list.climate.clone(), exact(list.azimuth), row.product.clone()];
+    for figure in figures {
+        let own = list.figures.iter().position(|one| one == figure);
+        let found = own.zip(row.outcome.as_ref().ok()).map(|(k, found)| found.figures[k]);
+        fields.push(found.map(|found| exact(found.value)).unwrap_or_default());
+        fields.push(found.map(|found| exact(found.error)).unwrap_or_default());
+    }
+    fields
+}
+
+/// The row of a product that is left out, from its first columns.
+pub fn excluded(mut fields: Vec<String>, reason: &str) -> Vec<String> {
+    fields.extend(RESULT.map(|name| if name == "excluded" { reason.to_owned() } else { String::new() }));
+    fields
+}
+
+/// Whole rankings: lists in their order, best first, those that are left out last. The first row has the columns' names.
+pub fn ranked_table(lists: &[List], figures: &[String]) -> Vec<Vec<String>> {
+    let mut table = vec![header(figures)];
+    for list in lists {
+        let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));
+        let names: Vec<_> = ranked.iter().map(|(row, found)| (row.product.as_str(), *found)).collect();
+        for &k in &ranking.order {
+            let ((row, found), one) = (ranked[k], &ranking.list[k]);
+            let mut fields = begin(list, row, figures);
+            fields.extend([nine_digits(one.utility.value), nine_digits(one.utility.error)]);
+            fields.extend([one.ranks.first.to_string(), one.ranks.last.to_string(), one.place.word().to_owned()]);
+            fields.extend([found.approximate.join(BETWEEN), String::new(), why(list, &ranking.list, &names, k)]);
+            table.push(fields);
+        }
+        table.extend(list.excluded().into_iter().map(|(row, reason)| excluded(begin(list, row, figures), reason)));
+    }
+    table
+}
+
+/// A table as CSV.
+pub fn csv_text(rows: &[Vec<String>]) -> String {
+    let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    for row in rows {
+        writer.write_record(row).expect("memory takes all that is written to it");
+    }
+    let bytes = writer.into_inner().expect("memory takes all that is written to it");
+    String::from_utf8(bytes).expect("it was made of text")
+}
