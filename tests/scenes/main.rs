@@ -22,3 +22,4 @@ mod stability_measured;
 mod strange;
 mod surfaces;
 mod validation;
+mod year_moments;
