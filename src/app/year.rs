@@ -112,6 +112,7 @@ pub fn usual_year(scene: &SceneFile) -> YearKeys {
         ground: Vec::new(),
         eyes: vec![usual_eye(scene)],
         solar: false,
+        lm83: false,
         dgp: true,
         sunlight: SunlightKeys::default(),
         lighting: Some(usual_lamps()),

@@ -1,16 +1,18 @@
 //! `cfs accuracy`: error against run time of a scene, by method and effort.
 
+use super::accuracy_year;
 use super::output::{number, print};
 use super::progress::TerminalProgress;
 use super::writing::Over;
 use crate::compute::incidence::schemes::SunScheme;
 use crate::drawing::chart;
 use crate::formats::FileKind;
+use crate::study::accuracy::annual::annual;
 use crate::study::accuracy::words::{self, percent, quantity};
 use crate::study::accuracy::{Accuracy, Coverage, Origin, Reference, Rung, Series, Truth, ladder_against};
 use crate::study::accuracy_plot::{name, plots};
 use crate::study::leaving_out::LeavingOut;
-use crate::study::{load_scene, system::SystemLibrary};
+use crate::study::{load_scene, read_scene_file, system::SystemLibrary};
 use anyhow::Context as _;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -22,6 +24,7 @@ use std::path::{Path, PathBuf};
   cfs accuracy office.toml                                   table on standard output
   cfs accuracy office.toml --csv ladder.csv --plot ladder.svg
   cfs accuracy office.toml --reference measured.csv          true errors, against a file
+  cfs accuracy office.toml --year                            of its year: hours and figures against the finest year
 
 Every method computes the scene with rising effort; the ordinary one by error targets, which a scene asks for by
 compute.error_target. Methods that a scene chooses by compute.near_field are compared by their direct component.
@@ -39,7 +42,9 @@ direction is left out and foretold from those around it, by responses and by the
 (compute.sun_interpolation); --json lists all directions and where another scheme would have been better.
 
 Columns of the CSV: method, quantity, against (finest run, or the file), setting, setup_s, sky_s, sun_s, stated_max,
-error_rms, error_max, sensors, share_held, share_padded_10, data_open, remark.")]
+error_rms, error_max, sensors, share_held, share_padded_10, data_open, remark. With --year: setting,
+seconds, stated_mean, error_rms, error_max, values (hours × places that are not dark), share_held, share_padded_10, then of every
+figure its value, its stated error and its distance from the finest year's.")]
 pub struct AccuracyArgs {
     /// Scene file (TOML)
     pub scene: PathBuf,
@@ -52,6 +57,9 @@ pub struct AccuracyArgs {
     /// Picture to write: time against error, stated against found error
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub plot: Option<PathBuf>,
+    /// Of the scene's year instead: all its hours, and the figures they come to
+    #[arg(long, conflicts_with_all = ["reference", "plot"])]
+    pub year: bool,
     /// What may be written over.
     #[command(flatten)]
     pub over: Over,
@@ -65,6 +73,9 @@ const SIZE: [f64; 2] = [1280.0, 560.0];
 
 /// Runs the command.
 pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+    if args.year {
+        return of_year(args, library);
+    }
     // Before the work, so that a wrong name costs no minute.
     let picture = args.plot.as_deref().map(|path| Ok::<_, anyhow::Error>((path, is_png(path)?))).transpose()?;
     let picture = picture.map(|(path, png)| (path, if png { FileKind::Png } else { FileKind::Svg }));
@@ -90,6 +101,19 @@ pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<(
         made.iter().map(|(path, kind, bytes)| (*path, *kind, &**bytes)).collect();
     args.over.write_all(&outputs)?;
     if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
+}
+
+/// Of the scene's year.
+fn of_year(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+    args.over.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
+    let file = read_scene_file(&args.scene)?;
+    let base = args.scene.parent().unwrap_or(Path::new("."));
+    let accuracy = annual(&file, base, library, &|_| true, &TerminalProgress::new())
+        .with_context(|| args.scene.display().to_string())?;
+    if let Some(path) = args.csv.as_deref() {
+        args.over.write(path, FileKind::Csv, accuracy_year::csv(&accuracy)?.as_bytes())?;
+    }
+    accuracy_year::tell(&accuracy, args.json)
 }
 
 fn is_png(path: &Path) -> anyhow::Result<bool> {

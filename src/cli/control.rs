@@ -74,7 +74,10 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             sum.sun_hours
         );
         if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
-            tell!("aperture {}: open_below has no effect: the year computes no indoor illuminance", one.aperture);
+            tell!(
+                "aperture {}: open_below has no effect: no indoor illuminance is computed here; `cfs year` does",
+                one.aperture
+            );
         }
     }
     if situation.unseen_boxes > 0 {

@@ -5,8 +5,9 @@ use super::progress::TerminalProgress;
 use super::writing::Over;
 use super::year_json::to_json;
 use crate::formats::FileKind;
+use crate::study::fingerprint::of_results;
 use crate::study::inputs::with_absolute_names;
-use crate::study::year::{Step, Way, Year, figures, opening, scene_at, year};
+use crate::study::year::{Kept, PATIENCE, Step, Way, Year, figures, opening, scene_at, year, year_kept};
 use crate::study::{Library, SceneFile, Session, StudyError, read_scene_file};
 use anyhow::{Context as _, anyhow, bail};
 use jiff::civil::{Date, DateTime};
@@ -21,13 +22,15 @@ use std::path::{Path, PathBuf};
   cfs year office.toml --day 06-21                         one day of it
   cfs year office.toml --scene-at 2005-06-21T12:30 --out hour.toml    that hour as a scene for cfs room
 
+A run into a file that takes long keeps its hours in FILE.part: ended and started again, it goes on behind them.
 The scene says which weather in [year]; [sky] is not read but for skyline and obstruction.
 Columns: time (middle of the interval, local standard time, the row's own year), sun_altitude_deg, sun_azimuth_deg (where the
 sun was taken), direct_normal_lx, diffuse_horizontal_lx, state_N (of aperture N where a control picks it; empty in the
 dark), E_i and Ev_i (sensors and eyes from 1, lx), E_error_i and Ev_error_i (estimated absolute errors), S_i and Sv_i (of these
 the sun straight through, where something lets it through unscattered), DGP_i and DGP_error_i (daylight glare probability
 at eye i; only while somebody is there and there is light), lighting_W_m2 (with [year.lighting]), solar_W and
-solar_error_W (with solar = true in [year]: solar power straight through all apertures, secondary heat left out).")]
+solar_error_W (with solar = true in [year]: solar power straight through all apertures, secondary heat left out), hunting (with
+open_below in [control]: 1 where closed is too dark and open bright enough, so that the control would go back and forth).")]
 pub struct YearArgs {
     /// Scene file (TOML) with [year]
     pub scene: PathBuf,
@@ -71,9 +74,26 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
         return write_scene(args, &scene, base, out);
     }
     let wanted = wanted(args)?;
-    let year = year(&file, base, library, &Session::new(), &*wanted, &progress).map_err(told)?;
+    let session = Session::new();
+    // Beside a device nothing can be kept.
+    let table = args.out.as_deref().filter(|path| !path.exists() || path.is_file());
+    let kept = table.map(|path| kept(args, path, &file, base, library)).transpose().map_err(told)?;
+    let year = match kept {
+        None => year(&file, base, library, &session, &*wanted, &progress).map_err(told)?,
+        Some(mut kept) => {
+            if kept.count() > 0 {
+                tell!("{}: goes on behind {} hours", kept.path().display(), kept.count());
+            }
+            let year = year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress).map_err(told)?;
+            if let Some(path) = table {
+                args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
+            }
+            kept.done()?;
+            year
+        }
+    };
     drop(progress);
-    if let Some(path) = &args.out {
+    if let Some(path) = args.out.as_deref().filter(|_| table.is_none()) {
         args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
     }
     if args.json {
@@ -92,6 +112,11 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     let lit = year.chosen.len() - year.light.dark;
     tell!("{} steps, {lit} with light, computed {by} for {} sets of states", year.chosen.len(), year.light.sets);
     Ok(())
+}
+
+/// Hours of a run that was ended, and those of this one.
+fn kept(args: &YearArgs, table: &Path, file: &SceneFile, base: &Path, library: &Library) -> Result<Kept, StudyError> {
+    Kept::beside(table, of_results(file, base, library)?, PATIENCE, args.over.force)
 }
 
 /// A scene that finds its files from where it is written.
@@ -169,7 +194,8 @@ fn csv(year: &Year) -> String {
     }
     let lamps = year.settings.lamps.as_ref();
     text.push_str(if lamps.is_some() { ",lighting_W_m2" } else { "" });
-    text.push_str(if year.solar.is_some() { ",solar_W,solar_error_W\n" } else { "\n" });
+    text.push_str(if year.solar.is_some() { ",solar_W,solar_error_W" } else { "" });
+    text.push_str(if year.indoor.is_some() { ",hunting\n" } else { "\n" });
     for (row, &k) in year.chosen.iter().enumerate() {
         let (step, hour) = (&year.steps.list[k], &year.steps.list[k].hour);
         let _ = write!(
@@ -209,6 +235,9 @@ fn csv(year: &Year) -> String {
         }
         if let Some(solar) = &year.solar {
             let _ = write!(text, ",{},{}", number(solar.watts[row]), number(solar.errors[row]));
+        }
+        if let Some(indoor) = &year.indoor {
+            text.push_str(if indoor.hunting.binary_search(&k).is_ok() { ",1" } else { ",0" });
         }
         text.push('\n');
     }

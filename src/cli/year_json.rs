@@ -2,7 +2,7 @@
 
 use crate::study::SceneFile;
 use crate::study::session::glare::CAVEAT;
-use crate::study::year::{Figures, NOT_JUDGED, Opening, Year, metrics};
+use crate::study::year::{Figures, Group, Lm83, NOT_JUDGED, Opening, SHADE, Year, metrics};
 use serde_json::{Map, Value, json};
 
 /// Figures, what the hours' errors leave open of them, weather, states, stages, and what was left out.
@@ -31,7 +31,13 @@ pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, ope
             "step_hours": year.steps.length,
             "whole_year": year.steps.whole,
         },
+        "lm83": year.lm83.as_ref().map(|lm83| lm83_groups(lm83, &figures[0])),
         "control": year.moving.iter().enumerate().map(|(m, one)| control(year, m, one.aperture)).collect::<Vec<_>>(),
+        "indoor": year.indoor.as_ref().map(|indoor| json!({
+            "read_steps": indoor.read,
+            "hunting_steps": indoor.hunting.len(),
+            "unsure_steps": indoor.unsure.len(),
+        })),
         "seconds": seconds,
         "left_out": left_out(year, &figures[0]),
         "notes": year.notes.iter().map(String::as_str).chain(year.dgp.as_ref().map(|_| CAVEAT)).collect::<Vec<_>>(),
@@ -92,6 +98,24 @@ fn control(year: &Year, m: usize, aperture: usize) -> Value {
     })
 }
 
+/// What IES LM-83-12's rule closes together, and how long.
+fn lm83_groups(lm83: &Lm83, figures: &Figures) -> Value {
+    let hours = |group: usize| figures.blinds.as_ref().and_then(|blinds| blinds.closed_hours.get(group).copied());
+    let shade = || format!("even shade, transmittance {SHADE}, in the system's place (default: nothing moves)");
+    let of = |(number, group): (usize, &Group)| {
+        let [open, closed] = match &group.states {
+            Some(states) => states.clone(),
+            None => ["as it is".to_owned(), shade()],
+        };
+        json!({"apertures": group.apertures, "open": open, "closed": closed, "closed_hours": hours(number)})
+    };
+    json!({
+        "edition": "IES LM-83-12",
+        "groups": lm83.groups.iter().enumerate().map(of).collect::<Vec<_>>(),
+        "unsure_steps": lm83.worked.iter().filter(|one| one.unsure).count(),
+    })
+}
+
 /// What was not computed, and why.
 fn left_out(year: &Year, figures: &Figures) -> Vec<String> {
     let mut list = vec![format!("{} steps without light", year.light.dark)];
@@ -109,6 +133,9 @@ fn left_out(year: &Year, figures: &Figures) -> Vec<String> {
     }
     if year.solar.is_none() {
         list.push("solar energy: asked for by solar = true in [year]".to_owned());
+    }
+    if year.lm83.is_none() {
+        list.push("sDA300_50_LM83_12: asked for by lm83 = true in [year]".to_owned());
     }
     if figures.provision.is_none() {
         let steps = year.chosen.len();

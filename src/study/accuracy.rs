@@ -7,6 +7,7 @@
 //! The ways to integrate an aperture's light (`compute.near_field`) differ in the direct component alone and are
 //! compared by it. Where surfaces reflect, the whole illuminance is a series of its own. Times are those of one thread.
 
+pub mod annual;
 mod ladder;
 mod truth;
 pub mod words;

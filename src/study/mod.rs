@@ -18,6 +18,7 @@ pub mod example;
 pub mod facing;
 pub mod fault;
 pub mod files;
+pub mod fingerprint;
 pub mod goniophotometer;
 pub mod health;
 pub mod incidence;

@@ -31,6 +31,9 @@ pub struct YearKeys {
     /// Is solar energy asked for, directly transmitted?
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub solar: bool,
+    /// Is spatial daylight autonomy asked for with blinds by IES LM-83-12's own rule?
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub lm83: bool,
     /// Daylight glare probability at the eyes in every lit occupied step?
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub dgp: bool,

@@ -67,6 +67,8 @@ texts! {
     const CDA_TIP = "The same, where less light counts by its part. Rogers 2006." | "Dasselbe, wobei weniger Licht anteilig zählt. Rogers 2006.";
     const SDA = "sDA300/50%" | "sDA300/50%";
     const SDA_TIP = "Spatial daylight autonomy: share of the sensors with 300 lx in half of the occupied hours, with the states as they are; LM-83 works blinds by a rule of its own. IES LM-83-12." | "Räumliche Tageslichtautonomie: Anteil der Sensoren mit 300 lx in der halben Nutzungszeit, mit den Stellungen, wie sie sind; LM-83 bewegt Behänge nach eigener Regel. IES LM-83-12.";
+    const SDA_LM83 = "sDA300/50%, blinds by LM-83" | "sDA300/50%, Behänge nach LM-83";
+    const SDA_LM83_TIP = "Spatial daylight autonomy with blinds that close, group after group, while more than 2 % of the sensors have 1000 lx of direct sun. IES LM-83-12." | "Räumliche Tageslichtautonomie mit Behängen, die Gruppe um Gruppe schließen, solange mehr als 2 % der Sensoren 1000 lx Sonne haben. IES LM-83-12.";
     fn sda_limit(verdict) = "≥ 55 %: {verdict}" | "≥ 55 %: {verdict}";
     const UDI_N = "UDI, below 100 lx" | "UDI, unter 100 lx";
     const UDI_S = "UDI, 100 to 300 lx" | "UDI, 100 bis 300 lx";

@@ -21,3 +21,4 @@ mod safe_cli;
 mod solar_cli;
 mod weather_cli;
 mod year_cli;
+mod year_kept_cli;

@@ -22,3 +22,5 @@ mod stability_measured;
 mod strange;
 mod surfaces;
 mod validation;
+mod year_blinds;
+mod year_moments;

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `hours` | the illuminances of a year, and which of its hours are occupied |
 //! | `autonomy` | daylight autonomy, useful daylight, spatial autonomy, sunlight exposure |
+//! | `blinds` | blinds worked by IES LM-83-12's own rule |
 //! | `provision` | EN 17037, daylight provision by hours |
 //! | `glare` | simplified daylight glare probability |
 //! | `probability` | daylight glare probability, its classes |
@@ -15,6 +16,7 @@
 //! Every definition is that of its edition; where an edition leaves two readings, both have names of their own.
 
 pub mod autonomy;
+pub mod blinds;
 pub mod glare;
 mod hours;
 pub mod lighting;

@@ -21,7 +21,8 @@
 //! threshold = 0.0           # direct sun on the façade that counts as sun \[lx\]
 //! close_above = 70000.0     # façade in all: above it the device closes \[lx\]
 //! open_below = 300.0        # indoors: below it that closing, and DIN 5034's, is taken back \[lx\]
-//! indoor = 250.0            # what the room's sensor reads now \[lx\]
+//! indoor = 250.0            # what the room's sensor reads now, or at all hours of a year \[lx\]
+//! indoor_sensors = [0, 3]   # a year reads the mean of these sensors of the scene, from 0, where `indoor` is not given; default: all
 //! release = 1.0             # share of a threshold at which it lets go
 //! hysteresis = 0.0          # how much more open the rule must be before the device opens \[unit of the states\]
 //! dwell = 0.0               # least time between a movement and the next opening \[min\]
@@ -155,6 +156,9 @@ pub struct ControlKeys {
     /// Reading of the room's sensor. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub indoor: Option<f64>,
+    /// Sensors of the scene, from 0, whose mean a year reads instead; none: all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub indoor_sensors: Vec<usize>,
     /// Share of a threshold at which it lets go.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<f64>,
@@ -197,6 +201,7 @@ impl ControlKeys {
             close_above: None,
             open_below: None,
             indoor: None,
+            indoor_sensors: Vec::new(),
             release: None,
             hysteresis: None,
             dwell: None,

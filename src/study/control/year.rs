@@ -3,7 +3,7 @@
 //!
 //! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as equally
 //! bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
-//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone. The skyline
+//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone; a year in the room reads its sensors. The skyline
 //! hides the sun as it runs at the sun's bearing; boxes outside are not seen by a control.
 
 use super::device::section_from_keys;

@@ -118,6 +118,7 @@ fn dark(climate: &Climate) -> Year {
         moving: Vec::new(),
         states: vec![Vec::new(); steps],
         movements: Vec::new(),
+        indoor: None,
         chosen: (0..steps).collect(),
         light: Light {
             places,
@@ -128,6 +129,7 @@ fn dark(climate: &Climate) -> Year {
             sets: 0,
             dark: steps,
         },
+        lm83: None,
         solar: None,
         dgp: None,
         notes: Vec::new(),
@@ -209,6 +211,7 @@ fn part(year: &Year, rows: &[usize]) -> Year {
         moving: year.moving.clone(),
         states: Vec::new(),
         movements: year.movements.clone(),
+        indoor: None,
         chosen: rows.iter().map(|&row| year.chosen[row]).collect(),
         light: Light {
             places,
@@ -219,6 +222,7 @@ fn part(year: &Year, rows: &[usize]) -> Year {
             sets: year.light.sets,
             dark: year.light.dark,
         },
+        lm83: year.lm83.as_ref().map(|lm83| lm83.only(rows)),
         solar: year.solar.clone().map(|mut solar| {
             solar.watts = rows.iter().map(|&row| solar.watts[row]).collect();
             solar.errors = rows.iter().map(|&row| solar.errors[row]).collect();

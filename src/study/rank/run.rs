@@ -66,6 +66,7 @@ pub fn run(
             // What no objective asks for is not computed.
             let asks = |word: &str| group.figures.iter().any(|figure| figure.contains(word));
             climate.settings.keys.solar = asks("solar.");
+            climate.settings.keys.lm83 = asks("LM83") || asks("blinds_closed");
             climate.settings.keys.dgp &= asks("DGP_");
             let grouping = Grouping::of(&group.file, &climate)?;
             ready.insert(item.group, Ready { climate, grouping });

@@ -6,8 +6,7 @@
 
 use super::question::Group;
 use super::run::Item;
-use crate::catalogue::Product;
-use crate::study::inputs::inputs_of;
+use crate::study::fingerprint::{digest, of_product, of_scene};
 
 /// A piece, n of N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,38 +72,10 @@ pub fn run_key(groups: &[Group]) -> String {
     digest(&keys(groups, &all).iter().map(String::as_bytes).collect::<Vec<_>>())
 }
 
-/// Half a hash is enough to tell millions apart.
-fn digest(parts: &[&[u8]]) -> String {
-    let mut hash = blake3::Hasher::new();
-    for part in parts {
-        hash.update(&(part.len() as u64).to_le_bytes());
-        hash.update(part);
-    }
-    hash.finalize().to_hex()[..16].to_owned()
-}
-
 fn of_group(group: &Group) -> String {
-    // What cannot be written is told apart by its debug form.
-    let text = toml::to_string(&*group.file).unwrap_or_else(|_| format!("{:?}", group.file));
-    let name = group.scene.clone().into_bytes();
-    let mut parts = vec![env!("CARGO_PKG_VERSION").as_bytes().to_vec(), name, text.into_bytes()];
-    // Where a file lies does not matter: what is in it does. One that cannot be read is told when it is needed.
-    let files = inputs_of(&group.file, &group.base);
-    parts.extend(files.iter().map(|path| std::fs::read(path).unwrap_or_default()));
+    let mut parts = of_scene(&group.file, &group.base);
+    parts.push(group.scene.clone().into_bytes());
     digest(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
-}
-
-/// Of a product's data: its description where it is computed from one, since the data may still be waiting to be computed.
-fn of_product(product: &Product) -> String {
-    let mut text = product.system.clone();
-    for state in &product.states {
-        let data = if product.system.is_empty() { state.dataset.as_deref().unwrap_or_default() } else { "" };
-        text.push_str(&format!("\n{}\t{:?}\t{data}", state.key, state.value));
-    }
-    for point in &product.control_curve {
-        text.push_str(&format!("\n{} {}", point.profile_angle, point.value));
-    }
-    text
 }
 
 #[cfg(test)]

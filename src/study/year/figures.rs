@@ -2,6 +2,7 @@
 
 use super::Year;
 use crate::compute::year::autonomy::{Autonomy, Exposure};
+use crate::compute::year::blinds::Blinds;
 use crate::compute::year::glare::{Glare, glare};
 use crate::compute::year::lighting::Energy;
 use crate::compute::year::probability::Probability;
@@ -20,6 +21,8 @@ pub struct Figures {
     pub lit: usize,
     /// Of the sensors.
     pub autonomy: Autonomy,
+    /// With blinds by IES LM-83-12's own rule, where they are asked for.
+    pub blinds: Option<Blinds>,
     /// Sun on the sensors; `None` where nothing lets it through unscattered, or where a control moves what does.
     pub exposure: Option<Exposure>,
     /// EN 17037; `None` for less than a year.
@@ -101,6 +104,7 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         occupied: steps.iter().filter(|step| step.occupied).count(),
         lit: steps.iter().filter(|step| step.diffuse_horizontal > 0.0).count(),
         autonomy: light.map(|light| Autonomy::of(&steps, light)).unwrap_or_default(),
+        blinds: blinds(year, &steps, sign),
         exposure: sun_on_desks
             .as_deref()
             .filter(|_| whole && year.moving.is_empty())
@@ -117,6 +121,15 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         probability: probability(year, sign),
         lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
     }
+}
+
+/// With `sign` times the errors of the light, and of the sun that works the blinds.
+fn blinds(year: &Year, steps: &[Step], sign: f64) -> Option<Blinds> {
+    let lm83 = year.lm83.as_ref()?;
+    let own = lm83.values.iter().zip(&lm83.errors);
+    let values: Vec<f64> = own.map(|(value, error)| (value + sign * error).max(0.0)).collect();
+    let light = Light::new(year.settings.sensors.max(1), &values)?;
+    Some(Blinds::of(steps, light, &lm83.worked, year.steps.length, sign))
 }
 
 /// Of every eye; dark steps have no glare.

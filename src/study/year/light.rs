@@ -121,16 +121,21 @@ pub(super) fn light(
             }
         }
     }
+    tell(&light, notes);
+    Ok(light)
+}
+
+/// How the light was found, where that is out of the ordinary.
+pub(super) fn tell(light: &Light, notes: &mut Vec<String>) {
     if light.way == Way::Rooms {
         notes.push(
             "every hour was computed as a room: its beams, boxes or skyline are not known by coefficients".to_owned(),
         );
     }
-    Ok(light)
 }
 
 /// The scene with the states of a set, eyes behind its sensors, under a sky that only says that there is light.
-fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError> {
+pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError> {
     let mut file = with_states(question.file, question.moving, set);
     put_ordinary(&mut file);
     // Boxes are lit by the sky of each step.
@@ -142,19 +147,20 @@ fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError>
 }
 
 /// What a step comes to.
-struct Found {
-    light: Vec<Estimate>,
+pub(super) struct Found {
+    /// At the places.
+    pub light: Vec<Estimate>,
     sun: Option<Vec<f64>>,
 }
 
 /// Ready for any sky and sun.
-enum Engine {
+pub(super) enum Engine {
     Coefficients(Box<Scene>, Box<Coefficients>),
     Rooms(Box<Scene>, Before),
 }
 
 impl Engine {
-    fn new(question: &Question<'_>, scene: Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
+    pub fn new(question: &Question<'_>, scene: Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
         let before = Before::of(
             &question.file.outside,
             &scene.room,
@@ -168,7 +174,12 @@ impl Engine {
         Ok(Self::Rooms(Box::new(scene), before))
     }
 
-    fn at(&self, session: &Session, hour: usize, (outside, sun): (Outside, Option<Sun>)) -> Result<Found, StudyError> {
+    pub fn at(
+        &self,
+        session: &Session,
+        hour: usize,
+        (outside, sun): (Outside, Option<Sun>),
+    ) -> Result<Found, StudyError> {
         match self {
             Self::Coefficients(scene, coefficients) => {
                 let mut light = coefficients.hour_estimate(hour, &outside);

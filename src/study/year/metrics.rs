@@ -23,6 +23,10 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
         "UDI_x": one.udi_x,
         "sDA300_50": one.sda_300_50,
     });
+    if let Some(blinds) = &figures.blinds {
+        all["sDA300_50_LM83_12"] = json!(blinds.sda_300_50);
+        all["blinds_closed_hours"] = json!(blinds.closed_hours);
+    }
     if let Some(exposure) = &figures.exposure {
         all["sun_hours_1000"] = json!(exposure.hours_1000);
         all["ASE1000_250"] = json!(exposure.ase_1000_250);

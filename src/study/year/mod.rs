@@ -6,8 +6,11 @@
 //! | `settings` | keys judged together |
 //! | `steps` | the weather's intervals with sun and sky |
 //! | `states` | the state of every aperture in every step |
+//! | `indoor` | what the room's sensors read, for controls that ask |
 //! | `fixed` | the scene with fixed states, at a step |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
+//! | `resume` | hours kept while they are computed, for a run that is ended and goes on |
+//! | `lm83` | the same with blinds by IES LM-83-12's own rule |
 //! | `through` | the solar transmittance of what stands in the apertures |
 //! | `solar` | solar power straight through the apertures |
 //! | `dgp` | glare at the eyes, from the light |
@@ -29,12 +32,15 @@ mod dgp;
 mod eye_light;
 mod figures;
 mod fixed;
+mod indoor;
 mod lamps;
 mod light;
+mod lm83;
 mod look;
 mod maps;
 pub mod metrics;
 mod opening;
+mod resume;
 mod settings;
 mod solar;
 mod states;
@@ -45,11 +51,14 @@ mod through;
 pub use annual::{Annual, at_step, question};
 pub use dgp::Dgp;
 pub use figures::{Figures, SolarFigures, figures};
+pub use indoor::Indoor;
 pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
 pub use light::{Light, Way};
+pub use lm83::{Group, Lm83, SHADE};
 pub use look::{Look, Page, Shows};
 pub use maps::{choices, error, map, title, weather_map};
 pub use opening::{NOT_JUDGED, Opening, opening};
+pub use resume::{Kept, PATIENCE};
 pub use settings::{Settings, settings};
 pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};
@@ -61,6 +70,7 @@ use super::session::Session;
 use super::system::SystemLibrary;
 use crate::compute::estimate::Progress;
 use crate::study::control::year::Moving;
+use states::States;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -78,10 +88,14 @@ pub struct Year {
     pub states: Vec<Vec<usize>>,
     /// Movements of each moving aperture over all steps.
     pub movements: Vec<usize>,
+    /// How the room was read where a control asks how bright it is.
+    pub indoor: Option<Indoor>,
     /// Indices of the steps that were asked for, rising.
     pub chosen: Vec<usize>,
     /// Light of the chosen steps.
     pub light: Light,
+    /// The chosen steps with blinds by IES LM-83-12's own rule, where they are asked for.
+    pub lm83: Option<Lm83>,
     /// Solar energy through the apertures, where it is asked for.
     pub solar: Option<Solar>,
     /// Daylight glare probability of the chosen steps; `None` without eyes, or where it is not asked for.
@@ -131,6 +145,36 @@ pub fn year(
     Ok(year)
 }
 
+/// The same with hours that are kept while they are computed, and those that an earlier run has kept.
+///
+/// # Errors
+/// As [`year`]; a part that cannot be written.
+pub fn year_kept(
+    file: &SceneFile,
+    base: &Path,
+    library: &dyn SystemLibrary,
+    session: &Session,
+    wanted: &dyn Fn(&Step) -> bool,
+    kept: &mut Kept,
+    progress: &dyn Progress,
+) -> Result<Year, StudyError> {
+    let clock = Instant::now();
+    let climate = climate(file, base)?;
+    let weather = clock.elapsed();
+    let with = Systems { file, base, library, session };
+    let mut year = computed(&climate, &with, wanted, Some(kept), progress)?;
+    year.spent.insert(0, ("weather", weather));
+    Ok(year)
+}
+
+/// The scene with what stands in its apertures.
+struct Systems<'a> {
+    file: &'a SceneFile,
+    base: &'a Path,
+    library: &'a dyn SystemLibrary,
+    session: &'a Session,
+}
+
 /// The same in a climate that is known already. `file` may name other systems than the scene that the climate was read for;
 /// room, sensors, site and `[year]` are the same.
 ///
@@ -145,6 +189,16 @@ pub fn year_in(
     wanted: &dyn Fn(&Step) -> bool,
     progress: &dyn Progress,
 ) -> Result<Year, StudyError> {
+    computed(climate, &Systems { file, base, library, session }, wanted, None, progress)
+}
+
+fn computed(
+    climate: &Climate,
+    &Systems { file, base, library, session }: &Systems<'_>,
+    wanted: &dyn Fn(&Step) -> bool,
+    kept: Option<&mut Kept>,
+    progress: &dyn Progress,
+) -> Result<Year, StudyError> {
     let mut clock = Instant::now();
     let mut spent = Vec::new();
     let mut lap = |stage| {
@@ -153,7 +207,8 @@ pub fn year_in(
     };
     let Climate { settings, steps } = climate.clone();
     let mut notes = steps.warnings.clone();
-    let (moving, states, movements) = states::states(file, base, library, &steps, &mut notes, progress)?;
+    let asked = states::Question { file, base, library, session, climate };
+    let States { moving, list: states, movements, indoor } = states::states(&asked, &mut notes, progress)?;
     lap("states");
     let chosen: Vec<usize> = (0..steps.list.len()).filter(|&k| wanted(&steps.list[k])).collect();
     if chosen.is_empty() {
@@ -161,8 +216,26 @@ pub fn year_in(
     }
     let question =
         light::Question { file, base, library, session, settings: &settings, steps: &steps, moving: &moving };
-    let light = light::light(&question, &states, &chosen, &mut notes, progress)?;
+    let light = match kept {
+        Some(kept) => resume::light(&question, &states, &chosen, kept, &mut notes, progress)?,
+        None => light::light(&question, &states, &chosen, &mut notes, progress)?,
+    };
     lap("light");
+    let asked = lm83::Question {
+        file,
+        base,
+        library,
+        session,
+        climate,
+        moving: &moving,
+        states: &states,
+        chosen: &chosen,
+        light: &light,
+    };
+    let lm83 = settings.keys.lm83.then(|| lm83::lm83(&asked, &mut notes, progress)).transpose()?;
+    if lm83.is_some() {
+        lap("LM-83 blinds");
+    }
     let asked =
         solar::Question { file, base, library, steps: &steps, moving: &moving, states: &states, chosen: &chosen };
     let solar = settings.keys.solar.then(|| solar::solar(&asked, &mut notes, progress)).transpose()?;
@@ -173,7 +246,7 @@ pub fn year_in(
     if dgp.is_some() {
         lap("glare");
     }
-    Ok(Year { settings, steps, moving, states, movements, chosen, light, solar, dgp, notes, spent })
+    Ok(Year { settings, steps, moving, states, movements, indoor, chosen, light, lm83, solar, dgp, notes, spent })
 }
 
 /// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of
@@ -188,8 +261,10 @@ pub fn scene_at(
     time: jiff::civil::DateTime,
     progress: &dyn Progress,
 ) -> Result<SceneFile, StudyError> {
-    let Climate { settings, steps } = climate(file, base)?;
-    let (moving, states, _) = states::states(file, base, library, &steps, &mut Vec::new(), progress)?;
+    let climate = climate(file, base)?;
+    let asked = states::Question { file, base, library, session: &Session::new(), climate: &climate };
+    let States { moving, list: states, .. } = states::states(&asked, &mut Vec::new(), progress)?;
+    let Climate { settings, steps } = climate;
     let at = steps.at(time).ok_or_else(|| {
         let message = format!(
             "{} has no interval that holds {}",

@@ -1,6 +1,9 @@
 //! The state of every moving aperture in every step: the controls stepped through the year with the weather's sun and sky.
 
-use super::steps::Steps;
+use super::Climate;
+use super::indoor::{Indoor, Reader, sensors};
+use super::light;
+use super::settings::Settings;
 use crate::compute::angle::Bearing;
 use crate::compute::control::controller::{Controller, Inputs};
 use crate::compute::direction::Orientation;
@@ -9,14 +12,34 @@ use crate::compute::lid::Facing;
 use crate::formats::state_table::of_year;
 use crate::study::control::table::begun;
 use crate::study::control::year::{CONTROLLED, Moving, moving};
-use crate::study::control::{inputs, settings};
+use crate::study::control::{inputs, settings as control_settings};
 use crate::study::error::StudyError;
 use crate::study::scene_file::{SceneFile, SystemKeys};
+use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use std::path::Path;
 
-/// Apertures, their states by step, and how often each moves.
-pub(super) type States = (Vec<Moving>, Vec<Vec<usize>>, Vec<usize>);
+/// What the controls did.
+#[derive(Default)]
+pub(super) struct States {
+    /// The apertures that move.
+    pub moving: Vec<Moving>,
+    /// By step and moving aperture: index of the state.
+    pub list: Vec<Vec<usize>>,
+    /// How often each moves.
+    pub movements: Vec<usize>,
+    /// How the room was read; `None` where no control asks.
+    pub indoor: Option<Indoor>,
+}
+
+/// What is asked.
+pub(super) struct Question<'a> {
+    pub file: &'a SceneFile,
+    pub base: &'a Path,
+    pub library: &'a dyn SystemLibrary,
+    pub session: &'a Session,
+    pub climate: &'a Climate,
+}
 
 /// Is any aperture left to a control?
 fn moves(file: &SceneFile) -> bool {
@@ -34,28 +57,22 @@ fn moves(file: &SceneFile) -> bool {
 /// # Errors
 /// A control that cannot be; cancelled.
 pub(super) fn states(
-    file: &SceneFile,
-    base: &Path,
-    library: &dyn SystemLibrary,
-    steps: &Steps,
+    question: &Question<'_>,
     notes: &mut Vec<String>,
     progress: &dyn Progress,
 ) -> Result<States, StudyError> {
+    let Question { file, base, library, session, climate } = *question;
+    let steps = &*climate.steps;
     if !moves(file) {
-        return Ok((Vec::new(), vec![Vec::new(); steps.list.len()], Vec::new()));
+        return Ok(States { list: vec![Vec::new(); steps.list.len()], ..States::default() });
     }
     let moving = moving(file, base, &|keys| library.device(keys, base))?;
     let mut controllers: Vec<Controller> = moving
         .iter()
-        .map(|one| Ok(Controller::new(settings(&one.keys, &one.device, base)?)))
+        .map(|one| Ok(Controller::new(control_settings(&one.keys, &one.device, base)?)))
         .collect::<Result<_, StudyError>>()?;
     for one in &moving {
         let number = one.aperture;
-        if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
-            notes.push(format!(
-                "aperture {number}: open_below has no effect: no indoor illuminance is asked by the controls of a year"
-            ));
-        }
         if one.keys.dwell.is_some_and(|minutes| minutes > 0.0 && minutes < 60.0 * steps.length) {
             notes.push(format!(
                 "aperture {number}: a dwell time below the steps of {} min has no effect",
@@ -68,6 +85,9 @@ pub(super) fn states(
     }
     let measured = controllers.iter().any(|one| one.settings().close_above.is_some());
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
+    let settings = Settings { eyes: Vec::new(), ..climate.settings.clone() };
+    let asked = light::Question { file, base, library, session, settings: &settings, steps, moving: &moving };
+    let mut reader = Reader::new(asked, sensors(&moving, settings.sensors)?);
     let mut movements = vec![0; moving.len()];
     let mut list = Vec::with_capacity(steps.list.len());
     for (k, step) in steps.list.iter().enumerate() {
@@ -78,20 +98,44 @@ pub(super) fn states(
             progress.advance("states", k, steps.list.len());
         }
         let (outside, sun) = if measured { steps.outside(k)? } else { steps.even_outside(k)? };
-        let mut states = Vec::with_capacity(moving.len());
-        for ((one, controller), moved) in moving.iter().zip(&mut controllers).zip(&mut movements) {
+        let mut all = Vec::with_capacity(moving.len());
+        for (one, controller) in moving.iter().zip(&controllers) {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: one.surface };
             let global = controller.settings().close_above.is_some();
             let at = Some(of_year(step.time));
             if step.hour.is_lit() {
                 begun(&controller.settings().rule, at)?;
             }
-            let inputs = Inputs { of_year: at, ..inputs(&facing, step.clock, one.keys.indoor, global) };
-            let decision = controller.step(3600.0 * steps.length * k as f64, &inputs);
-            *moved += usize::from(decision.moved);
-            states.push(decision.state);
+            all.push(Inputs { of_year: at, ..inputs(&facing, step.clock, one.keys.indoor, global) });
         }
-        list.push(states);
+        let time = 3600.0 * steps.length * k as f64;
+        let decisions = match &mut reader {
+            // In the dark no sensor is asked.
+            Some(reader) if step.hour.is_lit() => reader.step(k, time, &mut controllers, &all, progress)?,
+            _ => controllers.iter_mut().zip(&all).map(|(controller, inputs)| controller.step(time, inputs)).collect(),
+        };
+        movements.iter_mut().zip(&decisions).for_each(|(count, one)| *count += usize::from(one.moved));
+        list.push(decisions.iter().map(|one| one.state).collect());
     }
-    Ok((moving, list, movements))
+    let indoor = reader.map(|reader| reader.found);
+    tell(indoor.as_ref(), notes);
+    Ok(States { moving, list, movements, indoor })
+}
+
+/// What the readings leave open.
+fn tell(indoor: Option<&Indoor>, notes: &mut Vec<String>) {
+    let Some(Indoor { read, hunting, unsure }) = indoor else { return };
+    if !hunting.is_empty() {
+        notes.push(format!(
+            "open_below: at {} of {read} steps at which the room was read it is too dark closed and bright enough open: hunting, \
+             taken as open",
+            hunting.len()
+        ));
+    }
+    if !unsure.is_empty() {
+        notes.push(format!(
+            "open_below: at {} of {read} steps at which the room was read the reading's error reaches another state",
+            unsure.len()
+        ));
+    }
 }

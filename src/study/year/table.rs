@@ -160,6 +160,11 @@ fn light(rows: &mut Rows<'_>) {
     let values = rows.figures.each_ref().map(|one| one.autonomy.sda_300_50);
     rows.add(section, (say::SDA, say::SDA_TIP), "%", values);
     rows.said(say::sda_limit(verdict(values, |value| value >= 0.55)));
+    if let [Some(own), Some(less), Some(more)] = rows.figures.each_ref().map(|one| one.blinds.as_ref()) {
+        let values = [own, less, more].map(|one| one.sda_300_50);
+        rows.add(section, (say::SDA_LM83, say::SDA_LM83_TIP), "%", values);
+        rows.said(say::sda_limit(verdict(values, |value| value >= 0.55)));
+    }
     rows.mean(section, (say::UDI_N, say::UDI_TIP), "%", |one| &one.autonomy.udi_n);
     rows.mean(section, (say::UDI_S, say::UDI_TIP), "%", |one| &one.autonomy.udi_s);
     rows.mean(section, (say::UDI_A, say::UDI_TIP), "%", |one| &one.autonomy.udi_a);

@@ -1,0 +1,169 @@
+//! Blinds as IES LM-83-12, § 2.2.6, works them for spatial daylight autonomy, whatever rule they follow in use.
+//!
+//! Hour by hour: while more than 2 % of the analysis points have 1000 lx or more straight from the sun, a group of openings
+//! closes, one after another. A group are openings of the same plane with the same product. Which of several groups is first
+//! the standard leaves open: here the one that by itself puts the sun on most points, then the first one.
+
+use super::autonomy::Autonomy;
+use super::hours::{Light, Step};
+use crate::compute::estimate::Estimate;
+
+/// Direct sun that counts. \[lx\]
+pub const DIRECT_SUN: f64 = 1000.0;
+/// Share of the points that may have it.
+pub const SHARE: f64 = 0.02;
+
+/// Sun straight at the analysis points through one group \[lx\], while it is open and while it is closed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GroupSun {
+    /// By point.
+    pub open: Vec<Estimate>,
+    /// By point.
+    pub closed: Vec<Estimate>,
+}
+
+/// Which groups close in one step, and whether the errors of the sun's light could change that.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Worked {
+    /// By group.
+    pub closed: Vec<bool>,
+    /// With less or with more sun, by its error, others would be closed.
+    pub unsure: bool,
+}
+
+impl Worked {
+    /// So many groups, all open.
+    pub fn open(groups: usize) -> Self {
+        Self { closed: vec![false; groups], unsure: false }
+    }
+}
+
+/// Works the groups through one step.
+pub fn worked(groups: &[GroupSun]) -> Worked {
+    let [closed, less, more] = [0.0, -1.0, 1.0].map(|sign| one_by_one(groups, sign));
+    Worked { unsure: less != closed || more != closed, closed }
+}
+
+fn one_by_one(groups: &[GroupSun], sign: f64) -> Vec<bool> {
+    let points = groups.first().map_or(0, |group| group.open.len());
+    let light = |one: Estimate| (one.value + sign * one.error).max(0.0);
+    let mut closed = vec![false; groups.len()];
+    loop {
+        let at = |point: usize| {
+            let through =
+                |(group, shut): (&GroupSun, &bool)| light(if *shut { &group.closed } else { &group.open }[point]);
+            groups.iter().zip(&closed).map(through).sum::<f64>()
+        };
+        let lit: Vec<usize> = (0..points).filter(|&point| at(point) >= DIRECT_SUN).collect();
+        if lit.len() as f64 <= SHARE * points as f64 {
+            return closed;
+        }
+        let brings = |group: &GroupSun| {
+            let all = lit.iter().map(|&point| light(group.open[point]));
+            (all.clone().filter(|e| *e >= DIRECT_SUN).count(), all.sum::<f64>())
+        };
+        let mut next: Option<(usize, (usize, f64))> = None;
+        for (k, group) in groups.iter().enumerate().filter(|(k, _)| !closed[*k]) {
+            let own = brings(group);
+            if own.1 > 0.0 && next.is_none_or(|(_, most)| own.0 > most.0 || own.0 == most.0 && own.1 > most.1) {
+                next = Some((k, own));
+            }
+        }
+        // Where the sun comes through what is closed there is nothing left to do.
+        let Some((k, _)) = next else { return closed };
+        closed[k] = true;
+    }
+}
+
+/// What a year with blinds worked so comes to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Blinds {
+    /// sDA300/50 with the states of the rule.
+    pub sda_300_50: f64,
+    /// Occupied hours that each group is closed. \[h\]
+    pub closed_hours: Vec<f64>,
+}
+
+impl Blinds {
+    /// Of a year or a part of one, with `light` in the states of the rule and what was `worked` in every step; `length` of a step
+    /// in hours. `sign`: −1 and 1 where steps that are unsure are to count as dark and closed least, or as lit and closed most; 0
+    /// as they are.
+    pub fn of(steps: &[Step], light: Light<'_>, worked: &[Worked], length: f64, sign: f64) -> Self {
+        let mut values: Vec<f64> = (0..steps.len()).flat_map(|k| light.row(k).iter().copied()).collect();
+        for (row, _) in values.chunks_exact_mut(light.places()).zip(worked).filter(|(_, one)| one.unsure && sign != 0.0)
+        {
+            row.fill(if sign < 0.0 { 0.0 } else { f64::MAX });
+        }
+        let groups = worked.iter().map(|one| one.closed.len()).max().unwrap_or(0);
+        let closed = |group: usize| {
+            let counts = |(step, one): (&Step, &Worked)| {
+                let shut = one.closed.get(group).copied().unwrap_or(false);
+                step.occupied && if one.unsure && sign != 0.0 { sign > 0.0 } else { shut }
+            };
+            length * steps.iter().zip(worked).filter(|pair| counts(*pair)).count() as f64
+        };
+        Self {
+            sda_300_50: Light::new(light.places(), &values).map_or(0.0, |all| Autonomy::of(steps, all).sda_300_50),
+            closed_hours: (0..groups).map(closed).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn group(open: &[f64], closed: f64) -> GroupSun {
+        let exact = |e: &f64| Estimate::exact(*e);
+        GroupSun { open: open.iter().map(exact).collect(), closed: vec![Estimate::exact(closed); open.len()] }
+    }
+
+    /// The sun at the first `lit` of 100 points.
+    fn on(lit: usize) -> Vec<f64> {
+        (0..100).map(|k| if k < lit { 5000.0 } else { 0.0 }).collect()
+    }
+
+    #[test]
+    fn two_points_of_a_hundred_are_allowed() {
+        for (lit, closes) in [(0, false), (2, false), (3, true)] {
+            let worked = worked(&[group(&on(lit), 0.0)]);
+            assert_eq!(worked, Worked { closed: vec![closes], unsure: false }, "{lit}");
+        }
+        let faint: Vec<f64> = on(50).iter().map(|e| e.min(999.9)).collect();
+        assert!(!worked(&[group(&faint, 0.0)]).closed[0]);
+        // Together they reach what neither does alone.
+        let half: Vec<f64> = on(50).iter().map(|e| e.min(600.0)).collect();
+        assert_eq!(worked(&[group(&half, 0.0), group(&half, 0.0)]).closed, [true, false]);
+    }
+
+    #[test]
+    fn groups_close_one_after_another_and_only_those_with_sun() {
+        let (a, b) = (group(&on(3), 0.0), group(&on(10), 0.0));
+        assert_eq!(worked(&[a.clone(), b.clone()]).closed, [true, true]);
+        assert_eq!(worked(&[group(&on(2), 0.0), b.clone()]).closed, [false, true]);
+        assert_eq!(worked(&[group(&on(0), 0.0), b]).closed, [false, true]);
+        // What comes through closed blinds closes the others, not those without sun.
+        assert_eq!(worked(&[group(&on(10), 2000.0), group(&on(0), 0.0), a]).closed, [true, false, true]);
+    }
+
+    #[test]
+    fn an_error_that_reaches_the_limit_is_told() {
+        let mut near = group(&on(3), 0.0);
+        near.open[2] = Estimate::new(1001.0, 2.0);
+        assert_eq!(worked(&[near.clone()]), Worked { closed: vec![true], unsure: true });
+        near.open[2].error = 0.5;
+        assert!(!worked(&[near]).unsure);
+    }
+
+    #[test]
+    fn unsure_steps_leave_their_figures_open() {
+        let steps = vec![Step { month: 1, occupied: true, diffuse_horizontal: 1.0 }; 4];
+        let light = [400.0, 100.0, 400.0, 100.0];
+        let one = |closed, unsure| Worked { closed: vec![closed], unsure };
+        let worked = [one(true, false), one(false, false), one(true, true), one(false, false)];
+        let of = |sign| Blinds::of(&steps, Light::new(1, &light).unwrap(), &worked, 0.5, sign);
+        assert_eq!(of(0.0), Blinds { sda_300_50: 1.0, closed_hours: vec![1.0] });
+        assert_eq!(of(-1.0), Blinds { sda_300_50: 0.0, closed_hours: vec![0.5] });
+        assert_eq!(of(1.0), of(0.0));
+    }
+}

@@ -1,0 +1,175 @@
+//! Readings of the room's sensors for controls that ask how bright the room is (`open_below`): the room of the step, with the
+//! states that the control would take.
+//!
+//! A sensor is read for two states alone: what the rule asks for while the room is bright enough, and what it asks for when it is
+//! not. Where both are the same nothing is read, and what the control remembers of the reading lapses. The reading in the
+//! first decides; where it asks for the second, that one is read as well. If the room is bright enough then, the control would
+//! go back and forth: the step is hunting, and keeps the second.
+
+use super::light::{self, Engine, prepared};
+use crate::compute::control::controller::{Controller, Decision, Inputs};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::study::control::year::Moving;
+use crate::study::error::StudyError;
+use std::collections::BTreeMap;
+
+/// How a year's controls came by their readings. Steps by index.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Indoor {
+    /// Steps at which sensors were read.
+    pub read: usize,
+    /// Steps at which the control would go back and forth.
+    pub hunting: Vec<usize>,
+    /// Steps at which another state lies within the reading's error.
+    pub unsure: Vec<usize>,
+}
+
+/// The sensors of every moving aperture that asks for its room; `None` for those that do not.
+///
+/// # Errors
+/// A sensor that the scene does not have, or none at all.
+pub(super) fn sensors(moving: &[Moving], count: usize) -> Result<Vec<Option<Vec<usize>>>, StudyError> {
+    moving
+        .iter()
+        .map(|one| {
+            let keys = &one.keys;
+            if let Some(index) = keys.indoor_sensors.iter().find(|index| **index >= count) {
+                let message = format!("there is no sensor {index} (allowed: 0 to {})", count.saturating_sub(1));
+                return Err(StudyError::key("control.indoor_sensors", message));
+            }
+            if keys.open_below.is_none() || keys.indoor.is_some() {
+                return Ok(None);
+            }
+            let all = || (0..count).collect();
+            Ok(Some(if keys.indoor_sensors.is_empty() { all() } else { keys.indoor_sensors.clone() }))
+        })
+        .collect()
+}
+
+/// Reads sensors in the states of moving apertures.
+pub(super) struct Reader<'a> {
+    question: light::Question<'a>,
+    sensors: Vec<Option<Vec<usize>>>,
+    /// Sensors that any aperture asks, rising.
+    asked: Vec<usize>,
+    engines: BTreeMap<Vec<usize>, Engine>,
+    /// What came of it.
+    pub found: Indoor,
+}
+
+impl<'a> Reader<'a> {
+    /// `None` where no control asks. The question has no eyes.
+    pub fn new(question: light::Question<'a>, sensors: Vec<Option<Vec<usize>>>) -> Option<Self> {
+        let mut asked: Vec<usize> = sensors.iter().flatten().flatten().copied().collect();
+        asked.sort_unstable();
+        asked.dedup();
+        let found = Indoor::default();
+        (!asked.is_empty()).then(|| Self { question, sensors, asked, engines: BTreeMap::new(), found })
+    }
+
+    /// Steps the controllers through step `k`, which has light, at `time` \[s\].
+    ///
+    /// # Errors
+    /// Of the room with the states; cancelled.
+    pub fn step(
+        &mut self,
+        k: usize,
+        time: f64,
+        controllers: &mut [Controller],
+        inputs: &[Inputs],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Decision>, StudyError> {
+        let before = controllers.to_vec();
+        let sensors = self.sensors.clone();
+        let with = |reading: &dyn Fn(usize) -> f64| -> (Vec<Controller>, Vec<Decision>) {
+            let mut all = before.clone();
+            let step = |(m, controller): (usize, &mut Controller)| {
+                let own = sensors[m].as_ref().map(|_| reading(m)).or(inputs[m].indoor);
+                controller.step(time, &Inputs { indoor: own, ..inputs[m] })
+            };
+            let decisions = all.iter_mut().enumerate().map(step).collect();
+            (all, decisions)
+        };
+        let states = |decisions: &[Decision]| decisions.iter().map(|one| one.state).collect::<Vec<usize>>();
+        let mut taken = with(&|_| f64::INFINITY);
+        let bright = states(&taken.1);
+        if states(&with(&|_| 0.0).1) != bright {
+            let first = self.read(&bright, k, progress)?;
+            self.found.read += 1;
+            taken = with(&|m| first[m].value);
+            let decided = states(&taken.1);
+            let off = |readings: &[Estimate], decided: &[usize]| {
+                [-1.0, 1.0].iter().any(|sign| {
+                    states(&with(&|m| (readings[m].value + sign * readings[m].error).max(0.0)).1) != decided
+                })
+            };
+            let mut unsure = off(&first, &decided);
+            if decided != bright {
+                let second = self.read(&decided, k, progress)?;
+                let again = states(&with(&|m| second[m].value).1);
+                unsure |= off(&second, &again);
+                if again != decided {
+                    self.found.hunting.push(k);
+                }
+            }
+            if unsure {
+                self.found.unsure.push(k);
+            }
+        }
+        controllers.clone_from_slice(&taken.0);
+        Ok(taken.1)
+    }
+
+    /// Of every moving aperture the mean of its sensors; 0 for those that ask for none. \[lx\]
+    fn read(&mut self, set: &[usize], k: usize, progress: &dyn Progress) -> Result<Vec<Estimate>, StudyError> {
+        if progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        if !self.engines.contains_key(set) {
+            let mut scene = prepared(&self.question, set)?;
+            scene.sensors = self.asked.iter().map(|&index| scene.sensors[index]).collect();
+            self.engines.insert(set.to_vec(), Engine::new(&self.question, scene, progress)?);
+        }
+        let engine = &self.engines[set];
+        let light = engine.at(self.question.session, k, self.question.steps.outside(k)?)?.light;
+        let at = |index: &usize| self.asked.binary_search(index).map_or(Estimate::default(), |place| light[place]);
+        let mean = |list: &Vec<usize>| list.iter().map(at).sum::<Estimate>() * (1.0 / list.len().max(1) as f64);
+        Ok(self.sensors.iter().map(|one| one.as_ref().map_or(Estimate::default(), mean)).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Surface;
+    use crate::study::control::Device;
+    use crate::study::control::keys::{ControlKeys, ControlMode};
+
+    fn moving(change: impl Fn(&mut ControlKeys)) -> Moving {
+        let mut keys = ControlKeys::of(ControlMode::Din5034);
+        change(&mut keys);
+        let device = Device {
+            name: "d".to_owned(),
+            keys: vec!["0".to_owned(), "75".to_owned()],
+            values: Some(vec![0.0, 75.0]),
+            curve: Vec::new(),
+            section: None,
+        };
+        Moving { aperture: 1, surface: Surface::Facade, device, keys, section: None }
+    }
+
+    #[test]
+    fn sensors_are_those_that_are_named_or_all() {
+        let of = |change: &dyn Fn(&mut ControlKeys)| sensors(&[moving(change)], 4).map(|list| list[0].clone());
+        assert_eq!(of(&|_| ()), Ok(None));
+        assert_eq!(of(&|keys| keys.open_below = Some(300.0)), Ok(Some(vec![0, 1, 2, 3])));
+        let named = |keys: &mut ControlKeys| {
+            (keys.open_below, keys.indoor_sensors) = (Some(300.0), vec![2]);
+        };
+        assert_eq!(of(&named), Ok(Some(vec![2])));
+        // What is said to be read is read.
+        assert_eq!(of(&|keys| (keys.open_below, keys.indoor) = (Some(300.0), Some(200.0))), Ok(None));
+        let wrong = of(&|keys| keys.indoor_sensors = vec![4]).unwrap_err().to_string();
+        assert!(wrong.contains("control.indoor_sensors") && wrong.contains("no sensor 4 (allowed: 0 to 3)"), "{wrong}");
+    }
+}

@@ -1,0 +1,298 @@
+//! The room with its blinds worked by IES LM-83-12's own rule instead of by the scene's controls, for `sDA300_50_LM83_12`.
+//!
+//! Groups are apertures of the same surface with the same product under the same control. Open is the state that the control
+//! takes by day without direct sun, which is the most open unless `open_state` names another; closed is the one for DIN 5034,
+//! the most closed or `closed_state`. Where nothing moves, an even shade with a transmittance of 5 % stands in the system's place
+//! while it is closed: what tools take by § 2.2.7 for blinds that nobody has described.
+//!
+//! Only the occupied lit steps that the year does not hold in the very same states are computed.
+
+use super::Climate;
+use super::fixed::{put_ordinary, put_state};
+use super::light::{self, Light};
+use super::settings::Settings;
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::lid::{BeamLight, Facing};
+use crate::compute::room::beams_past::beams_past;
+use crate::compute::room::direct::{Sensor, beams_through};
+use crate::compute::sky::Sun;
+use crate::compute::surroundings::Surroundings;
+use crate::compute::surroundings::solid::Solid;
+use crate::compute::year::blinds::{GroupSun, Worked, worked};
+use crate::study::control::settings as control_settings;
+use crate::study::control::year::Moving;
+use crate::study::error::StudyError;
+use crate::study::outside::boxes;
+use crate::study::scene::Scene;
+use crate::study::scene_file::{IdealKind, SceneFile, SystemKeys};
+use crate::study::session::Session;
+use crate::study::system::SystemLibrary;
+use crate::study::year_keys::{DaysKey, HoursKeys};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Transmittance of the shade where nothing moves.
+pub const SHADE: f64 = 0.05;
+
+/// Apertures that are closed together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// Their numbers, from 1.
+    pub apertures: Vec<usize>,
+    /// Open and closed; `None` where nothing moves and the shade stands in.
+    pub states: Option<[String; 2]>,
+    /// The same for what a control moves, if only in name: states with their indices.
+    controlled: Option<[(usize, String); 2]>,
+}
+
+/// The chosen steps under the rule.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lm83 {
+    /// What closes together.
+    pub groups: Vec<Group>,
+    /// By chosen step; groups stay open while nobody is there, and in the dark.
+    pub worked: Vec<Worked>,
+    /// Illuminances of the chosen steps at the sensors, without eyes; 0 while nobody is there. \[lx\]
+    pub values: Vec<f64>,
+    /// How far these may be off. \[lx\]
+    pub errors: Vec<f64>,
+}
+
+impl Lm83 {
+    /// Some of the chosen steps, by their places among them.
+    pub fn only(&self, rows: &[usize]) -> Self {
+        let sensors = self.values.len() / self.worked.len().max(1);
+        let of = |all: &[f64]| rows.iter().flat_map(|row| all[row * sensors..][..sensors].iter().copied()).collect();
+        Self {
+            groups: self.groups.clone(),
+            worked: rows.iter().map(|&row| self.worked[row].clone()).collect(),
+            values: of(&self.values),
+            errors: of(&self.errors),
+        }
+    }
+}
+
+/// What is asked.
+pub(super) struct Question<'a> {
+    pub file: &'a SceneFile,
+    pub base: &'a Path,
+    pub library: &'a dyn SystemLibrary,
+    pub session: &'a Session,
+    pub climate: &'a Climate,
+    pub moving: &'a [Moving],
+    pub states: &'a [Vec<usize>],
+    pub chosen: &'a [usize],
+    /// As the controls have it.
+    pub light: &'a Light,
+}
+
+/// Works the blinds through the chosen steps.
+///
+/// # Errors
+/// Of the scene; cancelled.
+pub(super) fn lm83(
+    question: &Question<'_>,
+    notes: &mut Vec<String>,
+    progress: &dyn Progress,
+) -> Result<Lm83, StudyError> {
+    let (settings, steps) = (&question.climate.settings, &question.climate.steps);
+    let groups = groups(question)?;
+    tell(question.file, settings, &groups, notes);
+    let counts = |k: usize| steps.list[k].occupied && steps.list[k].hour.is_lit();
+    let rows: Vec<usize> = (0..question.chosen.len()).filter(|&row| counts(question.chosen[row])).collect();
+    let suns = Suns::new(question, &groups)?;
+    let found: Vec<Worked> = rows
+        .par_iter()
+        .map(|&row| {
+            if progress.cancelled() {
+                return Err(StudyError::from(Cancelled));
+            }
+            let (_, sun) = steps.even_outside(question.chosen[row])?;
+            Ok(sun.map_or_else(|| Worked::open(groups.len()), |sun| worked(&suns.at(question.session, &sun))))
+        })
+        .collect::<Result<_, _>>()?;
+    let mut all = vec![Worked::open(groups.len()); question.chosen.len()];
+    let mut sets: BTreeMap<Vec<bool>, Vec<usize>> = BTreeMap::new();
+    for (&row, one) in rows.iter().zip(found) {
+        sets.entry(one.closed.clone()).or_default().push(row);
+        all[row] = one;
+    }
+    let sensors = settings.sensors;
+    let mut values = vec![0.0; sensors * question.chosen.len()];
+    let mut errors = values.clone();
+    let mut put = |row: usize, light: &Light, from: usize| {
+        values[row * sensors..][..sensors].copy_from_slice(&light.values[from * light.places..][..sensors]);
+        errors[row * sensors..][..sensors].copy_from_slice(&light.errors[from * light.places..][..sensors]);
+    };
+    // Eyes are of no use here.
+    let without_eyes = Settings { eyes: Vec::new(), ..settings.clone() };
+    for (closed, rows) in sets {
+        let (own, rest): (Vec<usize>, Vec<usize>) =
+            rows.into_iter().partition(|&row| is_held(question, &groups, &closed, question.chosen[row]));
+        own.iter().for_each(|&row| put(row, question.light, row));
+        if rest.is_empty() {
+            continue;
+        }
+        let file = with_groups(question.file, &groups, &closed);
+        let asked = light::Question {
+            file: &file,
+            base: question.base,
+            library: question.library,
+            session: question.session,
+            settings: &without_eyes,
+            steps,
+            moving: &[],
+        };
+        let chosen: Vec<usize> = rest.iter().map(|&row| question.chosen[row]).collect();
+        let nothing = vec![Vec::new(); steps.list.len()];
+        // How the light is found has been told of the year.
+        let light = light::light(&asked, &nothing, &chosen, &mut Vec::new(), progress)?;
+        rest.iter().enumerate().for_each(|(from, &row)| put(row, &light, from));
+    }
+    Ok(Lm83 { groups, worked: all, values, errors })
+}
+
+/// What of the standard's assumptions the scene does not share.
+fn tell(file: &SceneFile, settings: &Settings, groups: &[Group], notes: &mut Vec<String>) {
+    if settings.keys.hours != (HoursKeys { from: 8.0, to: 18.0, days: DaysKey::All }) {
+        notes.push("LM-83-12 counts 8 to 18 h of all days: here the hours of year.hours are counted".to_owned());
+    }
+    for group in groups.iter().filter(|group| group.states.is_none()) {
+        notes.push(format!(
+            "LM-83-12: nothing moves in aperture {}; while closed an even shade, τ = {SHADE}, stands in the system's place",
+            numbers(&group.apertures)
+        ));
+    }
+    if file.sensors.plane.is_none() {
+        notes.push("LM-83-12 asks for a grid of analysis points: here the scene's single points are taken".to_owned());
+    }
+}
+
+/// "1, 2"
+fn numbers(list: &[usize]) -> String {
+    list.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn groups(question: &Question<'_>) -> Result<Vec<Group>, StudyError> {
+    let mut list: Vec<Group> = Vec::new();
+    for (index, aperture) in question.file.aperture.iter().enumerate() {
+        let same = |group: &&mut Group| {
+            let other = &question.file.aperture[group.apertures[0] - 1];
+            (other.surface, &other.system, &other.control) == (aperture.surface, &aperture.system, &aperture.control)
+        };
+        if let Some(group) = list.iter_mut().find(same) {
+            group.apertures.push(index + 1);
+            continue;
+        }
+        let own = question.moving.iter().find(|one| one.aperture == index + 1);
+        let controlled = own
+            .map(|one| {
+                let control = control_settings(&one.keys, &one.device, question.base)?;
+                Ok::<_, StudyError>([control.open, control.closed].map(|state| (state, one.device.keys[state].clone())))
+            })
+            .transpose()?;
+        let two = controlled.as_ref().filter(|[open, closed]| open.0 != closed.0);
+        let states = two.map(|states| states.each_ref().map(|(_, key)| key.clone()));
+        list.push(Group { apertures: vec![index + 1], states, controlled });
+    }
+    Ok(list)
+}
+
+/// The scene with its groups open or closed, as a plain one without a year.
+fn with_groups(file: &SceneFile, groups: &[Group], closed: &[bool]) -> SceneFile {
+    let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
+    for (group, &closed) in groups.iter().zip(closed) {
+        for &number in &group.apertures {
+            let system = &mut scene.aperture[number - 1].system;
+            if closed && group.states.is_none() {
+                *system = SystemKeys::Ideal { kind: IdealKind::Diffuse, transmittance: SHADE };
+            } else if let Some(states) = &group.controlled {
+                put_state(system, &states[usize::from(closed)].1);
+            }
+        }
+    }
+    scene
+}
+
+/// Does the year hold this step in the very same states?
+fn is_held(question: &Question<'_>, groups: &[Group], closed: &[bool], step: usize) -> bool {
+    groups.iter().zip(closed).all(|(group, &closed)| {
+        if closed && group.states.is_none() {
+            return false;
+        }
+        let Some(states) = &group.controlled else { return true };
+        group.apertures.iter().all(|number| {
+            let m = question.moving.iter().position(|one| one.aperture == *number);
+            m.is_some_and(|m| question.states[step][m] == states[usize::from(closed)].0)
+        })
+    })
+}
+
+/// The scene with all open, and with all closed: for the sun straight at the sensors.
+struct Suns<'a> {
+    groups: &'a [Group],
+    scenes: [Scene; 2],
+    /// Boxes that hide the sun; `None` where there are none.
+    around: Option<Surroundings>,
+}
+
+impl<'a> Suns<'a> {
+    fn new(question: &Question<'_>, groups: &'a [Group]) -> Result<Self, StudyError> {
+        let scene = |closed: bool| {
+            let mut file = with_groups(question.file, groups, &vec![closed; groups.len()]);
+            put_ordinary(&mut file);
+            file.outside = Vec::new();
+            Scene::resolve(&file, question.base, question.library)
+        };
+        let scenes = [scene(false)?, scene(true)?];
+        let turn = scenes[0].orientation.turn();
+        let boxes = boxes(&question.file.outside, &scenes[0].room)?;
+        let solids: Vec<Solid> = boxes.iter().map(|(solid, _)| solid.turned(turn)).collect();
+        let around = (!solids.is_empty()).then(|| Surroundings {
+            solids,
+            room: Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0),
+            faces: Vec::new(),
+            sun: None,
+            lines: Vec::new(),
+            skyline: None,
+        });
+        Ok(Self { groups, scenes, around })
+    }
+
+    /// Through every group at all sensors.
+    fn at(&self, session: &Session, sun: &Sun) -> Vec<GroupSun> {
+        let [open, closed] = self.scenes.each_ref().map(|scene| through(session, scene, self.around.as_ref(), sun));
+        let sum = |apertures: &[usize], list: &[Vec<Estimate>]| {
+            let mut sums = vec![Estimate::default(); self.scenes[0].sensors.len()];
+            for number in apertures {
+                sums.iter_mut().zip(&list[number - 1]).for_each(|(sum, e)| *sum += *e);
+            }
+            sums
+        };
+        let of =
+            |group: &Group| GroupSun { open: sum(&group.apertures, &open), closed: sum(&group.apertures, &closed) };
+        self.groups.iter().map(of).collect()
+    }
+}
+
+/// Of every aperture at every sensor: what goes straight on of the sun, frame and dirt counted.
+fn through(session: &Session, scene: &Scene, around: Option<&Surroundings>, sun: &Sun) -> Vec<Vec<Estimate>> {
+    let of = |index: usize| {
+        let one = &scene.apertures[index];
+        let emission = session.sunlight_alone(scene, index, sun);
+        let beams: Vec<BeamLight> =
+            emission.map(|all| all.beams.into_iter().filter(|beam| beam.straight).collect()).unwrap_or_default();
+        let facing = Facing { sun: Some(sun), ..scene.facing(index) };
+        let at = |sensor: &Sensor| {
+            let seen = match around {
+                Some(around) => beams_past(sensor, &one.aperture, &[], &[], &beams, &facing, around),
+                None => beams_through(sensor, &one.aperture, &beams, &facing),
+            };
+            seen.all + Estimate::new(0.0, seen.data_error)
+        };
+        scene.sensors.iter().map(at).collect()
+    };
+    (0..scene.apertures.len()).map(of).collect()
+}

@@ -1,0 +1,369 @@
+//! Hours of a long year kept beside its table while it is computed, so that a run that was ended goes on where it stood.
+//!
+//! A part `NAME.part` holds the fingerprint of all that the hours are made of, then a line for each hour with all bits of its
+//! numbers: a year that went on is the same as one in a single run. It is begun only when the run takes longer than
+//! [`PATIENCE`], and goes when the table is there. A line that was being written when the run ended is written anew.
+//! What is found from the hours (glare, solar energy, figures) is not kept.
+
+use super::light::{self, Light, Question, Way};
+use crate::compute::estimate::Progress;
+use crate::study::error::StudyError;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Runs that are over before leave nothing behind.
+pub const PATIENCE: Duration = Duration::from_secs(10);
+/// Hours between two writings are as many as take about so long.
+const BLOCK: Duration = Duration::from_secs(10);
+/// Hours at first, before it is known how long they take.
+const FIRST: usize = 64;
+/// The first word of a part, with its version.
+const HEAD: &str = "cfs-year-part-1";
+
+/// One hour.
+#[derive(Debug, Clone, PartialEq)]
+struct Hour {
+    way: Way,
+    values: Vec<f64>,
+    errors: Vec<f64>,
+    sun: Option<Vec<f64>>,
+}
+
+/// The hours that are known, and where they are kept.
+#[derive(Debug)]
+pub struct Kept {
+    path: PathBuf,
+    fingerprint: String,
+    file: Option<File>,
+    hours: BTreeMap<usize, Hour>,
+    waiting: String,
+    begun: Instant,
+    patience: Duration,
+}
+
+fn wrong(path: &Path, message: impl Into<String>) -> StudyError {
+    StudyError::File { path: path.to_owned(), message: message.into() }
+}
+
+fn numbers(text: &mut String, values: &[f64]) {
+    for value in values {
+        // Writing to a String cannot fail.
+        let _ = write!(text, " {:016x}", value.to_bits());
+    }
+}
+
+impl Hour {
+    fn line(&self, step: usize) -> String {
+        let way = if self.way == Way::Rooms { 'r' } else { 'c' };
+        let sun = if self.sun.is_some() { 's' } else { '-' };
+        let mut text = format!("{step} {} {way}{sun}", self.values.len());
+        numbers(&mut text, &self.values);
+        numbers(&mut text, &self.errors);
+        numbers(&mut text, self.sun.as_deref().unwrap_or_default());
+        text.push('\n');
+        text
+    }
+
+    fn read(line: &str) -> Option<(usize, Self)> {
+        let mut words = line.split(' ');
+        let step = words.next()?.parse().ok()?;
+        let places: usize = words.next()?.parse().ok()?;
+        let (way, sun) = match words.next()? {
+            "c-" => (Way::Coefficients, false),
+            "cs" => (Way::Coefficients, true),
+            "r-" => (Way::Rooms, false),
+            "rs" => (Way::Rooms, true),
+            _ => return None,
+        };
+        let all: Vec<f64> = words
+            .map(|word| (word.len() == 16).then(|| u64::from_str_radix(word, 16).ok().map(f64::from_bits)).flatten())
+            .collect::<Option<_>>()?;
+        if places == 0 || all.len() != places * if sun { 3 } else { 2 } {
+            return None;
+        }
+        let part = |k: usize| all[k * places..][..places].to_vec();
+        Some((step, Self { way, values: part(0), errors: part(1), sun: sun.then(|| part(2)) }))
+    }
+}
+
+impl Kept {
+    /// Beside a table. `fingerprint` of all that its hours are made of; `patience`: see [`PATIENCE`]. `anew`: what is there of
+    /// something else may go.
+    ///
+    /// # Errors
+    /// A part of another scene, weather or program, or one that another run is writing.
+    pub fn beside(table: &Path, fingerprint: String, patience: Duration, anew: bool) -> Result<Self, StudyError> {
+        let mut name = table.as_os_str().to_owned();
+        name.push(".part");
+        let path = PathBuf::from(name);
+        let mut kept = Self {
+            path,
+            fingerprint,
+            file: None,
+            hours: BTreeMap::new(),
+            waiting: String::new(),
+            begun: Instant::now(),
+            patience,
+        };
+        if kept.path.exists() {
+            kept.take_up(anew)?;
+        }
+        Ok(kept)
+    }
+
+    /// Reads what is there; goes on behind its last whole line.
+    fn take_up(&mut self, anew: bool) -> Result<(), StudyError> {
+        let cannot =
+            |error: std::io::Error| wrong(&self.path, format!("cannot be read ({error}); check path and rights"));
+        let mut file = OpenOptions::new().read(true).write(true).open(&self.path).map_err(cannot)?;
+        locked(&file, &self.path)?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(cannot)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let mut lines = whole.lines();
+        let head = lines.next().unwrap_or_default();
+        if head != format!("{HEAD} {}", self.fingerprint) && !(anew || whole.is_empty()) {
+            let what = match head.strip_prefix(HEAD) {
+                Some(_) => "holds hours of another scene, weather, product or program",
+                None => "is no part of a year",
+            };
+            return Err(wrong(&self.path, format!("{what}; remove it, or begin anew with --force")));
+        }
+        let mut end = 0;
+        if head == format!("{HEAD} {}", self.fingerprint) {
+            end = head.len() + 1;
+            for line in lines {
+                // Behind a damaged line nothing is believed.
+                let Some((step, hour)) = Hour::read(line) else { break };
+                self.hours.insert(step, hour);
+                end += line.len() + 1;
+            }
+        }
+        let told = |error: std::io::Error| wrong(&self.path, format!("cannot be written ({error})"));
+        file.set_len(end as u64).map_err(told)?;
+        file.seek(SeekFrom::End(0)).map_err(told)?;
+        if end == 0 {
+            file.write_all(format!("{HEAD} {}\n", self.fingerprint).as_bytes()).map_err(told)?;
+        }
+        self.file = Some(file);
+        Ok(())
+    }
+
+    /// Hours that are known.
+    pub fn count(&self) -> usize {
+        self.hours.len()
+    }
+
+    /// The file that it is kept in.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn keep(&mut self, step: usize, hour: Hour) {
+        self.waiting.push_str(&hour.line(step));
+        self.hours.insert(step, hour);
+    }
+
+    /// Writes what waits, once the run has taken long.
+    fn write(&mut self) -> Result<(), StudyError> {
+        if self.waiting.is_empty() || self.file.is_none() && self.begun.elapsed() < self.patience {
+            return Ok(());
+        }
+        let told = |error: std::io::Error| wrong(&self.path, format!("cannot be written ({error}); make room"));
+        if self.file.is_none() {
+            let mut file = OpenOptions::new().write(true).create_new(true).open(&self.path).map_err(told)?;
+            locked(&file, &self.path)?;
+            file.write_all(format!("{HEAD} {}\n", self.fingerprint).as_bytes()).map_err(told)?;
+            self.file = Some(file);
+        }
+        if let Some(file) = &mut self.file {
+            file.write_all(self.waiting.as_bytes()).map_err(told)?;
+        }
+        self.waiting.clear();
+        Ok(())
+    }
+
+    /// The table is there: nothing is kept any more.
+    ///
+    /// # Errors
+    /// A part that cannot be removed.
+    pub fn done(mut self) -> Result<(), StudyError> {
+        match self.file.take() {
+            None => Ok(()),
+            Some(file) => {
+                drop(file);
+                let told = |error: std::io::Error| wrong(&self.path, format!("cannot be removed ({error})"));
+                std::fs::remove_file(&self.path).map_err(told)
+            }
+        }
+    }
+}
+
+/// Where files cannot be locked, two runs at once are not told apart.
+fn locked(file: &File, path: &Path) -> Result<(), StudyError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(wrong(path, "another run is writing it; expected one at a time")),
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
+    }
+}
+
+/// Counts hours of all blocks together.
+struct Counted<'a> {
+    inner: &'a dyn Progress,
+    before: usize,
+    all: usize,
+}
+
+impl Progress for Counted<'_> {
+    fn advance(&self, stage: &'static str, done: usize, total: usize) {
+        match stage {
+            "hours" => self.inner.advance(stage, self.before + done, self.all),
+            _ => self.inner.advance(stage, done, total),
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.inner.cancelled()
+    }
+}
+
+/// As [`light::light`], with the hours that are kept, keeping the others as they come.
+pub(super) fn light(
+    question: &Question<'_>,
+    states: &[Vec<usize>],
+    chosen: &[usize],
+    kept: &mut Kept,
+    notes: &mut Vec<String>,
+    progress: &dyn Progress,
+) -> Result<Light, StudyError> {
+    let places = question.settings.sensors + question.settings.eyes.len();
+    let mut sets: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
+    for &k in chosen.iter().filter(|&&k| question.steps.list[k].hour.is_lit()) {
+        sets.entry(&states[k]).or_default().push(k);
+    }
+    let all: usize = sets.values().map(Vec::len).sum();
+    let mut done = chosen.iter().filter(|k| kept.hours.contains_key(*k)).count();
+    for steps in sets.values() {
+        let missing: Vec<usize> = steps.iter().copied().filter(|k| !kept.hours.contains_key(k)).collect();
+        let (mut at, mut block) = (0, FIRST);
+        while at < missing.len() {
+            let part = &missing[at..(at + block).min(missing.len())];
+            let clock = Instant::now();
+            // What is to be said of the hours is said of all of them, below.
+            let found =
+                light::light(question, states, part, &mut Vec::new(), &Counted { inner: progress, before: done, all })?;
+            for (row, &k) in part.iter().enumerate() {
+                let own = |all: &[f64]| all[row * places..][..places].to_vec();
+                let hour = Hour {
+                    way: found.way,
+                    values: own(&found.values),
+                    errors: own(&found.errors),
+                    sun: found.sun.as_deref().map(own),
+                };
+                kept.keep(k, hour);
+            }
+            kept.write()?;
+            (at, done) = (at + part.len(), done + part.len());
+            let share = BLOCK.as_secs_f64() / clock.elapsed().as_secs_f64().max(1e-3);
+            block = ((part.len() as f64 * share) as usize).max(FIRST);
+        }
+    }
+    let mut light = Light {
+        places,
+        values: vec![0.0; places * chosen.len()],
+        errors: vec![0.0; places * chosen.len()],
+        sun: None,
+        way: Way::Coefficients,
+        sets: sets.len(),
+        dark: chosen.len() - all,
+    };
+    for (row, k) in chosen.iter().enumerate() {
+        let Some(hour) = kept.hours.get(k).filter(|hour| hour.values.len() == places) else { continue };
+        let at = row * places..(row + 1) * places;
+        light.values[at.clone()].copy_from_slice(&hour.values);
+        light.errors[at.clone()].copy_from_slice(&hour.errors);
+        if let Some(sun) = &hour.sun {
+            light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()])[at].copy_from_slice(sun);
+        }
+        if hour.way == Way::Rooms {
+            light.way = Way::Rooms;
+        }
+    }
+    light::tell(&light, notes);
+    Ok(light)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hour(sun: bool) -> Hour {
+        let sun = sun.then(|| vec![0.0, 1e-300]);
+        Hour { way: Way::Rooms, values: vec![0.1, 12345.678901234567], errors: vec![f64::MIN_POSITIVE, 2.0], sun }
+    }
+
+    #[test]
+    fn an_hour_keeps_every_bit() {
+        for one in [hour(true), hour(false)] {
+            let line = one.line(4711);
+            assert_eq!(Hour::read(line.trim_end()), Some((4711, one)));
+            // Whatever is missing of it, it is none.
+            for end in 0..line.len() - 2 {
+                assert_eq!(Hour::read(&line[..end]), None, "{end}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_goes_on_behind_its_last_whole_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let table = folder.path().join("hours.csv");
+        let open = |fingerprint: &str, anew| Kept::beside(&table, fingerprint.to_owned(), Duration::ZERO, anew);
+        let mut kept = open("a", false).unwrap();
+        assert_eq!(kept.count(), 0);
+        kept.keep(3, hour(true));
+        kept.keep(4, hour(false));
+        kept.write().unwrap();
+        let busy = open("a", false).unwrap_err().to_string();
+        assert!(busy.contains("another run"), "{busy}");
+        let path = kept.path().to_owned();
+        drop(kept);
+        let mut text = std::fs::read(&path).unwrap();
+        text.truncate(text.len() - 7);
+        std::fs::write(&path, &text).unwrap();
+        let other = open("b", false).unwrap_err().to_string();
+        assert!(
+            other.contains("hours.csv.part") && other.contains("another scene") && !other.contains('\n'),
+            "{other}"
+        );
+        let mut kept = open("a", false).unwrap();
+        assert_eq!(kept.hours, BTreeMap::from([(3, hour(true))]));
+        kept.keep(5, hour(false));
+        kept.write().unwrap();
+        drop(kept);
+        let kept = open("a", false).unwrap();
+        assert_eq!(kept.hours.keys().copied().collect::<Vec<_>>(), [3, 5]);
+        drop(kept);
+        let kept = open("b", true).unwrap();
+        assert_eq!(kept.count(), 0);
+        kept.done().unwrap();
+        assert!(!path.exists());
+        std::fs::write(&path, "notes\n").unwrap();
+        assert!(open("a", false).unwrap_err().to_string().contains("is no part of a year"));
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "notes\n");
+    }
+
+    #[test]
+    fn short_runs_leave_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut kept = Kept::beside(&folder.path().join("a.csv"), "a".to_owned(), PATIENCE, false).unwrap();
+        kept.keep(1, hour(true));
+        kept.write().unwrap();
+        assert!(!kept.path().exists() && kept.done().is_ok());
+    }
+}
