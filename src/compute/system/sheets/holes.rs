@@ -78,22 +78,30 @@ impl Holes {
         let (got, due) = (first.iter().sum::<f64>(), self.sheet.open() - self.sheet.straight(name));
         let scale = if got > 1e-12 { due.max(0.0) / got } else { 0.0 };
         let wall = self.sheet.reflectance[2];
-        let landed: Vec<f64> =
-            (0..n).map(|j| (0..n).map(|i| response[(j, i)] * first[i]).sum::<f64>() * scale).collect();
+        first.iter_mut().for_each(|first| *first *= scale);
+        let landed = product(response, &first);
         let exitance: Vec<f64> = landed.iter().zip(walls.areas()).map(|(l, area)| wall * l / (PI * area)).collect();
         let k = usize::from(side == Side::Back);
-        let sent = |lit: &Lit, o: usize| exitance.iter().enumerate().map(|(j, e)| lit.walls[(o, j)] * e).sum::<f64>();
+        let sent = |lit: &Lit| product(&lit.walls, &exitance);
         let face = self.sheet.reflectance[k];
         let solid = 1.0 - self.sheet.open();
         let [through, back] = &seen.ways[depth];
-        let cells = 0..through[0].cells();
         Rest {
             // Leaving light is named as what would light the walls from the other side.
-            transmitted: cells.clone().map(|o| sent(&through[1 - k], o)).collect(),
-            reflected: cells.map(|o| face * solid / PI + sent(&back[k], o)).collect(),
+            transmitted: sent(&through[1 - k]),
+            reflected: sent(&back[k]).into_iter().map(|q| face * solid / PI + q).collect(),
             absorbed: (1.0 - face) * solid + (1.0 - wall) * landed.iter().sum::<f64>(),
         }
     }
+}
+
+/// Column by column, which lie in one piece.
+fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; matrix.nrows()];
+    for (j, factor) in of.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
+        sums.iter_mut().zip(matrix.col(j).iter()).for_each(|(sum, value)| *sum += factor * value);
+    }
+    sums
 }
 
 impl Specimen for Holes {

@@ -84,13 +84,6 @@ pub(super) struct Lit {
     pub walls: Mat<f64>,
 }
 
-impl Lit {
-    /// Number of cells.
-    pub const fn cells(&self) -> usize {
-        self.straight.len()
-    }
-}
-
 impl Walls {
     pub fn new(sheet: &Perforated, depth: usize) -> Self {
         let unit = sheet.area.sqrt();
