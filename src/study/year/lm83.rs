@@ -3,7 +3,8 @@
 //! Groups are apertures of the same surface with the same product under the same control. Open is the state that the control
 //! takes by day without direct sun, which is the most open unless `open_state` names another; closed is the one for DIN 5034,
 //! the most closed or `closed_state`. Where nothing moves, an even shade with a transmittance of 5 % stands in the system's place
-//! while it is closed: what tools take by § 2.2.7 for blinds that nobody has described.
+//! while it is closed: what tools take by § 2.2.7 for blinds that nobody has described. It throws back what `reflectance` says,
+//! and nothing where that is the dataset's.
 //!
 //! Only the occupied lit steps that the year does not hold in the very same states are computed.
 
