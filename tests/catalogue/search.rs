@@ -242,7 +242,6 @@ fn picked(device: &Device, mode: ControlMode) -> usize {
         facade_direct: 50_000.0,
         facade_global: 60_000.0,
         indoor: None,
-        indoor_sensors: Vec::new(),
     };
     Controller::new(settings).step(0.0, &inputs).state
 }
