@@ -8,10 +8,10 @@
 //!
 //! Only the occupied lit steps that the year does not hold in the very same states are computed.
 
-use super::Climate;
 use super::fixed::{put_ordinary, put_state};
 use super::light::{self, Light};
 use super::settings::Settings;
+use super::steps::Steps;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::beams_past::beams_past;
@@ -81,7 +81,8 @@ pub(super) struct Question<'a> {
     pub base: &'a Path,
     pub library: &'a dyn SystemLibrary,
     pub session: &'a Session,
-    pub climate: &'a Climate,
+    pub settings: &'a Settings,
+    pub steps: &'a Steps,
     pub moving: &'a [Moving],
     pub states: &'a [Vec<usize>],
     pub chosen: &'a [usize],
@@ -98,7 +99,7 @@ pub(super) fn lm83(
     notes: &mut Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Lm83, StudyError> {
-    let (settings, steps) = (&question.climate.settings, &question.climate.steps);
+    let (settings, steps) = (question.settings, question.steps);
     let groups = groups(question)?;
     tell(question.file, settings, &groups, notes);
     let counts = |k: usize| steps.list[k].occupied && steps.list[k].hour.is_lit();
