@@ -3,14 +3,15 @@
 //! Groups are apertures of the same surface with the same product under the same control. Open is the state that the control
 //! takes by day without direct sun, which is the most open unless `open_state` names another; closed is the one for DIN 5034,
 //! the most closed or `closed_state`. Where nothing moves, an even shade with a transmittance of 5 % stands in the system's place
-//! while it is closed: what tools take by § 2.2.7 for blinds that nobody has described.
+//! while it is closed: what tools take by § 2.2.7 for blinds that nobody has described. It throws back what `reflectance` says,
+//! and nothing where that is the dataset's.
 //!
 //! Only the occupied lit steps that the year does not hold in the very same states are computed.
 
-use super::Climate;
 use super::fixed::{put_ordinary, put_state};
 use super::light::{self, Light};
 use super::settings::Settings;
+use super::steps::Steps;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::beams_past::beams_past;
@@ -80,7 +81,8 @@ pub(super) struct Question<'a> {
     pub base: &'a Path,
     pub library: &'a dyn SystemLibrary,
     pub session: &'a Session,
-    pub climate: &'a Climate,
+    pub settings: &'a Settings,
+    pub steps: &'a Steps,
     pub moving: &'a [Moving],
     pub states: &'a [Vec<usize>],
     pub chosen: &'a [usize],
@@ -97,7 +99,7 @@ pub(super) fn lm83(
     notes: &mut Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Lm83, StudyError> {
-    let (settings, steps) = (&question.climate.settings, &question.climate.steps);
+    let (settings, steps) = (question.settings, question.steps);
     let groups = groups(question)?;
     tell(question.file, settings, &groups, notes);
     let counts = |k: usize| steps.list[k].occupied && steps.list[k].hour.is_lit();

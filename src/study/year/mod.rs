@@ -207,7 +207,7 @@ fn computed(
     };
     let Climate { settings, steps } = climate.clone();
     let mut notes = steps.warnings.clone();
-    let asked = states::Question { file, base, library, session, climate };
+    let asked = states::Question { file, base, library, session, settings: &settings, steps: &steps };
     let States { moving, list: states, movements, indoor } = states::states(&asked, &mut notes, progress)?;
     lap("states");
     let chosen: Vec<usize> = (0..steps.list.len()).filter(|&k| wanted(&steps.list[k])).collect();
@@ -226,7 +226,8 @@ fn computed(
         base,
         library,
         session,
-        climate,
+        settings: &settings,
+        steps: &steps,
         moving: &moving,
         states: &states,
         chosen: &chosen,
@@ -261,10 +262,10 @@ pub fn scene_at(
     time: jiff::civil::DateTime,
     progress: &dyn Progress,
 ) -> Result<SceneFile, StudyError> {
-    let climate = climate(file, base)?;
-    let asked = states::Question { file, base, library, session: &Session::new(), climate: &climate };
+    let Climate { settings, steps } = climate(file, base)?;
+    let session = &Session::new();
+    let asked = states::Question { file, base, library, session, settings: &settings, steps: &steps };
     let States { moving, list: states, .. } = states::states(&asked, &mut Vec::new(), progress)?;
-    let Climate { settings, steps } = climate;
     let at = steps.at(time).ok_or_else(|| {
         let message = format!(
             "{} has no interval that holds {}",

@@ -1,9 +1,9 @@
 //! The state of every moving aperture in every step: the controls stepped through the year with the weather's sun and sky.
 
-use super::Climate;
 use super::indoor::{Indoor, Reader, sensors};
 use super::light;
 use super::settings::Settings;
+use super::steps::Steps;
 use crate::compute::angle::Bearing;
 use crate::compute::control::controller::{Controller, Inputs};
 use crate::compute::direction::Orientation;
@@ -38,7 +38,8 @@ pub(super) struct Question<'a> {
     pub base: &'a Path,
     pub library: &'a dyn SystemLibrary,
     pub session: &'a Session,
-    pub climate: &'a Climate,
+    pub settings: &'a Settings,
+    pub steps: &'a Steps,
 }
 
 /// Is any aperture left to a control?
@@ -61,8 +62,7 @@ pub(super) fn states(
     notes: &mut Vec<String>,
     progress: &dyn Progress,
 ) -> Result<States, StudyError> {
-    let Question { file, base, library, session, climate } = *question;
-    let steps = &*climate.steps;
+    let Question { file, base, library, session, settings: all, steps } = *question;
     if !moves(file) {
         return Ok(States { list: vec![Vec::new(); steps.list.len()], ..States::default() });
     }
@@ -85,7 +85,7 @@ pub(super) fn states(
     }
     let measured = controllers.iter().any(|one| one.settings().close_above.is_some());
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
-    let settings = Settings { eyes: Vec::new(), ..climate.settings.clone() };
+    let settings = Settings { eyes: Vec::new(), ..all.clone() };
     let asked = light::Question { file, base, library, session, settings: &settings, steps, moving: &moving };
     let mut reader = Reader::new(asked, sensors(&moving, settings.sensors)?);
     let mut movements = vec![0; moving.len()];
