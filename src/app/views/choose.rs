@@ -25,6 +25,9 @@ const SIDE: f32 = 360.0;
 /// Height of what is told of the chosen product; less in a low tile. \[points\]
 const WHY: f32 = 132.0;
 
+/// Width of the name of an axis. \[points\]
+const AXIS: f32 = 190.0;
+
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
@@ -37,7 +40,8 @@ pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
         controls_width: match (input.list.is_some(), input.look.page) {
             (false, _) => 0.0,
             (true, Page::Objectives) => 340.0,
-            (true, _) => 470.0,
+            (true, Page::Plot) => 250.0 + 2.0 * AXIS,
+            (true, Page::Table) => 470.0,
         },
     };
     let status = Status { error: None, ..input.status };
@@ -102,7 +106,7 @@ fn controls(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Acti
 
 fn axis(ui: &mut Ui, list: &Shortlist, name: crate::texts::Text, (own, key): (usize, &mut String)) {
     let text = list.list.figures.get(own).map_or_else(String::new, |key| figure_words(key).0);
-    let combo = ComboBox::from_id_salt(name.english()).width(110.0).truncate().selected_text(text);
+    let combo = ComboBox::from_id_salt(name.english()).width(AXIS).truncate().selected_text(text);
     let combo = combo.show_ui(ui, |ui| {
         for figure in &list.list.figures {
             ui.selectable_value(key, figure.clone(), figure_words(figure).0);
