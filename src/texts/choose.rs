@@ -24,7 +24,7 @@ texts! {
     const CHOOSE_ABOUT = "Products of the catalogue in this room, through a year, by objectives and weights. What the errors cannot tell apart shares a rank. Weights and anchors order anew what is known; nothing is computed again.\nA diamond: no other is better in every objective. A double tilde: approximate figures. A roof: in the room now.\nSource: weighted sum of objectives between anchors, with intervals; Pareto front; IEA SHC Task 31 report (2005), figure 18." | "Produkte des Katalogs in diesem Raum, durch ein Jahr, nach Zielen und Gewichten. Was die Unsicherheiten nicht trennen, teilt einen Rang. Gewichte und Anker ordnen neu, was bekannt ist; nichts wird noch einmal gerechnet.\nEine Raute: keines ist in jedem Ziel besser. Eine doppelte Tilde: Kennwerte als Näherung. Ein Dach: jetzt im Raum.\nQuelle: gewichtete Summe der Ziele zwischen Ankern, mit Intervallen; Pareto-Front; Bericht IEA SHC Task 31 (2005), Bild 18.";
 
     // Before there is a ranking.
-    const INVITATION = "Which of the catalogue's systems suits this façade? Each works a year in this room, under its own control; what counts is yours to say. The first results are coarse and come soon, whole years follow." | "Welches System des Katalogs passt zu dieser Fassade? Jedes arbeitet ein Jahr in diesem Raum, mit eigener Regelung; was zählt, liegt bei dir. Erste, grobe Ergebnisse kommen bald, ganze Jahre folgen.";
+    const INVITATION = "Which of the catalogue's systems suits this façade? Each works a year in this room, under its own control; what counts is yours to say. The first results are coarse and come soon, whole years follow." | "Welches System des Katalogs passt zu dieser Fassade? Jedes arbeitet ein Jahr in diesem Raum, mit eigener Regelung; was zählt, lässt sich festlegen. Erste, grobe Ergebnisse kommen bald, ganze Jahre folgen.";
     const RANK_CATALOGUE = "Rank the catalogue for this façade" | "Den Katalog für diese Fassade reihen";
     const RANK_TIP = "Goes on beside your work, and can be stopped; what was found stays" | "Läuft neben der Arbeit her und lässt sich anhalten; Gefundenes bleibt";
     fn would_count(names) = "What counts: {names}" | "Was zählt: {names}";
@@ -101,10 +101,10 @@ texts! {
     // What counts.
     const WEIGHT_TIP = "How much it counts, relative to the others" | "Wie viel es zählt, im Verhältnis zu den anderen";
     fn weight_of(name) = "Weight of {name}" | "Gewicht von {name}";
-    const WORST = "worst" | "schlechtestes";
+    const WORST = "0 at" | "0 bei";
     const WORST_TIP = "Where it is worth 0; what is worse is worth no less" | "Wo es 0 wert ist; Schlechteres ist nicht weniger wert";
     fn worst_of(name) = "Worst of {name}" | "Schlechtestes von {name}";
-    const BEST = "best" | "bestes";
+    const BEST = "1 at" | "1 bei";
     const BEST_TIP = "Where it is worth 1; what is better is worth no more" | "Wo es 1 wert ist; Besseres ist nicht mehr wert";
     fn best_of(name) = "Best of {name}" | "Bestes von {name}";
     fn leave_out(name) = "Leave out {name}" | "{name} weglassen";

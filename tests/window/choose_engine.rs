@@ -106,7 +106,7 @@ pub fn addition(key: &str, name: &str, tau: f64) -> Addition {
     let product = NewProduct {
         key: Some(key.to_owned()),
         name: name.to_owned(),
-        kind: "pane".to_owned(),
+        kind: if name.ends_with("pane") { "pane" } else { "shade" }.to_owned(),
         ..NewProduct::default()
     };
     Addition { datasets: vec![Arc::new(dataset)], product }

@@ -21,9 +21,12 @@ use egui::{Checkbox, ComboBox, Rect, RichText, TextEdit, Ui, UiBuilder};
 /// Width of a tile that shows the products and what counts side by side. \[points\]
 const BOTH: f32 = 980.0;
 /// Width of what counts there. \[points\]
-const SIDE: f32 = 330.0;
+const SIDE: f32 = 360.0;
 /// Height of what is told of the chosen product; less in a low tile. \[points\]
 const WHY: f32 = 132.0;
+
+/// Width of the name of an axis. \[points\]
+const AXIS: f32 = 190.0;
 
 /// Draws the tile into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
@@ -34,7 +37,12 @@ pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
         subtitle: input.name,
         help: say::CHOOSE_ABOUT.get(),
         empty: None,
-        controls_width: if input.list.is_some() { 470.0 } else { 0.0 },
+        controls_width: match (input.list.is_some(), input.look.page) {
+            (false, _) => 0.0,
+            (true, Page::Objectives) => 340.0,
+            (true, Page::Plot) => 250.0 + 2.0 * AXIS,
+            (true, Page::Table) => 470.0,
+        },
     };
     let status = Status { error: None, ..input.status };
     tile::show(
@@ -98,7 +106,7 @@ fn controls(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Acti
 
 fn axis(ui: &mut Ui, list: &Shortlist, name: crate::texts::Text, (own, key): (usize, &mut String)) {
     let text = list.list.figures.get(own).map_or_else(String::new, |key| figure_words(key).0);
-    let combo = ComboBox::from_id_salt(name.english()).width(110.0).truncate().selected_text(text);
+    let combo = ComboBox::from_id_salt(name.english()).width(AXIS).truncate().selected_text(text);
     let combo = combo.show_ui(ui, |ui| {
         for figure in &list.list.figures {
             ui.selectable_value(key, figure.clone(), figure_words(figure).0);
@@ -108,8 +116,8 @@ fn axis(ui: &mut Ui, list: &Shortlist, name: crate::texts::Text, (own, key): (us
 }
 
 fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> String {
-    let rect = above_progress(ui, rect, input, out);
-    let rect = above_error(ui, rect, input);
+    let rect = below_progress(ui, rect, input, out);
+    let rect = below_error(ui, rect, input);
     let page = input.look.page;
     let mut left = rect;
     if page != Page::Objectives && rect.width() >= BOTH && rect.height() >= 240.0 {
@@ -122,6 +130,9 @@ fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut 
         return summary(input, list);
     }
     let why = if left.height() > 2.2 * WHY { WHY } else { (0.4 * left.height()).max(30.0) };
+    // A short table leaves its room to the reasons.
+    let needed = if page == Page::Table { table::height(list.shown(input.look).len()) } else { f32::INFINITY };
+    let why = why.max(left.height() - needed);
     let (upper, lower) = left.split_top_bottom_at_y(left.bottom() - why);
     let said = if page == Page::Plot {
         plot::show(ui, upper, input, list, out)
@@ -139,18 +150,18 @@ fn summary(input: &Input<'_>, list: &Shortlist) -> String {
     format!("{} · {}", say::shown(shown, list.entries.len()), input.weather.display())
 }
 
-/// A bar at the lower edge while products are computed; what is left above it.
-fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
+/// A bar at the upper edge, where no message lies over it, while products are computed; what is left below it.
+fn below_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
     if input.running.is_none() {
         return rect;
     }
-    let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - 26.0);
-    ui.scope_builder(UiBuilder::new().max_rect(below).id_salt("progress"), |ui| empty::progress(ui, input, out));
-    above
+    let (above, below) = rect.split_top_bottom_at_y(rect.top() + 28.0);
+    ui.scope_builder(UiBuilder::new().max_rect(above).id_salt("progress"), |ui| empty::progress(ui, input, out));
+    below
 }
 
 /// Why there is nothing newer; what is left below.
-fn above_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
+fn below_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     let Some(error) = input.error else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.top() + 20.0);
     let colour = ui.visuals().error_fg_color;

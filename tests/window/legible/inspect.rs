@@ -171,14 +171,17 @@ fn cut_with_a_tip(harness: &Harness<'_, App>) -> Vec<String> {
     let state = &harness.state().state;
     let sun_behind = "the sun is not before the façade".to_owned();
     let selection = title::title(state).replace("cfs – ", "");
-    // Names in the rows of a ranking, with their marks.
+    // Names in the rows of a ranking, with their marks, and why others are left out.
     let ranked = harness.state().results.rank.value.as_ref();
+    let reasons = ranked.into_iter().flat_map(|figures| figures.known.values());
+    let reasons = reasons.filter_map(|known| known.outcome.as_ref().err().cloned());
     let ranked = ranked.into_iter().flat_map(|figures| figures.products.iter());
     let ranked =
         ranked.flat_map(|product| ["", "◆ ", "≈ ", "⌂ ", "◆ ≈ ", "◆ ⌂ "].map(|mark| format!("{mark}{}", product.name)));
     [title::selection(state), title::sky(&state.document.scene), selection, sun_behind]
         .into_iter()
         .chain(ranked)
+        .chain(reasons)
         .filter(|start| !start.is_empty())
         .collect()
 }

@@ -43,7 +43,8 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
     let (name, unit) = figure_words(&one.figure);
     let mut goes = false;
     ui.horizontal_wrapped(|ui| {
-        ui.add(Label::new(RichText::new(&name).size(13.0).strong())).on_hover_text(&one.figure);
+        let head = if matches!(unit, "" | "%") { name.clone() } else { format!("{name} / {unit}") };
+        ui.add(Label::new(RichText::new(head).size(13.0).strong())).on_hover_text(&one.figure);
         if may_go {
             let button = ui.small_button("×").on_hover_text(say::LEAVE_OUT_TIP);
             button
@@ -52,13 +53,14 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
         }
     });
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().slider_width = 90.0;
+        ui.spacing_mut().slider_width = 70.0;
         let range = WEIGHTS[0].min(one.weight)..=WEIGHTS[1].max(one.weight);
         let slider =
             ui.add(Slider::new(&mut one.weight, range).max_decimals(1).step_by(0.1).clamping(SliderClamping::Edits));
         slider.on_hover_text(say::WEIGHT_TIP).accessible_name(say::weight_of(&name));
         let scale = if unit == "%" { 100.0 } else { 1.0 };
-        let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let suffix = if unit == "%" { " %" } else { "" };
+        let speed = (0.01 * scale * (one.worst - one.best).abs()).max(1e-3);
         // An anchor never comes to the other's side.
         let apart = 0.01 * (one.worst - one.best).abs().max(1e-6);
         let (low, high) = match one.better {
@@ -72,8 +74,7 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
             ui.label(RichText::new(word.get()).size(13.0));
             let mut shown = scale * *value;
             let range = scale * range.start()..=scale * range.end();
-            let speed = 0.005 * shown.abs().max(1.0);
-            let drag = DragValue::new(&mut shown).range(range).speed(speed).max_decimals(2).suffix(&suffix);
+            let drag = DragValue::new(&mut shown).range(range).speed(speed).max_decimals(2).suffix(suffix);
             let drag = ui.add(drag);
             if drag.changed() {
                 *value = shown / scale;

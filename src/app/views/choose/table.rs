@@ -23,6 +23,11 @@ const NAME: f32 = 130.0;
 /// Space between columns. \[points\]
 const GAP: f32 = 8.0;
 
+/// Height of so many rows with their heads.
+pub(super) fn height(rows: usize) -> f32 {
+    70.0 + rows as f32 * ROW
+}
+
 /// Where columns stand: as many objectives as there is room for.
 struct Columns {
     rank: f32,
@@ -236,7 +241,10 @@ fn row(
     let name = text(ui, &name, colour, columns.name[1] - columns.name[0], 1);
     painter.galley(pos2(columns.name[0], middle - 0.5 * name.size().y), name, colour);
     let mut tip = spoken.clone();
-    if entry.excluded.is_none() {
+    if let Some(reason) = &entry.excluded {
+        let reason = text(ui, reason, palette.weak, rect.right() - columns.worth[0] - 4.0, 1);
+        painter.galley(pos2(columns.worth[0], middle - 0.5 * reason.size().y), reason, palette.weak);
+    } else {
         bar(ui, rect, columns.worth, entry, pale, &palette);
         for (k, (place, figure)) in columns.figures.iter().zip(&entry.figures).enumerate() {
             let worth = list.list.objectives.get(k).map_or(0.0, |one| one.utility(figure.value));

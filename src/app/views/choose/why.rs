@@ -5,7 +5,10 @@ use super::words;
 use crate::app::paint::palette::Palette;
 use crate::study::rank::{Entry, Look, Shortlist};
 use crate::texts::choose as say;
-use egui::{Button, ComboBox, Label, Rect, RichText, ScrollArea, Ui, UiBuilder};
+use egui::{Button, ComboBox, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder};
+
+/// Less of what a product is worth is not worth a line.
+const LEAST: f64 = 5e-4;
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
     let chosen = input.look.product.as_ref().and_then(|product| list.entry(product));
@@ -16,31 +19,44 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
             return;
         };
         ui.horizontal(|ui| buttons(ui, input, list, entry, out));
-        ScrollArea::vertical().id_salt("why").auto_shrink([false, false]).show(ui, |ui| {
-            let line = |ui: &mut Ui, words: String, weak: bool| {
-                let colour = if weak { palette.weak } else { palette.ink };
-                ui.add(Label::new(RichText::new(words).size(13.0).color(colour)).wrap());
-            };
-            if let Some(reason) = &entry.excluded {
-                line(ui, say::excluded_because(reason), false);
-                return;
-            }
-            let Some(reason) = input.reason else {
-                line(ui, say::ONLY_ONE.into(), true);
-                return;
-            };
-            line(ui, format!("{}: {}", entry.name, words::head(list, reason)), false);
-            for term in &reason.terms {
-                line(ui, words::term(list, term), false);
-            }
-            if entry.coarse {
-                line(ui, say::COARSE_TIP.into(), true);
-            }
-            if !entry.approximate.is_empty() {
-                line(ui, say::approximate_since(entry.approximate.join("; ")), true);
-            }
-        });
+        lines(ui, &said(input, list, entry));
     });
+}
+
+/// What is said of a product; `true`: in the weak colour.
+fn said(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(String, bool)> {
+    if let Some(reason) = &entry.excluded {
+        return vec![(say::excluded_because(reason), false)];
+    }
+    let Some(reason) = input.reason else { return vec![(say::ONLY_ONE.into(), true)] };
+    let mut all = vec![(format!("{}: {}", entry.name, words::head(list, reason)), false)];
+    let told = reason.terms.iter().filter(|term| term.worth.abs() >= LEAST);
+    all.extend(told.map(|term| (words::term(list, term), false)));
+    if entry.coarse {
+        all.push((say::COARSE_TIP.into(), true));
+    }
+    if !entry.approximate.is_empty() {
+        all.push((say::approximate_since(entry.approximate.join("; ")), true));
+    }
+    all
+}
+
+/// As many whole lines as there is room for; all of them in the tip.
+fn lines(ui: &mut Ui, all: &[(String, bool)]) {
+    let palette = Palette::of(ui.visuals());
+    let full = ui.available_rect_before_wrap();
+    for (words, weak) in all {
+        let colour = if *weak { palette.weak } else { palette.ink };
+        let text = RichText::new(words).size(13.0).color(colour);
+        let room = ui.available_height();
+        let galley = ui.painter().layout(words.clone(), FontId::proportional(13.0), colour, full.width());
+        if galley.size().y > room {
+            break;
+        }
+        ui.add(Label::new(text).wrap());
+    }
+    let whole: Vec<&str> = all.iter().map(|(words, _)| words.as_str()).collect();
+    ui.interact(full, ui.scope_id().with("all of why"), Sense::HOVER).on_hover_text(whole.join("\n"));
 }
 
 fn buttons(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, entry: &Entry, out: &mut Vec<Action>) {

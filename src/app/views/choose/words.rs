@@ -9,7 +9,8 @@ use crate::texts::{choose as say, fixed};
 /// Value and error, in % where it is a share; without the unit, which stands in the column's head.
 pub(super) fn value(unit: &str, figure: Estimate) -> String {
     if unit == "%" {
-        format!("{} ± {} %", fixed(100.0 * figure.value, 1), fixed(100.0 * figure.error, 1))
+        // An error too small for the value's digits is no nought.
+        format!("{} ± {} %", fixed(100.0 * figure.value, 1), number(100.0 * figure.error, 1))
     } else {
         format!("{} ± {}", number(figure.value, 3), number(figure.error, 1))
     }
@@ -25,7 +26,7 @@ fn bare(unit: &str, value: f64) -> String {
 }
 
 fn signed(text: String, value: f64) -> String {
-    if value > 0.0 { format!("+{text}") } else { text }
+    if value > 0.0 { format!("+{text}") } else { text.replacen('-', "−", 1) }
 }
 
 /// What a product is worth.
