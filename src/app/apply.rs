@@ -1,28 +1,20 @@
 //! Acting on commands: the only place where what the window knows changes by the user's will.
 
 use super::command::Command;
+use super::first_choice::first_choice;
 use super::hand_on::What;
 use super::jobs::Lane;
 use super::moment;
 use super::outside;
 use super::scene::{Selection, fill, first_scene, rule, set_rule};
-use super::state::{Document, PathUse, Sheet};
+use super::state::{PathUse, Sheet};
+use super::title;
 use super::window::{App, end_step};
-use super::{control, title};
 use crate::catalogue::{FirstRule, Product};
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::texts::shell;
-
-/// Puts a product into a document as it is first shown: by its own rule, else in the state that is named.
-pub(super) fn first_choice(document: &mut Document, product: String, rule: FirstRule, state: Option<&str>) {
-    let keys = control::first_keys(rule);
-    let state = if keys.is_some() { CONTROLLED } else { state.unwrap_or_default() };
-    document.selection = Selection { product, state: state.to_owned() };
-    set_rule(&mut document.scene, None, keys);
-    fill(&mut document.scene, &document.selection);
-}
 
 impl App {
     /// Does what a command says. What it changes in the document is a step of its own, however soon it follows on the one

@@ -123,7 +123,7 @@ impl Asked {
         };
         let [additions, changes] = asking.catalogue.map(<[usize]>::to_vec);
         let catalogue = (additions, changes);
-        (!places.is_empty()).then(|| Self { scene: open, base, control, query, catalogue })
+        (!places.is_empty()).then_some(Self { scene: open, base, control, query, catalogue })
     }
 
     /// The one list that it asks for; the weights are not its business.

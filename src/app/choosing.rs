@@ -1,9 +1,9 @@
 //! Choosing at work: products are ranked in a job, what it finds is shown as it comes, the chosen one goes into the room.
 
-use super::apply::first_choice;
 use super::choose::{Asked, Asking, Board, ChooseAct, Figures, figures_of, objectives_of, ranked_apertures};
 use super::engine::Engine;
 use super::error::AppError;
+use super::first_choice::first_choice;
 use super::jobs::{JobState, Lane};
 use super::scene::{Selection, fill, selection_of};
 use super::shelf::Shelf;

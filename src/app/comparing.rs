@@ -1,11 +1,11 @@
 //! Comparing: what is put into the tray, what is computed of it, and what the tiles of a candidate may change.
 
-use super::apply::first_choice;
 use super::command::Command;
 use super::compare::{Act, Look, Part};
 use super::compare_columns::Column;
 use super::engine::Question;
 use super::error::AppError;
+use super::first_choice::first_choice;
 use super::jobs::Lane;
 use super::scene::{own_system, rule, selection_of};
 use super::shelf_library::WindowLibrary;

@@ -1,9 +1,9 @@
 //! Products after they are stored: other words about them, out of sight and back. Undo goes over both.
 
-use super::apply::first_choice;
 use super::changes::{Change, Editing, Looked};
 use super::editing::look;
 use super::error::AppError;
+use super::first_choice::first_choice;
 use super::jobs::Lane;
 use super::state::Sheet;
 use super::window::{App, end_step};

@@ -35,6 +35,7 @@ pub mod export;
 pub mod facing;
 pub mod faults;
 pub mod findings;
+mod first_choice;
 pub mod frame;
 pub mod gallery;
 pub mod goniophotometer;

@@ -1,9 +1,9 @@
 //! Starts jobs, and takes what they bring back into the window.
 
-use super::apply::first_choice;
 use super::command::Command;
 use super::engine::Question;
 use super::error::AppError;
+use super::first_choice::first_choice;
 use super::jobs::Lane;
 use super::scene::{Selection, own_system, selection_of};
 use super::shelf::{Addition, Query, Shelf};

@@ -8,6 +8,7 @@
 //! - `angle`: angles and bearings as types
 //! - `direction`: directions, frames and what points where
 //! - `profile_angle`: directions in the section across slats
+//! - `dot`: sums of products
 //! - `estimate`: numbers with their error, progress and cancelling
 //! - `quadrature`: integrals with errors
 //! - `sweep`: several quantities integrated along one variable at once, with errors
@@ -54,6 +55,7 @@ pub mod btdf;
 pub mod control;
 pub mod direction;
 pub mod doctor;
+pub mod dot;
 pub mod estimate;
 pub mod glare;
 pub mod incidence;

@@ -12,6 +12,7 @@ mod outside_seen;
 mod part;
 pub(super) mod responses;
 mod seen;
+mod skies;
 pub(super) mod sky_year;
 mod split;
 mod surfaces;

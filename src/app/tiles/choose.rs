@@ -22,11 +22,14 @@ pub const TILE: Tile = Tile { title: say::CHOOSE.english(), name: say::CHOOSE, h
 
 type Ordered = Result<Arc<Shortlist>, String>;
 
+/// What a reason hangs on: the figures, what counts, whom it compares, and its language.
+type ReasonKey = (u64, Vec<ObjectiveKeys>, [Option<String>; 2], Language);
+
 /// Its drawing.
 #[derive(Default)]
 pub struct Drawing {
     list: Cache<(u64, Vec<ObjectiveKeys>, String), Ordered>,
-    reason: Cache<(u64, Vec<ObjectiveKeys>, [Option<String>; 2], Language), Option<Reason>>,
+    reason: Cache<ReasonKey, Option<Reason>>,
 }
 
 /// The name of the scene as tables have it.

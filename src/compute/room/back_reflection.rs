@@ -8,9 +8,10 @@
 use super::aperture::Aperture;
 use super::mesh::Mesh;
 use super::patch_weights::PatchWeights;
-use super::radiosity::{Exitance, Radiosity, dot};
+use super::radiosity::{Exitance, Radiosity};
 use crate::compute::btdf::{CellMatrix, Scattered};
 use crate::compute::direction::Dir;
+use crate::compute::dot::dot;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use rayon::prelude::*;

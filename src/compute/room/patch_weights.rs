@@ -3,8 +3,8 @@
 use super::aperture::Aperture;
 use super::direct::{Reception, Sensor};
 use super::mesh::{Mesh, Patch, Wall};
-use super::radiosity::dot;
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
+use crate::compute::dot::dot;
 use crate::compute::quadrature::gauss_legendre;
 use glam::DVec3;
 use rayon::prelude::*;

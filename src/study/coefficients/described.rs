@@ -55,11 +55,13 @@ impl ByAngle {
     }
 }
 
+/// Light at the sensors of 1 lx, and the error of it, relative.
+type Node = Arc<(SensorRows, f64)>;
+
 /// What a system of an endless structure scatters, by angles along and across it: nodes are asked for when the sun is near.
 pub(super) struct Lattice {
     upright: bool,
-    /// Light at the sensors of 1 lx, and the error of it, relative.
-    nodes: Mutex<HashMap<[i64; 2], Arc<(SensorRows, f64)>>>,
+    nodes: Mutex<HashMap<[i64; 2], Node>>,
 }
 
 /// Steps of the angle along the structure and of the profile angle. \[°\]
@@ -76,7 +78,7 @@ impl Lattice {
         }
     }
 
-    fn node(&self, specimen: &dyn Specimen, views: &Views, at: [i64; 2]) -> Arc<(SensorRows, f64)> {
+    fn node(&self, specimen: &dyn Specimen, views: &Views, at: [i64; 2]) -> Node {
         // What is kept is whole even if another thread has failed while it held the lock.
         let nodes = || self.nodes.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = nodes().get(&at) {

@@ -33,9 +33,10 @@ use super::session::landed::Landed;
 use super::session::responses::Responses;
 use super::session::{ORDINARY_TARGET, Session};
 use crate::compute::angle::Bearing;
-use crate::compute::direction::Dir;
+use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
+use crate::compute::sky::perez::PerezState;
 use crate::compute::sky::{Distribution, Outside};
 use part::{AperturePart, Sums, Way};
 use std::sync::Arc;
@@ -53,6 +54,9 @@ pub struct Coefficients {
 
 /// Safety on the error of the fixed directions, seen on some skies and stated for others.
 const OTHER_SKIES: f64 = 2.0;
+
+/// Altitude of the sun of the steep sky among these. \[rad\]
+const STEEP: f64 = 0.5;
 
 impl Coefficients {
     /// Prepares a scene. Its own sky and sun do not matter, but for how finely the room is meshed.
@@ -120,18 +124,26 @@ impl Coefficients {
         Ok(coefficients)
     }
 
-    /// Largest relative difference between the fixed directions and integrals, on the scene's sky and two clear ones.
+    /// Largest relative difference between the fixed directions and integrals, on the scene's sky, two clear
+    /// ones and a steep one.
     fn gap_of_directions(&self, session: &Session) -> f64 {
         let facade = self.scene.facade.radians();
-        let clear = |sky_type: u8, altitude: f64, turn: f64| {
+        let clear = |of: &dyn Fn(Dir<World>) -> Option<Distribution>, altitude: f64, turn: f64| {
             let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade + turn));
-            let outside = Outside::new(Distribution::cie(sky_type, sun)?, 1e4).ok()?;
+            let outside = Outside::new(of(sun)?, 1e4).ok()?;
             if let Some(around) = self.scene.outside.surroundings() {
                 return Some(outside.behind(Arc::new(around.clone())));
             }
             outside.with_skyline(self.scene.outside.skyline_altitude(), self.scene.outside.skyline_luminance()).ok()
         };
-        let skies = [Some(self.scene.outside.clone()), clear(12, 0.5, 0.4), clear(2, 0.9, -0.7)];
+        // The steepest of those that weather brings: a strong sun and little light from the sky.
+        let steep = |sun| Some(Distribution::perez(&PerezState::new(STEEP, 500.0, 60.0, 1.0)?, sun));
+        let skies = [
+            Some(self.scene.outside.clone()),
+            clear(&|sun| Distribution::cie(12, sun), 0.5, 0.4),
+            clear(&|sun| Distribution::cie(2, sun), 0.9, -0.7),
+            clear(&steep, STEEP, 0.2),
+        ];
         let mut largest: f64 = 0.0;
         for outside in skies.into_iter().flatten().filter(|outside| self.is_smooth(outside)) {
             let (fixed, exact) =
@@ -207,7 +219,7 @@ impl Coefficients {
     }
 
     /// What the fixed directions cost, relative, at the sensor where they cost most: twice the difference to integrals
-    /// under the scene's sky and two clear ones. Part of [`Self::sky_estimate`].
+    /// under the scene's sky, two clear ones and a steep one. Part of [`Self::sky_estimate`].
     pub fn error(&self) -> f64 {
         self.directions
     }

@@ -9,10 +9,10 @@ use super::views::{Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::{Dir, World};
+use crate::compute::dot::dot;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Facing;
 use crate::compute::quadrature::{Tolerance, gauss_legendre};
-use crate::compute::room::radiosity::dot;
 use crate::compute::room::through;
 use crate::compute::sky::{Frame, Outside, SkySamples, incident_illuminances_within};
 use crate::compute::system::measure::Side;
@@ -349,7 +349,7 @@ impl SensorView {
 }
 
 /// Gauss points along each side of a piece of what a sensor sees straight through, at least.
-const POINTS: usize = 3;
+const POINTS: usize = 4;
 
 fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()

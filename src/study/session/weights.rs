@@ -1,6 +1,6 @@
 //! Weights that a session keeps.
 
-use super::interreflected::spans;
+use crate::compute::room::mesh::{Mesh, Wall};
 use crate::compute::room::radiosity::Radiosity;
 use std::ops::Range;
 
@@ -26,6 +26,7 @@ pub(super) fn by_walls(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> V
         own[range.clone()].copy_from_slice(&weights[range]);
         own
     };
+    let spans = |mesh: &Mesh| -> Vec<Range<usize>> { mesh.walls.iter().map(Wall::patches).collect() };
     spans(&radiosity.nested.fine)
         .into_iter()
         .zip(spans(&radiosity.nested.coarse))

@@ -56,11 +56,14 @@ pub struct Steps {
     found: Found,
 }
 
+/// Outside and sun of a step.
+type Sky = (Outside, Option<Sun>);
+
 /// What has been found of the steps: kept for all that ask again, and no part of what the steps are.
 #[derive(Debug, Clone)]
 struct Found {
     number: u64,
-    skies: Arc<Vec<OnceLock<(Outside, Option<Sun>)>>>,
+    skies: Arc<Vec<OnceLock<Sky>>>,
 }
 
 impl Found {

@@ -17,7 +17,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
             let mut list = input.objectives.to_vec();
             let mut gone = None;
             for (k, one) in list.iter_mut().enumerate() {
-                ui.push_id(&one.figure.clone(), |ui| {
+                ui.push_id(one.figure.clone(), |ui| {
                     if objective(ui, one, input.objectives.len() > 1) {
                         gone = Some(k);
                     }

@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
     let known: Vec<(&Entry, [[f64; 2]; 2])> = shown
         .iter()
         .filter(|entry| entry.excluded.is_none())
-        .filter_map(|entry| Some((*entry, axes.map(|k| entry.figures.get(k).copied()))))
+        .map(|entry| (*entry, axes.map(|k| entry.figures.get(k).copied())))
         .filter_map(|(entry, [x, y])| Some((entry, [x?, y?].map(|figure| [figure.value, figure.error]))))
         .filter(|(_, ends)| ends.iter().all(|[value, _]| value.is_finite()))
         .collect();

@@ -15,8 +15,8 @@ use super::profile_weights::{ProfileGrid, ProfileWeights};
 use super::transport::{Node, beam};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
+use crate::compute::dot::dot;
 use crate::compute::estimate::{Cancelled, Progress, Silent};
-use crate::compute::room::radiosity::dot;
 use crate::compute::sequence::recurrence;
 use crate::compute::system::measure::kept::{Kept, Once};
 use crate::compute::system::measure::{
@@ -36,8 +36,11 @@ pub struct SlatSpecimen {
     section: OnceLock<SlatSection>,
     solved: Once<Solved>,
     weights: Kept<ProfileWeights>,
-    known: Mutex<HashMap<(Side, i64, u64), Arc<Vec<Thrown>>>>,
+    known: Mutex<HashMap<Place, Arc<Vec<Thrown>>>>,
 }
+
+/// Side, number of the profile angle and what the lattice is as close as.
+type Place = (Side, i64, u64);
 
 /// A beam of mirrors, by its profile angles.
 struct Thrown {
