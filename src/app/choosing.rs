@@ -25,17 +25,6 @@ use std::sync::Arc;
 /// Rankings that are kept to go back to.
 const KEPT: usize = 8;
 
-/// What the window knows of rankings beside the one that is shown.
-#[derive(Default)]
-pub(super) struct Choosing {
-    /// The one that is under way, or was last, and what of it was seen.
-    board: Option<(Arc<Board>, u64)>,
-    /// Those of other questions.
-    kept: Vec<Arc<Figures>>,
-    /// Products whose years are known.
-    store: Arc<Store>,
-}
-
 /// What the window as it is asks; `None` for a room without an aperture.
 fn asked_by(state: &State) -> Option<Asked> {
     let (document, settings) = (&state.document, &state.settings);

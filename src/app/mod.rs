@@ -64,6 +64,7 @@ pub mod paint;
 pub mod palette;
 pub mod panels;
 pub mod picturing;
+mod rankings;
 pub mod reading;
 pub mod restoring;
 pub mod room_look;

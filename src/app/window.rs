@@ -2,7 +2,6 @@
 
 use super::autosave::Autosave;
 use super::backend;
-use super::choosing::Choosing;
 use super::compare_columns::Columns;
 use super::control::YearKey;
 use super::data_looks::{FormKey, SchemesKey};
@@ -16,6 +15,7 @@ use super::gallery::Gallery;
 use super::import::KeptImport;
 use super::jobs::{JobState, Jobs, Lane};
 use super::messages::Messages;
+use super::rankings::Choosing;
 use super::shelf::Shelf;
 use super::state::{Document, Results, Settings, Sheet, State};
 use super::steps::{Faults, Steps};
