@@ -9,7 +9,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::study::error::StudyError;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Light, Step, Way, Year, figures, metrics, year_in};
+use crate::study::year::{Climate, Dgp, Light, Step, Way, Year, figures, metrics, year_in};
 use serde_json::Value;
 
 /// Figures of a product: valid whatever weights and anchors are.
@@ -112,6 +112,8 @@ fn dark(climate: &Climate) -> Year {
     let steps = climate.steps.list.len();
     let places = climate.settings.sensors + climate.settings.eyes.len();
     let nothing = vec![0.0; places * steps];
+    let eyes = climate.settings.eyes.len();
+    let dgp = || Dgp { eyes, values: vec![Some(Estimate::exact(0.0)); eyes * steps], unproven: 0 };
     Year {
         settings: climate.settings.clone(),
         steps: climate.steps.clone(),
@@ -131,7 +133,7 @@ fn dark(climate: &Climate) -> Year {
         },
         lm83: None,
         solar: None,
-        dgp: None,
+        dgp: (climate.settings.keys.dgp && eyes > 0).then(dgp),
         notes: Vec::new(),
         spent: Vec::new(),
     }

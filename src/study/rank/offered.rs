@@ -40,10 +40,10 @@ pub fn offered(year: &YearKeys) -> Vec<Offered> {
         one("movements", less, 1500.0, 0.0, true),
     ]);
     for eye in 1..=year.eyes.len() {
+        list.push(one(&format!("glare.Ev_{eye}.share_above_0.40"), less, 0.3, 0.0, true));
         if year.dgp {
             list.push(one(&format!("glare.Ev_{eye}.DGP_share_above_0.40"), less, 0.3, 0.0, false));
         }
-        list.push(one(&format!("glare.Ev_{eye}.share_above_0.40"), less, 0.3, 0.0, true));
     }
     list.extend([one("ASE1000_250", less, 0.5, 0.0, false), one("sun_hours_1000", less, 600.0, 0.0, false)]);
     if year.solar {
@@ -52,7 +52,8 @@ pub fn offered(year: &YearKeys) -> Vec<Offered> {
     list
 }
 
-/// The objectives of a scene that names none: lighting energy, useful light, glare at the first eye, movements.
+/// The objectives of a scene that names none: lighting energy, useful light, glare at the first eye (simplified, which every
+/// year knows at once), movements.
 pub fn usual_objectives(year: &YearKeys) -> Vec<ObjectiveKeys> {
     let list = offered(year);
     let glare = list.iter().find(|one| one.keys.figure.starts_with("glare.")).map(|one| one.keys.figure.as_str());
