@@ -13,7 +13,6 @@ use crate::app::paint::tile::{self, Words};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{number, tick};
 use crate::texts::tiles as say;
-use egui::text::LayoutJob;
 use egui::{
     Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
@@ -90,20 +89,18 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     })
 }
 
-/// Says what is to be said of the year, as high as it is, or in a small tile in one line with the whole of it under the
-/// pointer; what is left above it.
+/// Says what is to be said of the year, as high as it is, or in a small tile that there is something, with all of it under
+/// the pointer; what is left above it.
 fn remark(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     if input.remark.is_empty() {
         return rect;
     }
     let colour = Palette::of(ui.visuals()).weak;
     let font = FontId::proportional(13.0);
-    let mut job = LayoutJob::simple(input.remark.to_owned(), font, colour, rect.width() - 8.0);
-    let mut galley = ui.painter().layout_job(job.clone());
+    let mut galley = ui.painter().layout(input.remark.to_owned(), font.clone(), colour, rect.width() - 8.0);
     let short = rect.height() - galley.size().y < LEAST_CURVE;
     if short {
-        job.wrap.max_rows = 1;
-        galley = ui.painter().layout_job(job);
+        galley = ui.painter().layout_no_wrap(say::YEAR_REMARK.get().to_owned(), font, colour);
     }
     let (above, below) = rect.split_top_bottom_at_y((rect.bottom() - galley.size().y - 4.0).max(rect.top()));
     let response = ui.interact(below, ui.scope_id().with("remark"), egui::Sense::hover());
