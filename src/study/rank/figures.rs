@@ -74,7 +74,7 @@ impl Setting<'_> {
             let figure = match stage {
                 Stage::Full => figure(&year, &all, key)?,
                 // What typical days do not tell may be anything between the anchors.
-                Stage::Coarse => coarse(&year, &all, &pairs, key).unwrap_or_else(|| {
+                Stage::Coarse => coarse(&year, &all, &pairs, key).or_else(|| nought(&year, key)).unwrap_or_else(|| {
                     let (a, b) = (objective.worst, objective.best);
                     Estimate { value: 0.5 * (a + b), error: 0.5 * (b - a).abs() }
                 }),
@@ -149,18 +149,22 @@ fn figure(year: &Year, metrics: &[Value; 3], key: &str) -> Result<Estimate, Stud
     if let Some(figure) = read(metrics, key) {
         return Ok(figure);
     }
-    // Nothing moves, and no sun comes through unscattered: no doubt about how often.
+    if let Some(figure) = nought(year, key) {
+        return Ok(figure);
+    }
+    let keys = metrics::keys(&metrics[0]).join(", ");
+    Err(StudyError::key(NO_FIGURE, format!("the year has no figure \"{key}\"; it has: {keys}")))
+}
+
+/// Nothing moves, or no sun comes through unscattered: no doubt about how often.
+fn nought(year: &Year, key: &str) -> Option<Estimate> {
     let still = year.moving.is_empty();
     let nought = match key {
         "movements" => still,
         "ASE1000_250" | "sun_hours_1000" => still && year.steps.whole && year.light.sun.is_none(),
         _ => false,
     };
-    if nought {
-        return Ok(Estimate::exact(0.0));
-    }
-    let keys = metrics::keys(&metrics[0]).join(", ");
-    Err(StudyError::key(NO_FIGURE, format!("the year has no figure \"{key}\"; it has: {keys}")))
+    nought.then(|| Estimate::exact(0.0))
 }
 
 fn read(three: &[Value; 3], key: &str) -> Option<Estimate> {
