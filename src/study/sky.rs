@@ -60,7 +60,7 @@ pub fn outside_from_keys(
 }
 
 /// Sky and sun of an hour of many: with the ground of `site` and the skyline of `sky`, whose model and values are not read;
-/// scaled to 1e-5.
+/// scaled to 2e-5.
 ///
 /// # Errors
 /// Ground or skyline out of range.

@@ -54,7 +54,7 @@ pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
     within(distribution, EXACT)
 }
 
-/// The same with an error of 2e-5 at most, a hundred times as fast where there is a circumsolar part.
+/// The same with an error of 2e-5 at most, by a fixed number of luminances.
 pub(super) fn horizontal_illuminance_quickly(distribution: &Distribution) -> Estimate {
     within(distribution, QUICK)
 }

@@ -70,7 +70,7 @@ impl Outside {
         Self::scaled_by(distribution, diffuse_horizontal, horizontal::horizontal_illuminance)
     }
 
-    /// The same scaled to 1e-5, for skies of which there are thousands.
+    /// The same scaled to 2e-5, for skies of which there are thousands.
     pub fn quickly(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
         Self::scaled_by(distribution, diffuse_horizontal, horizontal::horizontal_illuminance_quickly)
     }
