@@ -276,16 +276,23 @@ impl Shelf for CatalogueShelf {
 }
 
 /// The study with its caches.
-#[derive(Default)]
 pub struct StudyEngine {
     session: Session,
+    /// For rankings, which go from product to product: the scene's own light stays as it is.
+    ranking: Session,
     files: Arc<Library>,
+}
+
+impl Default for StudyEngine {
+    fn default() -> Self {
+        Self::new(Arc::default())
+    }
 }
 
 impl StudyEngine {
     /// Files that systems name, and the catalogue that their layers name, are of this library.
     pub fn new(files: Arc<Library>) -> Self {
-        Self { session: Session::default(), files }
+        Self { session: Session::new(), ranking: Session::passing(), files }
     }
 
     fn scene(&self, question: &Question, progress: &dyn Progress) -> Result<Scene, AppError> {
@@ -360,7 +367,7 @@ impl Engine for StudyEngine {
         progress: &dyn Progress,
     ) -> Result<(), AppError> {
         let library = WindowLibrary { files: &self.files, shelf, progress };
-        rank(groups, items, &library, &self.session, true, told, progress)?;
+        rank(groups, items, &library, &self.ranking, true, told, progress)?;
         Ok(())
     }
 

@@ -13,7 +13,7 @@ use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use crate::formats::system_toml::is_system_file;
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
@@ -37,6 +37,9 @@ type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
 type VeryDescribed = VecDeque<((String, String), Option<VerySystem>)>;
 /// Described systems that are kept: two moving products of 21 states.
 const MOST_DESCRIBED: usize = 42;
+/// Descriptions whose states answer for single directions and are kept: of a ranking's hundred products those at work, and as
+/// many as scenes and comparisons hold.
+const MOST_ANSWERING: usize = 6;
 
 /// Words that no product has, each with the one that it was read as.
 pub type ReadAs = Vec<(String, String)>;
@@ -118,6 +121,12 @@ impl Library {
         drop(list);
         let very = very_system(text, state, self);
         list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
+        let known: BTreeSet<&String> = list.iter().map(|((hash, _), _)| hash).filter(|hash| **hash != key.0).collect();
+        if known.len() >= MOST_ANSWERING
+            && let Some(oldest) = list.front().map(|((hash, _), _)| hash.clone())
+        {
+            list.retain(|((hash, _), _)| *hash != oldest);
+        }
         if list.len() >= MOST_DESCRIBED {
             list.pop_front();
         }

@@ -178,23 +178,34 @@ impl Default for Session {
 impl Session {
     /// Empty caches.
     pub const fn new() -> Self {
+        Self::keeping(1)
+    }
+
+    /// For work that goes from product to product and does not come back: less is kept of what hangs on a product, and as much
+    /// of what hangs on the weather.
+    pub const fn passing() -> Self {
+        Self::keeping(3)
+    }
+
+    /// A part of what is kept usually.
+    const fn keeping(part: usize) -> Self {
         Self {
-            rooms: Cache::new(8),
-            gather: Cache::new(8),
-            reception: Cache::new(16),
-            patches: Cache::new(24),
-            responses: Cache::new(4),
-            landed: Cache::new(4),
+            rooms: Cache::new(9 / part),
+            gather: Cache::new(9 / part),
+            reception: Cache::new(18 / part),
+            patches: Cache::new(24 / part),
+            responses: Cache::new(6 / part),
+            landed: Cache::new(6 / part),
             sky_years: Cache::new(6),
             exact_skies: Cache::new(18),
-            by_cells: Cache::new(12),
-            sides: Cache::new(12),
-            falling: Cache::new(24),
-            bands: Cache::new(16),
-            interpolators: Cache::new(6),
-            suns: Cache::new(64),
-            skies: Cache::new(8),
-            peaks: Cache::new(6),
+            by_cells: Cache::new(12 / part),
+            sides: Cache::new(12 / part),
+            falling: Cache::new(24 / part),
+            bands: Cache::new(18 / part),
+            interpolators: Cache::new(6 / part),
+            suns: Cache::new(66 / part),
+            skies: Cache::new(9 / part),
+            peaks: Cache::new(6 / part),
         }
     }
 

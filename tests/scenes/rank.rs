@@ -62,7 +62,7 @@ best = 0.0
 "#;
 
 /// A catalogue with diffusers of these transmittances, and the list that the scene asks for.
-fn prepared(folder: &Path, taus: &[f64]) -> (Library, Vec<Group>) {
+fn prepared(folder: &Path, scene: &str, taus: &[f64]) -> (Library, Vec<Group>) {
     let path = folder.join("catalogue.cfsdb");
     let mut catalogue = Catalogue::open(&path).unwrap();
     for tau in taus {
@@ -73,7 +73,7 @@ fn prepared(folder: &Path, taus: &[f64]) -> (Library, Vec<Group>) {
     drop(catalogue);
     let library = Library::with_catalogue(Some(&path));
     let find = |words: &str| library.search(words).map(|(products, _)| products);
-    let groups = groups("scene", &SceneFile::parse(SCENE).unwrap(), folder, Some("rankling"), &find).unwrap();
+    let groups = groups("scene", &SceneFile::parse(scene).unwrap(), folder, Some("rankling"), &find).unwrap();
     (library, groups)
 }
 
@@ -84,7 +84,7 @@ fn all(groups: &[Group]) -> Vec<Item> {
 #[test]
 fn typical_days_come_first_and_their_errors_hold_the_year() {
     let folder = tempfile::tempdir().unwrap();
-    let (library, groups) = prepared(folder.path(), &[0.2, 0.4, 0.6]);
+    let (library, groups) = prepared(folder.path(), SCENE, &[0.2, 0.4, 0.6]);
     let items = all(&groups);
     let heard: Mutex<Vec<(Stage, Item, Found)>> = Mutex::new(Vec::new());
     let told = |answer: cfs::study::rank::Answer<'_>| {
@@ -128,6 +128,18 @@ fn typical_days_come_first_and_their_errors_hold_the_year() {
     );
 }
 
+#[test]
+fn a_shade_that_stands_in_for_blinds_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    for (figure, told) in
+        [("cDA300", vec![]), ("sDA300_50_LM83_12", vec!["LM-83: a shade of 5 % stands in for blinds"])]
+    {
+        let (library, groups) = prepared(folder.path(), &SCENE.replace("cDA300", figure), &[0.3]);
+        let outcomes = run(&groups, &all(&groups), &library, &Session::new(), false, &|_| (), &Silent).unwrap();
+        assert_eq!(outcomes[0].as_ref().unwrap().approximate, told);
+    }
+}
+
 /// Withdrawn when the first product is finished.
 #[derive(Default)]
 struct Impatient(AtomicUsize);
@@ -147,7 +159,7 @@ impl Progress for Impatient {
 #[test]
 fn a_ranking_can_be_withdrawn() {
     let folder = tempfile::tempdir().unwrap();
-    let (library, groups) = prepared(folder.path(), &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    let (library, groups) = prepared(folder.path(), SCENE, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
     let answer = run(&groups, &all(&groups), &library, &Session::new(), false, &|_| (), &Impatient::default());
     assert!(matches!(answer, Err(StudyError::Cancelled(_))), "{answer:?}");
 }

@@ -27,8 +27,12 @@ const BANDS: usize = 181;
 const ALONG: usize = 16;
 /// Turned light is gathered in bins of this width. \[rad\]
 const BIN: f64 = PI / 180.0;
+/// Directions as near as this may share what mirrors make of them: an eighth of a cell. \[rad\]
+const ABOUT: f64 = 0.25 * PI / 180.0;
 /// Shares below this are not worth a luminance.
 const FAINT: f64 = 1e-5;
+/// Names closer than this are the same. \[rad\]
+const SAME: f64 = 1e-9;
 /// Relative accuracy of the illuminance through every patch.
 const PATCH: f64 = 1e-4;
 /// What the width of the cells and bands costs, relative; seen against cells half as wide, in the tests below.
@@ -84,9 +88,18 @@ pub(super) fn band_of(psi: f64) -> usize {
 
 /// Beams of light from inside that are transmitted other than straight on.
 fn turned_back(specimen: &dyn Specimen, name: Dir<Facade>) -> impl Iterator<Item = Beam> {
-    let same = move |other: &Dir<Facade>| other.vector().distance(name.vector()) < 1e-9;
-    let beams = specimen.beams(name, Side::Back).into_iter();
-    beams.filter(move |beam| beam.transmitted && !beam.names.iter().all(same) && beam.share > FAINT)
+    let beams = specimen.beams_about(name, Side::Back, ABOUT).into_iter();
+    beams.filter(move |beam| beam.transmitted && !is_straight(beam, name) && beam.share > FAINT)
+}
+
+/// Share of light from outside that goes straight on.
+fn straight_about(specimen: &dyn Specimen, name: Dir<Facade>) -> f64 {
+    let beams = specimen.beams_about(name, Side::Front, ABOUT).into_iter();
+    beams.filter(|beam| beam.transmitted && is_straight(beam, name)).map(|beam| beam.share).sum()
+}
+
+fn is_straight(beam: &Beam, name: Dir<Facade>) -> bool {
+    beam.names.iter().all(|other| other.vector().distance(name.vector()) < SAME)
 }
 
 fn centre(beam: &Beam) -> DVec3 {
@@ -112,7 +125,8 @@ impl StraightLattice {
             .into_par_iter()
             .map(|row| {
                 let along = (0.99 * FRAC_PI_2 * row as f64 / ALONG as f64).sin();
-                (0..BANDS).map(|band| specimen.straight(name_of(upright, along, middle(band)), Side::Front)).collect()
+                let share = |band: usize| straight_about(specimen, name_of(upright, along, middle(band)));
+                (0..BANDS).map(share).collect()
             })
             .collect();
         Some(Self { upright, rows })

@@ -30,14 +30,14 @@ const SEEDS: [usize; 4] = [16, 64, 256, 1024];
 const STANDS: f64 = 1e-5;
 /// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
 const PARTS: [usize; 2] = [3, 64];
-/// Where all hangs on a profile angle, so many strips of the disc, of so many pairs of directions.
-const STRIPS: usize = 24;
-/// See [`STRIPS`].
+/// Where all hangs on a profile angle, strips of the disc: ever more until the middles of strips stand for these.
+const STRIPS: [usize; 3] = [5, 11, 23];
+/// Pairs of directions in all strips together.
 const IN_STRIPS: usize = 192;
-/// Shares that are as near as this to linear over the disc are.
-const LINEAR: f64 = 2e-5;
+/// Shares that go straight on and that are turned stand if known so well, of themselves and a twentieth of the light.
+const LINEAR: [f64; 2] = [2e-4, 1e-3];
 /// Directions as near as this may share what mirrors make of them: a tenth of the disc. \[rad\]
-const ABOUT: f64 = 0.025 * PI / 180.0;
+const ABOUT: f64 = 0.05 * PI / 180.0;
 /// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
 const GRAZING: f64 = 0.3;
 
@@ -96,7 +96,7 @@ impl Part {
 }
 
 /// The disc by strips of about the same profile angle, each by its middle: x and y exchanged where `upright`.
-fn strips(names: &[Dir<Facade>], upright: bool) -> Vec<(Dir<Facade>, f64, f64)> {
+fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade>, f64, f64)> {
     let angle = |name: &Dir<Facade>| {
         let v = name.vector();
         (if upright { v.x } else { v.y }).atan2(v.z)
@@ -105,10 +105,10 @@ fn strips(names: &[Dir<Facade>], upright: bool) -> Vec<(Dir<Facade>, f64, f64)> 
         .iter()
         .map(angle)
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| (low.min(angle), high.max(angle)));
-    let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); STRIPS];
+    let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); count];
     for name in names {
-        let at = (STRIPS as f64 * (angle(name) - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
-        let sum = &mut sums[at.min(STRIPS - 1)];
+        let at = (count as f64 * (angle(name) - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
+        let sum = &mut sums[at.min(count - 1)];
         *sum = (sum.0 + name.vector(), sum.1 + 1.0, sum.2 + cosine(*name));
     }
     sums.into_iter().filter_map(|(sum, count, cosines)| Some((Dir::new(sum)?, count, cosines))).collect()
@@ -117,45 +117,31 @@ fn strips(names: &[Dir<Facade>], upright: bool) -> Vec<(Dir<Facade>, f64, f64)> 
 /// The sun's beams behind a system, as means over the disc.
 fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
     let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
-    let whole = |names: &[Dir<Facade>], seeds: usize| names.len() == 2 * seeds;
+    if let Structure::Along { upright } = specimen.structure() {
+        return beams_by_strips(specimen, facing, sun, upright);
+    }
     let asked = |name: Dir<Facade>| Part::new(specimen, name, 1.0, cosine(name));
     // The disc's middle where shares are as good as linear over it.
     let few = disc(facing, sun, PARTS[0]);
     let of: Vec<Part> = few.iter().map(|name| asked(*name)).collect();
-    if whole(&few, PARTS[0]) {
+    if few.len() == 2 * PARTS[0] {
         let middle = asked(sun);
         let own = middle.shares();
-        let linear = of.chunks_exact(2).all(|pair| {
+        let bent = of.chunks_exact(2).map(|pair| {
             let [a, b] = [0, 1].map(|k| pair[k].shares());
-            (0..2).all(|k| (0.5 * (a[k] + b[k]) - own[k]).abs() < LINEAR)
+            [0, 1].map(|k| (0.5 * (a[k] + b[k]) - own[k]).abs())
         });
-        if linear {
-            let mut beams: Vec<BeamLight> = straight(facing, sun, &of, true, LINEAR).into_iter().collect();
-            beams.extend(turned(facing, &[middle], 0.0));
+        let bent = bent.fold([0.0; 2], |most: [f64; 2], bent| [0, 1].map(|k| most[k].max(bent[k])));
+        if stands(bent, own) {
+            let mut beams: Vec<BeamLight> = straight(facing, sun, &of, true, bent[0]).into_iter().collect();
+            beams.extend(turned(facing, &[middle], bent[1] / own[1].max(f64::MIN_POSITIVE)));
             return beams;
         }
     }
-    if let Structure::Along { upright } = specimen.structure() {
-        let names = disc(facing, sun, IN_STRIPS);
-        let parts: Vec<Part> = strips(&names, upright)
-            .into_iter()
-            .map(|(name, weight, flux)| Part::new(specimen, name, weight, flux))
-            .collect();
-        // Of the middle of a strip for all of it.
-        let off = |k: usize| {
-            let bent = |three: &[Part]| {
-                three[1].flux * (three[0].shares()[k] + three[2].shares()[k] - 2.0 * three[1].shares()[k]).abs()
-            };
-            let flux: f64 = parts.iter().map(|part| part.flux).sum();
-            parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
-        };
-        let mut beams: Vec<BeamLight> =
-            straight(facing, sun, &parts, whole(&names, IN_STRIPS), off(0)).into_iter().collect();
-        let share: f64 = mean(&parts, |part| part.shares()[1]);
-        beams.extend(turned(facing, &parts, off(1) / share.max(f64::MIN_POSITIVE)));
+    let mut beams: Vec<BeamLight> = straight_by_seeds(specimen, facing, sun).into_iter().collect();
+    if !of.is_empty() && of.iter().all(|part| part.turned.is_empty()) {
         return beams;
     }
-    let mut beams: Vec<BeamLight> = straight_by_seeds(specimen, facing, sun).into_iter().collect();
     let parts: Vec<Part> = disc(facing, sun, PARTS[1]).iter().map(|name| asked(*name)).collect();
     // Every other pair of directions against all of them.
     let mean = |pairs: usize| {
@@ -165,6 +151,42 @@ fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
     };
     let error = (mean(1) - mean(2)).abs() / mean(1).max(f64::MIN_POSITIVE);
     beams.extend(turned(facing, &parts, error));
+    beams
+}
+
+/// Are shares known to errors that do not matter?
+fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
+    (0..2).all(|k| errors[k] <= LINEAR[k] * (shares[k] + 0.05))
+}
+
+/// Where all hangs on a profile angle.
+fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
+    let names = disc(facing, sun, IN_STRIPS);
+    let whole = names.len() == 2 * IN_STRIPS;
+    let mut beams = Vec::new();
+    for count in STRIPS {
+        let parts: Vec<Part> = strips(&names, upright, count)
+            .into_iter()
+            .map(|(name, weight, flux)| Part::new(specimen, name, weight, flux))
+            .collect();
+        // Of the middle of a strip for all of it.
+        let flux: f64 = parts.iter().map(|part| part.flux).sum();
+        let off = [0, 1].map(|k| {
+            let bent = |three: &[Part]| {
+                three[1].flux * (three[0].shares()[k] + three[2].shares()[k] - 2.0 * three[1].shares()[k]).abs()
+            };
+            parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
+        });
+        let shares = [0, 1].map(|k| mean(&parts, |part| part.shares()[k]));
+        let enough = stands(off, shares);
+        if enough || count == STRIPS[STRIPS.len() - 1] {
+            beams.extend(straight(facing, sun, &parts, whole, off[0]));
+            // What is as good as linear the middle turns for all.
+            let by = if enough && whole && count == STRIPS[0] { &parts[count / 2..=count / 2] } else { &parts };
+            beams.extend(turned(facing, by, off[1] / shares[1].max(f64::MIN_POSITIVE)));
+            break;
+        }
+    }
     beams
 }
 
@@ -386,5 +408,41 @@ impl Emission {
                 of(false)
             ));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::direction::{Orientation, Surface as Face};
+    use crate::compute::sky::{Distribution, Outside, Sun};
+
+    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
+
+    /// Level flat slats, as far apart as 0.9 of their width, let 1 − tanψ/0.9 pass: half of a disc whose middle just does not
+    /// is seen through them.
+    #[test]
+    fn strips_have_the_disc_s_mean_at_the_edge_of_a_shadow() {
+        let flat = SlatProfile::Flat { width: 0.08 };
+        let specimen = SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, 0.0, [Surface::matt(0.5); 2]).unwrap());
+        let psi = 0.9_f64.atan();
+        let sun = Sun { direction: Dir::from_altitude_bearing(psi, Bearing::from_degrees(180.0)), direct_normal: 1e5 };
+        let outside = Outside::new(Distribution::uniform(), 0.0).unwrap();
+        let facing = Facing {
+            outside: &outside,
+            sun: Some(&sun),
+            orientation: Orientation::new(Bearing::from_degrees(180.0)),
+            surface: Face::Facade,
+        };
+        let beams = sun_beams(&specimen, &facing);
+        let [beam] = &beams[..] else { panic!("{beams:?}") };
+        // Over half a disc of radius r a slope k has the mean 2kr/(3π).
+        let slope = 1.0 / (0.9 * psi.cos().powi(2));
+        let share = slope * SUN_HALF_ANGLE * 2.0 / (3.0 * PI);
+        let found = beam.exitance / facing.sun_illuminance();
+        assert!((found / share - 1.0).abs() < 0.02, "{found} {share}");
+        assert!((found / share - 1.0).abs() < 3.0 * beam.error + 5e-3, "{found} {share} {}", beam.error);
+        assert!(beam.to.vector().y.atan2(beam.to.vector().z) < psi, "the part that passes is the lower one");
     }
 }

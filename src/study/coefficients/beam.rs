@@ -37,7 +37,7 @@ impl Coefficients {
             if facing.sun_illuminance() <= 0.0 {
                 continue;
             }
-            let beams = match self.parts[index].sun.light(&facing, sensors) {
+            let beams = match self.parts[index].sun.light(&facing, self.suns, sensors) {
                 Some(found) => self.add_scattered(index, found, &mut sums),
                 None => self.add_data(index, &facing, doubts, &mut sums),
             };

@@ -58,24 +58,65 @@ impl ByAngle {
 /// Light at the sensors of 1 lx, and the error of it, relative.
 type Node = Arc<(SensorRows, f64)>;
 
-/// What a system of an endless structure scatters, by angles along and across it: nodes are asked for when the sun is near.
+/// What a described system scatters, between directions: nodes are asked for when the sun is near.
 pub(super) struct Lattice {
     upright: bool,
+    /// Steps of the angle along the structure and of the profile angle. \[°\]
+    steps: [f64; 2],
     nodes: Mutex<HashMap<[i64; 2], Node>>,
 }
 
-/// Steps of the angle along the structure and of the profile angle. \[°\]
-const STEPS: [f64; 2] = [5.0, 1.0];
-/// Of what the nodes around a direction differ by, how far light may be from the plane between them.
-const UNEVEN: f64 = 0.05;
+/// Steps across an endless structure, where what blades hide of each other ends sharply, are the finer ones. \[°\]
+const ACROSS: [f64; 2] = [7.5, 2.5];
+/// Steps where all directions are alike. \[°\]
+const EVEN: [f64; 2] = [5.0, 5.0];
+/// The nodes end here. \[°\]
+const STEEPEST: f64 = 89.5;
+/// Of what four nodes and two make different, so much may be wrong: at a kink they differ by twice what the better one is
+/// off, where light is smooth by many times as much.
+const UNEVEN: f64 = 0.5;
+
+/// Nodes around a place between them.
+struct Around {
+    first: i64,
+    near: f64,
+    cubic: [f64; 4],
+}
+
+impl Around {
+    /// `at` in steps, nodes up to ±`last`.
+    fn new(at: f64, last: f64) -> Self {
+        let first = at.floor();
+        let t = at - first;
+        let inside = first - 1.0 >= -last && first + 2.0 <= last;
+        let cubic = if inside {
+            // Lagrange's polynomial through nodes at −1, 0, 1, 2.
+            [
+                -t * (t - 1.0) * (t - 2.0) / 6.0,
+                (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+                -(t + 1.0) * t * (t - 2.0) / 2.0,
+                (t + 1.0) * t * (t - 1.0) / 6.0,
+            ]
+        } else {
+            [0.0, 1.0 - t, t, 0.0]
+        };
+        Self { first: first as i64 - 1, near: t, cubic }
+    }
+
+    /// Of two nodes.
+    fn linear(&self) -> [f64; 4] {
+        [0.0, 1.0 - self.near, self.near, 0.0]
+    }
+}
 
 impl Lattice {
-    /// `None` where light is told by other angles.
-    pub fn of(specimen: &dyn Specimen) -> Option<Self> {
-        match specimen.structure() {
-            Structure::Along { upright } => Some(Self { upright, nodes: Mutex::default() }),
-            Structure::Even | Structure::Any => None,
-        }
+    /// Of a system.
+    pub fn of(specimen: &dyn Specimen) -> Self {
+        let (upright, steps) = match specimen.structure() {
+            Structure::Along { upright } => (upright, ACROSS),
+            Structure::Even | Structure::Any => (false, EVEN),
+        };
+        Self { upright, steps, nodes: Mutex::default() }
     }
 
     fn node(&self, specimen: &dyn Specimen, views: &Views, at: [i64; 2]) -> Node {
@@ -84,7 +125,7 @@ impl Lattice {
         if let Some(known) = nodes().get(&at) {
             return Arc::clone(known);
         }
-        let angles = [0, 1].map(|k| (at[k] as f64 * STEPS[k]).clamp(-89.5, 89.5).to_radians());
+        let angles = [0, 1].map(|k| (at[k] as f64 * self.steps[k]).clamp(-STEEPEST, STEEPEST).to_radians());
         let (light, error) = scattered_of(specimen, direction(self.upright, angles));
         let mut row = vec![0.0; views.width()];
         views.add_all(&light, &mut row);
@@ -104,24 +145,30 @@ impl Lattice {
         errors: &mut [f64],
     ) {
         let angles = structure_angles(self.upright, name);
-        let at = [0, 1].map(|k| angles[k].to_degrees() / STEPS[k]);
-        let first = at.map(|at| at.floor() as i64);
-        let near = [0, 1].map(|k| at[k] - first[k] as f64);
-        let corners = [[0, 0], [0, 1], [1, 0], [1, 1]];
-        let nodes = corners.map(|[i, j]| self.node(specimen, views, [first[0] + i, first[1] + j]));
-        let shares = corners.map(|[i, j]| {
-            let side = |k: usize, far: i64| if far == 1 { near[k] } else { 1.0 - near[k] };
-            illuminance * side(0, i) * side(1, j)
-        });
-        for (node, share) in nodes.iter().zip(shares) {
-            light.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += share * e);
+        let around = [0, 1].map(|k| Around::new(angles[k].to_degrees() / self.steps[k], 90.0 / self.steps[k]));
+        let linear = [0, 1].map(|k: usize| around[k].linear());
+        let mut own = vec![0.0; light.len()];
+        let mut straight = vec![0.0; errors.len()];
+        let mut doubt = vec![0.0; errors.len()];
+        for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
+            let cubic = around[0].cubic[i] * around[1].cubic[j];
+            let linear = linear[0][i] * linear[1][j];
+            if cubic == 0.0 && linear == 0.0 {
+                continue;
+            }
+            let node = self.node(specimen, views, [around[0].first + i as i64, around[1].first + j as i64]);
+            own.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += cubic * e);
+            for (s, e) in node.0.iter().take(errors.len()).enumerate() {
+                straight[s] += linear * e;
+                doubt[s] += linear * node.1 * e.abs();
+            }
         }
         for (s, error) in errors.iter_mut().enumerate() {
-            let values = nodes.each_ref().map(|node| node.0[s]);
-            let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-            let own: f64 = nodes.iter().zip(shares).map(|(node, share)| share * node.1 * node.0[s].abs()).sum();
-            *error += own + illuminance * UNEVEN * (most - least);
+            *error += illuminance * (doubt[s] + UNEVEN * (own[s] - straight[s]).abs());
+        }
+        // A polynomial may run below what four nodes above nothing leave: of the light, not of what its error hangs on.
+        for (k, (sum, e)) in light.iter_mut().zip(own).enumerate() {
+            *sum += illuminance * if k < errors.len() { e.max(0.0) } else { e };
         }
     }
 }

@@ -50,6 +50,8 @@ pub struct Coefficients {
     /// What the room makes of beams, where there may be any.
     landed: Option<Arc<Landed>>,
     directions: f64,
+    /// Suns that will be asked for, as far as is known.
+    suns: usize,
 }
 
 /// Safety on the error of the fixed directions, seen on some skies and stated for others.
@@ -119,7 +121,7 @@ impl Coefficients {
             Some(room) if parts.iter().any(AperturePart::sends_beams) => Some(session.landed(scene, room)?),
             _ => None,
         };
-        let mut coefficients = Self { scene: scene.clone(), parts, room, landed, directions: 0.0 };
+        let mut coefficients = Self { scene: scene.clone(), parts, room, landed, directions: 0.0, suns: 0 };
         coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions(session);
         Ok(coefficients)
     }
@@ -163,8 +165,10 @@ impl Coefficients {
     }
 
     /// Keeps in `session`, for all systems, what the hours of a year are on the patches of this one; `year`: a number that
-    /// no other year has, and how many hours there are. They are asked by [`Self::hour_estimate`].
-    pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
+    /// no other year has, and how many hours there are. They are asked by [`Self::hour_estimate`], about `suns` of them:
+    /// what many suns make may be found between directions, with the error of it.
+    pub fn keep_year(&mut self, session: &Session, year: (u64, usize), suns: usize) {
+        self.suns = suns;
         self.parts.iter_mut().for_each(|part| part.keep_year(session, year));
     }
 

@@ -16,24 +16,26 @@ use crate::study::system::VerySystem;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// From so many suns on, directions between which they stand are fewer.
+const MANY: usize = 300;
+
 /// One of the ways.
 pub(super) enum SunWay {
     /// By the data's own cells or directions, and what they keep apart as regular.
     Data,
-    /// By the description; what it scatters.
-    Described(VerySystem, DescribedViews, ScatteredBy),
+    /// By the description.
+    Described(Box<ByDescription>),
     /// By beams taken out of the data's cells, what is left on these.
     Peaks(Box<InCells>),
 }
 
-/// How what a description scatters is found.
-pub(super) enum ScatteredBy {
-    /// By the profile angle alone.
-    Angle(Arc<ByAngle>),
-    /// Between directions of an endless structure.
-    Lattice(Lattice),
-    /// For every sun anew.
-    Sun,
+/// A description, and how what it scatters is found for many suns: by the profile angle where that is all, else between
+/// directions.
+pub(super) struct ByDescription {
+    very: VerySystem,
+    views: DescribedViews,
+    by_angle: Option<Arc<ByAngle>>,
+    lattice: Lattice,
 }
 
 /// Data on cells with beams in them.
@@ -66,9 +68,8 @@ impl SunWay {
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
         if let Some((very, views, by_angle)) = described {
-            let by_lattice = || Lattice::of(very.0.as_ref()).map_or(ScatteredBy::Sun, ScatteredBy::Lattice);
-            let scattered = by_angle.map_or_else(by_lattice, ScatteredBy::Angle);
-            return Ok(Self::Described(very, views, scattered));
+            let lattice = Lattice::of(very.0.as_ref());
+            return Ok(Self::Described(Box::new(ByDescription { very, views, by_angle, lattice })));
         }
         match &btdf.scattered {
             Some(Scattered::Cells(matrix)) if scene.beams && scene.interpolation != Interpolation::Patch => {
@@ -81,60 +82,61 @@ impl SunWay {
         }
     }
 
-    /// The light of the sun that stands before an aperture; `None` where the data's own cells are to be asked.
-    pub fn light(&self, facing: &Facing<'_>, sensors: usize) -> Option<SunLight> {
+    /// The light of the sun that stands before an aperture, one of so many suns; `None` where the data's own cells are to
+    /// be asked.
+    pub fn light(&self, facing: &Facing<'_>, suns: usize, sensors: usize) -> Option<SunLight> {
         match self {
             Self::Data => None,
-            Self::Described(very, views, ScatteredBy::Sun) => Some(described(very, views, facing, sensors)),
-            Self::Described(very, views, scattered) => Some(interpolated(very, views, scattered, facing, sensors)),
+            Self::Described(own) if own.by_angle.is_none() && suns < MANY => Some(own.anew(facing, sensors)),
+            Self::Described(own) => Some(own.between(facing, sensors)),
             Self::Peaks(cells) => Some(cells.light(facing, sensors)),
         }
     }
 }
 
-fn described(very: &VerySystem, views: &DescribedViews, facing: &Facing<'_>, sensors: usize) -> SunLight {
-    let through = SunThrough::new(very.0.as_ref(), facing);
-    let mut sum =
-        SunLight { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
-    let mut add = |part: Vec<f64>, relative: f64| {
-        sum.errors.iter_mut().zip(&part).for_each(|(error, e)| *error += relative * e);
-        sum.light.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e);
-    };
-    if let Some(bands) = through.bands() {
-        let mut part = vec![0.0; 3 * sensors];
-        views.add_bands(bands, 1.0, &mut part);
-        add(part, relative_error(&bands.light));
+impl ByDescription {
+    /// All of it for this very sun.
+    fn anew(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
+        let through = SunThrough::new(self.very.0.as_ref(), facing);
+        let mut sum = SunLight::of(&through, sensors);
+        let mut add = |part: Vec<f64>, relative: f64| {
+            sum.errors.iter_mut().zip(&part).for_each(|(error, e)| *error += relative * e);
+            sum.light.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e);
+        };
+        if let Some(bands) = through.bands() {
+            let mut part = vec![0.0; 3 * sensors];
+            self.views.add_bands(bands, 1.0, &mut part);
+            add(part, relative_error(&bands.light));
+        }
+        if let Some(cells) = through.cells() {
+            let mut part = vec![0.0; 3 * sensors];
+            self.views.cells.add_all(&cells.sun, &mut part);
+            add(part, cells.relative_error);
+        }
+        sum
     }
-    if let Some(cells) = through.cells() {
-        let mut part = vec![0.0; 3 * sensors];
-        views.cells.add_all(&cells.sun, &mut part);
-        add(part, cells.relative_error);
+
+    /// Beams of this very sun; what is scattered, between known directions.
+    fn between(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
+        let very = self.very.0.as_ref();
+        let mut sum = SunLight::of(&SunThrough::beams_alone(very, facing), sensors);
+        let SunLight { light, errors, .. } = &mut sum;
+        for (name, share) in SunThrough::standing_for(facing) {
+            let e = share * facing.sun_illuminance();
+            match &self.by_angle {
+                Some(by_angle) => by_angle.add(name, e, light, errors),
+                None => self.lattice.add(very, &self.views.cells, name, e, light, errors),
+            }
+        }
+        sum
     }
-    sum
 }
 
-/// Beams of this very sun; what is scattered, between known directions.
-fn interpolated(
-    very: &VerySystem,
-    views: &DescribedViews,
-    scattered: &ScatteredBy,
-    facing: &Facing<'_>,
-    sensors: usize,
-) -> SunLight {
-    let through = SunThrough::beams_alone(very.0.as_ref(), facing);
-    let mut sum =
-        SunLight { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
-    for (name, share) in SunThrough::standing_for(facing) {
-        let e = share * facing.sun_illuminance();
-        match scattered {
-            ScatteredBy::Angle(by_angle) => by_angle.add(name, e, &mut sum.light, &mut sum.errors),
-            ScatteredBy::Lattice(lattice) => {
-                lattice.add(very.0.as_ref(), &views.cells, name, e, &mut sum.light, &mut sum.errors);
-            }
-            ScatteredBy::Sun => {}
-        }
+impl SunLight {
+    /// The beams, and nothing scattered yet.
+    fn of(through: &SunThrough, sensors: usize) -> Self {
+        Self { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] }
     }
-    sum
 }
 
 impl InCells {

@@ -9,7 +9,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::study::error::StudyError;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Dgp, Light, Step, Way, Year, figures, metrics, year_in};
+use crate::study::year::{Climate, Dgp, Light, SHADE, Step, Way, Year, figures, metrics, year_in};
 use serde_json::Value;
 
 /// Figures of a product: valid whatever weights and anchors are.
@@ -264,6 +264,9 @@ fn doubts(product: &Product, year: &Year) -> Vec<String> {
         && solar.source() != SolarSource::Own
     {
         list.push(format!("solar: {}", solar.source().words()));
+    }
+    if year.lm83.as_ref().is_some_and(|lm83| lm83.groups.iter().any(|group| group.states.is_none())) {
+        list.push(format!("LM-83: a shade of {:.0} % stands in for blinds", 100.0 * SHADE));
     }
     let (light, errors): (f64, f64) = (year.light.values.iter().sum(), year.light.errors.iter().sum());
     if errors > DOUBTFUL * light {

@@ -40,7 +40,7 @@ struct Ready {
     grouping: Grouping,
 }
 
-/// Computes items, in their order as far as threads let. Results do not depend on the number of threads. `coarse`: by
+/// Computes items, those of few states first. Results do not depend on the number of threads. `coarse`: by
 /// typical days first, all of them before any whole year; `told` hears of every result when it is there, from any thread.
 ///
 /// # Errors
@@ -88,17 +88,22 @@ pub fn run(
             setting.check(&group.products[item.product], &Withdrawn(progress))?;
         }
     }
+    // Those that stand still first: they are quick, and whoever waits sees a list.
+    let states = |at: &usize| groups[items[*at].group].products[items[*at].product].states.len();
+    let mut order: Vec<usize> = (0..items.len()).collect();
+    order.sort_by_key(states);
     let mut outcomes = Vec::new();
     for stage in if coarse { &[Stage::Coarse, Stage::Full][..] } else { &[Stage::Full] } {
-        outcomes = side_by_side(items, *stage, &one, told, progress)?;
+        outcomes = side_by_side(items, &order, *stage, &one, told, progress)?;
     }
     Ok(outcomes)
 }
 
 /// Threads of their own, each of which shares the computing of its product with all processors: work that waits for a lock
-/// must not hold up the pool whose work the lock's owner waits for.
+/// must not hold up the pool whose work the lock's owner waits for. `order`: of the items' places, to be taken so.
 fn side_by_side(
     items: &[Item],
+    order: &[usize],
     stage: Stage,
     one: &(dyn Fn(&Item, Stage) -> Result<super::figures::Found, StudyError> + Sync),
     told: &(dyn Fn(Answer<'_>) + Sync),
@@ -109,8 +114,8 @@ fn side_by_side(
     let name = if stage == Stage::Coarse { "products, typical days" } else { "products" };
     let work = || {
         loop {
-            let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(at) else { return };
+            let Some(&at) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
+            let item = &items[at];
             if progress.cancelled() || stopped.load(Ordering::Relaxed) {
                 return;
             }

@@ -128,7 +128,7 @@ impl<'a> Reader<'a> {
         if !self.engines.contains_key(set) {
             let mut scene = prepared(&self.question, set)?;
             scene.sensors = self.asked.iter().map(|&index| scene.sensors[index]).collect();
-            self.engines.insert(set.to_vec(), Engine::new(&self.question, scene, progress)?);
+            self.engines.insert(set.to_vec(), Engine::new(&self.question, scene, 0, progress)?);
         }
         let engine = &self.engines[set];
         let light = engine.at(self.question.session, k, self.question.steps.outside(k)?)?.light;

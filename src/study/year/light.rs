@@ -94,7 +94,7 @@ pub(super) fn light(
     let done = AtomicUsize::new(0);
     for (set, rows) in groups {
         let scene = prepared(question, set)?;
-        let engine = Engine::new(question, scene, progress)?;
+        let engine = Engine::new(question, scene, rows.len(), progress)?;
         if let Engine::Rooms(..) = engine {
             light.way = Way::Rooms;
         }
@@ -160,7 +160,13 @@ pub(super) enum Engine {
 }
 
 impl Engine {
-    pub fn new(question: &Question<'_>, scene: Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
+    /// `steps`: how many will be asked for, as far as is known.
+    pub fn new(
+        question: &Question<'_>,
+        scene: Scene,
+        steps: usize,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
         let before = Before::of(
             &question.file.outside,
             &scene.room,
@@ -168,7 +174,8 @@ impl Engine {
         )?;
         if before.is_empty() {
             let mut coefficients = Coefficients::new(question.session, &scene, progress)?;
-            coefficients.keep_year(question.session, (question.steps.number(), question.steps.list.len()));
+            let year = (question.steps.number(), question.steps.list.len());
+            coefficients.keep_year(question.session, year, steps);
             return Ok(Self::Coefficients(Box::new(scene), Box::new(coefficients)));
         }
         Ok(Self::Rooms(Box::new(scene), before))

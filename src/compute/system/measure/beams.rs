@@ -115,8 +115,10 @@ const MOST_PLACES: usize = 24;
 const STRONG: f64 = 0.2;
 /// How closely the light of a single direction is followed: strong beams to 1e-4 in a few milliseconds.
 const FINE: Effort = Effort { share: 1e-5, seed: 1, surfaces: 10_000 };
-/// Share of the incident flux that may be left out of the beams of a single direction.
-const FAINT: f64 = 1e-6;
+/// Where neighbours may share an answer, the parts of a disc, it is enough to know the strong ones to 1e-3 of the light.
+const COARSE: Effort = Effort { share: 1e-4, seed: 1, surfaces: 2000 };
+/// Share of the incident flux that may be left out of the beams of a single direction, for each of these.
+const FAINT: [f64; 2] = [1e-6, 1e-5];
 
 /// A specimen of sharp beams.
 #[derive(Debug, Clone)]
@@ -128,15 +130,11 @@ impl<B: Beams> Specimen for SharpBeams<B> {
     }
 
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        let mut shares = Shares::default();
-        self.0.beams(name, side, FINE, &mut shares);
-        let v = name.vector();
-        let beams = shares.beams.iter().map(|beam| {
-            let z2 = (1.0 - v.x * v.x - beam.y * beam.y).max(0.0);
-            let to = if beam.y == v.y { name } else { Dir::from_unit(DVec3::new(v.x, beam.y, z2.sqrt())) };
-            Beam { names: [to, to], share: beam.share, transmitted: beam.transmitted }
-        });
-        without_faint(merged(beams), FAINT)
+        beams_of(&self.0, name, side, FINE, FAINT[0])
+    }
+
+    fn beams_about(&self, name: Dir<Facade>, side: Side, _: f64) -> Vec<Beam> {
+        beams_of(&self.0, name, side, COARSE, FAINT[1])
     }
 
     fn structure(&self) -> Structure {
@@ -151,6 +149,18 @@ impl<B: Beams> Specimen for SharpBeams<B> {
     fn scattered(&self, _: Dir<Facade>, _: Side, _: &RingBasis) -> ScatteredLight {
         ScatteredLight::default()
     }
+}
+
+fn beams_of(system: &impl Beams, name: Dir<Facade>, side: Side, effort: Effort, faint: f64) -> Vec<Beam> {
+    let mut shares = Shares::default();
+    system.beams(name, side, effort, &mut shares);
+    let v = name.vector();
+    let beams = shares.beams.iter().map(|beam| {
+        let z2 = (1.0 - v.x * v.x - beam.y * beam.y).max(0.0);
+        let to = if beam.y == v.y { name } else { Dir::from_unit(DVec3::new(v.x, beam.y, z2.sqrt())) };
+        Beam { names: [to, to], share: beam.share, transmitted: beam.transmitted }
+    });
+    without_faint(merged(beams), faint)
 }
 
 /// The four functions of a system of sharp beams.

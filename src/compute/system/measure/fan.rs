@@ -8,14 +8,13 @@ use glam::DVec3;
 const EQUAL: f64 = 1e-9;
 
 /// Equal parts of a fan, none wider than `step` \[rad\]; a parallel beam is a part by itself.
-pub fn pieces(beam: &Beam, step: f64) -> Vec<Beam> {
-    let count = (wide(beam) / step).ceil().max(1.0) as usize;
-    if count == 1 {
-        return vec![*beam];
-    }
-    let at = |k: usize| between(beam, k as f64 / count as f64);
+pub fn pieces(beam: &Beam, step: f64) -> impl Iterator<Item = Beam> {
+    let beam = *beam;
+    let parallel = beam.names[0] == beam.names[1];
+    let count = if parallel { 1 } else { (wide(&beam) / step).ceil().max(1.0) as usize };
+    let at = move |k: usize| between(&beam, k as f64 / count as f64);
     let share = beam.share / count as f64;
-    (0..count).map(|k| Beam { names: [at(k), at(k + 1)], share, ..*beam }).collect()
+    (0..count).map(move |k| if count == 1 { beam } else { Beam { names: [at(k), at(k + 1)], share, ..beam } })
 }
 
 /// The name in the middle.
@@ -59,7 +58,7 @@ mod tests {
             Dir::from_unit(DVec3::new(x, rest * angle.sin(), rest * angle.cos()))
         };
         let fan = Beam { names: [name(0.4, -0.3), name(0.4, 0.5)], share: 0.2, transmitted: true };
-        let parts = pieces(&fan, 0.1);
+        let parts: Vec<Beam> = pieces(&fan, 0.1).collect();
         assert_eq!(parts.len(), 8);
         for (k, part) in parts.iter().enumerate() {
             let [from, to] = [k, k + 1].map(|k| name(0.4, -0.3 + 0.1 * k as f64).vector());
@@ -68,6 +67,6 @@ mod tests {
         }
         assert!((middle(&fan).vector() - name(0.4, 0.1).vector()).length() < 1e-12);
         let beam = Beam::back(name(0.1, 0.2), 0.3);
-        assert_eq!(pieces(&beam, 0.01), [beam]);
+        assert_eq!(pieces(&beam, 0.01).collect::<Vec<_>>(), [beam]);
     }
 }

@@ -1,7 +1,6 @@
 //! Beams of equal names as one.
 
 use super::parallel::Beam;
-use std::collections::BTreeMap;
 
 /// Direction cosines within which names are taken for the same.
 pub const SAME: f64 = 1e-9;
@@ -9,13 +8,29 @@ pub const SAME: f64 = 1e-9;
 /// Beams that go the same way, from and to, as one with the sum of their shares. In an order that depends on the names
 /// alone.
 pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
-    let mut found: BTreeMap<(bool, [i64; 4]), Beam> = BTreeMap::new();
-    for beam in beams {
-        let [a, b] = beam.names.map(|name| name.vector());
-        let place = [a.x, a.y, b.x, b.y].map(|cosine| (cosine / SAME).round() as i64);
-        found.entry((beam.transmitted, place)).and_modify(|sum| sum.share += beam.share).or_insert(beam);
-    }
-    found.into_values().collect()
+    let mut placed: Vec<((bool, [i64; 4]), Beam)> = beams
+        .into_iter()
+        .map(|beam| {
+            let [a, b] = beam.names.map(|name| name.vector());
+            ((beam.transmitted, [a.x, a.y, b.x, b.y].map(place)), beam)
+        })
+        .collect();
+    // Stable: equal names are summed in their order.
+    placed.sort_by_key(|(key, _)| *key);
+    placed.dedup_by(|(key, beam), (kept, sum)| {
+        let same = key == kept;
+        if same {
+            sum.share += beam.share;
+        }
+        same
+    });
+    placed.into_iter().map(|(_, beam)| beam).collect()
+}
+
+/// Direction cosines of one place are taken for the same.
+pub fn place(cosine: f64) -> i64 {
+    let scaled = cosine / SAME;
+    (scaled + 0.5_f64.copysign(scaled)) as i64
 }
 
 /// The beams without the faintest, which together carry no more than this share.

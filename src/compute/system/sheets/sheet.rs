@@ -11,7 +11,7 @@ use crate::compute::basis::{Cell, Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::quadrature::midpoints;
+use crate::compute::quadrature::gauss_legendre;
 use crate::compute::scaling::by_rounds;
 use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
 use rayon::prelude::*;
@@ -128,12 +128,15 @@ impl Sheet {
 /// Error of the totals of single directions: they are scaled to the tables, which hold what they were made from to this.
 const TOTALS: f64 = 1e-4;
 
-/// Angles across a ring over which functions of θ are averaged.
-const RING: usize = 128;
+/// Angles over which functions of θ are averaged: so many for every degree across the widest ring, and at least so many. \[1/°\]
+const BY_DEGREE: f64 = 4.0;
+/// See [`BY_DEGREE`].
+const FEWEST: usize = 8;
 
 /// Means over the cells of a function of θ.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
-    let rule = midpoints(RING);
+    let widest = basis.rings().iter().map(|ring| ring.theta_max - ring.theta_min).fold(0.0, f64::max);
+    let rule = gauss_legendre(FEWEST.max((BY_DEGREE * widest.to_degrees()).ceil() as usize));
     let mean = |ring: &Ring| std::iter::repeat_n(share.ring_mean(ring.theta_min, ring.theta_max, &rule), ring.sectors);
     basis.rings().iter().flat_map(mean).collect()
 }

@@ -59,8 +59,8 @@ struct Solved {
 const FANS: usize = 128;
 /// Step of the profile angle where matt light leaves. \[rad\]
 const STEP: f64 = 0.25 * PI / 180.0;
-/// Answers of mirrors that are kept: those of a hundred degrees at steps of 0.05°.
-const MOST_KNOWN: usize = 2000;
+/// Answers of mirrors that are kept: those of either side at steps of 0.1°.
+const MOST_KNOWN: usize = 3600;
 /// Rays are drawn by this seed: the same light gives the same beams.
 const SEED: u64 = 1;
 /// Beams closer than this are one. \[rad\]

@@ -100,7 +100,14 @@ impl Specimen for Stack {
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         match self.layers.as_slice() {
             [only] => only.beams(name, side),
-            layers => self.singles.beams(layers, name, side),
+            layers => self.singles.beams(layers, name, side, 0.0),
+        }
+    }
+
+    fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+        match self.layers.as_slice() {
+            [only] => only.beams_about(name, side, within),
+            layers => self.singles.beams(layers, name, side, within),
         }
     }
 

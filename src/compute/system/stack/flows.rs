@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 const ERROR: f64 = 0.01;
 /// Rounds through all layers at most, and the share of the light that may still be on its way after them.
 const ROUNDS: usize = 1000;
-const LEFT: f64 = 1e-9;
+const LEFT: f64 = 1e-7;
 
 /// The layers as matrices, light from either side by its own names.
 pub(super) struct Flows {

@@ -5,7 +5,7 @@
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::{middle, pieces};
-use crate::compute::system::measure::merged::{SAME, merged};
+use crate::compute::system::measure::merged::{SAME, merged, place};
 use crate::compute::system::measure::{Beam, Side, Specimen};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -53,23 +53,25 @@ pub(super) fn half_turn(name: Dir<Facade>) -> Dir<Facade> {
     Dir::from_unit(DVec3::new(-v.x, -v.y, v.z))
 }
 
-/// Follows light of a name from a side through the layers, outside first.
-pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side) -> Passage {
+/// Follows light of a name from a side through the layers, outside first; layers may answer for a name no farther than
+/// `within` \[rad\] from the one asked for.
+pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
     let n = layers.len();
     let mut passage = Passage::default();
     let mut known: BTreeMap<(usize, bool, [i64; 2]), usize> = BTreeMap::new();
     let start = if side == Side::Front { (0, true) } else { (n, false) };
     let mut light: Vec<(Place, Beam)> = vec![(start, Beam::through(name, 1.0))];
+    // By gap, outwards and inwards.
+    let mut next: Vec<Vec<Beam>> = vec![Vec::new(); 2 * (n + 1)];
     while !light.is_empty() {
-        let mut next: BTreeMap<Place, Vec<Beam>> = BTreeMap::new();
-        for ((gap, inwards), beam) in light {
+        for ((gap, inwards), beam) in light.drain(..) {
             let from = if inwards { Side::Front } else { Side::Back };
             let named = |name: Dir<Facade>| if from == side { name } else { half_turn(name) };
             let layer = if inwards { gap } else { gap - 1 };
             for piece in pieces(&beam, PIECE) {
                 let asked = named(middle(&piece));
                 let v = asked.vector();
-                let key = (layer, inwards, [v.x, v.y].map(|cosine| (cosine / SAME).round() as i64));
+                let key = (layer, inwards, [v.x, v.y].map(place));
                 let number = if let Some(&number) = known.get(&key) {
                     number
                 } else {
@@ -78,7 +80,11 @@ pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side
                         passage.left.push(((gap, inwards), piece));
                         continue;
                     }
-                    let beams = layers[layer].beams(asked, from);
+                    let beams = if within > 0.0 {
+                        layers[layer].beams_about(asked, from, within)
+                    } else {
+                        layers[layer].beams(asked, from)
+                    };
                     passage.arrivals.push(Arrival { layer, side: from, name: asked, share: 0.0, beams });
                     known.insert(key, count);
                     count
@@ -88,12 +94,12 @@ pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side
                 for made in &arrival.beams {
                     let kept = made.names.iter().all(|to| (to.vector() - arrival.name.vector()).length() < SAME);
                     let names = if kept { piece.names } else { made.names.map(named) };
-                    let place = match (made.transmitted, inwards) {
+                    let (to, inwards) = match (made.transmitted, inwards) {
                         (true, true) => (gap + 1, true),
                         (true, false) => (gap - 1, false),
                         (false, _) => (gap, !inwards),
                     };
-                    next.entry(place).or_default().push(Beam {
+                    next[2 * to + usize::from(inwards)].push(Beam {
                         names,
                         share: piece.share * made.share,
                         transmitted: true,
@@ -101,17 +107,16 @@ pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side
                 }
             }
         }
-        light = Vec::new();
-        for (place, beams) in next {
-            let whole = merged(beams).into_iter().filter(|beam| beam.share > 0.0);
-            match place {
+        for (k, beams) in next.iter_mut().enumerate().filter(|(_, beams)| !beams.is_empty()) {
+            let whole = merged(beams.drain(..)).into_iter().filter(|beam| beam.share > 0.0);
+            match (k / 2, k % 2 == 1) {
                 (0, false) => {
                     passage.leaving.extend(whole.map(|beam| Beam { transmitted: side == Side::Back, ..beam }));
                 }
                 (gap, true) if gap == n => {
                     passage.leaving.extend(whole.map(|beam| Beam { transmitted: side == Side::Front, ..beam }));
                 }
-                _ => light.extend(whole.map(|beam| (place, beam))),
+                place => light.extend(whole.map(|beam| (place, beam))),
             }
         }
         if light.iter().map(|(_, beam)| beam.share).sum::<f64>() < ENOUGH {

@@ -36,9 +36,9 @@ impl Emergent {
 }
 
 impl Singles {
-    /// Beams that leave the layers.
-    pub fn beams(&self, layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        follow(layers, name, side).leaving
+    /// Beams that leave the layers, of which each may answer for a name that far away.
+    pub fn beams(&self, layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+        follow(layers, name, side, within).leaving
     }
 
     /// What is scattered.
@@ -49,7 +49,7 @@ impl Singles {
         side: Side,
         cells: &RingBasis,
     ) -> ScatteredLight {
-        let Passage { mut arrivals, left, .. } = follow(layers, name, side);
+        let Passage { mut arrivals, left, .. } = follow(layers, name, side, 0.0);
         let faint = drop_faint(&mut arrivals);
         let mut error = 0.0;
         // q on the cells asked for, and its names as light from `side`.
