@@ -6,7 +6,7 @@ use super::hand_on::What;
 use super::jobs::Lane;
 use super::moment;
 use super::outside;
-use super::scene::{Selection, fill, first_scene, rule, set_rule};
+use super::scene::{Selection, fill, first_scene, own_system, rule, set_rule};
 use super::state::{PathUse, Sheet};
 use super::title;
 use super::window::{App, end_step};
@@ -245,7 +245,8 @@ impl App {
     /// Chooses a product by its key; one that the list does not hold is looked up first.
     pub(super) fn select_product(&mut self, product: String) {
         let state = &self.state;
-        if state.document.selection.product == product {
+        // Chosen already, but the room is lit through something else: it is meant to come there.
+        if state.document.selection.product == product && own_system(&state.document.scene).is_none() {
             return;
         }
         match state.found.entries.iter().find(|entry| entry.key == product).cloned() {

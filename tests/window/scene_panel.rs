@@ -135,10 +135,13 @@ fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
     settle(&mut harness);
     assert_eq!((told(&harness), scene(&harness)), (2, &own));
     let other = harness.state().state.found.entries.iter().find(|one| one.key != shown.product).unwrap().key.clone();
-    apply(&mut harness, Command::Select(other.clone()));
-    assert!(matches!(&scene(&harness).aperture[0].system, SystemKeys::Catalogue { key, .. } if *key == other));
-    harness.state_mut().apply(Command::Undo);
-    assert_eq!(scene(&harness), &own);
+    // So does the one that is chosen already.
+    for wanted in [other, shown.product] {
+        apply(&mut harness, Command::Select(wanted.clone()));
+        assert!(matches!(&scene(&harness).aperture[0].system, SystemKeys::Catalogue { key, .. } if *key == wanted));
+        harness.state_mut().apply(Command::Undo);
+        assert_eq!(scene(&harness), &own);
+    }
 }
 
 #[test]
