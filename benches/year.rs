@@ -5,8 +5,9 @@
 //! moments is printed, with what was stated.
 
 use cfs::compute::estimate::Silent;
+use cfs::compute::sky::{Outside, Sun};
 use cfs::study::year::{Climate, climate, scene_at, year_in};
-use cfs::study::{Library, Scene, SceneFile, Session};
+use cfs::study::{Coefficients, Library, Scene, SceneFile, Session};
 use divan::Bencher;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -24,9 +25,9 @@ const SYSTEMS: [(&str, &str); 4] = [
     ("laser-cut panel", "{ catalogue = \"laser-cut-panel\" }"),
 ];
 
-fn file(system: &str) -> SceneFile {
+fn text(system: &str) -> String {
     let keys = SYSTEMS.iter().find(|(name, _)| *name == system).expect("one of the list").1;
-    let text = format!(
+    format!(
         "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\n\
          reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
          [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\nsystem = {keys}\n\
@@ -34,8 +35,11 @@ fn file(system: &str) -> SceneFile {
          [sky]\nmodel = \"cie\"\ndiffuse_horizontal = 10000.0\n\
          [sensors]\nplane = {{ z = 0.85, nx = 8, ny = 12 }}\n\
          [year]\nweather = \"builtin:new-york\"\n"
-    );
-    SceneFile::parse(&text).expect("the text above is a scene")
+    )
+}
+
+fn file(system: &str) -> SceneFile {
+    SceneFile::parse(&text(system)).expect("the text above is a scene")
 }
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
@@ -100,5 +104,26 @@ fn cold(bencher: Bencher<'_, '_>, system: &str) {
         let session = Session::new();
         year_in(&weather, &file, Path::new("."), &*LIBRARY, &session, &|_| true, &Silent).expect("a year").light.values
             [0]
+    });
+}
+
+/// The hours alone, 96 sensors by data on Klems' cells: a scene and skies that are known, the sun of every hour anew; what a
+/// matrix method's `dctimestep` does.
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn hours(bencher: Bencher<'_, '_>) {
+    let text = format!("{}[compute]\ninterpolation = \"patch\"\n", text("slats"));
+    let file = SceneFile::parse(&text).expect("the text above is a scene");
+    let scene = Scene::resolve(&file, Path::new("."), &*LIBRARY).expect("the scene can be resolved");
+    let mut prepared = Coefficients::new(&SESSION, &scene, &Silent).expect("a scene without boxes");
+    let steps = &WEATHER.steps;
+    prepared.keep_year(&SESSION, (steps.number(), steps.list.len()), steps.list.len());
+    let lit: Vec<_> = (0..steps.list.len()).filter(|&k| steps.list[k].hour.is_lit()).collect();
+    let skies: Vec<_> = lit.iter().map(|&k| (k, steps.outside(k).expect("an hour of the weather"))).collect();
+    bencher.bench(|| {
+        let hour = |(k, (outside, sun)): &(usize, (Outside, Option<Sun>))| {
+            let sky: f64 = prepared.hour_estimate(*k, outside).iter().map(|e| e.value).sum();
+            sky + sun.iter().flat_map(|sun| prepared.sun_estimate(sun)).map(|e| e.value).sum::<f64>()
+        };
+        skies.iter().map(hour).sum::<f64>()
     });
 }

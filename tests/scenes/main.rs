@@ -20,6 +20,7 @@ mod sharp_sun;
 mod stability;
 mod stability_measured;
 mod strange;
+mod suns_between;
 mod surfaces;
 mod validation;
 mod year_blinds;

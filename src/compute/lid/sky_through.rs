@@ -27,7 +27,7 @@ const BANDS: usize = 181;
 const ALONG: usize = 16;
 /// Turned light is gathered in bins of this width. \[rad\]
 const BIN: f64 = PI / 180.0;
-/// Directions as near as this may share what mirrors make of them: an eighth of a cell. \[rad\]
+/// Directions as near as this may share what mirrors make of them: a twelfth of a cell. \[rad\]
 const ABOUT: f64 = 0.25 * PI / 180.0;
 /// Shares below this are not worth a luminance.
 const FAINT: f64 = 1e-5;

@@ -11,7 +11,7 @@ use crate::compute::basis::{Cell, Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::quadrature::gauss_legendre;
+use crate::compute::quadrature::{gauss_legendre, midpoints};
 use crate::compute::scaling::by_rounds;
 use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
 use rayon::prelude::*;
@@ -128,16 +128,14 @@ impl Sheet {
 /// Error of the totals of single directions: they are scaled to the tables, which hold what they were made from to this.
 const TOTALS: f64 = 1e-4;
 
-/// Angles over which functions of θ are averaged: so many for every degree across the widest ring, and at least so many. \[1/°\]
-const BY_DEGREE: f64 = 4.0;
-/// See [`BY_DEGREE`].
-const FEWEST: usize = 8;
+/// Angles across a ring over which functions of θ are averaged.
+const RING: usize = 128;
+/// The same for the shape of what single directions become, on narrow rings.
+const NARROW: usize = 8;
 
-/// Means over the cells of a function of θ.
-fn ring_means(basis: &RingBasis, share: &AngularTransmittance) -> Vec<f64> {
-    let widest = basis.rings().iter().map(|ring| ring.theta_max - ring.theta_min).fold(0.0, f64::max);
-    let rule = gauss_legendre(FEWEST.max((BY_DEGREE * widest.to_degrees()).ceil() as usize));
-    let mean = |ring: &Ring| std::iter::repeat_n(share.ring_mean(ring.theta_min, ring.theta_max, &rule), ring.sectors);
+/// Means over the cells of a function of θ; `rule`: nodes and weights across every ring.
+fn ring_means(basis: &RingBasis, share: &AngularTransmittance, rule: &[(f64, f64)]) -> Vec<f64> {
+    let mean = |ring: &Ring| std::iter::repeat_n(share.ring_mean(ring.theta_min, ring.theta_max, rule), ring.sectors);
     basis.rings().iter().flat_map(mean).collect()
 }
 
@@ -163,7 +161,7 @@ impl Spread {
                 values.iter_mut().zip(shape).for_each(|(q, shape)| *q += shape * (total / found));
             }
         };
-        add(ring_means(emergent, &self.diffuse), diffuse.max(0.0));
+        add(ring_means(emergent, &self.diffuse, &gauss_legendre(NARROW)), diffuse.max(0.0));
         if let Some(lobe) = &self.lobe {
             let from = [lobe.point(name)];
             let shape = emergent.cells().map(|to| lobe.mean(&from, &to, Fineness::DIRECTION)).collect();
@@ -176,9 +174,10 @@ impl Spread {
     fn on(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Vec<f64>, Vec<f64>), Cancelled> {
         let (incident, emergent) = (setting.incident, setting.emergent);
         let straight = Btdf { regular: Some(self.regular.clone()), scattered: None };
+        let rule = midpoints(RING);
         let mut values = matrix_on(&straight, incident, emergent).values().into_owned();
         if self.diffuse.hemispherical() > 0.0 {
-            let (from, to) = (ring_means(incident, &self.diffuse), ring_means(emergent, &self.diffuse));
+            let (from, to) = (ring_means(incident, &self.diffuse, &rule), ring_means(emergent, &self.diffuse, &rule));
             // The mean by these very cells, so that totals come out exactly.
             let mean = emergent.projected_solid_angles().iter().zip(&to).map(|(w, t)| w * t).sum::<f64>() / PI;
             for (row, from) in values.chunks_exact_mut(emergent.len()).zip(&from) {
@@ -192,7 +191,7 @@ impl Spread {
         if let Some(lobe) = &self.lobe {
             let weight = emergent.projected_solid_angles();
             let cells: Vec<Cell> = emergent.cells().collect();
-            let totals = ring_means(incident, lobe.share());
+            let totals = ring_means(incident, lobe.share(), &rule);
             let rows: Vec<Vec<f64>> = incident
                 .cells()
                 .collect::<Vec<_>>()
