@@ -16,9 +16,10 @@ const LOBE: &str = "kind = \"diffuser\"\n[diffuser]\nmodel = \"spreading\"\ninde
     transmittance = 0.85\nabsorbed = 0.2\n";
 const GRID: &str = "kind = \"perforated\"\n[perforated]\nhole = \"rectangle\"\nwidth = 0.0127\nheight = 0.0127\n\
     pitch = [0.014, 0.014]\nthickness = 0.0127\nreflectance = 0.8\n";
-const BEHIND_GLASS: &str =
-    "kind = \"stack\"\n[stack]\nlayers = [{ file = \"pane.system.toml\" }, { file = \"slats.system.toml\" }]\n";
-const PANE: &str = "name = \"Pane\"\nkind = \"pane\"\n[pane]\nindex = 1.52\nthickness = 0.004\ntransmittance_normal = 0.9\npanes = 2\n";
+const BEHIND_GLASS: &str = "kind = \"stack\"\n[stack]\n\
+    layers = [{ file = \"pane.system.toml\" }, { file = \"slats.system.toml\", state = \"30\" }]\n";
+const PANE: &str = "name = \"Pane\"\nkind = \"pane\"\n[pane]\nindex = 1.52\nthickness = 0.004\n\
+    transmittance_normal = 0.9\npanes = 2\n";
 const SLATS: &str = "name = \"Slats\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 0.072\nangles = [30.0]\n\
     upper = { reflectance = 0.6 }\nlower = { reflectance = 0.5 }\n";
 

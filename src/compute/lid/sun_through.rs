@@ -34,8 +34,10 @@ const PARTS: [usize; 2] = [3, 64];
 const STRIPS: [usize; 3] = [5, 11, 23];
 /// Pairs of directions in all strips together.
 const IN_STRIPS: usize = 192;
-/// Shares that go straight on and that are turned stand if known so well, of themselves and a twentieth of the light.
+/// Shares that go straight on and that are turned stand if known so well, relative to themselves and ...
 const LINEAR: [f64; 2] = [2e-4, 1e-3];
+/// ... so much of the light.
+const LITTLE: [f64; 2] = [0.005, 0.05];
 /// Directions as near as this may share what mirrors make of them: a tenth of the disc. \[rad\]
 const ABOUT: f64 = 0.05 * PI / 180.0;
 /// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
@@ -156,7 +158,7 @@ fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
 
 /// Are shares known to errors that do not matter?
 fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
-    (0..2).all(|k| errors[k] <= LINEAR[k] * (shares[k] + 0.05))
+    (0..2).all(|k| errors[k] <= LINEAR[k] * (shares[k] + LITTLE[k]))
 }
 
 /// Where all hangs on a profile angle.
