@@ -30,10 +30,9 @@ const SEEDS: [usize; 4] = [16, 64, 256, 1024];
 const STANDS: f64 = 1e-5;
 /// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
 const PARTS: [usize; 2] = [3, 64];
-/// Where all hangs on a profile angle, strips of the disc: ever more until the middles of strips stand for these.
-const STRIPS: [usize; 3] = [5, 11, 23];
-/// Pairs of directions in all strips together.
-const IN_STRIPS: usize = 192;
+/// Where all hangs on a profile angle, strips of the disc and pairs of directions in all of them together: ever more until the
+/// middles of strips stand for these.
+const STRIPS: [[usize; 2]; 3] = [[5, 192], [11, 192], [24, 768]];
 /// Shares that go straight on and that are turned stand if known so well, relative to themselves and ...
 const LINEAR: [f64; 2] = [2e-4, 1e-3];
 /// ... so much of the light.
@@ -163,10 +162,10 @@ fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
 
 /// Where all hangs on a profile angle.
 fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
-    let names = disc(facing, sun, IN_STRIPS);
-    let whole = names.len() == 2 * IN_STRIPS;
     let mut beams = Vec::new();
-    for count in STRIPS {
+    for (round, [count, pairs]) in STRIPS.into_iter().enumerate() {
+        let names = disc(facing, sun, pairs);
+        let whole = names.len() == 2 * pairs;
         let parts: Vec<Part> = strips(&names, upright, count)
             .into_iter()
             .map(|(name, weight, flux)| Part::new(specimen, name, weight, flux))
@@ -181,10 +180,10 @@ fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade
         });
         let shares = [0, 1].map(|k| mean(&parts, |part| part.shares()[k]));
         let enough = stands(off, shares);
-        if enough || count == STRIPS[STRIPS.len() - 1] {
+        if enough || round + 1 == STRIPS.len() {
             beams.extend(straight(facing, sun, &parts, whole, off[0]));
             // What is as good as linear the middle turns for all.
-            let by = if enough && whole && count == STRIPS[0] { &parts[count / 2..=count / 2] } else { &parts };
+            let by = if enough && whole && round == 0 { &parts[count / 2..=count / 2] } else { &parts };
             beams.extend(turned(facing, by, off[1] / shares[1].max(f64::MIN_POSITIVE)));
             break;
         }
