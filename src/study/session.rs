@@ -16,6 +16,7 @@ mod skies;
 pub(super) mod sky_year;
 mod split;
 mod surfaces;
+mod targets;
 mod through_room;
 mod thrown_back;
 mod weights;
@@ -48,21 +49,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 pub use surfaces::{PatchLight, SurfaceLight};
+pub(super) use targets::ORDINARY_TARGET;
+use targets::cubature;
 use weights::{ByCells, Response};
-
-/// Relative accuracy asked of the cubature at every sensor: half of what the scene asks for, the rest is for the light
-/// itself and for interreflection. Never looser than [`SEEN`]: a rule that is content with per cents has errors a thousand
-/// times below what it can state of them, so that a loose target would buy padding and hardly any time.
-fn cubature(error_target: Option<f64>) -> f64 {
-    error_target.map_or(SEEN, |target| (0.5 * target).clamp(1e-10, SEEN))
-}
-
-/// Relative error of direct light that costs no digit that anyone sees. Its table is printed by
-/// `examples/stated_errors.rs` (rows "made, direct").
-const SEEN: f64 = 1e-4;
-
-/// What a scene that names no error gets. \[relative\]
-pub(super) const ORDINARY_TARGET: f64 = 0.01;
 
 /// What a room computes first, as progress names it.
 const DIRECT: &str = "direct light";
