@@ -72,9 +72,9 @@ const ACROSS: [f64; 2] = [7.5, 2.5];
 const EVEN: [f64; 2] = [5.0, 5.0];
 /// The nodes end here. \[°\]
 const STEEPEST: f64 = 89.5;
-/// Of what four nodes and two make different, so much may be wrong: at a kink they differ by twice what the better one is
-/// off, where light is smooth by many times as much.
-const UNEVEN: f64 = 0.5;
+/// Of what four nodes and two make different, so much may be wrong: many times as much as smooth light is off; a third of what
+/// a lone kink amid four nodes would be, but that is never all of the light.
+const UNEVEN: f64 = 1.0;
 
 /// Nodes around a place between them.
 struct Around {
