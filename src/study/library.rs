@@ -13,7 +13,7 @@ use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use crate::formats::system_toml::is_system_file;
-use std::collections::{BTreeSet, HashMap, VecDeque};
+use std::collections::{HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
@@ -121,11 +121,12 @@ impl Library {
         drop(list);
         let very = very_system(text, state, self);
         list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
-        let known: BTreeSet<&String> = list.iter().map(|((hash, _), _)| hash).filter(|hash| **hash != key.0).collect();
-        if known.len() >= MOST_ANSWERING
-            && let Some(oldest) = list.front().map(|((hash, _), _)| hash.clone())
-        {
-            list.retain(|((hash, _), _)| *hash != oldest);
+        // The oldest first.
+        let mut others: Vec<String> =
+            list.iter().map(|((hash, _), _)| hash.clone()).filter(|hash| *hash != key.0).collect();
+        others.dedup();
+        if others.len() >= MOST_ANSWERING {
+            list.retain(|((hash, _), _)| *hash != others[0]);
         }
         if list.len() >= MOST_DESCRIBED {
             list.pop_front();
